@@ -1,0 +1,58 @@
+# Everything a newcomer needs: `make run`, `make test`, `make check`, `make docs`, `make wheel`.
+# All of it happens in .venv; nothing is installed into the system's Python.
+PYTHON ?= python3
+VENV   ?= .venv
+PIP    := $(VENV)/bin/python -m pip --disable-pip-version-check
+OUT    ?= runs/dlip-steel
+
+.PHONY: run test check docs wheel clean help
+
+help:
+	@echo "make run    compute the shipped DLIP case into $(OUT) and write its figures and report"
+	@echo "make test   run the tests          make check  format, lint, types, tests"
+	@echo "make docs   build docs/_build/html make wheel  build dist/lasersph-*.whl"
+
+# --resume continues an interrupted run, and only says so when the run is finished already.
+run: $(VENV)/.run
+	$(VENV)/bin/lasersph run dlip-steel --out $(OUT) --resume
+	@echo "Open $(OUT)/report.html in a browser. Start anew: rm -r $(OUT)"
+
+test: $(VENV)/.test
+	$(VENV)/bin/python -m pytest $(PYTEST_ARGS)
+
+check: $(VENV)/.check
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/pyright
+	$(VENV)/bin/python -m pytest $(PYTEST_ARGS)
+
+docs: $(VENV)/.docs
+	$(VENV)/bin/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
+	@echo "Open docs/_build/html/index.html in a browser."
+
+wheel: $(VENV)/.test
+	$(VENV)/bin/python -m build --wheel
+
+clean:
+	rm -rf $(VENV) dist docs/_build docs/generated
+
+# Debian's Python may lack ensurepip (package python3-venv); the system's pip then fills the venv.
+$(VENV)/bin/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	  echo "lasersph needs Python 3.11 or newer; '$(PYTHON)' is not. Try: make PYTHON=python3.11 ..." >&2; exit 1; }
+	@$(PYTHON) -m venv $(VENV) >/dev/null 2>&1 \
+	  || { rm -rf $(VENV); $(PYTHON) -m venv --without-pip $(VENV) \
+	       && $(PYTHON) -m pip --python $(VENV)/bin/python install --quiet pip; } \
+	  || { rm -rf $(VENV); echo "No virtual environment could be made: $(PYTHON) has neither venv nor" \
+	       "pip. On Debian: apt install python3-venv python3-pip" >&2; exit 1; }
+
+# A stamp per set of extras, renewed when the metadata changes.
+$(VENV)/.run: pyproject.toml | $(VENV)/bin/python
+	$(PIP) install --quiet --editable .
+	@touch $@
+
+$(VENV)/.%: pyproject.toml | $(VENV)/bin/python
+	$(PIP) install --quiet --editable '.[$(subst check,check$(comma)test,$*)]'
+	@touch $@
+
+comma := ,

@@ -1,0 +1,17 @@
+"""Files stay short enough to be read: a guideline alone does not keep them so, a test does."""
+
+from pathlib import Path
+from statistics import median
+
+ROOT = Path(__file__).resolve().parent.parent
+LONGEST = 400
+
+
+def test_no_source_file_is_longer_than_400_lines(capsys):
+    """Every source file has at most 400 lines; the median is printed."""
+    files = sorted((ROOT / "src").rglob("*.py"))
+    lengths = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in files}
+    with capsys.disabled():
+        print(f"\n{len(files)} source files, median {median(lengths.values()):.0f} lines")
+    too_long = {str(path): length for path, length in lengths.items() if length > LONGEST}
+    assert not too_long
