@@ -1,0 +1,145 @@
+"""Checkpoints: everything the next step reads, so that a resumed run continues bit for bit.
+
+Each checkpoint is one file `step-<number>.checkpoint`, written under a temporary name and
+renamed; the one before it is kept. Layout: the line `lasersph checkpoint`, the length of the
+header (8 bytes, little-endian), the header (JSON: schema version, hash of the case, step, time,
+numbers, name, type and shape of each array), the arrays one after the other in that order, and
+the SHA-256 of all that. A file whose checksum is wrong is passed over for the one before it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_file
+from lasersph.output.errors import OutputError, clear_errors
+
+CHECKPOINT_SCHEMA = 1
+FIRST_LINE = b"lasersph checkpoint\n"
+NAME = re.compile(r"step-(\d{10})\.checkpoint")
+KEPT = 2
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """State of a run after a step.
+
+    Attributes:
+        step, time: number of steps done; seconds.
+        case_hash: says which case the state belongs to.
+        arrays: arrays by name, in their own types (float64 stays float64).
+        scalars: numbers, texts and lists that JSON knows; floats survive exactly.
+        meta: whatever the run folder adds (lengths of the history, events and snapshots).
+    """
+
+    step: int
+    time: float
+    case_hash: str
+    arrays: Mapping[str, np.ndarray]
+    scalars: Mapping[str, Any] = field(default_factory=dict)
+    meta: Mapping[str, Any] = field(default_factory=dict)
+
+
+def save(folder: Path, checkpoint: Checkpoint) -> Path:
+    """Write a checkpoint and keep the one before it.
+
+    Returns:
+        The file written.
+
+    Raises:
+        OutputError: the disk is full, ...; earlier checkpoints are intact.
+    """
+    arrays = {name: np.ascontiguousarray(array) for name, array in checkpoint.arrays.items()}
+    header = json.dumps(
+        {
+            "schema_version": CHECKPOINT_SCHEMA,
+            "case_hash": checkpoint.case_hash,
+            "step": checkpoint.step,
+            "time": checkpoint.time,
+            "scalars": numbers_only(checkpoint.scalars),
+            "meta": numbers_only(checkpoint.meta),
+            "arrays": [[name, a.dtype.str, list(a.shape)] for name, a in arrays.items()],
+        }
+    ).encode()
+
+    def write(stream: BinaryIO) -> None:
+        checksum = hashlib.sha256()
+        for piece in (FIRST_LINE, len(header).to_bytes(8, "little"), header, *arrays.values()):
+            data = memoryview(piece).cast("B") if np.size(piece) else b""
+            checksum.update(data)
+            stream.write(data)
+        stream.write(checksum.digest())
+
+    with clear_errors("write", folder):
+        folder.mkdir(exist_ok=True)
+    target = folder / f"step-{checkpoint.step:010d}.checkpoint"
+    replace_file(target, write)
+    with clear_errors("write", folder):
+        for old in candidates(folder)[KEPT:]:
+            old.unlink()
+        for torn in folder.glob("*" + TEMPORARY_SUFFIX):
+            torn.unlink()
+    return target
+
+
+def candidates(folder: Path) -> list[Path]:
+    """Checkpoint files of a folder, the latest first; unfinished ones are left out."""
+    if not folder.is_dir():
+        return []
+    found = [path for path in folder.iterdir() if NAME.fullmatch(path.name)]
+    return sorted(found, key=lambda path: path.name, reverse=True)
+
+
+def load(path: Path) -> Checkpoint:
+    """Read one checkpoint file.
+
+    Raises:
+        OutputError: it is damaged, unreadable, or of a later version of the program.
+    """
+    with clear_errors("read", path):
+        data = path.read_bytes()
+    body, checksum = data[:-32], data[-32:]
+    if not body.startswith(FIRST_LINE) or hashlib.sha256(body).digest() != checksum:
+        raise OutputError(f"cannot read {path}: it is damaged")
+    start = len(FIRST_LINE) + 8
+    length = int.from_bytes(body[len(FIRST_LINE) : start], "little")
+    header = json.loads(body[start : start + length])
+    if header["schema_version"] != CHECKPOINT_SCHEMA:
+        raise OutputError(
+            f"cannot read {path}: it has format {header['schema_version']},"
+            f" this program reads format {CHECKPOINT_SCHEMA}"
+        )
+    arrays = {}
+    offset = start + length
+    for name, kind, shape in header["arrays"]:
+        count = int(np.prod(shape, dtype=np.int64))
+        flat = np.frombuffer(body, dtype=kind, count=count, offset=offset)
+        arrays[name] = flat.reshape(shape).copy()
+        offset += flat.nbytes
+    return Checkpoint(
+        step=header["step"],
+        time=header["time"],
+        case_hash=header["case_hash"],
+        arrays=arrays,
+        scalars=header["scalars"],
+        meta=header["meta"],
+    )
+
+
+def numbers_only(value: Any) -> Any:
+    """Numbers, texts, lists and dicts as JSON keeps them exactly (also NaN and infinity)."""
+    if isinstance(value, Mapping):
+        return {str(key): numbers_only(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [numbers_only(item) for item in value]
+    if hasattr(value, "tolist"):
+        return numbers_only(value.tolist())
+    return value

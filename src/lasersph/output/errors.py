@@ -1,0 +1,49 @@
+"""Errors of the run folder: each carries one clear line for the user.
+
+`OutputError` means the run failed (exit code 1); `FolderRefused` means the command was wrong
+and nothing was written (exit code 2).
+"""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+REASONS = {
+    errno.ENOSPC: "the disk is full",
+    errno.EDQUOT: "the disk quota is used up",
+    errno.EACCES: "permission denied",
+    errno.EPERM: "permission denied",
+    errno.EROFS: "the file system is read-only",
+    errno.EFBIG: "the file size limit is reached",
+    errno.ENOTDIR: "a part of the path is a file, not a folder",
+}
+
+
+class OutputError(Exception):
+    """A run folder could not be written or read; the message is one clear line."""
+
+
+class FolderRefused(OutputError):
+    """The given folder cannot be used for this run; nothing was written."""
+
+
+@contextmanager
+def clear_errors(action: str, path: Path, kind: type[OutputError] = OutputError) -> Iterator[None]:
+    """Turn an operating-system error into one line: what was tried, where, and why it failed.
+
+    Args:
+        action: what was tried, "write", "read".
+        path: the file or folder concerned.
+        kind: class of the error raised.
+
+    Raises:
+        OutputError: for every OSError raised inside the block.
+    """
+    try:
+        yield
+    except OSError as error:
+        reason = REASONS.get(error.errno or 0, error.strerror or str(error))
+        raise kind(f"cannot {action} {path}: {reason}") from error

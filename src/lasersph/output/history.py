@@ -1,0 +1,134 @@
+"""The table `history.csv`: one row per time step.
+
+Numbers are written with the fewest digits that read back to the same double, so the file holds
+the run exactly. Rows gather in memory and reach the file every few hundred rows and at each
+checkpoint; a resumed run cuts the file back to the rows its checkpoint knows.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from lasersph.output.errors import OutputError, clear_errors
+
+Value = float | int | str
+
+
+class History:
+    """Appends rows to a CSV file whose columns are fixed by the first row."""
+
+    def __init__(self, path: Path, *, buffer_rows: int = 256) -> None:
+        """Continue the table at `path`, or start it with the first row where there is none."""
+        self.path = path
+        self.buffer_rows = buffer_rows
+        self.rows = 0
+        self.columns: tuple[str, ...] = ()
+        self._buffer: list[str] = []
+        if path.exists():
+            lines = complete_lines(path)
+            if lines:
+                self.columns = tuple(lines[0].split(","))
+                self.rows = len(lines) - 1
+
+    def append(self, row: Mapping[str, Value]) -> None:
+        """Add one row; every row has the columns of the first one.
+
+        Raises:
+            ValueError: a column is missing or unknown.
+            OutputError: the file could not be written.
+        """
+        if not self.columns:
+            self.columns = tuple(row)
+            self._buffer.append(",".join(self.columns))
+        if len(row) != len(self.columns) or any(name not in row for name in self.columns):
+            difference = sorted(set(row) ^ set(self.columns))
+            raise ValueError(f"history row with other columns than the first: {difference}")
+        self._buffer.append(",".join(written(row[name]) for name in self.columns))
+        self.rows += 1
+        if len(self._buffer) >= self.buffer_rows:
+            self.flush()
+
+    def flush(self, *, sync: bool = False) -> None:
+        """Bring buffered rows into the file; with `sync`, onto the disk. Raises OutputError."""
+        if not self._buffer and not (sync and self.path.exists()):
+            return
+        with clear_errors("write", self.path), open(self.path, "ab") as stream:
+            size = stream.tell()
+            try:
+                stream.write("".join(line + "\n" for line in self._buffer).encode())
+                stream.flush()
+                if sync:
+                    os.fsync(stream.fileno())
+            except OSError:
+                os.ftruncate(stream.fileno(), size)
+                raise
+        self._buffer.clear()
+
+    def cut(self, rows: int) -> None:
+        """Keep the first `rows` rows and drop what follows; 0 drops the whole table.
+
+        Raises:
+            OutputError: the file holds fewer complete rows.
+        """
+        self._buffer.clear()
+        if rows == 0:
+            with clear_errors("write", self.path):
+                self.path.unlink(missing_ok=True)
+            self.columns = ()
+        else:
+            lines = complete_lines(self.path) if self.path.exists() else []
+            if len(lines) < rows + 1:
+                raise OutputError(f"{self.path} holds fewer rows than the checkpoint: {rows}")
+            length = len("".join(line + "\n" for line in lines[: rows + 1]).encode())
+            with clear_errors("write", self.path):
+                os.truncate(self.path, length)
+            self.columns = tuple(lines[0].split(","))
+        self.rows = rows
+
+
+def written(value: Value) -> str:
+    """Text that reads back to exactly the same value."""
+    if isinstance(value, str):
+        if "," in value or "\n" in value or '"' in value:
+            raise ValueError(f"text in a history row must not hold commas or quotes: {value!r}")
+        return value
+    if isinstance(value, bool | int | np.integer):
+        return str(int(value))
+    return repr(float(value))
+
+
+def complete_lines(path: Path) -> list[str]:
+    """The lines of a text file that end in a newline; a torn last line is left out."""
+    with clear_errors("read", path):
+        data = path.read_bytes()
+    return data[: data.rfind(b"\n") + 1].decode(errors="replace").splitlines()
+
+
+def read_history(path: Path) -> dict[str, np.ndarray]:
+    """The table as arrays of length (rows,): int64, float64, or text, by column name.
+
+    Raises:
+        OutputError: the file is missing or damaged.
+    """
+    lines = complete_lines(path)
+    if not lines:
+        return {}
+    names = lines[0].split(",")
+    rows = [line.split(",") for line in lines[1:]]
+    if any(len(row) != len(names) for row in rows):
+        raise OutputError(f"cannot read {path}: a row has another number of columns")
+    return {name: column([row[k] for row in rows]) for k, name in enumerate(names)}
+
+
+def column(texts: list[str]) -> np.ndarray:
+    """Parse one column: whole numbers, else floating-point numbers, else text."""
+    for kind in (np.int64, np.float64):
+        try:
+            return np.array([kind(text) for text in texts], dtype=kind)
+        except ValueError:
+            continue
+    return np.array(texts)

@@ -1,0 +1,291 @@
+"""Snapshots of all particles in one transient VTKHDF file, which ParaView opens as it is.
+
+The layout is VTKHDF 2.0, type PolyData, with one vertex cell per particle [VTKHDF]: arrays of
+all steps lie end to end, and the group `Steps` says where each step begins. An array that did
+not change since the step before (positions of a solid, cell widths) is not written again: its
+offset points to the old block. Blocks are compressed (gzip 1, shuffle), one chunk a block, so
+that adding a step rewrites nothing. The file is opened, appended and closed at each step through
+a `Transaction`: a kill at any moment leaves a readable file.
+
+Coordinates are three-dimensional, as VTK wants: (0, 0, z) in 1-D, (x, 0, z) in 2-D.
+
+[VTKHDF] VTKHDF format specification, Kitware,
+https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lasersph.output.errors import OutputError
+from lasersph.output.transaction import Transaction, discard, finish_commit
+
+AXES = {1: (2,), 2: (0, 2), 3: (0, 1, 2)}
+CELL_KINDS = ("Vertices", "Lines", "Polygons", "Strips")
+LARGEST_CHUNK = 1 << 20
+FILTERS: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+
+
+class ParticleFile:
+    """Appends steps to a VTKHDF file and cuts it back; nothing stays open in between."""
+
+    def __init__(self, path: Path) -> None:
+        """Continue the file at `path`, or start it with the first step."""
+        self.path = path
+
+    @property
+    def steps(self) -> int:
+        """Number of steps in the file. Raises OutputError where it is damaged."""
+        if not self.path.exists():
+            return 0
+        with opened(self.path) as file:
+            return int(file["VTKHDF/Steps"].attrs["NSteps"])
+
+    def append(
+        self,
+        time: float,
+        position: np.ndarray,
+        fields: Mapping[str, np.ndarray],
+        *,
+        units: Mapping[str, str] | None = None,
+    ) -> None:
+        """Add one step.
+
+        Args:
+            time: seconds.
+            position: (dim, n) [m].
+            fields: arrays (n,) or (dim, n) by name, stored in their own type; the names must be
+                the same in every step.
+            units: unit of each field, kept as an attribute.
+
+        Raises:
+            ValueError: an array has the wrong length, or the names differ from the first step's.
+            OutputError: the file could not be written; its old content is intact.
+        """
+        dimension, count = position.shape
+        if any(array.shape[-1] != count for array in fields.values()):
+            raise ValueError("a field has another number of particles than the positions")
+        with changed(self.path) as file:
+            if "VTKHDF" not in file:
+                start_file(file, dimension, fields, units or {}, position.dtype, count)
+            root = file["VTKHDF"]
+            if set(root["PointData"]) != set(fields):
+                raise ValueError("the fields of a step differ from those of the first step")
+            steps = root["Steps"]
+            number = int(steps.attrs["NSteps"])
+            point_offset = store_block(root["Points"], in_space(position))
+            part, cells = store_cells(root, count)
+            extend(steps["Values"], [time])
+            extend(steps["PartOffsets"], [part])
+            extend(steps["NumberOfParts"], [1])
+            extend(steps["PointOffsets"], [point_offset])
+            extend(steps["CellOffsets"], [[cells, 0, 0, 0]])
+            extend(steps["ConnectivityIdOffsets"], [[cells, 0, 0, 0]])
+            for name, array in fields.items():
+                block = in_space(array) if array.ndim == 2 else array
+                offset = store_block(root["PointData"][name], block)
+                extend(steps["PointDataOffsets"][name], [offset])
+            steps.attrs["NSteps"] = number + 1
+
+    def cut(self, steps: int) -> None:
+        """Keep the first `steps` steps; 0 removes the file.
+
+        Raises:
+            OutputError: the file holds fewer steps or is damaged.
+        """
+        if steps == 0:
+            discard(self.path)
+            return
+        present = self.steps
+        if present < steps:
+            raise OutputError(f"{self.path} holds {present} snapshots, the checkpoint {steps}")
+        if present > steps:
+            with changed(self.path) as file:
+                cut_steps(file["VTKHDF"], steps)
+
+
+@contextmanager
+def changed(path: Path) -> Iterator[Any]:
+    """The HDF5 file open for changes, which reach the disk together when the block ends."""
+    import h5py
+
+    finish_commit(path)
+    transaction = Transaction(path)
+    try:
+        with open_hdf5(transaction, "r+" if transaction.size else "w", h5py) as file:
+            yield file
+        transaction.commit()
+    finally:
+        transaction.close()
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[Any]:
+    """The HDF5 file open for reading, also while another process appends to it."""
+    import h5py
+
+    if not path.exists():
+        raise OutputError(f"cannot read {path}: there is no such file")
+    transaction = Transaction(path)
+    try:
+        with open_hdf5(transaction, "r", h5py) as file:
+            yield file
+    finally:
+        transaction.close()
+
+
+def open_hdf5(transaction: Transaction, mode: str, h5py: Any) -> Any:
+    """Open HDF5 on a transaction; a file that HDF5 does not understand is reported damaged."""
+    try:
+        file = h5py.File(transaction, mode)
+        if mode != "w" and "VTKHDF/Steps" not in file:
+            file.close()
+            raise OSError("no particle data")
+        return file
+    except (OSError, RuntimeError) as error:
+        raise OutputError(f"cannot read {transaction.path}: it is damaged ({error})") from error
+
+
+def start_file(
+    file: Any,
+    dimension: int,
+    fields: Mapping[str, np.ndarray],
+    units: Mapping[str, str],
+    real: np.dtype,
+    count: int,
+) -> None:
+    """Lay out an empty VTKHDF file."""
+    file.attrs["dimension"] = dimension
+    root = file.create_group("VTKHDF", track_order=True)
+    root.attrs["Version"] = np.array([2, 0], dtype=np.int64)
+    root.attrs["Type"] = np.bytes_("PolyData")
+    grow(root, "NumberOfPoints", np.int64)
+    grow(root, "Points", real, width=3, chunk=count)
+    for kind in CELL_KINDS:
+        group = root.create_group(kind)
+        grow(group, "NumberOfCells", np.int64)
+        grow(group, "NumberOfConnectivityIds", np.int64)
+        chunk = count if kind == "Vertices" else None
+        grow(group, "Connectivity", np.int64, chunk=chunk)
+        grow(group, "Offsets", np.int64, chunk=chunk)
+    data = root.create_group("PointData", track_order=True)
+    steps = root.create_group("Steps")
+    steps.attrs["NSteps"] = np.int64(0)
+    grow(steps, "Values", np.float64)
+    for name in ("PartOffsets", "NumberOfParts", "PointOffsets"):
+        grow(steps, name, np.int64)
+    grow(steps, "CellOffsets", np.int64, width=4)
+    grow(steps, "ConnectivityIdOffsets", np.int64, width=4)
+    offsets = steps.create_group("PointDataOffsets")
+    for name, array in fields.items():
+        width = 3 if array.ndim == 2 else None
+        dataset = grow(data, name, array.dtype, width=width, chunk=count)
+        dataset.attrs["unit"] = units.get(name, "")
+        grow(offsets, name, np.int64)
+
+
+def grow(group: Any, name: str, kind: Any, width: int | None = None, chunk: int | None = None):
+    """Create an empty dataset that can grow; `chunk` particles a chunk and compressed, if given."""
+    tail = () if width is None else (width,)
+    length = 256 if chunk is None else max(1, min(chunk, LARGEST_CHUNK))
+    return group.create_dataset(
+        name,
+        shape=(0, *tail),
+        maxshape=(None, *tail),
+        dtype=kind,
+        chunks=(length, *tail),
+        **(FILTERS if chunk is not None else {}),
+    )
+
+
+def in_space(vector: np.ndarray) -> np.ndarray:
+    """(dim, n) -> (n, 3), z last."""
+    result = np.zeros((vector.shape[1], 3), dtype=vector.dtype)
+    for row, axis in enumerate(AXES[vector.shape[0]]):
+        result[:, axis] = vector[row]
+    return result
+
+
+def extend(dataset: Any, rows: Any) -> int:
+    """Append rows to a dataset and return where they begin."""
+    start = dataset.shape[0]
+    dataset.resize(start + len(rows), axis=0)
+    dataset[start:] = rows
+    return start
+
+
+def store_block(dataset: Any, block: np.ndarray) -> int:
+    """Append a block unless it equals the last one; return the offset where it lies."""
+    block = np.ascontiguousarray(block, dtype=dataset.dtype)
+    digest = hashlib.blake2b(block.tobytes(), digest_size=16).hexdigest()
+    if dataset.attrs.get("last_digest") == digest:
+        return int(dataset.attrs["last_offset"])
+    offset = extend(dataset, block)
+    dataset.attrs["last_digest"] = digest
+    dataset.attrs["last_offset"] = offset
+    return offset
+
+
+def store_cells(root: Any, count: int) -> tuple[int, int]:
+    """Vertex cells of `count` particles, written once as long as the number stays the same.
+
+    Returns:
+        Number of the part, and of the first vertex cell and connectivity entry in it.
+    """
+    numbers = root["NumberOfPoints"]
+    part = numbers.shape[0] - 1
+    vertices = root["Vertices"]
+    if part >= 0 and int(numbers[part]) == count:
+        return part, vertices["Connectivity"].shape[0] - count
+    extend(numbers, [count])
+    first = extend(vertices["Connectivity"], np.arange(count))
+    extend(vertices["Offsets"], np.arange(count + 1))
+    for kind in CELL_KINDS:
+        size = count if kind == "Vertices" else 0
+        extend(root[kind]["NumberOfCells"], [size])
+        extend(root[kind]["NumberOfConnectivityIds"], [size])
+        if kind != "Vertices":
+            extend(root[kind]["Offsets"], [0])
+    return part + 1, first
+
+
+def cut_steps(root: Any, count: int) -> None:
+    """Drop the steps from number `count` on, and the blocks that only they used."""
+    steps = root["Steps"]
+    part = int(max(steps["PartOffsets"][:count]))
+    points = root["NumberOfPoints"][: part + 1]
+    shrink(root["Points"], steps["PointOffsets"][:count], steps["PartOffsets"][:count], points)
+    for name, offsets in steps["PointDataOffsets"].items():
+        dataset = root["PointData"][name]
+        shrink(dataset, offsets[:count], steps["PartOffsets"][:count], points)
+        offsets.resize(count, axis=0)
+    root["NumberOfPoints"].resize(part + 1, axis=0)
+    for kind in CELL_KINDS:
+        group = root[kind]
+        for name in ("NumberOfCells", "NumberOfConnectivityIds"):
+            group[name].resize(part + 1, axis=0)
+        cells = int(np.sum(group["NumberOfCells"][:]))
+        group["Connectivity"].resize(cells, axis=0)
+        group["Offsets"].resize(cells + part + 1, axis=0)
+    for name in ("Values", "PartOffsets", "NumberOfParts", "PointOffsets"):
+        steps[name].resize(count, axis=0)
+    steps["CellOffsets"].resize(count, axis=0)
+    steps["ConnectivityIdOffsets"].resize(count, axis=0)
+    steps.attrs["NSteps"] = np.int64(count)
+
+
+def shrink(dataset: Any, offsets: np.ndarray, parts: np.ndarray, points: np.ndarray) -> None:
+    """Cut a dataset behind the last block that the kept steps use."""
+    last = int(np.argmax(offsets))
+    end = int(offsets[last] + points[parts[last]])
+    if dataset.shape[0] > end:
+        dataset.resize(end, axis=0)
+        block = np.ascontiguousarray(dataset[int(offsets[last]) : end])
+        dataset.attrs["last_digest"] = hashlib.blake2b(block.tobytes(), digest_size=16).hexdigest()
+        dataset.attrs["last_offset"] = int(offsets[last])

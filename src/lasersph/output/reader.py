@@ -1,0 +1,208 @@
+"""Read a run folder back: `open_run(folder)` gives history, summary, snapshots and events.
+
+Works on a finished run and on one that is still running. Nothing is ever written.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lasersph.output.errors import OutputError, clear_errors
+from lasersph.output.events import read_events
+from lasersph.output.history import read_history
+from lasersph.output.particle_file import AXES, opened
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+
+class Run:
+    """A run folder open for reading; each file is read when it is asked for.
+
+    Attributes:
+        path: the folder.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether the run has reached its end."""
+        return (self.path / "summary.json").exists()
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """Content of summary.json, SI. Raises OutputError where the run is not complete."""
+        if not self.is_complete:
+            raise OutputError(f"{self.path} has no summary: the run is not complete")
+        return read_json(self.path / "summary.json")
+
+    @cached_property
+    def resolved(self) -> dict[str, Any]:
+        """Content of resolved.json: schema_version, case_hash, versions, case."""
+        return read_json(self.path / "resolved.json")
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The case with all defaults, SI."""
+        return self.resolved["case"]
+
+    @cached_property
+    def case_text(self) -> str:
+        """The case file as given."""
+        with clear_errors("read", self.path / "case.toml"):
+            return (self.path / "case.toml").read_text(encoding="utf-8")
+
+    @cached_property
+    def history(self) -> dict[str, np.ndarray]:
+        """Columns of history.csv, arrays (steps,), by name; the names end in the unit."""
+        path = self.path / "history.csv"
+        return read_history(path) if path.exists() else {}
+
+    @cached_property
+    def events(self) -> list[dict[str, Any]]:
+        """What happened in the run: dicts with time_s, step, event and more."""
+        return read_events(self.path / "events.jsonl")
+
+    @cached_property
+    def snapshots(self) -> Snapshots:
+        """The particle snapshots, read one by one when asked for."""
+        return Snapshots(self.path / "particles.vtkhdf")
+
+    def history_frame(self) -> pandas.DataFrame:
+        """The history as a pandas table, indexed by time_s.
+
+        Raises:
+            OutputError: pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError as error:
+            raise OutputError(missing("pandas")) from error
+        return pandas.DataFrame(self.history).set_index("time_s")
+
+    def snapshots_dataset(self) -> xarray.Dataset:
+        """All snapshots as one xarray data set with dimensions time, particle (and axis).
+
+        Raises:
+            OutputError: xarray is not installed, or the number of particles changes.
+        """
+        try:
+            import xarray
+        except ImportError as error:
+            raise OutputError(missing("xarray")) from error
+        steps = list(self.snapshots)
+        if len({step["position"].shape for step in steps}) > 1:
+            raise OutputError("the number of particles changes: read the snapshots one by one")
+        variables: dict[str, Any] = {}
+        for name in steps[0] if steps else ():
+            if name == "time":
+                continue
+            array = np.stack([step[name] for step in steps])
+            dims = ("time", "particle") if array.ndim == 2 else ("time", "axis", "particle")
+            unit = {"unit": self.snapshots.units.get(name, "")}
+            variables[name] = (dims, array, unit)
+        axes = "xyz" if self.snapshots.dimension == 3 else "xz"[-self.snapshots.dimension :]
+        times = self.snapshots.times
+        return xarray.Dataset(variables, coords={"time": times, "axis": list(axes)})
+
+
+class Snapshots:
+    """The steps of particles.vtkhdf: `len(s)`, `s[k]`, iteration.
+
+    Each step is a dict of `time` [s], `position` (dim, n) [m] and the stored fields, (n,) or
+    (dim, n), SI.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    @cached_property
+    def times(self) -> np.ndarray:
+        """Times of the steps [s]. Raises OutputError where the file is damaged."""
+        if not self.path.exists():
+            return np.zeros(0)
+        with opened(self.path) as file:
+            return file["VTKHDF/Steps/Values"][:]
+
+    @cached_property
+    def dimension(self) -> int:
+        """Number of space dimensions of the run."""
+        with opened(self.path) as file:
+            return int(file.attrs["dimension"])
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """Unit of each field."""
+        with opened(self.path) as file:
+            return {name: str(d.attrs["unit"]) for name, d in file["VTKHDF/PointData"].items()}
+
+    def nearest(self, time: float) -> dict[str, Any]:
+        """The step closest to a time [s]. Raises IndexError where there is none."""
+        if not len(self):
+            raise IndexError("the run has no snapshots")
+        return self[int(np.argmin(np.abs(self.times - time)))]
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return (self[k] for k in range(len(self)))
+
+    def __getitem__(self, number: int) -> dict[str, Any]:
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"the run has {len(self)} snapshots")
+        number %= len(self)
+        axes = AXES[self.dimension]
+        with opened(self.path) as file:
+            root = file["VTKHDF"]
+            steps = root["Steps"]
+            count = int(root["NumberOfPoints"][int(steps["PartOffsets"][number])])
+            start = int(steps["PointOffsets"][number])
+            points = root["Points"][start : start + count]
+            step = {"time": float(self.times[number]), "position": from_space(points, axes)}
+            for name, dataset in root["PointData"].items():
+                start = int(steps["PointDataOffsets"][name][number])
+                block = dataset[start : start + count]
+                step[name] = block if block.ndim == 1 else from_space(block, axes)
+        return step
+
+
+def from_space(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
+    """(n, 3) -> (dim, n)."""
+    return np.ascontiguousarray(block[:, axes].T)
+
+
+def missing(package: str) -> str:
+    """What to say where an optional package is not installed."""
+    return f"{package} is not installed: pip install 'lasersph[frames]' brings it"
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """Content of a JSON file. Raises OutputError."""
+    with clear_errors("read", path):
+        text = path.read_text(encoding="utf-8")
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError as error:
+        raise OutputError(f"cannot read {path}: it is damaged") from error
+
+
+def open_run(path: str | Path) -> Run:
+    """Open the folder of a run, finished or running.
+
+    Raises:
+        OutputError: there is no run in the folder.
+    """
+    folder = Path(path)
+    if not (folder / "resolved.json").exists():
+        raise OutputError(f"{folder} is not a run folder: it has no resolved.json")
+    return Run(folder)
