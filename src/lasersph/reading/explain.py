@@ -1,0 +1,165 @@
+"""Building models from documents, and pydantic's errors in one clear line per problem."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from lasersph.reading.document import Document
+from lasersph.reading.errors import CaseError, Problem
+from lasersph.reading.key_lines import Path
+from lasersph.reading.model import nearest
+
+M = TypeVar("M", bound=BaseModel)
+
+_BOUNDS = {
+    "greater_than": ("greater than", "gt"),
+    "greater_than_equal": ("at least", "ge"),
+    "less_than": ("less than", "lt"),
+    "less_than_equal": ("at most", "le"),
+}
+_EXPECTED = {
+    "string_type": "text in quotes",
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "float_parsing": "a number",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "finite_number": "a finite number",
+    "list_type": "an array [...]",
+    "tuple_type": "an array [...]",
+    "dict_type": "a table",
+    "model_type": "a table",
+    "model_attributes_type": "a table",
+}
+
+
+def build(model: type[M], document: Document, context: dict[str, Any] | None = None) -> M:
+    """Validate a document as a model, with units required on every quantity.
+
+    Args:
+        model: the class to build.
+        document: from `read_toml` or `parse_toml`.
+        context: further entries of pydantic's validation context.
+
+    Raises:
+        CaseError: one problem per mistake, with file, line and key.
+    """
+    try:
+        return model.model_validate(
+            document.data, context={"strict_units": True, **(context or {})}
+        )
+    except ValidationError as error:
+        raise CaseError(explain(error, document)) from None
+    except RecursionError:
+        raise CaseError("brackets nested too deeply", file=document.file) from None
+
+
+def explain(error: ValidationError, document: Document) -> list[Problem]:
+    """Turn every error of pydantic into a `Problem` with the place of its key."""
+    problems: dict[str, Problem] = {}
+    for each in error.errors(include_url=False):
+        for path, text, hint in _say(dict(each), document):
+            file, line = document.place(path)
+            problem = Problem(text, hint, dotted(path), file, line)
+            problems.setdefault(str(problem), problem)
+    return sorted(problems.values(), key=lambda problem: problem.line or 0)
+
+
+def dotted(path: Path) -> str:
+    """A key path as people write it: ("probes", 0, "name") is "probes[1].name"."""
+    text = ""
+    for step in path:
+        if isinstance(step, int):
+            text += f"[{step + 1}]"
+        else:
+            text += f".{step}" if text else str(step)
+    return text
+
+
+def _say(error: dict[str, Any], document: Document) -> list[tuple[Path, str, str]]:
+    """(path, what is wrong, what would be right) of one pydantic error."""
+    kind, context = error["type"], error.get("ctx") or {}
+    path = _data_path(error["loc"], document.data, kind)
+    given = _shown(document.at(path))
+    if kind == "unknown_keys":
+        return [_unknown(path, key, context["known"]) for key in context["keys"]]
+    if kind == "extra_forbidden":
+        return [_unknown(path[:-1], str(path[-1]), [])]
+    if kind == "missing":
+        return [(path, "missing", "")]
+    if kind == "quantity":
+        return [(path, context["message"], "")]
+    if kind in _BOUNDS:
+        words, bound = _BOUNDS[kind]
+        return [(path, f"must be {words} {_number(context[bound])}, got {given}", "")]
+    if kind in ("literal_error", "enum"):
+        return [(path, *_choice(given, str(context.get("expected", ""))))]
+    if kind == "union_tag_invalid":
+        return [((*path, _tag(context)), *_choice(f'"{context["tag"]}"', context["expected_tags"]))]
+    if kind == "union_tag_not_found":
+        return [((*path, _tag(context)), "missing", "")]
+    if kind in ("too_short", "too_long", "string_too_short", "string_too_long"):
+        return [(path, error["msg"][0].lower() + error["msg"][1:], "")]
+    if kind in _EXPECTED:
+        return [(path, f"must be {_EXPECTED[kind]}, got {given}", "")]
+    if kind in ("value_error", "assertion_error"):
+        text, _, hint = str(context.get("error", error["msg"])).partition("; ")
+        return [(path, text, hint)]
+    return [(path, error["msg"], "")]
+
+
+def _unknown(table: Path, key: str, known: list[str]) -> tuple[Path, str, str]:
+    near = nearest(key, known)
+    hint = f'do you mean "{near}"?' if near else ""
+    if not near and 0 < len(known) <= 12:
+        hint = "known here: " + ", ".join(known)
+    return (*table, key), "unknown key", hint
+
+
+def _data_path(location: tuple[str | int, ...], data: Any, kind: str) -> Path:
+    """pydantic's location without the steps that are not keys (union tags, validator names)."""
+    path: list[str | int] = []
+    for number, step in enumerate(location):
+        is_last = number == len(location) - 1
+        inside = (isinstance(data, dict) and step in data) or (
+            isinstance(data, list) and isinstance(step, int) and step < len(data)
+        )
+        if inside:
+            data = data[step]
+            path.append(step)
+        elif is_last and kind == "missing":
+            path.append(step)
+    return tuple(path)
+
+
+def _tag(context: dict[str, Any]) -> str:
+    return str(context.get("discriminator", "kind")).strip("'()")
+
+
+def _choice(given: str, expected: str) -> tuple[str, str]:
+    """Text for a word that is none of the allowed ones."""
+    choices = [word.strip().strip("'\"") for word in expected.replace(" or ", ", ").split(",")]
+    near = nearest(given.strip('"'), choices)
+    listed = " or ".join(f'"{word}"' for word in choices)
+    hint = f'do you mean "{near}"?' if near else ""
+    return f"must be {listed}, got {given}", hint
+
+
+def _number(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list):
+        return "an array"
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = f'"{value}"' if isinstance(value, str) else str(value)
+    text = text.replace("\n", " ")
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,107 @@
+"""Pydantic types of every kind of quantity; the value of a field is a float in SI units.
+
+From a file (`strict_units` in the validation context) a quantity is text with a unit and a bare
+number is refused; from Python a bare number means SI and text with a unit works as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from numbers import Real
+from typing import Annotated, Any
+
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from lasersph.reading.kinds import KINDS
+from lasersph.reading.quantity import QuantityError, parse_quantity
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Annotation that makes a float field read quantities of one kind."""
+
+    kind: str
+
+    def __get_pydantic_core_schema__(
+        self, _source: Any, _handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Read the text first, then require a finite float."""
+        return core_schema.with_info_before_validator_function(
+            _reader(self.kind), core_schema.float_schema(allow_inf_nan=False, strict=False)
+        )
+
+    def __get_pydantic_json_schema__(
+        self, _schema: CoreSchema, _handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Text with a unit (a fraction may also be a number)."""
+        kind = KINDS[self.kind]
+        text = {"type": "string", "pattern": r"^\s*[+-]?(\d|\.\d)", "examples": [kind.example]}
+        if self.kind != "fraction":
+            return text | {"x-kind": self.kind, "x-unit": kind.unit}
+        return {"anyOf": [{"type": "number"}, text], "x-kind": self.kind, "x-unit": "1"}
+
+
+def _reader(kind: str) -> Callable[[Any, ValidationInfo], Any]:
+    example = KINDS[kind].example
+
+    def read(value: Any, info: ValidationInfo) -> float:
+        if isinstance(value, str):
+            try:
+                return parse_quantity(value, kind)
+            except QuantityError as error:
+                raise _refusal(str(error)) from None
+        if isinstance(value, bool) or not isinstance(value, Real):
+            what = f"{str(value).lower()} is" if isinstance(value, bool) else "is"
+            raise _refusal(f'{what} not {KINDS[kind].words}; write e.g. "{example}"')
+        strict = bool(info.context) and info.context.get("strict_units")
+        number = _float(value)
+        if number is None or number != number or number in (float("inf"), float("-inf")):
+            raise _refusal(f'{value} is not a finite number; write e.g. "{example}"')
+        if strict and kind != "fraction":
+            raise _refusal(f'{value} has no unit; write e.g. "{example}"')
+        return number
+
+    return read
+
+
+def _float(value: Real) -> float | None:
+    try:
+        return float(value)
+    except OverflowError:
+        return None
+
+
+def _refusal(message: str) -> PydanticCustomError:
+    return PydanticCustomError("quantity", "{message}", {"message": message})
+
+
+Length = Annotated[float, Quantity("length")]
+Time = Annotated[float, Quantity("time")]
+Temperature = Annotated[float, Quantity("temperature"), Field(ge=0)]
+TemperatureDifference = Annotated[float, Quantity("temperature_difference")]
+Fluence = Annotated[float, Quantity("fluence")]
+Intensity = Annotated[float, Quantity("intensity")]
+Power = Annotated[float, Quantity("power")]
+Energy = Annotated[float, Quantity("energy")]
+Angle = Annotated[float, Quantity("angle")]
+AbsorptionCoefficient = Annotated[float, Quantity("absorption_coefficient")]
+Density = Annotated[float, Quantity("density")]
+SpecificHeat = Annotated[float, Quantity("specific_heat")]
+Conductivity = Annotated[float, Quantity("conductivity")]
+Diffusivity = Annotated[float, Quantity("diffusivity")]
+SpecificEnergy = Annotated[float, Quantity("specific_energy")]
+Viscosity = Annotated[float, Quantity("viscosity")]
+KinematicViscosity = Annotated[float, Quantity("kinematic_viscosity")]
+SurfaceTension = Annotated[float, Quantity("surface_tension")]
+SurfaceTensionSlope = Annotated[float, Quantity("surface_tension_slope")]
+Expansion = Annotated[float, Quantity("expansion")]
+MolarMass = Annotated[float, Quantity("molar_mass")]
+Velocity = Annotated[float, Quantity("velocity")]
+Acceleration = Annotated[float, Quantity("acceleration")]
+Pressure = Annotated[float, Quantity("pressure")]
+HeatTransferCoefficient = Annotated[float, Quantity("heat_transfer_coefficient")]
+Frequency = Annotated[float, Quantity("frequency")]
+Fraction = Annotated[float, Quantity("fraction")]
+Count = Annotated[int, Field(strict=True, ge=1)]
