@@ -125,10 +125,10 @@ def _data_path(location: tuple[str | int, ...], data: Any, kind: str) -> Path:
     path: list[str | int] = []
     for number, step in enumerate(location):
         is_last = number == len(location) - 1
-        inside = (isinstance(data, dict) and step in data) or (
-            isinstance(data, list) and isinstance(step, int) and step < len(data)
-        )
-        if inside:
+        if isinstance(data, dict) and step in data:
+            data = data[step]
+            path.append(step)
+        elif isinstance(data, list) and isinstance(step, int) and step < len(data):
             data = data[step]
             path.append(step)
         elif is_last and kind == "missing":

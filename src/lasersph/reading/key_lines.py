@@ -11,16 +11,7 @@ import re
 
 Path = tuple[str | int, ...]
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_ESCAPES = {
-    "b": "\b",
-    "t": "\t",
-    "n": "\n",
-    "f": "\f",
-    "r": "\r",
-    '"': '"',
-    "\\": "\\",
-    "e": "\x1b",
-}
+_ESCAPES = dict(zip('btnfr"\\e', '\b\t\n\f\r"\\\x1b', strict=True))
 
 
 def key_lines(text: str) -> dict[Path, int]:

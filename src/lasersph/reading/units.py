@@ -100,10 +100,12 @@ def _table() -> dict[str, Unit]:
 
 
 _TABLE = _table()
-_SPELLINGS = {
-    "µ": "u", "μ": "u", "\u00c5": "angstrom", "\u212b": "angstrom", "℃": "degC", "°C": "degC", "°F": "degF",
-    "°K": "K", "°": "deg", "·": "*", "⋅": "*", "×": "*", "−": "-", "**": "^", "\u00a0": " ",
-    "⁻": "^-", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4", "\u202f": " ",
+_SPELLINGS = {  # micro, Greek mu, angstrom (two signs), degree signs, dots, minus, superscripts
+    "\u00b5": "u", "\u03bc": "u", "\u00c5": "angstrom", "\u212b": "angstrom",
+    "\u2103": "degC", "\u00b0C": "degC", "\u00b0F": "degF", "\u00b0K": "K", "\u00b0": "deg",
+    "\u00b7": "*", "\u22c5": "*", "\u00d7": "*", "\u2212": "-", "**": "^",
+    "\u00a0": " ", "\u202f": " ",
+    "\u207b": "^-", "\u00b9": "^1", "\u00b2": "^2", "\u00b3": "^3", "\u2074": "^4",
 }  # fmt: skip
 _TOKEN = re.compile(r"([A-Za-z_]+|%|1)(?:\^?([+-]?\d))?|([*/()])|(\s+)|\^([+-]?\d)")
 
