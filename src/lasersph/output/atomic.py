@@ -17,7 +17,7 @@ from lasersph.output.errors import clear_errors
 TEMPORARY_SUFFIX = ".writing"
 
 
-def replace_file(path: Path, write: Callable[[BinaryIO], None]) -> None:
+def replace_file(path: Path, write: Callable[[BinaryIO], object]) -> None:
     """Write `path` through the function `write(stream)` so that it appears whole or not at all.
 
     Raises:
@@ -39,7 +39,7 @@ def replace_file(path: Path, write: Callable[[BinaryIO], None]) -> None:
 
 def replace_text(path: Path, text: str) -> None:
     """Write a text file (UTF-8) whole or not at all. Raises OutputError."""
-    replace_file(path, lambda stream: stream.write(text.encode()) and None)
+    replace_file(path, lambda stream: stream.write(text.encode()))
 
 
 def replace_json(path: Path, value: Any) -> None:

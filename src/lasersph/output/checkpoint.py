@@ -72,10 +72,10 @@ def save(folder: Path, checkpoint: Checkpoint) -> Path:
 
     def write(stream: BinaryIO) -> None:
         checksum = hashlib.sha256()
-        for piece in (FIRST_LINE, len(header).to_bytes(8, "little"), header, *arrays.values()):
-            data = memoryview(piece).cast("B") if np.size(piece) else b""
-            checksum.update(data)
-            stream.write(data)
+        size = len(header).to_bytes(8, "little")
+        for piece in (FIRST_LINE, size, header, *(a.tobytes() for a in arrays.values())):
+            checksum.update(piece)
+            stream.write(piece)
         stream.write(checksum.digest())
 
     with clear_errors("write", folder):

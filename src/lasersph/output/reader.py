@@ -19,8 +19,8 @@ from lasersph.output.history import read_history
 from lasersph.output.particle_file import AXES, opened
 
 if TYPE_CHECKING:
-    import pandas
-    import xarray
+    import pandas  # pyright: ignore[reportMissingImports]
+    import xarray  # pyright: ignore[reportMissingImports]
 
 
 class Run:
@@ -84,7 +84,7 @@ class Run:
             OutputError: pandas is not installed.
         """
         try:
-            import pandas
+            import pandas  # pyright: ignore[reportMissingImports]
         except ImportError as error:
             raise OutputError(missing("pandas")) from error
         return pandas.DataFrame(self.history).set_index("time_s")
@@ -96,7 +96,7 @@ class Run:
             OutputError: xarray is not installed, or the number of particles changes.
         """
         try:
-            import xarray
+            import xarray  # pyright: ignore[reportMissingImports]
         except ImportError as error:
             raise OutputError(missing("xarray")) from error
         steps = list(self.snapshots)

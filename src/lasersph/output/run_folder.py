@@ -36,6 +36,16 @@ from lasersph.output.particle_file import ParticleFile
 from lasersph.output.transaction import set_aside
 
 SUMMARY_SCHEMA = 1
+REQUIRED_KEYS = (
+    "case",
+    "solver",
+    "particles",
+    "steps",
+    "time_s",
+    "wall_time_s",
+    "temperature_max_K",
+    "energy",
+)
 
 
 class RunFolder:
@@ -245,13 +255,9 @@ class RunFolder:
     def finish(self, summary: Mapping[str, Any]) -> None:
         """Write summary.json: the run is complete. Raises OutputError.
 
-        Required keys: case, solver, particles, steps, time_s, wall_time_s, temperature_max_K,
-        energy.
+        Raises ValueError where one of `REQUIRED_KEYS` is missing.
         """
-        required = (
-            "case solver particles steps time_s wall_time_s temperature_max_K energy".split()
-        )
-        missing = [key for key in required if key not in summary]
+        missing = [key for key in REQUIRED_KEYS if key not in summary]
         if missing:
             raise ValueError(f"the summary lacks {', '.join(missing)}")
         self.history.flush(sync=True)

@@ -4,13 +4,14 @@ HDF5 rewrites pieces of a file in place when it closes it; a process killed ther
 that no program opens. Here HDF5 writes into memory (a copy of each 16 KiB page that it touches)
 and `commit` brings the pages to the disk so that no moment is harmful:
 
-1. pages beyond the old end are written first: the old content does not refer to them;
+1. what lies beyond the old end is written first: the old content does not refer to it;
 2. changed pages of the old content go to a journal file, which appears whole or not at all;
 3. they are written into the file, and the journal is removed.
 
 A kill before 2 leaves the old content, a kill after it a journal from which the next opening
-finishes the work. A full disk is met in 1 or 2 and leaves the old content. This is the
-write-ahead log of databases (Gray and Reuter, Transaction Processing, 1993), for one file.
+finishes the work. A full disk is met in 1 or 2, since 3 needs no new room,
+and leaves the old content. This is the write-ahead log of databases (Gray and Reuter, Transaction
+Processing, 1993), for one file.
 """
 
 from __future__ import annotations
@@ -111,17 +112,19 @@ class Transaction(io.RawIOBase):
             replace_file(self.path, self._write_whole)
             self.close()
             return
-        fresh = {n: page for n, page in self.pages.items() if n * PAGE >= self.stored}
+        beyond = [piece for n in sorted(self.pages) if (piece := self._beyond(n))]
         changed = {
             number: page
             for number, page in self.pages.items()
-            if number not in fresh and bytes(page) != self._stored_bytes(number * PAGE, PAGE)
+            if number * PAGE < self.stored
+            and bytes(page) != self._stored_bytes(number * PAGE, PAGE)
         }
         with clear_errors("write", self.path):
             descriptor = os.open(self.path, os.O_RDWR)
             try:
                 try:
-                    write_pages(descriptor, fresh)
+                    for offset, data in beyond:
+                        write_at(descriptor, offset, data)
                     os.fsync(descriptor)
                     write_journal(self.path, changed, self.size)
                 except BaseException:
@@ -145,6 +148,13 @@ class Transaction(io.RawIOBase):
             page = self.pages.get(number, bytes(PAGE))
             stream.write(page[: min(PAGE, self.size - number * PAGE)])
 
+    def _beyond(self, number: int) -> tuple[int, memoryview] | None:
+        """The part of a page that lies beyond the old end of the file, with its offset."""
+        start = max(self.stored - number * PAGE, 0)
+        if start >= PAGE:
+            return None
+        return number * PAGE + start, memoryview(self.pages[number])[start:]
+
     def _stored_bytes(self, start: int, length: int) -> bytes:
         """Bytes of the file on the disk, zeros beyond its end."""
         if self.file is None or start >= self.stored:
@@ -158,14 +168,12 @@ def journal_of(path: Path) -> Path:
     return path.with_name(path.name + JOURNAL_SUFFIX)
 
 
-def write_pages(descriptor: int, pages: dict[int, bytearray]) -> None:
-    """Write whole pages at their places in an open file."""
-    for number in sorted(pages):
-        view = memoryview(pages[number])
-        offset = number * PAGE
-        while view:
-            count = os.pwrite(descriptor, view, offset)
-            view, offset = view[count:], offset + count
+def write_at(descriptor: int, offset: int, data: Any) -> None:
+    """Write all bytes of `data` at a place in an open file."""
+    view = memoryview(data)
+    while view:
+        count = os.pwrite(descriptor, view, offset)
+        view, offset = view[count:], offset + count
 
 
 def write_journal(path: Path, pages: dict[int, bytearray], size: int) -> None:
@@ -174,7 +182,7 @@ def write_journal(path: Path, pages: dict[int, bytearray], size: int) -> None:
     body = b"".join(bytes(pages[number]) for number in numbers)
     head = {"pages": numbers, "size": size, "sha256": hashlib.sha256(body).hexdigest()}
     data = json.dumps(head).encode() + b"\n" + body
-    replace_file(journal_of(path), lambda stream: stream.write(data) and None)
+    replace_file(journal_of(path), lambda stream: stream.write(data))
 
 
 def read_journal(path: Path) -> tuple[dict[int, bytearray], int]:
@@ -196,7 +204,8 @@ def read_journal(path: Path) -> tuple[dict[int, bytearray], int]:
 
 def apply_journal(path: Path, descriptor: int, pages: dict[int, bytearray], size: int) -> None:
     """Write the journal's pages into the open file, set its size, remove the journal."""
-    write_pages(descriptor, pages)
+    for number in sorted(pages):
+        write_at(descriptor, number * PAGE, pages[number])
     os.ftruncate(descriptor, size)
     os.fsync(descriptor)
     journal_of(path).unlink(missing_ok=True)
