@@ -1,0 +1,121 @@
+"""Markdown tables of every key of a case file, made from the JSON Schema of `lasersph.case.Case`.
+
+One section a table of the file, in the order of the model. Where a table is one of several models
+told apart by `kind`, each has a section of its own. Nothing is written twice: names, types,
+defaults, units and descriptions all come from the models.
+"""
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+from lasersph.reading import KINDS, show_quantity
+
+Schema = dict[str, Any]
+
+
+def case_keys(schema: Schema) -> str:
+    """The sections for all keys of a case file."""
+    definitions = schema.get("$defs", {})
+    return "\n\n".join(_sections(schema, "", definitions)) + "\n"
+
+
+def _resolve(schema: Schema, definitions: Schema) -> Schema:
+    """The schema a `$ref` stands for; keys beside the `$ref` (description, default) win."""
+    if "$ref" not in schema:
+        return schema
+    found = _resolve(definitions[schema["$ref"].rsplit("/", 1)[1]], definitions)
+    return found | {key: value for key, value in schema.items() if key != "$ref"}
+
+
+def _alternatives(schema: Schema, definitions: Schema) -> list[Schema]:
+    """What a value may be: every branch of anyOf/oneOf, `null` left away."""
+    schema = _resolve(schema, definitions)
+    if "x-kind" in schema or not ("anyOf" in schema or "oneOf" in schema):
+        return [schema]
+    branches = schema.get("anyOf", []) + schema.get("oneOf", [])
+    found = [choice for branch in branches for choice in _alternatives(branch, definitions)]
+    return [choice for choice in found if choice.get("type") != "null"]
+
+
+def _sections(
+    schema: Schema, path: str, definitions: Schema, *, array: bool = False
+) -> Iterator[str]:
+    """The section of a table, then those of the tables in it."""
+    rows, inner = [], []
+    for name, raw in schema.get("properties", {}).items():
+        where = f"{path}.{name}" if path else name
+        choices = _alternatives(raw, definitions)
+        tables = [(choice, False) for choice in choices if "properties" in choice]
+        tables += [
+            (item, True)
+            for choice in choices
+            if choice.get("type") == "array"
+            for item in _alternatives(choice.get("items", {}), definitions)
+            if "properties" in item
+        ]
+        inner += [(where, *table) for table in tables]
+        if not (path and name == "kind" and "const" in raw):  # the heading says it
+            rows.append(
+                _row(name, raw, choices, where, required=name in schema.get("required", []))
+            )
+    yield _heading(schema, path, array) + (_table(rows) if rows else "")
+    for where, table, is_array in inner:
+        yield from _sections(table, where, definitions, array=is_array)
+
+
+def _heading(schema: Schema, path: str, array: bool) -> str:
+    title = f"`[[{path}]]`" if array else f"`[{path}]`" if path else "Top of the file"
+    kind = schema.get("properties", {}).get("kind", {})
+    if path and "const" in kind:
+        title += f' with `kind = "{kind["const"]}"`'
+    text = schema.get("description", "").strip()
+    return f"### {title}\n\n" + (f"{text}\n\n" if text else "")
+
+
+def _table(rows: list[str]) -> str:
+    return "\n".join(["| key | value | default | meaning |", "|---|---|---|---|", *rows])
+
+
+def _row(name: str, raw: Schema, choices: list[Schema], where: str, *, required: bool) -> str:
+    kinds = dict.fromkeys(_kind_of_value(choice, where) for choice in choices)
+    default = "**required**" if required else _default(raw, choices)
+    meaning = raw.get("description") or choices[0].get("description", "")
+    if "properties" in choices[0] and "description" not in raw:
+        meaning = ""
+    cells = [f"`{name}`", " or ".join(kinds), default, " ".join(meaning.split())]
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def _kind_of_value(choice: Schema, where: str) -> str:
+    if "x-kind" in choice:
+        kind = KINDS[choice["x-kind"]]
+        return f'{kind.name.replace("_", " ")}, `"{kind.example}"`'
+    if "const" in choice:
+        return f"`{json.dumps(choice['const'])}`"
+    if "enum" in choice:
+        return ", ".join(f"`{json.dumps(value)}`" for value in choice["enum"])
+    if "properties" in choice:
+        return f"table `[{where}]`"
+    if choice.get("type") == "array":
+        items = choice.get("items") or {}
+        return (
+            f"list of {_kind_of_value(items, where)}" if "$ref" not in items else "list of tables"
+        )
+    return {"boolean": "true or false", "integer": "whole number", "string": "text"}.get(
+        choice.get("type", ""), choice.get("type", "any")
+    )
+
+
+def _default(raw: Schema, choices: list[Schema]) -> str:
+    if "default" not in raw:
+        return ""
+    value = raw["default"]
+    if value is None:
+        return "none"
+    unit = next((choice["x-unit"] for choice in choices if "x-unit" in choice), None)
+    if unit and unit != "1" and isinstance(value, int | float):
+        return f'`"{show_quantity(value, unit)}"`'
+    if isinstance(value, dict | list) and len(json.dumps(value)) > 40:
+        return "see its table"
+    return f"`{json.dumps(value, ensure_ascii=False)}`"

@@ -1,0 +1,44 @@
+"""Writes docs/generated/*.md before Sphinx reads the pages that include them."""
+
+import json
+from pathlib import Path
+
+from case_keys import case_keys
+from validation_table import validation_table
+
+DOCS = Path(__file__).resolve().parent.parent
+ROOT = DOCS.parent
+
+
+def gallery(folder: Path) -> str:
+    """Every example's own README and case file."""
+    parts = []
+    for case in sorted(folder.glob("*/case.toml")):
+        readme = case.with_name("README.md").read_text(encoding="utf-8")
+        title, _, text = readme.partition("\n")
+        parts.append(
+            f"#{title}\n{text}\n```toml\n{case.read_text(encoding='utf-8').rstrip()}\n```\n"
+        )
+    return "\n".join(parts)
+
+
+def write_pages(_app: object) -> None:
+    """Make every generated page anew."""
+    from lasersph.case import Case
+
+    target = DOCS / "generated"
+    target.mkdir(exist_ok=True)
+    results = DOCS / "validation_results.json"
+    pages = {
+        "case_keys.md": case_keys(Case.model_json_schema()),
+        "examples.md": gallery(ROOT / "examples"),
+        "validation.md": validation_table(json.loads(results.read_text(encoding="utf-8"))),
+    }
+    for name, text in pages.items():
+        (target / name).write_text(text, encoding="utf-8")
+
+
+def setup(app: object) -> dict[str, bool]:
+    """Called by Sphinx."""
+    app.connect("builder-inited", write_pages)
+    return {"parallel_read_safe": True}

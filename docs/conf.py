@@ -1,0 +1,41 @@
+"""Sphinx configuration: `make docs` builds docs/_build/html, and any warning fails it."""
+
+import sys
+from pathlib import Path
+
+import lasersph
+
+sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
+
+project = "lasersph"
+author = "The lasersph developers"
+copyright = "The lasersph developers, BSD-3-Clause"
+version = release = lasersph.__version__
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "sphinxcontrib.bibtex",
+    "generated_pages",
+]
+exclude_patterns = ["_build", "generated"]
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+bibtex_bibfiles = ["references.bib"]
+bibtex_reference_style = "author_year"
+bibtex_default_style = "unsrt"
+nb_execution_mode = "force"
+nb_execution_timeout = 120
+nb_execution_raise_on_error = True
+
+html_title = f"lasersph {version}"
+html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["page.css"]
+
+autodoc_typehints = "description"
+autodoc_member_order = "bysource"
+napoleon_google_docstring = True
