@@ -1,0 +1,121 @@
+"""Order of convergence, Richardson extrapolation and the grid convergence index.
+
+With f1 (finest), f2, f3 (coarsest) computed at spacings in a constant ratio r,
+
+    p = log((f3 - f2)/(f2 - f1)) / log r                          [Alshaer2017, eq. 35; Roache]
+    f = f1 + (f1 - f2)/(r^p - 1)                                  Richardson's estimate
+    GCI = F_s |eps| / (r^p - 1),  F_s = 1.25                      [Alshaer2017, eq. 37]
+
+where eps is the relative change (f2 - f1)/f1, or in the paper's eq. 36 the relative error
+(f1 - f_exact)/f_exact. (The paper numbers f1 the coarsest in eq. 35 and the finest in eq. 36; here
+f1 is always the finest.) For unequal ratios p solves the fixed-point equation of Celik et al.
+
+Roache, Annu. Rev. Fluid Mech. 29 (1997) 123-160;
+Celik et al., J. Fluids Eng. 130 (2008) 078001; Alshaer et al., Comput. Mater. Sci. 127 (2017) 161.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+SAFETY_FACTOR = 1.25
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """What three or more spacings say about one number.
+
+    kind: "converging" (the changes shrink, same sign), "oscillating" (their sign alternates),
+    "diverging" (they grow), "exact" (the two finest agree to the last digit). `order`,
+    `extrapolated` and `gci` are nan unless the number converges (0 change: order nan, gci 0).
+    """
+
+    kind: str
+    order: float
+    extrapolated: float
+    gci: float
+
+
+def observed_order(values: Sequence[float], spacings: Sequence[float]) -> float:
+    """Order p from three results, finest first; nan where they do not converge monotonically.
+
+    Raises:
+        ValueError: not three of each, or the spacings do not grow.
+    """
+    if len(values) != 3 or len(spacings) != 3:
+        raise ValueError("the order needs three values and three spacings")
+    if not 0.0 < spacings[0] < spacings[1] < spacings[2]:
+        raise ValueError(f"spacings must grow from the finest to the coarsest, not {spacings}")
+    fine, coarse = values[1] - values[0], values[2] - values[1]
+    if fine == 0.0 or coarse / fine <= 0.0:
+        return math.nan
+    log_change = math.log(coarse / fine)
+    log_fine, log_coarse = (math.log(spacings[k + 1] / spacings[k]) for k in (0, 1))
+    if math.isclose(log_fine, log_coarse, rel_tol=1e-9):
+        return log_change / log_fine
+    return _unequal_ratio_order(log_change, log_fine, log_coarse)
+
+
+def _unequal_ratio_order(log_change: float, log_fine: float, log_coarse: float) -> float:
+    """Root p of (f3-f2)/(f2-f1) = r21^p (r32^p - 1)/(r21^p - 1), or nan if none in (0.05, 20).
+
+    The error c d^p gives f3-f2 : f2-f1 = (d3^p - d2^p) : (d2^p - d1^p), the right-hand side, which
+    grows with p, so bisection finds the only root.
+    """
+
+    def excess(p: float) -> float:
+        ratio = math.expm1(p * log_coarse) / math.expm1(p * log_fine)
+        return p * log_fine + math.log(ratio) - log_change
+
+    low, high = 0.05, 20.0
+    if excess(low) > 0.0 or excess(high) < 0.0:
+        return math.nan
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) < 0.0 else (low, middle)
+    return 0.5 * (low + high)
+
+
+def richardson(fine: float, medium: float, ratio: float, order: float) -> float:
+    """Value at vanishing spacing from the two finest results."""
+    return fine + (fine - medium) / (ratio**order - 1.0)
+
+
+def relative_error(value: float, exact: float) -> float:
+    """(f - f_exact) / f_exact [Alshaer2017, eq. 36]."""
+    return (value - exact) / exact
+
+
+def grid_convergence_index(
+    relative_change: float, ratio: float, order: float, safety_factor: float = SAFETY_FACTOR
+) -> float:
+    """Relative uncertainty F_s |eps| / (r^p - 1) of the finest result [Alshaer2017, eq. 37]."""
+    return safety_factor * abs(relative_change) / (ratio**order - 1.0)
+
+
+def assess(values: Sequence[float], spacings: Sequence[float]) -> Convergence:
+    """Order, extrapolated value and GCI of the three finest results, in any order of spacing.
+
+    Raises:
+        ValueError: fewer than three results, or two equal spacings.
+    """
+    pairs = sorted(zip(spacings, values, strict=True))[:3]
+    spacing, value = [d for d, _ in pairs], [v for _, v in pairs]
+    order = observed_order(value, spacing)
+    fine, coarse = value[1] - value[0], value[2] - value[1]
+    if fine == 0.0:
+        return Convergence("exact", math.nan, value[0], 0.0)
+    if fine * coarse < 0.0:
+        return Convergence("oscillating", math.nan, math.nan, math.nan)
+    if math.isnan(order) or order <= 0.0:
+        return Convergence("diverging", math.nan, math.nan, math.nan)
+    ratio = spacing[1] / spacing[0]
+    change = fine / value[0] if value[0] != 0.0 else math.nan
+    return Convergence(
+        "converging",
+        order,
+        richardson(value[0], value[1], ratio, order),
+        grid_convergence_index(change, ratio, order),
+    )
