@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,7 +24,7 @@ from scipy.linalg import get_lapack_funcs
 
 Array = NDArray[np.float64]
 
-solve_tridiagonal: Callable[..., tuple] = get_lapack_funcs("gtsv", dtype=np.float64)
+solve_tridiagonal: Any = get_lapack_funcs("gtsv", dtype=np.float64)
 
 
 @dataclass(frozen=True)
