@@ -119,7 +119,7 @@ def _syntax_error(message: str, text: str, file: str) -> CaseError:
         return CaseError("given twice", "remove one", key=key, file=file, line=line)
     key, equals, value = content.partition("=")
     value = value.split("#")[0].strip()
-    if equals and re.match(r"[+-]?[\d.]+\s*[A-Za-zµμ%]", value):
+    if equals and re.match(r"[+-]?[\d.]+\s*(?!e[+-]?\d)[^\s\d._,\]#]", value):
         return CaseError(
             "a number with a unit is text in TOML",
             f'write {key.strip()} = "{value}"',

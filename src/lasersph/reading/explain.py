@@ -10,6 +10,7 @@ from lasersph.reading.document import Document
 from lasersph.reading.errors import CaseError, Problem
 from lasersph.reading.key_lines import Path
 from lasersph.reading.model import nearest
+from lasersph.reading.types import mark_numbers
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -43,15 +44,13 @@ def build(model: type[M], document: Document, context: dict[str, Any] | None = N
     Args:
         model: the class to build.
         document: from `read_toml` or `parse_toml`.
-        context: further entries of pydantic's validation context.
+        context: pydantic's validation context, for validators that look beyond the data.
 
     Raises:
         CaseError: one problem per mistake, with file, line and key.
     """
     try:
-        return model.model_validate(
-            document.data, context={"strict_units": True, **(context or {})}
-        )
+        return model.model_validate(mark_numbers(document.data), context=context)
     except ValidationError as error:
         raise CaseError(explain(error, document)) from None
     except RecursionError:
@@ -120,15 +119,14 @@ def _unknown(table: Path, key: str, known: list[str]) -> tuple[Path, str, str]:
     return (*table, key), "unknown key", hint
 
 
-def _data_path(location: tuple[str | int, ...], data: Any, kind: str) -> Path:
+def _data_path(location: tuple[Any, ...], data: Any, kind: str) -> Path:
     """pydantic's location without the steps that are not keys (union tags, validator names)."""
     path: list[str | int] = []
     for number, step in enumerate(location):
         is_last = number == len(location) - 1
-        if isinstance(data, dict) and step in data:
-            data = data[step]
-            path.append(step)
-        elif isinstance(data, list) and isinstance(step, int) and step < len(data):
+        is_key = isinstance(data, dict) and step in data
+        is_index = isinstance(data, list) and isinstance(step, int) and step < len(data)
+        if is_key or is_index:
             data = data[step]
             path.append(step)
         elif is_last and kind == "missing":
