@@ -1,0 +1,72 @@
+"""Finding and reading material files: shipped ones, the user's folder, a path.
+
+A name is looked up first in the folder named by the environment variable LASERSPH_MATERIALS, then
+among the shipped files; anything that ends in ".toml" or holds a path separator is a path.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+from functools import lru_cache
+from pathlib import Path
+
+from lasersph.materials.material import Material
+from lasersph.reading import CaseError, build, read_toml
+
+LIBRARY = Path(__file__).parent / "library"
+FOLDER_VARIABLE = "LASERSPH_MATERIALS"
+
+
+def available_materials() -> dict[str, Path]:
+    """Files of all materials that can be named, by name; the user's folder comes first.
+
+    Raises CaseError where LASERSPH_MATERIALS names something that is not a folder.
+    """
+    found = {path.stem: path for path in sorted(LIBRARY.glob("*.toml"))}
+    folder = os.environ.get(FOLDER_VARIABLE, "").strip()
+    if folder:
+        path = Path(folder).expanduser()
+        if not path.is_dir():
+            raise CaseError(
+                f"{FOLDER_VARIABLE} names no folder",
+                "set it to a folder of .toml files",
+                file=folder,
+            )
+        found.update({file.stem: file for file in sorted(path.glob("*.toml"))})
+    return dict(sorted(found.items()))
+
+
+def material_file(name_or_path: str | os.PathLike[str]) -> Path:
+    """File of a material given by name or path.
+
+    Raises CaseError, with the nearest name, where there is no such material.
+    """
+    text = os.fspath(name_or_path)
+    if text.endswith(".toml") or os.sep in text or isinstance(name_or_path, Path):
+        return Path(text).expanduser()
+    known = available_materials()
+    if text in known:
+        return known[text]
+    near = difflib.get_close_matches(text, known, n=1, cutoff=0.5)
+    hint = f'do you mean "{near[0]}"?' if near else "known: " + ", ".join(known)
+    raise CaseError(f'no material "{text}"', hint, key="material")
+
+
+def load_material(name_or_path: str | os.PathLike[str]) -> Material:
+    """Read a material by name ("steel-304") or path ("my-alloy.toml").
+
+    Raises CaseError with file, line and key for anything wrong with the file.
+    """
+    path = material_file(name_or_path)
+    try:
+        status = path.stat()
+    except (OSError, ValueError):
+        return _read(path, 0, 0)
+    return _read(path, status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=64)
+def _read(path: Path, changed: int, size: int) -> Material:
+    """Read a file once per state of it: changed [ns] and size [bytes] only tell states apart."""
+    return build(Material, read_toml(path))

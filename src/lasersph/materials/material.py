@@ -1,0 +1,245 @@
+"""`Material`: all that lasersph knows about one metal, each number with unit, source and range."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import Field, model_validator
+
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.materials.enthalpy import build_curve
+from lasersph.materials.property import Law, Property
+from lasersph.materials.sections import Melting, Optics, Vaporization
+from lasersph.reading import (
+    Conductivity,
+    Density,
+    Diffusivity,
+    Expansion,
+    KinematicViscosity,
+    Model,
+    SpecificHeat,
+    SurfaceTension,
+    SurfaceTensionSlope,
+    Temperature,
+    Viscosity,
+)
+
+Array = NDArray[np.float64]
+Plateau = Literal["hold", "clip", "evaporate"]
+POSITIVE = (
+    "density",
+    "heat_capacity",
+    "conductivity",
+    "conductivity_printed",
+    "diffusivity",
+    "viscosity",
+    "kinematic_viscosity",
+    "surface_tension",
+)
+"""Properties whose values must be above zero wherever their source gives them."""
+JUMP_WIDTH = 1e-3
+"""Temperature over which a table draws a jump at the melting point [K]."""
+
+
+class Material(Model):
+    """A metal. Property functions of temperature are `Property`; single numbers sit in sections.
+
+    ``conductivity_printed`` and ``diffusivity`` keep what a paper prints beside the conductivity
+    that is used; ``surface_tension_slope`` is d gamma/dT where the slope is known without gamma.
+    """
+
+    name: str = Field(min_length=1, description="how cases refer to the material")
+    title: str = Field("", description="what the metal is, in words")
+    composition: str = ""
+    note: str = ""
+    reference_temperature: Temperature = Field(
+        298.15, gt=0, description="where the density of fixed particles is taken"
+    )
+    density: Property[Density]
+    heat_capacity: Property[SpecificHeat]
+    conductivity: Property[Conductivity]
+    conductivity_printed: Property[Conductivity] | None = None
+    diffusivity: Property[Diffusivity] | None = None
+    viscosity: Property[Viscosity] | None = None
+    kinematic_viscosity: Property[KinematicViscosity] | None = None
+    surface_tension: Property[SurfaceTension] | None = None
+    surface_tension_slope: Property[SurfaceTensionSlope] | None = None
+    expansion: Property[Expansion] | None = Field(None, description="volumetric, of the liquid")
+    melting: Melting | None = None
+    vaporization: Vaporization | None = None
+    optics: Optics | None = None
+
+    @model_validator(mode="after")
+    def _check_values(self) -> Material:
+        """Refuse values that no solver survives: zero or negative, or reflectivity beyond 0..1."""
+        for name, property_ in self.properties().items():
+            for phase, law in property_.laws().items():
+                values = law.at(sample_temperatures(law))
+                where = name if phase == "all" else f"{name}.{phase}"
+                if not np.all(np.isfinite(values)):
+                    raise ValueError(f"{where} is not finite everywhere in its range")
+                if name in POSITIVE and np.any(values <= 0.0):
+                    raise ValueError(f"{where} must be positive everywhere in its range")
+                if name == "reflectivity" and (values.min() < 0.0 or values.max() > 1.0):
+                    raise ValueError(f"{where} must lie between 0 and 1 everywhere in its range")
+        boiling = self.vaporization.temperature if self.vaporization else float("inf")
+        if self.liquidus is not None and boiling <= self.liquidus:
+            raise ValueError("the boiling temperature must lie above the liquidus")
+        return self
+
+    def properties(self) -> dict[str, Property[Any]]:
+        """All given properties by name, reflectivity included."""
+        found = {
+            name: getattr(self, name)
+            for name in type(self).model_fields
+            if isinstance(getattr(self, name), Property)
+        }
+        if self.optics is not None and self.optics.reflectivity is not None:
+            found["reflectivity"] = self.optics.reflectivity
+        return found
+
+    @property
+    def solidus(self) -> float | None:
+        """Temperature at which melting begins [K]; None without melting data."""
+        return self.melting.solidus if self.melting else None
+
+    @property
+    def liquidus(self) -> float | None:
+        """Temperature at which melting is complete [K]; None without melting data."""
+        return self.melting.liquidus if self.melting else None
+
+    @property
+    def density_reference(self) -> float:
+        """Density that fixed particles keep [kg/m^3]: at the reference temperature."""
+        return float(self.density_at(self.reference_temperature))
+
+    @property
+    def density_liquid(self) -> float:
+        """Density that the flow of the melt goes with [kg/m^3]: eta / nu at the liquidus.
+
+        The liquid's density there; where a paper gives eta and nu but only an average density
+        over solid and liquid, the density that relates eta and nu.
+        Raises ValueError without melting data.
+        """
+        if self.liquidus is None:
+            raise ValueError(f"material {self.name!r} has no melting point")
+        if self.kinematic_viscosity is not None and self.viscosity is not None:
+            T = self.liquidus
+            return float(self.viscosity_at(T) / self.kinematic_viscosity_at(T))
+        return float(self.density.liquid_law.at(self.liquidus))
+
+    @property
+    def diffusivity_reference(self) -> float:
+        """k / (rho c_p) at the reference temperature [m^2/s]."""
+        T = self.reference_temperature
+        capacity = float(self.heat_capacity_at(T))
+        return float(self.conductivity_at(T)) / (self.density_reference * capacity)
+
+    def at(self, name: str, temperature: ArrayLike) -> Array:
+        """Property by name [SI] at temperature [K], any shape.
+
+        Raises ValueError where the material does not have the property.
+        """
+        found = self.properties().get(name)
+        if found is None:
+            raise ValueError(f"material {self.name!r} has no {name.replace('_', ' ')}")
+        return found.at(temperature, self.solidus, self.liquidus)
+
+    def density_at(self, temperature: ArrayLike) -> Array:
+        """Density [kg/m^3] at temperature [K], any shape."""
+        return self.at("density", temperature)
+
+    def heat_capacity_at(self, temperature: ArrayLike) -> Array:
+        """Sensible specific heat capacity [J/(kg K)] at temperature [K], any shape."""
+        return self.at("heat_capacity", temperature)
+
+    def conductivity_at(self, temperature: ArrayLike) -> Array:
+        """Thermal conductivity [W/(m K)] at temperature [K], any shape."""
+        return self.at("conductivity", temperature)
+
+    def viscosity_at(self, temperature: ArrayLike) -> Array:
+        """Dynamic viscosity of the liquid [Pa s] at temperature [K], any shape."""
+        return self.at("viscosity", temperature)
+
+    def reflectivity_at(self, temperature: ArrayLike) -> Array:
+        """Reflectivity (0 to 1) at surface temperature [K], any shape."""
+        return self.at("reflectivity", temperature)
+
+    def surface_tension_at(self, temperature: ArrayLike) -> Array:
+        """Surface tension [N/m] at temperature [K], any shape."""
+        return self.at("surface_tension", temperature)
+
+    def surface_tension_slope_at(self, temperature: ArrayLike) -> Array:
+        """d gamma/dT [N/(m K)] at temperature [K]: as given, else the slope of gamma(T)."""
+        if self.surface_tension_slope is not None:
+            return self.at("surface_tension_slope", temperature)
+        T, half = np.asarray(temperature, dtype=np.float64), 0.5
+        return self.surface_tension_at(T + half) - self.surface_tension_at(T - half)
+
+    def kinematic_viscosity_at(self, temperature: ArrayLike) -> Array:
+        """Kinematic viscosity [m^2/s] at temperature [K]: as given, else eta / rho of the liquid."""
+        if self.kinematic_viscosity is not None:
+            return self.at("kinematic_viscosity", temperature)
+        return self.viscosity_at(temperature) / self.density.liquid_law.at(temperature)
+
+    def table(self, name: str, lower: float, upper: float, count: int = 65) -> tuple[Array, Array]:
+        """Nodes and values of a property for linear interpolation between lower and upper [K].
+
+        The kinks of its laws, solidus and liquidus are nodes; curved laws get ``count`` more. A
+        jump at the melting point is drawn over JUMP_WIDTH below it.
+        """
+        found = self.properties().get(name)
+        if found is None:
+            raise ValueError(f"material {self.name!r} has no {name.replace('_', ' ')}")
+        nodes = {lower, upper}
+        for law in found.laws().values():
+            nodes.update(law.breakpoints(lower, upper))
+            if law.is_curved:
+                nodes.update(np.linspace(lower, upper, count))
+        for T in (self.solidus, self.liquidus):
+            if T is not None and lower < T < upper:
+                nodes.add(T)
+        if self.solidus is not None and self.solidus == self.liquidus:
+            before = self.solidus - JUMP_WIDTH
+            if lower < before and self.solidus < upper:
+                nodes = {T for T in nodes if not before < T < self.solidus} | {before}
+        T = np.array(sorted(nodes))
+        return T, found.at(T, self.solidus, self.liquidus)
+
+    def caloric_curve(
+        self,
+        initial_temperature: float,
+        plateau: Plateau = "hold",
+        *,
+        phase_change: bool = True,
+    ) -> CaloricCurve:
+        """Enthalpy curve with h = 0 for the solid at ``initial_temperature`` [K].
+
+        plateau: "hold" keeps T at the boiling point for any h above; "clip" is the same curve for
+        a solver that limits h to ``enthalpy_vaporized``; "evaporate" lets the liquid go on.
+        phase_change = False leaves melting and boiling out (the solid's laws for every T).
+
+        Raises ValueError where the initial temperature is not below the solidus, or the plateau
+        needs a boiling point that the material does not have.
+        """
+        return build_curve(
+            heat_capacity=self.heat_capacity,
+            conductivity=self.conductivity,
+            melting=self.melting if phase_change else None,
+            vaporization=self.vaporization if phase_change else None,
+            initial_temperature=initial_temperature,
+            plateau=plateau,
+            phase_change=phase_change,
+            name=self.name,
+        )
+
+
+def sample_temperatures(law: Law[Any], count: int = 129) -> Array:
+    """Temperatures [K] over the range of a law, kinks included; 200 to 4000 K without one."""
+    lower = law.lower if law.lower > 0.0 else 200.0
+    upper = law.upper if np.isfinite(law.upper) else max(4000.0, 2.0 * lower)
+    return np.unique(
+        np.concatenate((np.linspace(lower, upper, count), [row[0] for row in law.table]))
+    )

@@ -1,0 +1,97 @@
+"""Groups of single numbers of a material: melting, vaporization, optics, each number sourced."""
+
+from __future__ import annotations
+
+from pydantic import Field, model_validator
+
+from lasersph.materials.property import Property
+from lasersph.reading import (
+    AbsorptionCoefficient,
+    Fraction,
+    Length,
+    Model,
+    MolarMass,
+    SpecificEnergy,
+    Temperature,
+)
+
+GAS_CONSTANT = 8.314462618
+"""Molar gas constant [J/(mol K)] (CODATA 2018)."""
+
+
+class Sourced(Model):
+    """Numbers with their sources: one text for all, or a table with one for each number."""
+
+    source: str | dict[str, str] = Field(description="source of all numbers, or one for each")
+    note: str = Field("", description="what a reader should know about the numbers")
+
+    @model_validator(mode="after")
+    def _check_sources(self) -> Sourced:
+        """Refuse a number without a source and a source without a number."""
+        numbers = {
+            name
+            for name in type(self).model_fields
+            if name not in ("source", "note") and isinstance(getattr(self, name), float)
+        }
+        if isinstance(self.source, str):
+            sources = {name: self.source for name in numbers}
+        else:
+            sources = self.source
+        missing = sorted(name for name in numbers if not sources.get(name, "").strip())
+        if missing:
+            raise ValueError(f"no source for {', '.join(missing)}; add it to source")
+        surplus = sorted(set(sources) - numbers)
+        if surplus:
+            raise ValueError(f"a source for {', '.join(surplus)}, which is not given here")
+        return self
+
+    def source_of(self, name: str) -> str:
+        """Source of one number; empty where the number is not given."""
+        return self.source if isinstance(self.source, str) else self.source.get(name, "")
+
+
+class Melting(Sourced):
+    """Melting range, or melting point where solidus and liquidus are equal."""
+
+    solidus: Temperature = Field(gt=0, description="temperature at which melting begins")
+    liquidus: Temperature = Field(gt=0, description="temperature at which melting is complete")
+    latent_heat: SpecificEnergy = Field(gt=0, description="latent heat of fusion")
+
+    @model_validator(mode="after")
+    def _check_order(self) -> Melting:
+        if self.solidus > self.liquidus:
+            raise ValueError(
+                f"the solidus ({self.solidus:g} K) is above the liquidus ({self.liquidus:g} K)"
+            )
+        return self
+
+
+class Vaporization(Sourced):
+    """Boiling point and what evaporation needs."""
+
+    temperature: Temperature = Field(gt=0, description="boiling temperature at 1 atm")
+    latent_heat: SpecificEnergy = Field(gt=0, description="latent heat at the boiling temperature")
+    molar_mass: MolarMass | None = Field(None, gt=0, description="molar mass of the vapor")
+    critical_temperature: Temperature | None = Field(None, gt=0)
+
+    @model_validator(mode="after")
+    def _check_order(self) -> Vaporization:
+        if self.critical_temperature is not None and self.critical_temperature <= self.temperature:
+            raise ValueError("the critical temperature must lie above the boiling temperature")
+        return self
+
+    @property
+    def specific_gas_constant(self) -> float:
+        """R_s = R / M of the vapor [J/(kg K)]; ValueError where the molar mass is not given."""
+        if self.molar_mass is None:
+            raise ValueError("evaporation needs vaporization.molar_mass of the material")
+        return GAS_CONSTANT / self.molar_mass
+
+
+class Optics(Sourced):
+    """How the surface takes up light and radiates, at one wavelength and normal incidence."""
+
+    reflectivity: Property[Fraction] | None = None
+    absorption_coefficient: AbsorptionCoefficient | None = Field(None, gt=0)
+    wavelength: Length | None = Field(None, gt=0, description="for which the numbers hold")
+    emissivity: Fraction | None = Field(None, ge=0, le=1, description="total, of the surface")
