@@ -1,0 +1,33 @@
+"""Loops over particles and pairs, generated from plain Python functions and compiled by Numba.
+
+The only room that names Numba. Importing it starts nothing: a backend does.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lasersph.compute.backend import Backend
+    from lasersph.compute.strict import StrictBackend
+
+__all__ = ["cpu", "strict"]
+
+
+def cpu(threads: int | None = None, precision: str = "float64") -> Backend:
+    """Backend on the processor.
+
+    Args:
+        threads: threads per loop, limited to those that exist; None takes all.
+        precision: "float64" or "float32".
+    """
+    from lasersph.compute.backend import Backend
+
+    return Backend(threads, precision)
+
+
+def strict(threads: int | None = None, precision: str = "float64") -> StrictBackend:
+    """Backend like `cpu` whose arrays refuse every NumPy function; for tests."""
+    from lasersph.compute.strict import StrictBackend
+
+    return StrictBackend(threads, precision)

@@ -1,0 +1,168 @@
+"""CPU backend: arrays, and the loop shapes pair sum, pair values and pointwise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute import threads
+from lasersph.compute.arguments import components
+from lasersph.compute.loops import Call, Loops
+
+_KINDS = {"index": np.uint32, "offset": np.uint64, "flag": np.uint8}
+
+
+class Backend:
+    """Loops on the processor with a fixed number of threads and one precision.
+
+    Attributes:
+        real: NumPy type of kind "real". threads: number of threads of a loop.
+    """
+
+    def __init__(self, threads_wanted: int | None, precision: str) -> None:
+        if precision not in ("float64", "float32"):
+            raise ValueError(f'precision must be "float64" or "float32", not {precision!r}')
+        self.precision = precision
+        self.real = np.dtype(precision)
+        self.threads = threads.chosen(threads_wanted)
+        self._loops = Loops(self.precision, self.threads, self.unwrap)
+
+    # --- arrays ---------------------------------------------------------------------------------
+
+    def kind(self, kind: str) -> np.dtype:
+        """NumPy type of a kind: "real", "index" uint32, "offset" uint64, "flag" uint8."""
+        if kind == "real":
+            return self.real
+        if kind not in _KINDS:
+            raise ValueError(f"kind must be real, index, offset or flag, not {kind!r}")
+        return np.dtype(_KINDS[kind])
+
+    def wrap(self, array: np.ndarray) -> Any:
+        """Array as the caller sees it."""
+        return array
+
+    def unwrap(self, array: Any) -> np.ndarray:
+        """NumPy array behind the caller's array."""
+        return array
+
+    def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> Any:
+        """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
+        return self.wrap(np.zeros(shape, self.kind(kind)))
+
+    def asarray(self, array: Any, kind: str = "real") -> Any:
+        """Copy of host data as an array of this backend."""
+        return self.wrap(np.array(array, dtype=self.kind(kind), order="C"))
+
+    def to_host(self, array: Any) -> np.ndarray:
+        """Copy as a NumPy array."""
+        return np.array(self.unwrap(array))
+
+    def copy(self, source: Any, destination: Any) -> None:
+        """Copy all elements of `source` into `destination` of the same shape."""
+        first, second = self.unwrap(source), self.unwrap(destination)
+        if first.shape != second.shape:
+            raise ValueError(f"copy of shape {first.shape} into shape {second.shape}")
+        second[...] = first
+
+    def fill(self, array: Any, value: float) -> None:
+        """Set all elements."""
+        self.unwrap(array).fill(value)
+
+    def head(self, array: Any, count: int) -> Any:
+        """View of the first `count` particles of (n,), (dim, n) or (dim, dim, n)."""
+        host = self.unwrap(array)
+        if not 0 <= count <= host.shape[-1]:
+            raise ValueError(f"the first {count} of {host.shape[-1]} particles")
+        return self.wrap(host[..., :count])
+
+    def gather(self, source: Any, order: Any, out: Any) -> None:
+        """out[..., k] = source[..., order[k]]."""
+        first, last = self.unwrap(source), self.unwrap(out)
+        index = self.unwrap(order)
+        if first.dtype != last.dtype or first.shape[:-1] != last.shape[:-1]:
+            raise ValueError("gather between arrays of different kind")
+        for a, b in zip(components(first), components(last), strict=True):
+            np.take(a, index, out=b[: index.size], mode="clip" if index.size == 0 else "raise")
+
+    def exclusive_scan(self, counts: Any, out: Any) -> None:
+        """out[k] = counts[0] + ... + counts[k-1] for k = 0 ... n; out is "offset", length n + 1."""
+        first, last = self.unwrap(counts), self.unwrap(out)
+        if last.dtype != np.uint64 or last.size != first.size + 1:
+            raise ValueError("out must be of kind offset and one longer than counts")
+        last[0] = 0
+        np.cumsum(first, dtype=np.uint64, out=last[1:])
+
+    def sort_by_key(self, keys: Any, key_count: int) -> Any:
+        """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
+        host = self.unwrap(keys)
+        if host.size and int(host.max()) >= key_count:
+            raise ValueError(f"key {int(host.max())} is not below {key_count}")
+        return self.wrap(np.argsort(host, kind="stable").astype(np.uint32))
+
+    # --- loop shapes ----------------------------------------------------------------------------
+
+    def pair_sum(
+        self,
+        function: Callable,
+        neighbors: Any,
+        fields: Mapping[str, Any],
+        out: Any,
+        *,
+        rows: Any = None,
+        finish: Callable | None = None,
+        reduce: Any = None,
+        **constants: Any,
+    ) -> tuple[float, ...]:
+        """For each row i: out[i] = finish(sum over neighbors j of function(...)).
+
+        Args:
+            function: pair function, arguments by name (see `compute.arguments`).
+            neighbors: list with row_start, neighbor, position, support, kernel, mean, period.
+            fields: symbol -> array; per-pair arrays under "name_ij".
+            out: array or tuple of arrays (None: not stored), one per returned value.
+            rows: active rows (index array); the others keep their values.
+            finish: pointwise function of `total` (or `total_0`, ...), fields at i and constants.
+            reduce: None or per returned value None, "sum", "max" or "min".
+
+        Returns:
+            The reductions in order, the same bits for any number of threads.
+
+        Raises:
+            ValueError: a missing field, a wrong length, precision or shape.
+            LoopSourceError: a function contains what a loop cannot.
+        """
+        call = Call("pair_sum", function, neighbors, fields, out, rows, finish, reduce, constants)
+        return self._loops.run(call)
+
+    def pair_values(
+        self,
+        function: Callable,
+        neighbors: Any,
+        fields: Mapping[str, Any],
+        out: Any,
+        *,
+        rows: Any = None,
+        **constants: Any,
+    ) -> None:
+        """out[p] = function(...) for each pair p, in list order; see `pair_sum`."""
+        call = Call("pair_values", function, neighbors, fields, out, rows, None, None, constants)
+        self._loops.run(call)
+
+    def pointwise(
+        self,
+        function: Callable,
+        fields: Mapping[str, Any],
+        out: Any,
+        *,
+        rows: Any = None,
+        reduce: Any = None,
+        **constants: Any,
+    ) -> tuple[float, ...]:
+        """out[i] = function(fields at i, constants) for each particle; see `pair_sum`.
+
+        The number of particles is the length of the first stored output, else of the fields.
+        """
+        call = Call("pointwise", function, None, fields, out, rows, None, reduce, constants)
+        return self._loops.run(call)

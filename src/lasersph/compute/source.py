@@ -1,0 +1,129 @@
+"""Source compiler: from plain Python pair and pointwise functions to scalar code in one file.
+
+A `SourceUnit` collects the functions that one generated file needs. Each function is read from its
+source text, specialized for the kinds and shapes of its arguments, and written as scalar code;
+functions that it calls follow it into the same file, and module constants enter as literals, so
+the text of the file holds everything that its result depends on. `is_current()` tells whether each
+global name that was read still means the same object.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import textwrap
+import types
+from typing import Any as AnyObject
+
+from lasersph.compute.translate import FunctionWriter
+from lasersph.compute.values import Group, LoopSourceError, Number
+
+
+class SourceUnit:
+    """Functions of one generated file, in the order in which they must be defined."""
+
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+        self._names: dict[AnyObject, tuple[str, AnyObject]] = {}
+        self._open: set[AnyObject] = set()
+        self._used: set[str] = set()
+        self._watched: dict[tuple[int, str], tuple[AnyObject, str, AnyObject]] = {}
+
+    def add(self, function: types.FunctionType, kinds: tuple) -> tuple[str, AnyObject]:
+        """Name in the generated file and kind of the result, for these kinds of arguments.
+
+        Raises:
+            LoopSourceError: the function contains something that a loop cannot; the message names
+                the function, file and line.
+        """
+        key = (function, kinds)
+        if key in self._names:
+            return self._names[key]
+        if key in self._open:
+            raise LoopSourceError(f"{function.__qualname__}() calls itself")
+        self._open.add(key)
+        tree, file, first_line = parsed(function)
+        name = f"f__{function.__name__}"
+        number = 1
+        while name in self._used:
+            number += 1
+            name = f"f__{function.__name__}_{number}"
+        self._used.add(name)
+        writer = FunctionWriter(self, function, tree, (file, first_line))
+        text, result = writer.written(name, kinds)
+        self.texts.append(text)
+        self._open.discard(key)
+        self._names[key] = (name, result)
+        return self._names[key]
+
+    def look_up(self, function: types.FunctionType, name: str) -> AnyObject:
+        """Object that a global name means inside `function`."""
+        for space in (function.__globals__, _builtins_of(function)):
+            if name in space:
+                self._watched[(id(space), name)] = (space, name, space[name])
+                return space[name]
+        raise LoopSourceError(f"name {name} is not defined")
+
+    def attribute(self, owner: AnyObject, name: str) -> AnyObject:
+        """Attribute of a module or of a constant object."""
+        if not hasattr(owner, name):
+            raise LoopSourceError(f"{owner!r} has no attribute {name}")
+        value = getattr(owner, name)
+        if isinstance(owner, types.ModuleType):
+            self._watched[(id(owner.__dict__), name)] = (owner.__dict__, name, value)
+        return value
+
+    def watched(self) -> tuple[tuple[AnyObject, str, AnyObject], ...]:
+        """Global names read so far: (namespace, name, object)."""
+        return tuple(self._watched.values())
+
+
+def is_current(watched: tuple[tuple[AnyObject, str, AnyObject], ...]) -> bool:
+    """Whether every watched name still means the same object."""
+    return all(space.get(name) is value for space, name, value in watched)
+
+
+def constant(value: AnyObject) -> Number | Group | None:
+    """Literal for a module constant; None where the object is no number or tuple of numbers."""
+    if isinstance(value, bool):
+        return Number(value)
+    if hasattr(value, "dtype") and getattr(value, "ndim", None) == 0:
+        value = value.item()
+    if isinstance(value, int):
+        return Number(int(value))
+    if isinstance(value, float):
+        return Number(float(value))
+    if isinstance(value, tuple):
+        items = tuple(constant(item) for item in value)
+        return None if None in items else Group(items)  # type: ignore[arg-type]
+    return None
+
+
+def parsed(function: AnyObject) -> tuple[ast.FunctionDef, str, int]:
+    """Syntax tree, file and first line of a plain function.
+
+    Raises:
+        LoopSourceError: it is no plain `def`, reads enclosing variables, or has no source text.
+    """
+    name = getattr(function, "__qualname__", repr(function))
+    if not isinstance(function, types.FunctionType):
+        raise LoopSourceError(f"{name} is not a plain Python function")
+    if function.__code__.co_freevars:
+        free = ", ".join(function.__code__.co_freevars)
+        raise LoopSourceError(f"{name}() reads {free} of an enclosing function; pass constants")
+    try:
+        lines, first = inspect.getsourcelines(function)
+    except (OSError, TypeError) as error:
+        raise LoopSourceError(f"{name}() has no source text: {error}") from error
+    try:
+        tree = ast.parse(textwrap.dedent("".join(lines))).body[0]
+    except SyntaxError as error:
+        raise LoopSourceError(f"{name}(): {error}") from error
+    if not isinstance(tree, ast.FunctionDef) or tree.name != function.__name__:
+        raise LoopSourceError(f"{name} is not written as a plain `def`")
+    return tree, function.__code__.co_filename, first
+
+
+def _builtins_of(function: types.FunctionType) -> dict:
+    space = function.__builtins__ if hasattr(function, "__builtins__") else {}
+    return space if isinstance(space, dict) else vars(space)

@@ -1,0 +1,102 @@
+"""Vectors, tensors and tables inside pair and pointwise functions.
+
+Outside a loop these are plain NumPy, so that a unit test evaluates a pair function on two particles
+by hand. Inside a loop the source compiler (`compute.source`) replaces them by scalar code written
+out for the dimension: nothing here is called then, except `interpolate` and `interpolation_slope`,
+which are scalar code already.
+
+Only 1-, 2- and 3-dimensional square tensors have an inverse; complex numbers are left out.
+"""
+
+import numpy as np
+
+
+def vector(*components):
+    """Vector of the given scalars, shape [m]."""
+    return np.array(components)
+
+
+def identity(dimension: int):
+    """Unit tensor, shape [dimension, dimension]; `dimension` is a number or `len(vector)`."""
+    return np.eye(dimension)
+
+
+def dot(a, b):
+    """Scalar product sum_k a_k b_k."""
+    return np.dot(a, b)
+
+
+def norm(a):
+    """Length sqrt(a . a) of a vector."""
+    return np.sqrt(np.dot(a, a))
+
+
+def cross(a, b):
+    """Vector product a x b of two vectors of length 3."""
+    return np.cross(a, b)
+
+
+def outer(a, b):
+    """Tensor a_k b_l, shape [len(a), len(b)]."""
+    return np.outer(a, b)
+
+
+def matvec(M, a):
+    """Vector sum_l M_kl a_l."""
+    return np.asarray(M) @ np.asarray(a)
+
+
+def matmul(A, B):
+    """Tensor sum_m A_km B_ml."""
+    return np.asarray(A) @ np.asarray(B)
+
+
+def transpose(M):
+    """Tensor M_lk."""
+    return np.asarray(M).T
+
+
+def trace(M):
+    """Scalar sum_k M_kk."""
+    return np.trace(M)
+
+
+def determinant(M):
+    """Determinant of a square tensor up to 3 x 3."""
+    return np.linalg.det(M)
+
+
+def inverse(M):
+    """Inverse of a square tensor up to 3 x 3, by cofactors; not finite where M is singular."""
+    return np.linalg.inv(M)
+
+
+def interpolate(x, nodes, values):
+    """Piecewise linear value at x; beyond the first and last node the end segments are extended.
+
+    Args:
+        x: scalar. nodes: strictly increasing table, shape [m], m >= 2. values: table, shape [m].
+    """
+    low = 0
+    high = len(nodes) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if x < nodes[middle]:
+            high = middle
+        else:
+            low = middle
+    slope = (values[low + 1] - values[low]) / (nodes[low + 1] - nodes[low])
+    return values[low] + slope * (x - nodes[low])
+
+
+def interpolation_slope(x, nodes, values):
+    """Slope of the segment that `interpolate` uses at x; at a node, of the one to its right."""
+    low = 0
+    high = len(nodes) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if x < nodes[middle]:
+            high = middle
+        else:
+            low = middle
+    return (values[low + 1] - values[low]) / (nodes[low + 1] - nodes[low])
