@@ -1,0 +1,38 @@
+"""Lasers: beam shape x pulse shape x absorption (x path), pure data and closed forms.
+
+beams, interference   where the light falls: exact means over surface cells
+pulses                when it comes: exact shares between two times
+absorption            how deep it is left: exact shares of depth cells
+reflectivity          what does not enter, as a function of the surface temperature
+path                  where a moving spot is
+laser                 all of them together, and the energy that sets the scale
+"""
+
+from lasersph.lasers.absorption import Absorption, BeerLambertAbsorption, SurfaceAbsorption
+from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
+from lasersph.lasers.interference import InterferenceBeam, Wave
+from lasersph.lasers.laser import Beam, Laser
+from lasersph.lasers.path import LinearPath, Path, TabulatedPath
+from lasersph.lasers.pulses import GaussianPulse, Pulse, SquarePulse, TabulatedPulse
+from lasersph.lasers.reflectivity import ReflectivityTable
+
+__all__ = [
+    "Absorption",
+    "Beam",
+    "BeerLambertAbsorption",
+    "GaussianBeam",
+    "GaussianPulse",
+    "InterferenceBeam",
+    "Laser",
+    "LinearPath",
+    "Path",
+    "Pulse",
+    "ReflectivityTable",
+    "SquarePulse",
+    "SurfaceAbsorption",
+    "TabulatedPath",
+    "TabulatedPulse",
+    "TopHatBeam",
+    "UniformBeam",
+    "Wave",
+]

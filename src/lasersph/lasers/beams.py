@@ -1,0 +1,161 @@
+"""Beams: how the fluence is distributed over the surface, as exact means over cells.
+
+A profile f(x, y) is dimensionless; `Laser` multiplies it with a fluence. Every beam says which
+value of f is its peak and its mean, and the area (integral of f) where it is finite:
+
+    uniform       f = 1                  peak 1, mean 1
+    top-hat       f = 1 for r < radius   peak 1, mean 1 (over the spot), area pi r^2
+    gaussian      f = exp(-2 r^2/w^2)    peak 1, mean 1/2 (energy over pi w^2), area pi w^2/2
+    interference  see `interference`     mean 1
+
+Cells come as lower and upper corners, shape (surface dimensions, n), relative to the beam's axis.
+With one surface dimension the surface is the line y = 0 of the plane, with none the point (0, 0).
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+from scipy.special import erf
+
+from lasersph.reading import Length, Model
+
+Array = NDArray[np.float64]
+PositiveLength = Annotated[Length, Field(gt=0)]
+
+
+def plane_cells(lower: Array, upper: Array, axis: Array) -> tuple[Array, Array]:
+    """Corners relative to the beam's axis in both plane directions, shape (2, n).
+
+    lower, upper: (0..2, n) [m]; axis: (2,) position of the beam's axis [m]. Directions that the
+    surface does not have become points at 0.
+    """
+    low, high = (np.zeros((2, corner.shape[1])) for corner in (lower, upper))
+    low[: lower.shape[0]], high[: upper.shape[0]] = lower, upper
+    return low - axis[:, None], high - axis[:, None]
+
+
+class UniformBeam(Model):
+    """The same fluence everywhere."""
+
+    kind: Literal["uniform"] = "uniform"
+    peak: ClassVar[float] = 1.0
+    mean: ClassVar[float] = 1.0
+    area: ClassVar[None] = None
+    scale: ClassVar[float] = np.inf
+    names_fluence: ClassVar[bool] = True
+
+    def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
+        """Mean of f over each cell, shape (n,): 1."""
+        return np.ones(lower.shape[1])
+
+
+class TopHatBeam(Model):
+    """Constant fluence inside a circle."""
+
+    kind: Literal["top-hat"] = "top-hat"
+    radius: PositiveLength = Field(description="of the spot")
+    peak: ClassVar[float] = 1.0
+    mean: ClassVar[float] = 1.0
+    names_fluence: ClassVar[bool] = True
+
+    @property
+    def area(self) -> float:
+        """Area of the spot [m^2]."""
+        return float(np.pi * self.radius**2)
+
+    @property
+    def scale(self) -> float:
+        """Length over which the profile changes [m]."""
+        return self.radius
+
+    def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
+        """Share of each cell inside the circle, shape (n,), exact in every dimension."""
+        low, high = plane_cells(lower, upper, axis)
+        low, high = low / self.radius, high / self.radius
+        if lower.shape[0] == 0:
+            return (low[0] ** 2 + low[1] ** 2 <= 1.0).astype(float)
+        if lower.shape[0] == 1:
+            chord = np.sqrt(np.maximum(0.0, 1.0 - low[1] ** 2))
+            inside = np.clip(high[0], -chord, chord) - np.clip(low[0], -chord, chord)
+            return inside / (high[0] - low[0])
+        inside = (
+            _disc_area(high[0], high[1]) - _disc_area(low[0], high[1])
+            - _disc_area(high[0], low[1]) + _disc_area(low[0], low[1])
+        )  # fmt: skip
+        return inside / np.prod(high - low, axis=0)
+
+
+def _disc_area(x: Array, y: Array) -> Array:
+    """Area shared by the unit disc and the rectangle from (0, 0) to (x, y), signed like x y."""
+    sign = np.sign(x) * np.sign(y)
+    x, y = np.minimum(np.abs(x), 1.0), np.minimum(np.abs(y), 1.0)
+    flat = np.minimum(x, np.sqrt(1.0 - y**2))  # up to here the rectangle's top is inside
+    return sign * (flat * y + _arc_integral(x) - _arc_integral(flat))
+
+
+def _arc_integral(x: Array) -> Array:
+    """Integral of sqrt(1 - s^2) from 0 to x."""
+    return 0.5 * (x * np.sqrt(1.0 - x**2) + np.arcsin(x))
+
+
+class GaussianBeam(Model):
+    """f = exp(-2 r^2/w^2), w the radius where the fluence has fallen to 1/e^2 of its peak.
+
+    Give exactly one of the three widths; diameter_fwhm = w sqrt(2 ln 2).
+    """
+
+    kind: Literal["gaussian"] = "gaussian"
+    radius_1e2: PositiveLength | None = Field(None, description="w, where 1/e^2 is left")
+    diameter_1e2: PositiveLength | None = Field(None, description="2 w")
+    diameter_fwhm: PositiveLength | None = Field(None, description="full width at half maximum")
+    peak: ClassVar[float] = 1.0
+    mean: ClassVar[float] = 0.5
+    names_fluence: ClassVar[bool] = False
+
+    @model_validator(mode="after")
+    def _check_width(self) -> GaussianBeam:
+        names = ("radius_1e2", "diameter_1e2", "diameter_fwhm")
+        given = [name for name in names if getattr(self, name) is not None]
+        if len(given) != 1:
+            got = " and ".join(given) if given else "none"
+            raise ValueError(
+                f"a gaussian beam needs one width, got {got}; give one of " + ", ".join(names)
+            )
+        return self
+
+    @property
+    def radius(self) -> float:
+        """w [m], the radius at 1/e^2."""
+        if self.radius_1e2 is not None:
+            return self.radius_1e2
+        if self.diameter_1e2 is not None:
+            return 0.5 * self.diameter_1e2
+        assert self.diameter_fwhm is not None
+        return float(self.diameter_fwhm / np.sqrt(2.0 * np.log(2.0)))
+
+    @property
+    def area(self) -> float:
+        """Integral of f over the plane, pi w^2/2 [m^2]."""
+        return float(0.5 * np.pi * self.radius**2)
+
+    @property
+    def scale(self) -> float:
+        """Length over which the profile changes [m]."""
+        return 0.5 * self.radius
+
+    def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
+        """Mean of f over each cell, shape (n,): a product of differences of erf."""
+        low, high = plane_cells(lower, upper, axis)
+        low, high = low * np.sqrt(2.0) / self.radius, high * np.sqrt(2.0) / self.radius
+        mean = np.ones(lower.shape[1])
+        for k in range(2):
+            if k < lower.shape[0]:
+                integral = 0.5 * np.sqrt(np.pi) * (erf(high[k]) - erf(low[k]))
+                mean = mean * integral / (high[k] - low[k])
+            else:
+                mean = mean * np.exp(-(low[k] ** 2))
+        return mean

@@ -1,0 +1,222 @@
+"""`Laser`: beam, pulse, absorption and the energy that sets their scale.
+
+    energy on a cell in [t0, t1], per area:   F int f(x - x_c(t)) g(t) dt
+
+f is the beam's profile (exact cell means), g the pulse (exact share of one pulse's energy), x_c
+the position of the beam's axis and F the fluence at f = 1, from exactly one of
+
+    fluence         of one pulse, mean or peak         F = fluence / (mean or peak of f)
+    intensity       while the light is on, the same    F = intensity t_on / (mean or peak of f)
+    pulse_energy    gaussian and top-hat beams         F = pulse_energy / (integral of f)
+    power           the same                           F = power t_on / (integral of f)
+
+For a moving beam the integral over the step is a Gauss-Legendre rule on panels in which the beam
+moves a fraction of its size, its weights scaled to the pulse's exact energy in each panel: the
+total over a surface that catches the whole beam is right to rounding.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import Field, model_validator
+
+from lasersph.lasers.absorption import Absorption
+from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
+from lasersph.lasers.interference import InterferenceBeam
+from lasersph.lasers.path import LinearPath, Path
+from lasersph.lasers.pulses import Pulse
+from lasersph.lasers.reflectivity import Reflectivity, reflectivity_nodes
+from lasersph.materials import Material
+from lasersph.reading import Energy, Fluence, Intensity, Length, Model, Power
+
+Array = NDArray[np.float64]
+Beam = Annotated[
+    UniformBeam | TopHatBeam | GaussianBeam | InterferenceBeam, Field(discriminator="kind")
+]
+AMOUNTS = ("fluence", "intensity", "pulse_energy", "power")
+PANEL_NODES, PANEL_WEIGHTS = np.polynomial.legendre.leggauss(6)
+
+
+class Laser(Model):
+    """Light that falls onto the surface, along -z."""
+
+    fluence: Annotated[Fluence, Field(gt=0)] | None = Field(None, description="of one pulse")
+    fluence_kind: Literal["mean", "peak"] | None = Field(
+        None,
+        description="what fluence or intensity means; mean for interference (its spatial mean), "
+        "needed for a gaussian beam (mean = energy over the circle of radius 1/e^2)",
+    )
+    intensity: Annotated[Intensity, Field(gt=0)] | None = Field(
+        None, description="of square pulses, or of the value 1 of a tabulated one"
+    )
+    pulse_energy: Annotated[Energy, Field(gt=0)] | None = Field(None, description="of one pulse")
+    power: Annotated[Power, Field(gt=0)] | None = Field(
+        None, description="of square pulses, or of the value 1 of a tabulated one"
+    )
+    beam: Beam = Field(default_factory=UniformBeam)
+    pulse: Pulse
+    absorption: Absorption
+    reflectivity: Reflectivity | None = Field(None, description="instead of the material's")
+    position: tuple[Length, Length] = Field((0.0, 0.0), description="x and y of the beam's axis")
+    path: Path | None = Field(None, description="of a moving spot")
+
+    @model_validator(mode="after")
+    def _check_amount(self) -> Laser:
+        given = [name for name in AMOUNTS if getattr(self, name) is not None]
+        if len(given) != 1:
+            got = " and ".join(given) if given else "none"
+            raise ValueError(
+                f"a laser needs one statement of its energy, got {got}; give exactly one of "
+                + ", ".join(AMOUNTS)
+            )
+        name = given[0]
+        if name in ("intensity", "power") and self.pulse.on_time is None:
+            raise ValueError(
+                f"{name} does not fix the energy of a gaussian pulse; give "
+                + ("fluence" if name == "intensity" else "pulse_energy")
+            )
+        if name in ("pulse_energy", "power"):
+            if self.beam.area is None:
+                raise ValueError(
+                    f"{name} has no meaning for the unbounded {self.beam.kind} beam; give fluence, "
+                    "or a gaussian or top-hat beam"
+                )
+            if self.fluence_kind is not None:
+                raise ValueError(f"fluence_kind says nothing beside {name}; leave it out")
+        elif self.fluence_kind is None and not self.beam.names_fluence:
+            raise ValueError(
+                f"{name} of a gaussian beam may be its mean or its peak (twice the mean); give "
+                'fluence_kind = "peak" or "mean"'
+            )
+        if self.fluence_kind == "peak" and self.beam.peak is None:
+            raise ValueError(
+                "the peak of this interference pattern depends on the phases of its waves; give "
+                'the mean fluence and fluence_kind = "mean"'
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _check_path(self) -> Laser:
+        if self.path is not None and isinstance(self.beam, UniformBeam):
+            raise ValueError("a uniform beam cannot move; leave path out or give another beam")
+        tabulated = self.path is not None and not isinstance(self.path, LinearPath)
+        if tabulated and self.position != (0.0, 0.0):
+            raise ValueError("a tabulated path holds the positions already; leave position out")
+        return self
+
+    @property
+    def unit_fluence(self) -> float:
+        """F [J/m^2]: the fluence of one pulse where the profile f is 1."""
+        on_time, area = self.pulse.on_time, self.beam.area
+        if self.pulse_energy is not None and area is not None:
+            return self.pulse_energy / area
+        if self.power is not None and area is not None and on_time is not None:
+            return self.power * on_time / area
+        reference = self.beam.peak if self.fluence_kind == "peak" else self.beam.mean
+        assert reference is not None
+        if self.intensity is not None and on_time is not None:
+            return self.intensity * on_time / reference
+        assert self.fluence is not None
+        return self.fluence / reference
+
+    @property
+    def mean_fluence(self) -> float:
+        """Mean fluence of one pulse [J/m^2]; see `beams` for what it means."""
+        return self.unit_fluence * self.beam.mean
+
+    @property
+    def peak_fluence(self) -> float:
+        """Largest fluence of one pulse [J/m^2] (an upper bound where phases leave it open)."""
+        if self.beam.peak is not None:
+            return self.unit_fluence * self.beam.peak
+        assert isinstance(self.beam, InterferenceBeam)
+        return self.unit_fluence * float(1.0 + np.abs(self.beam.terms[0]).sum())
+
+    @property
+    def is_even(self) -> bool:
+        """Whether the light is symmetric about x = 0 at all times."""
+        if isinstance(self.beam, UniformBeam):
+            return True
+        is_centered = self.path is None and self.position[0] == 0.0
+        return is_centered and (not isinstance(self.beam, InterferenceBeam) or self.beam.is_even)
+
+    def axis(self, time: ArrayLike) -> Array:
+        """Position of the beam's axis at times [s], shape (2, ...) [m]."""
+        time = np.asarray(time, float)
+        start = np.reshape(np.array(self.position), (2,) + (1,) * time.ndim)
+        if self.path is None:
+            return np.broadcast_to(start, (2, *time.shape))
+        return start + self.path.at(time)
+
+    def energy_density(self, lower: ArrayLike, upper: ArrayLike, t0: float, t1: float) -> Array:
+        """Energy that falls onto each surface cell from t0 to t1, per area [J/m^2], shape (n,).
+
+        Args:
+            lower, upper: corners of the cells, shape (dim - 1, n) [m]; dim - 1 = 0 is a column on
+                the line x = y = 0, dim - 1 = 1 a strip of the line y = 0.
+        """
+        low, high = np.asarray(lower, float), np.asarray(upper, float)
+        if self.path is None:
+            share = float(self.pulse.delivered(t0, t1))
+            if share == 0.0:
+                return np.zeros(low.shape[1])
+            return self.unit_fluence * share * self.beam.cell_means(low, high, self.axis(t0))
+        total = np.zeros(low.shape[1])
+        times, shares = self._quadrature(t0, t1)
+        for time, share in zip(times, shares, strict=True):
+            if share != 0.0:
+                total += share * self.beam.cell_means(low, high, self.axis(time))
+        return self.unit_fluence * total
+
+    def _quadrature(self, t0: float, t1: float) -> tuple[Array, Array]:
+        """Times and shares of a pulse's energy that stand for the motion from t0 to t1."""
+        start, end = self._panels(t0, t1)
+        half = 0.5 * (end - start)[:, None]
+        times = start[:, None] + half * (PANEL_NODES + 1.0)
+        tiny = 1e-6 * half
+        power = np.maximum(self.pulse.delivered(times - tiny, times + tiny), 0.0) * PANEL_WEIGHTS
+        sums = power.sum(axis=1, keepdims=True)
+        even = np.broadcast_to(0.5 * PANEL_WEIGHTS, power.shape)
+        weights = np.divide(power, sums, out=even.copy(), where=sums > 0.0)
+        shares = weights * self.pulse.delivered(start, end)[:, None]
+        return times.ravel(), shares.ravel()
+
+    def _panels(self, t0: float, t1: float) -> tuple[Array, Array]:
+        """Starts and ends of panels between breakpoints, short against pulse and beam size."""
+        corners = self.path.breakpoints() if self.path is not None else np.empty(0)
+        marks = np.concatenate([self.pulse.breakpoints(t0, t1), corners])
+        edges = np.unique(np.concatenate([[t0, t1], marks[(marks > t0) & (marks < t1)]]))
+        cuts = [np.empty((2, 0))]
+        for a, b in pairwise(edges):
+            if float(self.pulse.delivered(a, b)) > 0.0:
+                way = float(np.linalg.norm(self.axis(b) - self.axis(a)))
+                longest = max(2.0 * way / self.beam.scale, (b - a) / (20 * self.pulse.resolution))
+                parts = np.linspace(a, b, max(1, int(np.ceil(longest))) + 1)
+                cuts.append(np.array([parts[:-1], parts[1:]]))
+        start, end = np.concatenate(cuts, axis=1)
+        return start, end
+
+    def reflectivity_table(
+        self, material: Material, lower: float, upper: float
+    ) -> tuple[Array, Array]:
+        """Surface temperatures [K] and R for linear interpolation: given here, else the metal's.
+
+        Raises:
+            ValueError: neither the laser nor the material has a reflectivity.
+        """
+        return reflectivity_nodes(self.reflectivity, material, lower, upper)
+
+    def absorption_coefficient(self, material: Material) -> float:
+        """alpha [1/m]: given here, else the metal's; inf for surface absorption.
+
+        Raises:
+            ValueError: Beer-Lambert absorption with no coefficient given anywhere.
+        """
+        if self.absorption.kind == "surface":
+            return np.inf
+        of_material = material.optics.absorption_coefficient if material.optics else None
+        return self.absorption.coefficient(of_material)

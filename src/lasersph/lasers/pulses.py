@@ -1,0 +1,261 @@
+"""Pulses: when the light comes, as exact shares of one pulse's energy between two times.
+
+    share(t0, t1) = int_t0^t1 P(t) dt / (energy of one pulse)
+
+Square, Gaussian (integrated with erf) and tabulated powers (piecewise linear, integrated exactly);
+each may be repeated `count` times with a `period`. A train delivers up to `count`.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from functools import cached_property
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import Field, model_validator
+from scipy.special import erf
+
+from lasersph.reading import Count, Model, Time
+
+Array = NDArray[np.float64]
+PositiveTime = Annotated[Time, Field(gt=0)]
+FWHM_PER_SIGMA = float(2.0 * np.sqrt(2.0 * np.log(2.0)))
+
+
+class PulseTrain(Model, ABC):
+    """What all pulse shapes share: repetition, and the sums over the repetitions.
+
+    A shape supplies `window` (first and last time at which its first pulse counts as light),
+    `support` (the times outside which it delivers nothing) and `share_until`.
+    """
+
+    count: Count = Field(1, description="number of pulses")
+    period: PositiveTime | None = Field(None, description="between the starts of two pulses")
+
+    @model_validator(mode="after")
+    def _check_train(self) -> PulseTrain:
+        if self.count > 1 and self.period is None:
+            raise ValueError(f"{self.count} pulses need the time between them; give period")
+        return self
+
+    @property
+    @abstractmethod
+    def window(self) -> tuple[float, float]:
+        """First and last time of light of the first pulse [s]."""
+
+    @property
+    def support(self) -> tuple[float, float]:
+        """Times [s] outside of which the first pulse delivers nothing."""
+        return self.window
+
+    @abstractmethod
+    def share_until(self, time: Array) -> Array:
+        """Share of the first pulse's energy delivered until each time."""
+
+    @property
+    def _step(self) -> float:
+        return self.period if self.count > 1 and self.period is not None else np.inf
+
+    @property
+    def end(self) -> float:
+        """Last time of light of the last pulse [s]."""
+        return self.window[1] + (self.count - 1) * (self.period or 0.0)
+
+    def delivered_until(self, time: ArrayLike) -> Array:
+        """Energy delivered until each time, in units of one pulse's; any shape."""
+        time = np.asarray(time, float)
+        first, last = self.support
+        if self.count == 1:
+            return self.share_until(time)
+        done = np.clip(np.floor((time - last) / self._step) + 1.0, 0.0, self.count)
+        total = done.copy()
+        for ahead in range(int(np.ceil((last - first) / self._step)) + 1):
+            index = done + ahead
+            here = self.share_until(time - index * self._step)
+            total = total + np.where(index < self.count, here, 0.0)
+        return total
+
+    def delivered(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """Energy delivered from `start` to `end` [s], in units of one pulse's energy."""
+        return self.delivered_until(end) - self.delivered_until(start)
+
+    def breakpoints(self, start: float = 0.0, end: float = np.inf) -> Array:
+        """Times at which the light begins or ends (or jumps), within [start, end], rising [s].
+
+        Time steps must end there.
+        """
+        marks = self._marks()
+        if self.count > 1:
+            low = max(0, int(np.floor((start - marks[-1]) / self._step)))
+            high = self.count
+            if np.isfinite(end):
+                high = min(high, max(low, int(np.ceil((end - marks[0]) / self._step)) + 1))
+            marks = (np.arange(low, high)[:, None] * self._step + marks[None, :]).ravel()
+        return np.unique(marks[(marks >= start) & (marks <= end)])
+
+    def _marks(self) -> Array:
+        return np.array(self.window)
+
+    def active(self, start: float, end: float) -> bool:
+        """Whether there is light at any time in (start, end)."""
+        on, off = self.window
+        if self.count == 1:
+            return start < off and end > on
+        first = max(0.0, np.floor((start - off) / self._step) + 1.0)
+        return bool(first < self.count and end > on + first * self._step)
+
+
+class SquarePulse(PulseTrain):
+    """Constant power for a duration."""
+
+    kind: Literal["square"] = "square"
+    duration: PositiveTime
+    start: Annotated[Time, Field(ge=0)] = 0.0
+
+    @model_validator(mode="after")
+    def _check_overlap(self) -> SquarePulse:
+        if self.count > 1 and self.period is not None and self.period < self.duration:
+            raise ValueError(
+                f"pulses of {self.duration:g} s would overlap with a period of {self.period:g} s; "
+                "the period runs from start to start and must not be shorter than the duration"
+            )
+        return self
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """Start and end of the first pulse [s]."""
+        return self.start, self.start + self.duration
+
+    @property
+    def on_time(self) -> float:
+        """Energy of one pulse over the stated power [s]."""
+        return self.duration
+
+    @property
+    def resolution(self) -> float:
+        """Suggested largest time step while the light is on [s]."""
+        return self.duration / 100.0
+
+    def share_until(self, time: Array) -> Array:
+        """Share of the first pulse's energy delivered until each time."""
+        return np.clip((time - self.start) / self.duration, 0.0, 1.0)
+
+
+class GaussianPulse(PulseTrain):
+    """P ~ exp(-(t - center)^2 / 2 sigma^2), sigma = fwhm / (2 sqrt(2 ln 2)) [Demuth2020, eq. 8].
+
+    The light counts as on within 5 sigma of the center (all but 6e-7 of the energy).
+    """
+
+    kind: Literal["gaussian"] = "gaussian"
+    fwhm: PositiveTime = Field(description="full width at half maximum")
+    center: Time = Field(description="time of the (first) maximum")
+
+    @model_validator(mode="after")
+    def _check_center(self) -> GaussianPulse:
+        if self.center < 2.0 * self.fwhm:
+            raise ValueError(
+                f"a pulse of fwhm {self.fwhm:g} s centered at {self.center:g} s begins before the "
+                f"run does; give a center of at least two fwhm, {2.0 * self.fwhm:g} s"
+            )
+        return self
+
+    @property
+    def sigma(self) -> float:
+        """Standard deviation [s]."""
+        return self.fwhm / FWHM_PER_SIGMA
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """Center -+ 5 sigma [s]; not before 0."""
+        return max(0.0, self.center - 5.0 * self.sigma), self.center + 5.0 * self.sigma
+
+    @property
+    def support(self) -> tuple[float, float]:
+        """Center -+ 9 sigma [s]."""
+        return self.center - 9.0 * self.sigma, self.center + 9.0 * self.sigma
+
+    @property
+    def on_time(self) -> None:
+        """None: a power says nothing about the energy without saying which power."""
+        return None
+
+    @property
+    def resolution(self) -> float:
+        """Suggested largest time step while the light is on [s]."""
+        return self.fwhm / 100.0
+
+    def share_until(self, time: Array) -> Array:
+        """Share of the first pulse's energy delivered until each time."""
+        return 0.5 * (1.0 + erf((time - self.center) / (np.sqrt(2.0) * self.sigma)))
+
+
+class TabulatedPulse(PulseTrain):
+    """Power given by rows of time and relative power, linear between them, zero outside.
+
+    Two rows at the same time make a jump. With `power` or `intensity` of the laser given, the
+    relative power 1 stands for that value; with an energy the scale does not matter.
+    """
+
+    kind: Literal["tabulated"] = "tabulated"
+    table: tuple[tuple[Time, Annotated[float, Field(ge=0)]], ...] = Field(
+        min_length=2, description="rows of time and relative power"
+    )
+
+    @model_validator(mode="after")
+    def _check_table(self) -> TabulatedPulse:
+        times = np.array([row[0] for row in self.table])
+        if times[0] < 0.0:
+            raise ValueError(f"the table begins at {times[0]:g} s; times must not be negative")
+        if np.any(np.diff(times) < 0.0) or np.any(times[2:] == times[:-2]):
+            raise ValueError(
+                "the times of a pulse table must rise from row to row; two rows at one time make "
+                "a jump, three are too many"
+            )
+        if not self.on_time > 0.0:
+            raise ValueError("a pulse table of zeros holds no energy; give a power above 0")
+        if self.count > 1 and self.period is not None and self.period < times[-1] - times[0]:
+            raise ValueError(
+                f"the table spans {times[-1] - times[0]:g} s, longer than the period of "
+                f"{self.period:g} s; the pulses would overlap"
+            )
+        return self
+
+    @cached_property
+    def _columns(self) -> tuple[Array, Array, Array]:
+        """Times, powers and the integral of the power up to each time."""
+        time, power = np.array(self.table, float).T
+        area = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(time))])
+        return time, power, area
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """First and last time of the table [s]."""
+        return self.table[0][0], self.table[-1][0]
+
+    @property
+    def on_time(self) -> float:
+        """Energy of one pulse over the stated power [s]: the integral of the relative power."""
+        return float(self._columns[2][-1])
+
+    @property
+    def resolution(self) -> float:
+        """Suggested largest time step while the light is on [s]."""
+        return (self.window[1] - self.window[0]) / 100.0
+
+    def _marks(self) -> Array:
+        return self._columns[0]
+
+    def share_until(self, time: Array) -> Array:
+        """Share of the first pulse's energy delivered until each time."""
+        nodes, power, area = self._columns
+        k = np.clip(np.searchsorted(nodes, time, side="right") - 1, 0, nodes.size - 2)
+        width = nodes[k + 1] - nodes[k]
+        part = np.clip(time - nodes[k], 0.0, width)
+        slope = np.divide(power[k + 1] - power[k], width, out=np.zeros_like(width), where=width > 0)
+        return (area[k] + part * (power[k] + 0.5 * slope * part)) / area[-1]
+
+
+Pulse = Annotated[SquarePulse | GaussianPulse | TabulatedPulse, Field(discriminator="kind")]
