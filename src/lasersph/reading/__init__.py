@@ -7,7 +7,7 @@ from lasersph.reading.document import Document, parse_toml, read_toml
 from lasersph.reading.errors import CaseError, Problem
 from lasersph.reading.explain import build, dotted, explain
 from lasersph.reading.kinds import KINDS, Kind
-from lasersph.reading.model import Model, did_you_mean, nearest
+from lasersph.reading.model import Model, did_you_mean, nearest, refusal
 from lasersph.reading.quantity import QuantityError, parse_quantity, show_quantity
 from lasersph.reading.types import (
     AbsorptionCoefficient,
@@ -86,5 +86,6 @@ __all__ = [
     "parse_quantity",
     "parse_toml",
     "read_toml",
+    "refusal",
     "show_quantity",
 ]

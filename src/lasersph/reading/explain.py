@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -61,11 +63,28 @@ def explain(error: ValidationError, document: Document) -> list[Problem]:
     """Turn every error of pydantic into a `Problem` with the place of its key."""
     problems: dict[str, Problem] = {}
     for each in error.errors(include_url=False):
+        cause = (each.get("ctx") or {}).get("error")
+        if isinstance(cause, CaseError):
+            problems.update((str(p), p) for p in _foreign(cause, each["loc"], document))
+            continue
         for path, text, hint in _say(dict(each), document):
             file, line = document.place(path)
             problem = Problem(text, hint, dotted(path), file, line)
             problems.setdefault(str(problem), problem)
     return sorted(problems.values(), key=lambda problem: problem.line or 0)
+
+
+def _foreign(cause: CaseError, location: tuple[Any, ...], document: Document) -> list[Problem]:
+    """Problems of another file, or of the key that names it."""
+    path = _data_path(location, document.data, "")
+    file, line = document.place(path)
+    return [
+        problem if problem.line else replace(problem, key=dotted(path), file=file, line=line)
+        for problem in (
+            replace(p, problem=f"{p.file}: {p.problem}") if p.file and not p.line else p
+            for p in cause.problems
+        )
+    ]
 
 
 def dotted(path: Path) -> str:
@@ -88,6 +107,9 @@ def _say(error: dict[str, Any], document: Document) -> list[tuple[Path, str, str
         return [_unknown(path, key, context["known"]) for key in context["keys"]]
     if kind == "extra_forbidden":
         return [_unknown(path[:-1], str(path[-1]), [])]
+    if kind == "at_key":
+        found = ((key, *text.partition("; ")) for key, text in context["problems"])
+        return [((*path, *_steps(key)), text, hint) for key, text, _, hint in found]
     if kind == "missing":
         return [(path, "missing", "")]
     if kind == "quantity":
@@ -132,6 +154,12 @@ def _data_path(location: tuple[Any, ...], data: Any, kind: str) -> Path:
         elif is_last and kind == "missing":
             path.append(step)
     return tuple(path)
+
+
+def _steps(key: str) -> Path:
+    """The path of a key as `dotted` writes it."""
+    steps = re.findall(r"([^.\[\]]+)|\[(\d+)\]", key)
+    return tuple(name or int(index) - 1 for name, index in steps)
 
 
 def _tag(context: dict[str, Any]) -> str:

@@ -40,6 +40,17 @@ class Model(BaseModel):
         return data
 
 
+def refusal(*problems: tuple[str, str]) -> PydanticCustomError:
+    """An error for validators that knows which keys are at fault.
+
+    Args:
+        problems: (key, text) with the key as in "laser.beam", relative to the model that checks,
+            and the text as "what is wrong; what would be right".
+    """
+    text = "; ".join(f"{key}: {text}" for key, text in problems)
+    return PydanticCustomError("at_key", "{text}", {"text": text, "problems": list(problems)})
+
+
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word spelt most like `word`, or None if none is near."""
     plain = {name.lower().replace("-", "_"): name for name in known}
