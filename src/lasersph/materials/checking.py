@@ -187,7 +187,7 @@ def _liquid(material: Material) -> list[Finding]:
         eta = float(material.viscosity_at(material.liquidus))
         nu = float(material.kinematic_viscosity_at(material.liquidus))
         level = "ok" if 2e-4 <= eta <= 2e-2 else "warning"
-        text = f"eta = {eta:.3g} Pa s, nu = {nu:.3g} m^2/s at the liquidus: rho = {eta / nu:.0f} kg/m^3"
+        text = f"eta = {eta:.3g} Pa s, nu = {nu:.3g} m^2/s at the liquidus (rho = {eta / nu:.0f})"
         found.append(Finding(level, "viscosity", text))
     if material.surface_tension is not None or material.surface_tension_slope is not None:
         slope = float(material.surface_tension_slope_at(material.liquidus + 1.0))

@@ -179,7 +179,7 @@ class Material(Model):
         return self.surface_tension_at(T + half) - self.surface_tension_at(T - half)
 
     def kinematic_viscosity_at(self, temperature: ArrayLike) -> Array:
-        """Kinematic viscosity [m^2/s] at temperature [K]: as given, else eta / rho of the liquid."""
+        """Kinematic viscosity [m^2/s] at temperature [K]: as given, else the liquid's eta / rho."""
         if self.kinematic_viscosity is not None:
             return self.at("kinematic_viscosity", temperature)
         return self.viscosity_at(temperature) / self.density.liquid_law.at(temperature)
@@ -194,6 +194,8 @@ class Material(Model):
         if found is None:
             raise ValueError(f"material {self.name!r} has no {name.replace('_', ' ')}")
         nodes = {lower, upper}
+        if found.is_constant:
+            return np.array([lower, upper]), found.at([lower, upper])
         for law in found.laws().values():
             nodes.update(law.breakpoints(lower, upper))
             if law.is_curved:

@@ -1,0 +1,218 @@
+"""Figure of one material: every property against temperature, phases shaded, sources below.
+
+Lines are dashed where the source ends and the value at the end of its range is held.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from lasersph.materials import Law, Material
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+class Panel(NamedTuple):
+    """Property, its label, the factor from SI to the unit of the label, the phases it exists in."""
+
+    name: str
+    label: str
+    factor: float
+    liquid_only: bool = False
+
+
+PANELS = (
+    Panel("density", r"density $\rho$ [kg/m$^3$]", 1.0),
+    Panel("heat_capacity", r"heat capacity $c_p$ [J/(kg K)]", 1.0),
+    Panel("conductivity", r"conductivity $k$ [W/(m K)]", 1.0),
+    Panel("viscosity", r"viscosity $\eta$ [mPa s]", 1e3, True),
+    Panel("surface_tension", r"surface tension $\gamma$ [N/m]", 1.0, True),
+    Panel("surface_tension_slope", r"$d\gamma/dT$ [mN/(m K)]", 1e3, True),
+    Panel("reflectivity", r"reflectivity $R$ [1]", 1.0),
+)
+PHASES = {"solid": "#e9ecef", "melting": "#ffe3b3", "liquid": "#fdeedd"}
+LINE = "#1f4e79"
+COLUMNS = 3
+
+
+def material_figure(material: Material) -> Figure:
+    """Figure of all properties of a material that depend on temperature, and of its enthalpy."""
+    from matplotlib.figure import Figure
+
+    properties = material.properties()
+    panels = [panel for panel in PANELS if panel.name in properties]
+    rows = -(-(len(panels) + 2) // COLUMNS)
+    notes = _source_lines(material, panels)
+    height = 2.9 * rows + 0.15 * len(notes) + 1.0
+    figure = Figure(figsize=(11.0, height), layout=None)
+    bottom = (0.15 * len(notes) + 0.8) / height
+    grid = figure.add_gridspec(
+        rows, COLUMNS, left=0.075, right=0.985, top=1.0 - 0.75 / height, bottom=bottom,
+        wspace=0.3, hspace=0.42,
+    )  # fmt: skip
+    span = _span(material)
+    for number, panel in enumerate(panels):
+        axes = figure.add_subplot(grid[divmod(number, COLUMNS)])
+        _draw_property(axes, material, panel, span)
+        axes.text(
+            -0.03, 1.02, f"[{number + 1}]", transform=axes.transAxes, ha="right", fontsize=8,
+            color="0.4",
+        )  # fmt: skip
+    _draw_enthalpy(figure.add_subplot(grid[divmod(len(panels), COLUMNS)]), material, span)
+    _write_numbers(figure.add_subplot(grid[divmod(len(panels) + 1, COLUMNS)]), material)
+    figure.suptitle(material.title or material.name, x=0.075, y=1.0 - 0.2 / height, ha="left")
+    figure.text(
+        0.075, (0.15 * len(notes) + 0.2) / height, "\n".join(notes), fontsize=7.5, va="top",
+        color="0.25", linespacing=1.25,
+    )  # fmt: skip
+    return figure
+
+
+def plot_material(material: Material, file: str | Path) -> Path:
+    """Write the figure of a material to a file (.png, .svg or .pdf); returns its path."""
+    path = Path(file)
+    material_figure(material).savefig(path, dpi=150)
+    return path
+
+
+def _span(material: Material) -> tuple[float, float]:
+    """Temperatures of all panels [K]: reference temperature to 5 % above the boiling point."""
+    top = material.vaporization.temperature if material.vaporization else 0.0
+    top = max(top, 1.2 * (material.liquidus or 0.0), material.reference_temperature + 1000.0)
+    return material.reference_temperature, 1.05 * top
+
+
+def _draw_property(axes: Axes, material: Material, panel: Panel, span: tuple[float, float]) -> None:
+    found = material.properties()[panel.name]
+    solidus, liquidus = material.solidus, material.liquidus
+    _shade(axes, material, span)
+    if solidus is None or liquidus is None or (found.is_constant and not panel.liquid_only):
+        _draw_law(axes, found.solid_law, span, panel.factor)
+    else:
+        if not panel.liquid_only:
+            _draw_law(axes, found.solid_law, (span[0], solidus), panel.factor)
+            values = np.array([found.solid_law.at(solidus), found.liquid_law.at(liquidus)])
+            axes.plot([solidus, liquidus], values * panel.factor, color=LINE, lw=1.0, ls=":")
+        _draw_law(axes, found.liquid_law, (liquidus, span[1]), panel.factor)
+    if all(law.is_constant for law in found.laws().values()) and len(found.laws()) == 1:
+        value = float(found.at(span[0])) * panel.factor
+        axes.set_ylim(*sorted((0.0, 1.6 * value)))
+    axes.set_ylabel(panel.label, fontsize=9)
+    axes.ticklabel_format(axis="y", useOffset=False)
+
+
+def _draw_law(axes: Axes, law: Law[Any], span: tuple[float, float], factor: float) -> None:
+    """One law: solid line inside the range of its source, dashed where a value is held."""
+    low, high = max(span[0], law.lower), min(span[1], law.upper)
+    if law.table:
+        rows = np.array([row for row in law.table if span[0] <= row[0] <= span[1]])
+        if rows.size:
+            axes.plot(rows[:, 0], rows[:, 1] * factor, "o", color=LINE, ms=3.5)
+    parts = (((span[0], min(low, span[1])), "--"), ((low, high), "-"), ((high, span[1]), "--"))
+    for (start, end), style in parts:
+        if end > start:
+            T = np.linspace(start, end, 200)
+            axes.plot(T, law.at(T) * factor, color=LINE, lw=1.6, ls=style)
+
+
+def _write_numbers(axes: Axes, material: Material) -> None:
+    """Single numbers of the material as a small table."""
+    axes.axis("off")
+    rows: list[tuple[str, str]] = []
+    if material.melting is not None:
+        melt = material.melting
+        same = melt.solidus == melt.liquidus
+        span = f"{melt.solidus:g} K" if same else f"{melt.solidus:g} to {melt.liquidus:g} K"
+        rows.append(("melting point" if same else "melting range", span))
+        rows.append(("latent heat of fusion", f"{melt.latent_heat / 1e3:g} kJ/kg"))
+    if material.vaporization is not None:
+        vapor = material.vaporization
+        rows.append(("boiling point", f"{vapor.temperature:g} K"))
+        rows.append(("latent heat of vaporization", f"{vapor.latent_heat / 1e6:g} MJ/kg"))
+        if vapor.critical_temperature is not None:
+            rows.append(("critical temperature", f"{vapor.critical_temperature:g} K"))
+        if vapor.molar_mass is not None:
+            rows.append(("molar mass", f"{vapor.molar_mass * 1e3:g} g/mol"))
+    if material.expansion is not None:
+        beta = float(material.at("expansion", material.liquidus or 0.0))
+        rows.append(("expansion of the liquid", f"{beta:.3g} 1/K"))
+    if material.optics is not None:
+        optics = material.optics
+        if optics.absorption_coefficient is not None:
+            rows.append(("absorption coefficient", f"{optics.absorption_coefficient:g} 1/m"))
+        if optics.wavelength is not None:
+            rows.append(("optics hold at", f"{optics.wavelength * 1e9:g} nm"))
+        if optics.emissivity is not None:
+            rows.append(("emissivity", f"{optics.emissivity:g}"))
+    for number, (name, value) in enumerate(rows):
+        y = 0.97 - 0.098 * number
+        axes.text(0.0, y, name, fontsize=9, color="0.35", va="top", transform=axes.transAxes)
+        axes.text(0.98, y, value, fontsize=9, ha="right", va="top", transform=axes.transAxes)
+
+
+def _draw_enthalpy(axes: Axes, material: Material, span: tuple[float, float]) -> None:
+    """Enthalpy above the reference temperature, with the jumps of melting and boiling."""
+    _shade(axes, material, span)
+    held = material.vaporization is not None
+    curve = material.caloric_curve(span[0], "hold" if held else "evaporate")
+    if curve.enthalpy_vaporizing is not None:
+        high = 1.25 * curve.enthalpy_vaporizing
+    else:
+        high = float(curve.enthalpy_at(span[1]))
+    h = np.union1d(np.linspace(0.0, high, 400), curve.enthalpy[curve.enthalpy < high])
+    axes.plot(curve.temperature_at(h), h / 1e6, color=LINE, lw=1.6)
+    if held and material.vaporization is not None:
+        text = f"boiling: + {material.vaporization.latent_heat / 1e6:.4g} MJ/kg"
+        axes.annotate(
+            text, (material.vaporization.temperature, high / 1e6), xytext=(-6, -4),
+            textcoords="offset points", ha="right", va="top", fontsize=7.5, color="0.25",
+        )  # fmt: skip
+    axes.set_ylim(0.0, high / 1e6)
+    axes.set_ylabel(f"enthalpy above {span[0]:g} K [MJ/kg]", fontsize=9)
+
+
+def _shade(axes: Axes, material: Material, span: tuple[float, float]) -> None:
+    """Background by phase, a line at the boiling point, common axis."""
+    axes.set_xlim(*span)
+    axes.set_xlabel("temperature [K]", fontsize=9)
+    axes.tick_params(labelsize=8)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    if material.solidus is None or material.liquidus is None:
+        return
+    axes.axvspan(span[0], material.solidus, color=PHASES["solid"], lw=0)
+    axes.axvspan(material.solidus, material.liquidus, color=PHASES["melting"], lw=0)
+    axes.axvspan(material.liquidus, span[1], color=PHASES["liquid"], lw=0)
+    transform = axes.get_xaxis_transform()
+    style: dict[str, Any] = {"transform": transform, "fontsize": 7.5, "color": "0.45"}
+    axes.text(0.5 * (span[0] + material.solidus), 1.02, "solid", ha="center", **style)
+    axes.text(material.liquidus + 0.02 * (span[1] - span[0]), 1.02, "liquid", **style)
+    if material.vaporization is not None:
+        T = material.vaporization.temperature
+        axes.axvline(T, color="0.55", lw=0.8, ls=":")
+        axes.text(T, 1.02, r"$T_v$", ha="center", **style)
+
+
+def _source_lines(material: Material, panels: list[Panel]) -> list[str]:
+    """Numbered sources of the panels, wrapped; the last lines explain the drawing."""
+    lines = []
+    for number, panel in enumerate(panels):
+        laws = material.properties()[panel.name].laws()
+        parts = [
+            law.source if phase == "all" else f"{phase}: {law.source}"
+            for phase, law in laws.items()
+        ]
+        text = f"[{number + 1}] " + "; ".join(parts)
+        lines += textwrap.wrap(text, 165, subsequent_indent="      ")
+    lines.append("")
+    lines.append(
+        "Dashed: outside the range of the source, the value at its end is held. Dotted between "
+        "solid and liquid: mixed linearly in the melting range."
+    )
+    return lines
