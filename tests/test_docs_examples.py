@@ -1,4 +1,4 @@
-"""The documentation tells the truth: its material file can be read, and it names files that exist."""
+"""The documentation is true: its material file can be read and the files it names exist."""
 
 import re
 from pathlib import Path
