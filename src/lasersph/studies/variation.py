@@ -1,0 +1,46 @@
+"""Variations of a case: the same model with one key changed, validated anew."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
+
+from pydantic import BaseModel
+
+M = TypeVar("M", bound=BaseModel)
+
+
+class Finished(Protocol):
+    """What a run leaves behind, as far as studies look at it."""
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """The numbers of summary.json."""
+        ...
+
+
+Run = Callable[[Any, Path], Finished]
+"""Runs a case into a folder."""
+
+
+def simulate(case: Any, folder: Path) -> Finished:
+    """Run a case with the simulation of this package."""
+    from lasersph.simulation import run
+
+    return run(case, folder)
+
+
+def changed(model: M, key: str, value: Any) -> M:
+    """A copy of a model with one key ("particles.spacing") set and everything checked again.
+
+    Raises:
+        KeyError: there is no such key. pydantic.ValidationError: the value does not fit.
+    """
+    head, _, rest = key.partition(".")
+    if head not in type(model).model_fields:
+        raise KeyError(f"{type(model).__name__} has no key {head!r}")
+    data = {name: getattr(model, name) for name in model.model_fields_set}
+    old = getattr(model, head)
+    data[head] = changed(old, rest, value) if rest else value
+    return type(model).model_validate(data)

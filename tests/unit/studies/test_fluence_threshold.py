@@ -1,0 +1,89 @@
+"""Fluence threshold on a run whose temperature is proportional to its energy."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from lasersph.lasers import Laser
+from lasersph.materials import Material, load_material
+from lasersph.reading import Model
+from lasersph.studies import threshold
+
+STEEL = load_material("steel-304-demuth")
+MELTS, BOILS = 3000.0, 7000.0  # fluences at which the stand-in reaches liquidus and boiling point
+
+
+class SmallCase(Model):
+    """A case as far as the study looks at it."""
+
+    laser: Laser
+    material: Material = STEEL
+
+
+def case(**energy):
+    """A uniform square pulse."""
+    pulse = {"kind": "square", "duration": 1e-8}
+    return SmallCase(laser=Laser(pulse=pulse, absorption={"kind": "surface"}, **energy))
+
+
+def run(case, folder):
+    """Melts at MELTS, boils at BOILS (J/m2), the temperature held at the boiling point."""
+    fluence = case.laser.mean_fluence
+    hottest = min(300.0 + fluence / BOILS * (3273.0 - 300.0), 3273.0)
+    melt = {"start_s": 1e-8 if fluence >= MELTS else None}
+    return SimpleNamespace(summary={"temperature_max_K": hottest, "melt": melt})
+
+
+@pytest.mark.parametrize("guess", [1e2, 2.9e3, 1e5])
+@pytest.mark.parametrize(("of", "value"), [("melt", MELTS), ("vaporize", BOILS)])
+def test_threshold_is_bracketed_from_any_guess(tmp_path, of, value, guess):
+    """From far below, nearby and far above; the bracket holds it within the tolerance."""
+    found = threshold(case(fluence=guess), of, tmp_path, tolerance=0.005, run=run)
+    assert found.below < value <= found.above
+    assert found.value == pytest.approx(value, rel=0.005)
+    assert found.tolerance <= 0.005
+    assert found.key == "laser.fluence"
+    assert found.trials[0].value == guess
+    assert len(found.trials) < 22
+
+
+def test_the_cases_own_energy_is_varied(tmp_path):
+    """A case given by intensity gets its threshold as an intensity; each run has its folder."""
+    folders, lines = [], []
+
+    def remember(case, folder):
+        folders.append(folder.name)
+        return run(case, folder)
+
+    found = threshold(
+        case(intensity=1e11), "melt", tmp_path, bracket=(5e11, 1e11), run=remember,
+        report=lines.append,
+    )  # fmt: skip
+    assert found.key == "laser.intensity"
+    assert found.value == pytest.approx(MELTS / 1e-8, rel=0.01)
+    assert folders[:2] == ["01-intensity-1e+11", "02-intensity-5e+11"]
+    assert lines[0].startswith("run 1: laser.intensity = 1e+11: 724.7 K, not reached")
+
+
+def test_wrong_bracket_and_no_bracket_are_said(tmp_path):
+    """A bracket that holds nothing; a threshold farther away than allowed."""
+    with pytest.raises(ValueError, match="do not bracket"):
+        threshold(case(fluence=1.0), "melt", tmp_path, bracket=(4e3, 5e3), run=run)
+    with pytest.raises(ValueError, match="lies above"):
+        threshold(case(fluence=1.0), "melt", tmp_path, largest_factor=16.0, run=run)
+    with pytest.raises(ValueError, match="lies below"):
+        threshold(case(fluence=1e6), "melt", tmp_path, largest_factor=16.0, run=run)
+
+
+def test_impossible_events_are_refused_before_any_run(tmp_path):
+    """A material without melting data, an unknown event, a silly tolerance."""
+    bare = case(fluence=1.0).model_copy(
+        update={"material": STEEL.model_copy(update={"melting": None, "vaporization": None})}
+    )
+    for of in ("melt", "vaporize"):
+        with pytest.raises(ValueError, match=f"no threshold to {of}"):
+            threshold(bare, of, tmp_path, run=None)
+    with pytest.raises(ValueError, match='choose "melt" or "vaporize"'):
+        threshold(case(fluence=1.0), "burn", tmp_path, run=None)
+    with pytest.raises(ValueError, match="tolerance"):
+        threshold(case(fluence=1.0), "melt", tmp_path, tolerance=0.0, run=run)
