@@ -1,0 +1,44 @@
+"""`Domain`: the block of metal that is computed, with its surface at z = 0."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from lasersph.reading import Length, Model
+
+Size = Annotated[Length, Field(gt=0)]
+
+
+class Domain(Model):
+    """Size of the block. x runs from -width/2 to width/2, or from 0 where half is computed."""
+
+    depth: Size = Field(description="from the surface to the bottom")
+    width: Size | None = Field(None, description="along x; 2-D and 3-D; the period of a pattern")
+    breadth: Size | None = Field(None, description="along y; 3-D; default: the width")
+    extent: Literal["full", "half"] = Field(
+        "full", description="half: only x > 0 is computed, symmetric about x = 0"
+    )
+
+    def lateral(self, dimensions: int) -> tuple[tuple[float, float], ...]:
+        """Lower and upper bound along x (and y) [m], empty in 1-D.
+
+        Raises:
+            ValueError: no width although the run has more than one dimension.
+        """
+        if dimensions == 1:
+            return ()
+        if self.width is None:
+            raise ValueError(f"a {dimensions}-D domain needs a width")
+        half = 0.5 * self.width
+        x = (0.0 if self.extent == "half" else -half, half)
+        if dimensions == 2:
+            return (x,)
+        other = 0.5 * (self.breadth or self.width)
+        return (x, (-other, other))
+
+    @property
+    def symmetry_factor(self) -> int:
+        """How many times the computed part fits into the whole."""
+        return 2 if self.extent == "half" else 1

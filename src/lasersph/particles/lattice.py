@@ -1,0 +1,47 @@
+"""`Lattice`: how particles fill the domain.
+
+Uniform: layers of one spacing. Graded: fine layers down to `fine_depth`, then layers that grow by
+1/ratio up to `coarsest`, the last one cut to the depth of the domain [Demuth2020, Section 4.1 and
+eqs. (60)-(63); printed from the bottom upward: 1 um times (7/9)^k]. A layer of thickness d holds
+n = round(width/d) columns of equal width, so that a whole number fills the period exactly.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from lasersph.reading import Length, Model
+
+KernelName = Literal["cubic-spline", "quintic-spline", "wendland-c2"]
+Size = Annotated[Length, Field(gt=0)]
+
+
+class Lattice(Model):
+    """Spacing, arrangement and kernel of the particles."""
+
+    spacing: Size = Field(description="of the finest particles; rounded so that they fill the box")
+    arrangement: Literal["uniform", "graded"] = "uniform"
+    fine_depth: Size | None = Field(
+        None,
+        description="depth of the layers of finest spacing (graded); default: the larger of the "
+        "expected melt depth plus two support radii and the laser's absorption zone",
+    )
+    coarsest: Size = Field(1e-6, description="thickness at which layers stop growing (graded)")
+    ratio: Annotated[float, Field(gt=0.5, lt=1.0)] = Field(
+        7.0 / 9.0, description="of the thickness of a layer to that of the one below (graded)"
+    )
+    kernel: KernelName = "quintic-spline"
+    support_ratio: Annotated[float, Field(ge=1.5, le=6.0)] | None = Field(
+        None, description="support radius over spacing; default 3.75 (quintic), 3 (others)"
+    )
+
+    @model_validator(mode="after")
+    def _check_sizes(self) -> Lattice:
+        if self.arrangement == "graded" and self.coarsest < self.spacing:
+            raise ValueError(
+                f"coarsest ({self.coarsest:g} m) is finer than the spacing ({self.spacing:g} m); "
+                "give a coarsest spacing above it"
+            )
+        return self

@@ -1,0 +1,1 @@
+"""Solvers: recipes that change the state, one folder each."""

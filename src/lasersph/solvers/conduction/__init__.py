@@ -1,0 +1,1 @@
+"""Conduction: heat, melting and the vaporization plateau in particles at rest."""

@@ -1,0 +1,1 @@
+"""SPH operators: kernels, gradient, divergence, Laplacian, corrections, assembly; numbers only."""
