@@ -1,0 +1,128 @@
+"""Width, depth and life of the melt pool.
+
+A cell counts as fluid where its melt fraction reaches a level: 1 (completely fluid; the size of
+the pool in the paper), 0.5 (which depends least on the cell size) or anything above 0. The depth
+is that of the lower face of the deepest fluid cell below the original surface; the width is the
+sum of the widths of the surface cells that hang together with the hottest one, doubled where half
+a period is computed and the pool lies on its symmetry plane. [Demuth and Lasagni 2020, Sec. 5]
+
+Left out: pools that wrap around a periodic boundary, and the second lateral direction in 3-D (the
+width is taken along x through the hottest surface cell). Sizes are whole cells.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.observers.peak import Peak, Span
+from lasersph.observers.view import View, deepest, hottest_surface_cell, lower_faces
+
+FULL = 1.0 - 1e-9
+LEVELS = {"": FULL, "half_": 0.5, "any_": 0.0}
+"""Part of a column's name and the melt fraction that a fluid cell has at least (any: above 0)."""
+
+
+class MeltPool:
+    """Observes the melt pool; in 1-D it has a depth and no width."""
+
+    def __init__(self, dimension: int) -> None:
+        self.quantities = ("depth",) if dimension == 1 else ("depth", "width")
+        self.span = {level: Span() for level in LEVELS}
+        self.peak = {f"{q}_{level}": Peak() for q in self.quantities for level in LEVELS}
+        self.end_time = 0.0
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the history columns."""
+        return tuple(f"melt_{name}m" for name in self.peak)
+
+    def observe(self, view: View) -> dict[str, float]:
+        """Sizes of the pool at this step [m]; 0 where nothing is fluid."""
+        fraction = view.melt_fraction
+        largest = float(np.max(fraction))
+        faces = lower_faces(view) if largest > 0.0 else np.zeros(0)
+        sizes: dict[str, float] = {}
+        for level, least in LEVELS.items():
+            exists = largest > 0.0 and largest >= least
+            self.span[level].update(exists, view.time)
+            sizes[f"depth_{level}"] = deepest(faces, is_fluid(fraction, least)) if exists else 0.0
+            if "width" in self.quantities:
+                sizes[f"width_{level}"] = pool_width(view, least) if exists else 0.0
+        for name, size in sizes.items():
+            self.peak[name].update(size, view.time)
+        self.end_time = view.time
+        return {f"melt_{name}m": sizes[name] for name in self.peak}
+
+    def summary(self) -> dict[str, Any]:
+        """`melt`: times and largest sizes; nothing where nothing began to melt.
+
+        Keys without a level mean completely fluid material; times are None where it never was.
+        `end_s` is the last time at which it was seen; `molten_at_end` says that the run ended
+        before it was solid.
+        """
+        if self.span["any_"].first is None:
+            return {}
+        melt: dict[str, Any] = {}
+        for level in LEVELS:
+            suffix = f"_{level[:-1]}" if level else ""
+            span = self.span[level]
+            melt[f"start{suffix}_s"], melt[f"end{suffix}_s"] = span.first, span.last
+            for quantity in ("depth", "width"):
+                peak = self.peak.get(f"{quantity}_{level}")
+                melt[f"{quantity}{suffix}_max_m"] = peak.value if peak else None
+                reached = peak is not None and peak.value > 0.0
+                melt[f"{quantity}{suffix}_max_at_s"] = peak.time if peak and reached else None
+        melt["molten_at_end"] = self.span[""].last == self.end_time
+        return {"melt": melt}
+
+    def state(self) -> dict[str, Any]:
+        """What `restore` needs."""
+        return {
+            "span": {level: span.state() for level, span in self.span.items()},
+            "peak": {name: peak.state() for name, peak in self.peak.items()},
+            "end_time": self.end_time,
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from a state."""
+        self.span = {level: Span(**values) for level, values in state["span"].items()}
+        self.peak = {name: Peak(**values) for name, values in state["peak"].items()}
+        self.end_time = state["end_time"]
+
+
+def is_fluid(fraction: np.ndarray, least: float) -> np.ndarray:
+    """Where a melt fraction reaches a level of `LEVELS`."""
+    return fraction > 0.0 if least == 0.0 else fraction >= least
+
+
+def pool_width(view: View, least: float) -> float:
+    """Full width at the surface of the pool around the hottest surface cell [m].
+
+    Args:
+        view: the state, 2-D or 3-D.
+        least: melt fraction that a fluid cell has at least; 0: any above 0.
+    """
+    row = surface_row(view)
+    fluid = is_fluid(view.melt_fraction[row], least)
+    seed = int(np.argmax(view.enthalpy[row]))
+    if not fluid[seed]:
+        return 0.0
+    solid = np.flatnonzero(~fluid)
+    after = int(np.searchsorted(solid, seed))
+    first = int(solid[after - 1]) + 1 if after > 0 else 0
+    last = int(solid[after]) - 1 if after < solid.size else row.size - 1
+    total = float(np.sum(view.width[0, row[first : last + 1]]))
+    on_symmetry_plane = first == 0 or last == row.size - 1
+    return total * (view.symmetry_factor if on_symmetry_plane else 1)
+
+
+def surface_row(view: View) -> np.ndarray:
+    """Indices of the surface cells along x through the hottest one, in order of x."""
+    cells = view.surface
+    if view.dimension == 3:
+        hottest = cells[hottest_surface_cell(view)]
+        distance = np.abs(view.position[1, cells] - view.position[1, hottest])
+        cells = cells[distance < 0.5 * view.width[1, hottest]]
+    return cells[np.argsort(view.position[0, cells], kind="stable")]

@@ -1,0 +1,57 @@
+"""The largest value of a quantity over a run, and when it was reached."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+SAME = 1e-12
+"""Relative difference of two values that are the same but for rounding."""
+
+
+@dataclass
+class Peak:
+    """Largest value seen so far; `first` and `last` are the times between which it stood [s].
+
+    Sizes of a melt pool grow by whole cells, so the largest one stands for a while: `time` is the
+    middle of that while, which is where a smooth curve would have its top.
+    """
+
+    value: float = 0.0
+    first: float | None = None
+    last: float | None = None
+
+    def update(self, value: float, time: float) -> None:
+        """Take a value at a time into account."""
+        if self.first is None or value > self.value + SAME * abs(self.value):
+            self.value, self.first, self.last = value, time, time
+        elif value >= self.value - SAME * abs(self.value):
+            self.value, self.last = max(value, self.value), time
+
+    @property
+    def time(self) -> float | None:
+        """Middle of the time during which the largest value stood [s]; None before any value."""
+        if self.first is None or self.last is None:
+            return None
+        return 0.5 * (self.first + self.last)
+
+    def state(self) -> dict[str, float | None]:
+        """What `Peak(**state)` needs to continue."""
+        return asdict(self)
+
+
+@dataclass
+class Span:
+    """First and last time at which something held [s]."""
+
+    first: float | None = None
+    last: float | None = None
+
+    def update(self, holds: bool, time: float) -> None:
+        """Take note of whether it holds at a time."""
+        if holds:
+            self.first = time if self.first is None else self.first
+            self.last = time
+
+    def state(self) -> dict[str, float | None]:
+        """What `Span(**state)` needs to continue."""
+        return asdict(self)

@@ -1,0 +1,156 @@
+"""Temperature over time at named points.
+
+`nearest` takes the particle closest to the point and reports where that particle lies; `linear`
+combines the closest particles with weights w_j that reproduce every linear field,
+
+    sum_j w_j = 1,  sum_j w_j x_j = x,
+
+the smallest such weights in the norm sum_j w_j^2 |x_j - x|^4, and so also extrapolates to the
+surface, half a cell above the first particle (moving least squares: Lancaster and Salkauskas,
+Math. Comp. 37 (1981) 141).
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field, field_validator
+
+from lasersph.observers.peak import Peak
+from lasersph.observers.view import View
+from lasersph.reading import Length, Model
+
+SUPPORT = {1: 2, 2: 6, 3: 12}
+"""Particles that a linear probe combines, by dimension."""
+
+
+class Probe(Model):
+    """A named point whose temperature is recorded in every step.
+
+    Attributes:
+        name: letters, digits, - and _; names the history column `probe_<name>_K`.
+        depth: below the original surface [m].
+        x, y: lateral place [m]; not used in 1-D (y: in 2-D).
+        method: "nearest" particle, or "linear" combination of the closest ones.
+    """
+
+    name: Annotated[str, Field(min_length=1, max_length=40, pattern=r"^[A-Za-z0-9_-]+$")]
+    depth: Length = 0.0
+    x: Length = 0.0
+    y: Length = 0.0
+    method: Literal["nearest", "linear"] = "nearest"
+
+    @field_validator("depth")
+    @classmethod
+    def _below_the_surface(cls, depth: float) -> float:
+        """A probe lies in the metal."""
+        if depth < 0.0:
+            raise ValueError("a depth is counted downward from the surface and not negative")
+        return depth
+
+    def place(self, dimension: int) -> np.ndarray:
+        """Coordinates of the point, (dim,) [m]."""
+        return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
+
+
+class Probes:
+    """Observes the temperature at probes."""
+
+    def __init__(self, probes: tuple[Probe, ...]) -> None:
+        """Raises ValueError where two probes have the same name."""
+        self.probes = probes
+        if len({probe.name for probe in probes}) < len(probes):
+            raise ValueError("two probes have the same name")
+        self.columns = tuple(f"probe_{probe.name}_K" for probe in probes)
+        self.peak = [Peak() for _ in probes]
+        self.last = [0.0 for _ in probes]
+        self.where: list[list[float]] = [[] for _ in probes]
+        self._found: list[tuple[np.ndarray, np.ndarray, np.ndarray] | None] = [None] * len(probes)
+
+    def observe(self, view: View) -> dict[str, float]:
+        """Temperature of each probe [K]."""
+        for k, probe in enumerate(self.probes):
+            particles, weights = self._weights(k, probe, view)
+            self.last[k] = float(weights @ view.temperature[particles])
+            self.peak[k].update(self.last[k], view.time)
+            self.where[k] = [float(value) for value in view.position[:, particles] @ weights]
+        return dict(zip(self.columns, self.last, strict=True))
+
+    def _weights(self, k: int, probe: Probe, view: View) -> tuple[np.ndarray, np.ndarray]:
+        """Particles and weights of a probe, found again only when the particles have moved."""
+        found = self._found[k]
+        if found is not None:
+            particles, weights, place = found
+            if np.array_equal(view.position[:, particles], place):
+                return particles, weights
+        particles, weights = weights_at(view.position, probe.place(view.dimension), probe.method)
+        self._found[k] = (particles, weights, view.position[:, particles].copy())
+        return particles, weights
+
+    def summary(self) -> dict[str, Any]:
+        """`probes`: asked and used place, method, largest and last temperature of each."""
+        if not self.probes:
+            return {}
+        return {
+            "probes": {
+                probe.name: {
+                    "method": probe.method,
+                    "depth_m": probe.depth,
+                    "x_m": probe.x,
+                    "y_m": probe.y,
+                    "depth_used_m": -self.where[k][-1] if self.where[k] else None,
+                    "lateral_used_m": self.where[k][:-1],
+                    "temperature_max_K": self.peak[k].value,
+                    "temperature_max_at_s": self.peak[k].first,
+                    "temperature_end_K": self.last[k],
+                }
+                for k, probe in enumerate(self.probes)
+            }
+        }
+
+    def state(self) -> dict[str, Any]:
+        """What `restore` needs."""
+        return {
+            "peak": [peak.state() for peak in self.peak],
+            "last": list(self.last),
+            "where": [list(place) for place in self.where],
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from a state."""
+        self.peak = [Peak(**values) for values in state["peak"]]
+        self.last = list(state["last"])
+        self.where = [list(place) for place in state["where"]]
+
+
+def weights_at(
+    position: np.ndarray, place: np.ndarray, method: str
+) -> tuple[np.ndarray, np.ndarray]:
+    """Particles and weights that give a field at a place.
+
+    Args:
+        position: (dim, n) [m].
+        place: (dim,) [m].
+        method: "nearest" or "linear".
+
+    Returns:
+        Indices (k,) and weights (k,), which add up to 1.
+    """
+    offset = position - place[:, None]
+    square = np.sum(offset * offset, axis=0)
+    dimension, count = position.shape
+    if method == "nearest" or count <= dimension:
+        return np.array([np.argmin(square)]), np.ones(1)
+    wanted = min(SUPPORT[dimension], count)
+    particles = np.argpartition(square, wanted - 1)[:wanted]
+    particles = particles[np.lexsort((particles, square[particles]))]
+    scale = float(np.sqrt(square[particles[-1]]))
+    near = offset[:, particles] / scale
+    closeness = 1.0 / (np.sum(near * near, axis=0) + 1e-12) ** 2
+    linear = np.vstack([np.ones(wanted), near])
+    moments = (linear * closeness) @ linear.T
+    target = np.zeros(dimension + 1)
+    target[0] = 1.0
+    weights = closeness * (linear.T @ (np.linalg.pinv(moments, hermitian=True) @ target))
+    return particles, weights / np.sum(weights)

@@ -1,0 +1,99 @@
+"""The observers of a run, asked together: one history row, one summary, one state."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+from lasersph.observers.energy_budget import EnergyBudget
+from lasersph.observers.melt_pool import MeltPool
+from lasersph.observers.probes import Probe, Probes
+from lasersph.observers.steps import Steps
+from lasersph.observers.surface_temperature import SurfaceTemperature
+from lasersph.observers.vaporization import Vaporization
+from lasersph.observers.view import View
+
+
+class Observer(Protocol):
+    """Looks at every step and never changes anything but itself."""
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of its history columns, with unit."""
+        ...
+
+    def observe(self, view: View) -> dict[str, Any]:
+        """Values of its columns at this step."""
+        ...
+
+    def summary(self) -> dict[str, Any]:
+        """Its part of the summary."""
+        ...
+
+    def state(self) -> dict[str, Any]:
+        """What `restore` needs: numbers, texts, lists and dicts."""
+        ...
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from a state."""
+        ...
+
+
+class Observers:
+    """Several observers as one."""
+
+    def __init__(self, members: Sequence[Observer]) -> None:
+        """Raises ValueError where two observers fill the same column."""
+        self.members = tuple(members)
+        if len(set(self.columns)) < len(self.columns):
+            raise ValueError("two observers fill the same history column")
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the history columns, in order."""
+        return tuple(name for member in self.members for name in member.columns)
+
+    def observe(self, view: View) -> dict[str, Any]:
+        """The history row of this step."""
+        row: dict[str, Any] = {}
+        for member in self.members:
+            row.update(member.observe(view))
+        return row
+
+    def summary(self) -> dict[str, Any]:
+        """What all observers have to say at the end."""
+        result: dict[str, Any] = {}
+        for member in self.members:
+            result.update(member.summary())
+        return result
+
+    def state(self) -> dict[str, Any]:
+        """States by class name, for a checkpoint."""
+        return {type(member).__name__: member.state() for member in self.members}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from the states of a checkpoint."""
+        for member in self.members:
+            member.restore(state[type(member).__name__])
+
+
+def heat_observers(
+    dimension: int, *, probes: Sequence[Probe] = (), iterations: Sequence[str] = ()
+) -> Observers:
+    """What every run with heat and melting observes.
+
+    Args:
+        dimension: 1, 2 or 3.
+        probes: points whose temperature is recorded.
+        iterations: names of the solver parts that count iterations.
+    """
+    return Observers(
+        [
+            Steps(tuple(iterations)),
+            SurfaceTemperature(),
+            MeltPool(dimension),
+            Vaporization(),
+            EnergyBudget(dimension),
+            Probes(tuple(probes)),
+        ]
+    )

@@ -1,0 +1,77 @@
+"""What an observer sees of a run after a step: host arrays, SI, never changed by the observer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+ENERGY_UNITS = {1: "J/m^2", 2: "J/m", 3: "J"}
+"""Unit of energies by dimension: a 1-D run holds a unit area, a 2-D run a unit length."""
+
+
+@dataclass(frozen=True)
+class View:
+    """State of a run after a step.
+
+    Attributes:
+        time, step, time_step: seconds; steps done; seconds.
+        position: (dim, n) [m]; the last axis is z, the original surface lies at z = 0.
+        width: (dim, n) cell widths [m].
+        volume: (n,) [m^dim].
+        temperature, enthalpy: (n,) [K], [J/kg].
+        melt_fraction, vapor_fraction: (n,) [1].
+        surface: indices of the particles of the surface layer.
+        symmetry_factor: 2 where half a period is computed, else 1; multiplies widths.
+        energy: incident, absorbed, reflected, stored, lost, removed, discarded since the start,
+            in `ENERGY_UNITS`; lost and removed leave, stored stays.
+        iterations: iterations of this step, by solver part.
+        limit: name of the limit that bound the time step.
+        solidus, liquidus, vaporization: corner temperatures of the material [K], None where it
+            has none.
+        evaporated: (surface,) thickness that has evaporated from each surface cell [m], where the
+            run follows it.
+    """
+
+    time: float
+    step: int
+    time_step: float
+    position: np.ndarray
+    width: np.ndarray
+    volume: np.ndarray
+    temperature: np.ndarray
+    enthalpy: np.ndarray
+    melt_fraction: np.ndarray
+    vapor_fraction: np.ndarray
+    surface: np.ndarray
+    symmetry_factor: int = 1
+    energy: dict[str, float] = field(default_factory=dict)
+    iterations: dict[str, int] = field(default_factory=dict)
+    limit: str = ""
+    solidus: float | None = None
+    liquidus: float | None = None
+    vaporization: float | None = None
+    evaporated: np.ndarray | None = None
+
+    @property
+    def dimension(self) -> int:
+        """Number of space dimensions."""
+        return self.position.shape[0]
+
+
+def hottest_surface_cell(view: View) -> int:
+    """Place in `view.surface` of the cell with the largest specific enthalpy.
+
+    The enthalpy orders cells also on a plateau of the temperature.
+    """
+    return int(np.argmax(view.enthalpy[view.surface]))
+
+
+def lower_faces(view: View) -> np.ndarray:
+    """Depth of the lower face of every cell below the original surface, (n,) [m]."""
+    return 0.5 * view.width[-1] - view.position[-1]
+
+
+def deepest(faces: np.ndarray, chosen: np.ndarray) -> float:
+    """Largest of some depths, those where `chosen` is true; 0 if none [m]."""
+    return float(np.max(faces, where=chosen, initial=0.0))

@@ -1,0 +1,67 @@
+"""Probes: nearest particle, linear weights, reported places."""
+
+import numpy as np
+import pytest
+import synthetic_run
+from pydantic import ValidationError
+
+from lasersph.observers import Probe, Probes
+from lasersph.observers.probes import weights_at
+
+
+@pytest.fixture(scope="module")
+def view():
+    position, width = synthetic_run.lattice(2)
+    return synthetic_run.view_at(50e-9, 1, position, width)
+
+
+def test_nearest_reports_the_depth_of_its_particle(view):
+    """A probe at the surface reads the first particle, half a cell below."""
+    probes = Probes((Probe(name="top"),))
+    row = probes.observe(view)
+    assert row["probe_top_K"] == view.temperature[0]
+    found = probes.summary()["probes"]["top"]
+    assert found["depth_used_m"] == pytest.approx(25e-9)
+    assert found["lateral_used_m"] == pytest.approx([25e-9])
+    assert found["temperature_end_K"] == view.temperature[0]
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+@pytest.mark.parametrize("depth", [0.0, 33e-9, 210e-9, 1.3e-6, 4.2e-6])
+def test_linear_reproduces_linear_fields(dimension, depth):
+    """On the graded lattice and at the surface, a linear field is met exactly."""
+    position, _ = synthetic_run.lattice(dimension)
+    slope = np.array([2.0, -3.0, 5.0])[:dimension]
+    place = np.array([0.4e-6, 0.1e-6, -depth])[-dimension:]
+    if dimension > 1:
+        place[0] = 0.4e-6
+    particles, weights = weights_at(position, place, "linear")
+    field = 1e-6 + slope @ position
+    assert weights @ field[particles] == pytest.approx(1e-6 + slope @ place, abs=1e-14)
+    assert np.sum(weights) == pytest.approx(1.0)
+
+
+def test_linear_at_a_particle_is_that_particle(view):
+    """Where a particle lies on the probe, its value is taken."""
+    k = 777
+    particles, weights = weights_at(view.position, view.position[:, k], "linear")
+    assert weights @ view.temperature[particles] == pytest.approx(view.temperature[k], rel=1e-9)
+
+
+def test_particles_in_another_order_are_found_again(view):
+    """Sorting the particles anew between two steps changes nothing."""
+    probes = Probes((Probe(name="a", depth=300e-9, x=1e-6),))
+    before = probes.observe(view)
+    order = np.random.default_rng(0).permutation(view.temperature.size)
+    moved = synthetic_run.view_at(50e-9, 2, view.position[:, order], view.width[:, order])
+    assert probes.observe(moved) == before
+
+
+def test_bad_probes_are_refused():
+    """Names must fit into a column name and differ; probes lie below the surface."""
+    with pytest.raises(ValidationError):
+        Probe(name="a b")
+    with pytest.raises(ValidationError, match="not negative"):
+        Probe(name="a", depth=-1e-9)
+    with pytest.raises(ValueError, match="same name"):
+        Probes((Probe(name="a"), Probe(name="a", depth=1e-9)))
