@@ -54,7 +54,7 @@ def build(model: type[M], document: Document, context: dict[str, Any] | None = N
     try:
         return model.model_validate(mark_numbers(document.data), context=context)
     except ValidationError as error:
-        raise CaseError(explain(error, document)) from None
+        raise CaseError(_placed_elsewhere(explain(error, document), model)) from None
     except RecursionError:
         raise CaseError("brackets nested too deeply", file=document.file) from None
 
@@ -85,6 +85,46 @@ def _foreign(cause: CaseError, location: tuple[Any, ...], document: Document) ->
             for p in cause.problems
         )
     ]
+
+
+def _placed_elsewhere(problems: list[Problem], model: type[BaseModel]) -> list[Problem]:
+    """Unknown keys that belong into another table are sent there."""
+    if not any(problem.problem == "unknown key" for problem in problems):
+        return problems
+    keys = _all_keys(model.model_json_schema())
+    return [
+        replace(problem, hint=f'do you mean "{place}"?')
+        if problem.problem == "unknown key"
+        and not problem.hint.startswith("do you mean")
+        and (place := _place_of(problem.key.rpartition(".")[2], keys))
+        else problem
+        for problem in problems
+    ]
+
+
+def _place_of(key: str, keys: list[str]) -> str | None:
+    """The full key whose last part is nearest, or None."""
+    last = {known.rpartition(".")[2]: known for known in reversed(keys)}
+    near = nearest(key, last)
+    return last[near] if near else None
+
+
+def _all_keys(schema: dict[str, Any]) -> list[str]:
+    """Every dotted key of a JSON Schema, the outer ones first."""
+    definitions, found = schema.get("$defs", {}), []
+    waiting = [("", schema)]
+    while waiting:
+        path, part = waiting.pop(0)
+        if "$ref" in part:
+            part = definitions[part["$ref"].rpartition("/")[2]]
+        branches = [*part.get("anyOf", ()), *part.get("oneOf", ()), *part.get("allOf", ())]
+        waiting += [(path, branch) for branch in branches]
+        for name, value in part.get("properties", {}).items():
+            where = f"{path}.{name}" if path else name
+            if where.count(".") < 5:
+                found.append(where)
+                waiting.append((where, value))
+    return found
 
 
 def dotted(path: Path) -> str:

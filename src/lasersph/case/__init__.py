@@ -1,0 +1,27 @@
+"""Case: the whole problem as one frozen model made of the rooms' own models.
+
+case             the model, its content as plain data, its hash
+material_choice  a material by name, by path, or changed in the case
+checks           what contradicts between rooms
+size             how large a case is before anything is allocated
+overrides        --set key=value
+loading          files, shipped cases, new case files
+"""
+
+from lasersph.case.case import SCHEMA_VERSION, Case
+from lasersph.case.checks import refuse_if_too_large
+from lasersph.case.loading import available_cases, case_file, load_case, write_new_case
+from lasersph.case.outputs import OutputSettings
+from lasersph.case.size import estimate
+
+__all__ = [
+    "SCHEMA_VERSION",
+    "Case",
+    "OutputSettings",
+    "available_cases",
+    "case_file",
+    "estimate",
+    "load_case",
+    "refuse_if_too_large",
+    "write_new_case",
+]

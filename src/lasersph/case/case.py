@@ -1,0 +1,79 @@
+"""`Case`: the whole problem as one frozen model made of the rooms' own models, in SI units."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, PrivateAttr, model_validator
+
+from lasersph.boundaries import Boundaries
+from lasersph.case.checks import problems_of
+from lasersph.case.material_choice import MaterialChoice
+from lasersph.case.outputs import OutputSettings
+from lasersph.lasers import Laser
+from lasersph.observers import Probe
+from lasersph.particles import Domain, Lattice
+from lasersph.reading import Model, Temperature, refusal
+from lasersph.solvers.conduction.settings import ConductionSettings
+from lasersph.solvers.time_step import TimeSettings
+
+SCHEMA_VERSION = 1
+
+
+class Case(Model):
+    """One problem: metal, light, block, particles, boundaries, solver, times, what is stored."""
+
+    schema_version: Literal[1] = Field(SCHEMA_VERSION, description="of the case file's format")
+    title: str = Field("", max_length=200, description="one line for reports")
+    material: MaterialChoice = Field(
+        description="name of a material, path of a material file (relative to the case file), or "
+        "a table with base and what differs from it"
+    )
+    initial_temperature: Annotated[Temperature, Field(gt=0)] = Field(
+        298.15, description="of all particles; enthalpies count from it"
+    )
+    domain: Domain
+    particles: Lattice
+    boundaries: Boundaries = Boundaries()
+    laser: Laser | None = None
+    solver: ConductionSettings = ConductionSettings()
+    time: TimeSettings
+    probes: tuple[Probe, ...] = ()
+    output: OutputSettings = OutputSettings()
+    _name: str = PrivateAttr("")
+    _text: str = PrivateAttr("")
+
+    @model_validator(mode="after")
+    def _check_together(self) -> Self:
+        """What no room can see alone."""
+        found = problems_of(self)
+        if found:
+            raise refusal(*found)
+        return self
+
+    @property
+    def name(self) -> str:
+        """Name of the shipped case or stem of the file; the title of a case built in Python."""
+        return self._name or self.title or "case"
+
+    @property
+    def text(self) -> str:
+        """The case file as given, headed by its overrides as comments."""
+        return self._text or "# Built in Python: all values are in resolved.json.\n"
+
+    def named(self, name: str, text: str) -> Self:
+        """The same case with the name and the text of its file."""
+        copy = self.model_copy()
+        copy._name, copy._text = name, text
+        return copy
+
+    def resolved(self) -> dict[str, Any]:
+        """Everything with all defaults filled in, SI, as plain data for JSON."""
+        return json.loads(self.model_dump_json())
+
+    def hash(self) -> str:
+        """Short name of the content: equal for equal cases however they were written."""
+        from lasersph.output import hash_of_case
+
+        return hash_of_case(self.resolved())

@@ -1,0 +1,215 @@
+"""Checks that need several rooms at once: what is refused, and what is only warned of."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lasersph.case.size import (
+    LARGEST_PARTICLES,
+    LARGEST_STEPS,
+    estimate,
+    in_words,
+    machine_memory,
+)
+from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
+from lasersph.observers import SnapshotSchedule
+from lasersph.reading import CaseError, show_quantity
+
+if TYPE_CHECKING:
+    from lasersph.case.case import Case
+
+FEWEST_LAYERS = 4
+LARGEST_COST_SHARE = 0.9
+
+
+def problems_of(case: Case) -> list[tuple[str, str]]:
+    """(key, "what is wrong; what would be right") of everything that the rooms contradict in."""
+    found = list(_domain(case))
+    if found:
+        return found
+    return [*_material(case), *_laser(case), *_size(case), *_probes(case), *_snapshots(case)]
+
+
+def refuse_if_too_large(case: Case) -> None:
+    """Refuse a case whose particles do not fit into the memory of this machine.
+
+    Raises:
+        CaseError: with the estimate, before anything is allocated.
+    """
+    size = estimate(case.domain, case.particles, case.solver.dimensions)
+    memory = machine_memory()
+    if size.bytes > LARGEST_COST_SHARE * memory:
+        raise CaseError(
+            f"about {size} of memory, but this machine has {in_words(memory)}",
+            "take a coarser spacing or a smaller domain",
+            key="particles.spacing",
+        )
+
+
+def _domain(case: Case) -> Iterator[tuple[str, str]]:
+    domain, lattice, dimensions = case.domain, case.particles, case.solver.dimensions
+    if dimensions > 1 and domain.width is None:
+        yield "domain.width", f'missing for {dimensions}-D; write e.g. width = "5 um"'
+        return
+    if dimensions == 1 and domain.extent == "half":
+        yield "domain.extent", 'half of a 1-D column means nothing; write extent = "full"'
+    for key, length in (("depth", domain.depth), ("width", domain.width)):
+        if key == "width" and dimensions == 1:
+            continue
+        if length is not None and length < FEWEST_LAYERS * lattice.spacing:
+            yield (
+                f"domain.{key}",
+                f"{show_quantity(length, 'm')} holds fewer than {FEWEST_LAYERS} particles of "
+                f"{show_quantity(lattice.spacing, 'm')}; give a larger domain or a finer spacing",
+            )
+    if lattice.fine_depth is not None and lattice.arrangement == "uniform":
+        yield (
+            "particles.fine_depth",
+            'belongs to graded particles; leave it out or write arrangement = "graded"',
+        )
+    sides = case.boundaries.sides
+    if domain.extent == "half" and sides != "adiabatic":
+        yield (
+            "boundaries.sides",
+            f'half a block is symmetric at x = 0, "{sides}" does not fit; write '
+            'extent = "full" in [domain] or sides = "adiabatic"',
+        )
+
+
+def _material(case: Case) -> Iterator[tuple[str, str]]:
+    try:
+        case.material.caloric_curve(
+            case.initial_temperature, case.solver.plateau, phase_change=case.solver.phase_change
+        )
+    except ValueError as error:
+        text = str(error)
+        is_start = text.startswith("the initial temperature")
+        is_plateau = "plateau" in text
+        key = "initial_temperature" if is_start else "solver.plateau" if is_plateau else "material"
+        yield key, text
+    if case.solver.plateau == "evaporate" and case.solver.phase_change:
+        vapor = case.material.vaporization
+        if vapor is None or vapor.molar_mass is None:
+            yield (
+                "solver.plateau",
+                f'"evaporate" needs vaporization data with molar_mass, which material '
+                f'"{case.material.name}" lacks; write plateau = "hold"',
+            )
+    loses_heat = case.boundaries.emissivity > 0.0 or case.boundaries.convection > 0.0
+    if case.boundaries.ambient_temperature is not None and not loses_heat:
+        yield (
+            "boundaries.ambient_temperature",
+            "says nothing without convection or emissivity; give one of them or leave it out",
+        )
+
+
+def _laser(case: Case) -> Iterator[tuple[str, str]]:
+    laser = case.laser
+    if laser is None:
+        return
+    if case.boundaries.surface not in ("adiabatic", "free"):
+        yield (
+            "boundaries.surface",
+            f'a laser heats the surface, "{case.boundaries.surface}" holds its temperature; '
+            "remove one of the two",
+        )
+    try:
+        laser.absorption_coefficient(case.material)
+    except ValueError as error:
+        yield "laser.absorption.absorption_coefficient", str(error)
+    try:
+        laser.reflectivity_table(case.material, 1.0, 1e4)
+    except ValueError as error:
+        yield "laser.reflectivity", str(error)
+    yield from _beam(case, laser)
+
+
+def _beam(case: Case, laser: Laser) -> Iterator[tuple[str, str]]:
+    """Whether beam, domain and symmetry fit together."""
+    dimensions, domain = case.solver.dimensions, case.domain
+    if dimensions == 1 and not isinstance(laser.beam, UniformBeam):
+        yield (
+            "laser.beam.kind",
+            f'a "{laser.beam.kind}" beam varies along the surface, which a 1-D run does not have; '
+            "write dimensions = 2 in [solver], or a uniform beam",
+        )
+        return
+    if domain.extent == "half" and not laser.is_even:
+        yield (
+            "domain.extent",
+            'this beam is not symmetric about x = 0; write extent = "full"',
+        )
+    if isinstance(laser.beam, InterferenceBeam) and case.boundaries.sides in (
+        "adiabatic",
+        "periodic",
+    ):
+        yield from _whole_periods("width", domain.width, laser.beam.lateral_period)
+        if dimensions == 3:
+            yield from _whole_periods(
+                "breadth", domain.breadth or domain.width, laser.beam.lateral_period_y
+            )
+
+
+def _whole_periods(
+    key: str, length: float | None, period: float | None
+) -> Iterator[tuple[str, str]]:
+    """Patterns must fill a periodic or mirrored domain a whole number of times."""
+    if length is None or period is None:
+        return
+    count = max(1, round(length / period))
+    if not math.isclose(length, count * period, rel_tol=1e-6):
+        yield (
+            f"domain.{key}",
+            f"{show_quantity(length, 'm')} is no whole number of the pattern's periods of "
+            f"{show_quantity(period, 'm', 7)}; write "
+            f'{key} = "{show_quantity(count * period, "m", 10)}"',
+        )
+
+
+def _size(case: Case) -> Iterator[tuple[str, str]]:
+    size = estimate(case.domain, case.particles, case.solver.dimensions)
+    if size.particles > LARGEST_PARTICLES:
+        yield (
+            "particles.spacing",
+            f"about {size} of memory, more than lasersph can number; take a coarser spacing or a "
+            "smaller domain",
+        )
+    if case.time.step is not None and case.time.end / case.time.step > LARGEST_STEPS:
+        yield (
+            "time.step",
+            f"{case.time.end / case.time.step:.2g} steps to the end at least, more than "
+            f"{LARGEST_STEPS:.0g}; take longer steps or an earlier end",
+        )
+
+
+def _probes(case: Case) -> Iterator[tuple[str, str]]:
+    for name, count in Counter(probe.name for probe in case.probes).items():
+        if count > 1:
+            yield "probes", f'{count} probes are named "{name}"; give each its own name'
+    bounds = case.domain.lateral(case.solver.dimensions)
+    for index, probe in enumerate(case.probes, start=1):
+        if probe.depth > case.domain.depth:
+            yield (
+                f"probes[{index}].depth",
+                f"{show_quantity(probe.depth, 'm')} lies below the domain of "
+                f"{show_quantity(case.domain.depth, 'm')}; place the probe inside",
+            )
+        for axis, (low, high) in zip("xy", bounds, strict=False):
+            place = getattr(probe, axis)
+            if not low <= place <= high:
+                yield (
+                    f"probes[{index}].{axis}",
+                    f"{show_quantity(place, 'm')} lies outside the domain, which runs from "
+                    f"{show_quantity(low, 'm')} to {show_quantity(high, 'm')}; place the probe "
+                    "inside",
+                )
+
+
+def _snapshots(case: Case) -> Iterator[tuple[str, str]]:
+    try:
+        SnapshotSchedule(case.output.snapshots, case.time.end)
+    except ValueError as error:
+        yield "output.snapshots.interval", str(error)

@@ -1,0 +1,82 @@
+"""Finding and reading cases: files, shipped cases by name, overrides, new case files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from lasersph.case.case import Case
+from lasersph.case.overrides import override
+from lasersph.reading import CaseError, Document, build, nearest, read_toml
+
+LIBRARY = Path(__file__).parent / "cases"
+
+
+def available_cases() -> dict[str, Path]:
+    """Files of the shipped cases, by name."""
+    return {path.stem: path for path in sorted(LIBRARY.glob("*.toml"))}
+
+
+def case_file(name_or_path: str | os.PathLike[str]) -> Path:
+    """File of a case given by its shipped name or by a path.
+
+    A shipped name is recognized first, unless it ends in ".toml" or holds a path separator.
+
+    Raises:
+        CaseError: neither a shipped case nor a file; says the nearest name.
+    """
+    text = os.fspath(name_or_path)
+    if not isinstance(name_or_path, Path) and text in available_cases():
+        return available_cases()[text]
+    path = Path(text).expanduser()
+    try:
+        exists = path.exists()
+    except (OSError, ValueError):
+        exists = False
+    if exists or text.endswith(".toml") or os.sep in text:
+        return path
+    near = nearest(text, available_cases())
+    hint = f'do you mean "{near}"?' if near else "shipped: " + ", ".join(available_cases())
+    raise CaseError(f'no case "{text}"', hint)
+
+
+def read_case(name_or_path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Document:
+    """The document of a case with its overrides applied, not yet validated. Raises CaseError."""
+    return override(read_toml(case_file(name_or_path)), overrides)
+
+
+def load_case(name_or_path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Case:
+    """Read a case file or a shipped case.
+
+    Args:
+        name_or_path: "dlip-steel" or "my-case.toml".
+        overrides: settings like "laser.fluence=0.8 J/cm^2"; later ones win.
+
+    Raises:
+        CaseError: every problem of the case in one line: file, line, key, what is wrong.
+    """
+    document = read_case(name_or_path, overrides)
+    file = Path(document.file)
+    case = build(Case, document, {"folder": file.parent})
+    settings = "".join(f"# --set {setting}\n" for setting in overrides)
+    return case.named(file.stem, settings + document.text)
+
+
+def write_new_case(name_or_path: str | os.PathLike[str], target: str | os.PathLike[str]) -> Path:
+    """Write a commented case file to start from: the text of a shipped case or of a file.
+
+    Raises:
+        CaseError: no such case, the target exists already or cannot be written.
+    """
+    document = read_toml(case_file(name_or_path))
+    path = Path(target).expanduser()
+    try:
+        with path.open("x", encoding="utf-8") as stream:
+            stream.write(document.text)
+    except FileExistsError:
+        raise CaseError("exists already", "choose another name", file=str(target)) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise CaseError(f"cannot be written: {reason}", file=str(target)) from None
+    return path

@@ -1,0 +1,105 @@
+"""The `material` key of a case: a name, a path, or a table that changes a named material.
+
+    material = "steel-304"                     a shipped material or one of the user's folder
+    material = "my-alloy.toml"                 a file, relative to the case file
+    material = { base = "steel-304", conductivity = "20 W/(m K)" }
+    [material] without base                    a whole material written into the case
+
+In a changed material a property replaces the base's whole law, a section (melting, vaporization,
+optics) keeps the base's other numbers; the source of changed numbers is "set in the case".
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
+
+from lasersph.materials import Material, load_material, material_file
+from lasersph.reading import read_toml
+from lasersph.reading.types import mark_numbers
+
+SET_HERE = "set in the case"
+SECTIONS = ("melting", "vaporization", "optics")
+PLAIN = ("name", "title", "composition", "note", "reference_temperature")
+
+
+def _choose(value: Any, info: ValidationInfo) -> Any:
+    """A material, or the data of one, from what the case says."""
+    folder = (info.context or {}).get("folder")
+    if isinstance(value, str | Path):
+        return load_material(_located(value, folder))
+    if isinstance(value, dict) and "base" in value:
+        return _changed(value, folder)
+    return value
+
+
+def _located(name: str | Path, folder: Path | None) -> str | Path:
+    """A path relative to the case's folder, or the name as it is."""
+    is_path = str(name).endswith(".toml") or "/" in str(name) or isinstance(name, Path)
+    return Path(folder) / Path(name).expanduser() if is_path and folder else name
+
+
+def _changed(table: dict[str, Any], folder: Path | None) -> dict[str, Any]:
+    """The data of the base with the table's changes."""
+    base = table["base"]
+    if not isinstance(base, str):
+        raise ValueError('base must be the name or path of a material; write e.g. "steel-304"')
+    located = _located(base, folder)
+    load_material(located)
+    data = mark_numbers(read_toml(material_file(located)).data)
+    changes = {key: value for key, value in table.items() if key != "base"}
+    if changes:
+        data["note"] = f"{data.get('note', '')} Changed in the case: {', '.join(changes)}.".strip()
+    for key, value in changes.items():
+        if key in SECTIONS and isinstance(value, dict):
+            data[key] = _changed_section(data.get(key, {}), value)
+        elif key in SECTIONS or key in PLAIN:
+            data[key] = value
+        else:
+            data[key] = _sourced(value)
+    return data
+
+
+def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    merged = dict(section)
+    source = merged.get("source", {})
+    sources = source if isinstance(source, dict) else dict.fromkeys(merged, source)
+    sources = {key: sources[key] for key in sources if key not in ("source", "note")}
+    for key, value in changes.items():
+        if key == "reflectivity":
+            merged[key] = _sourced(value)
+            sources.pop(key, None)
+        elif key in ("source", "note"):
+            merged[key] = value
+        else:
+            merged[key] = value
+            sources[key] = SET_HERE
+    if not isinstance(changes.get("source"), str):
+        merged["source"] = sources | dict(changes.get("source", {}))
+    return merged
+
+
+def _sourced(value: Any) -> Any:
+    """A property given in short ("20 W/(m K)") or without source as a table with one."""
+    if not isinstance(value, dict):
+        return {"value": value, "source": SET_HERE}
+    if "solid" in value or "liquid" in value:
+        return {key: _sourced(law) for key, law in value.items()}
+    return {"source": SET_HERE} | value
+
+
+MaterialChoice = Annotated[
+    Material,
+    BeforeValidator(_choose),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "string", "examples": ["steel-304-demuth", "my-alloy.toml"]},
+                {"type": "object", "examples": [{"base": "steel-304"}]},
+            ]
+        },
+        mode="validation",
+    ),
+]

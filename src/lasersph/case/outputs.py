@@ -1,0 +1,16 @@
+"""What a run stores, and how often."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from lasersph.observers import SnapshotPlan
+from lasersph.reading import Count, Model
+
+
+class OutputSettings(Model):
+    """What a run stores, and how often."""
+
+    snapshots: SnapshotPlan = Field(SnapshotPlan(), description="when all particles are stored")
+    history_every: Count = Field(1, description="steps from one row of history.csv to the next")
+    checkpoint_every: Count = Field(200, description="steps from one checkpoint to the next")

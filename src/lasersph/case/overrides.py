@@ -1,0 +1,100 @@
+"""`--set key=value`: one key of a case changed from the command line or from Python.
+
+The value is read as TOML, and where it is none as plain text (`16nm`, `0.8 J/cm^2`). An empty
+value removes the key. Later overrides win. Elements of arrays of tables count from 1:
+`probes[1].depth=2um`.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from lasersph.reading import CaseError, Document
+
+_STEP = re.compile(r"([A-Za-z0-9_-]+)(?:\[([0-9]{1,6})\])?")
+
+
+def override(document: Document, settings: Iterable[str]) -> Document:
+    """The document with settings "key=value" applied in order.
+
+    Raises:
+        CaseError: a setting that is not key=value, or a key that leads through a plain value.
+    """
+    data, origins = copy.deepcopy(document.data), dict(document.origins)
+    for setting in settings:
+        where = f"--set {setting if len(setting) <= 80 else setting[:77] + '...'}"
+        path, value = _parse(setting, where)
+        if path[0] == "material" and len(path) == 1 and isinstance(value, str):
+            value = _from_here(value)
+        _put(data, path, value, where)
+        origins[path] = where
+    return Document(data, document.file, document.text, document.lines, origins)
+
+
+def _parse(setting: str, where: str) -> tuple[tuple[str | int, ...], Any]:
+    """("laser", "fluence"), "0.8 J/cm^2" from "laser.fluence=0.8 J/cm^2"; None for no value."""
+    key, equals, text = setting.partition("=")
+    if not equals or not key.strip():
+        raise CaseError("is not key=value", "write e.g. --set laser.fluence=0.8J/cm2", file=where)
+    path: list[str | int] = []
+    for step in key.strip().split("."):
+        match = _STEP.fullmatch(step.strip())
+        if match is None:
+            raise CaseError(f'"{key.strip()}" is no key', "write e.g. laser.fluence", file=where)
+        path.append(match.group(1))
+        if match.group(2) is not None:
+            if int(match.group(2)) < 1:
+                raise CaseError(f'"{step}" counts from 1', file=where)
+            path.append(int(match.group(2)) - 1)
+    return tuple(path), _value(text.strip())
+
+
+def _value(text: str) -> Any:
+    if not text:
+        return None
+    try:
+        read = tomllib.loads(f"value = {text}")
+    except (tomllib.TOMLDecodeError, ValueError, RecursionError):
+        return text
+    return read["value"] if list(read) == ["value"] else text
+
+
+def _from_here(name: str) -> str:
+    """A material file named on the command line is relative to where the command runs."""
+    is_path = name.endswith(".toml") or "/" in name
+    return str(Path(name).expanduser().absolute()) if is_path else name
+
+
+def _put(data: Any, path: tuple[str | int, ...], value: Any, where: str) -> None:
+    for number, step in enumerate(path[:-1]):
+        if isinstance(step, int):
+            data = _element(data, step, where)
+            continue
+        following = path[number + 1]
+        if not isinstance(data, dict):
+            raise CaseError(f'"{path[number - 1]}" is not a table', file=where)
+        if step == "material" and number == 0 and isinstance(data.get(step), str):
+            data[step] = {"base": data[step]}
+        data = data.setdefault(step, [] if isinstance(following, int) else {})
+    last = path[-1]
+    if isinstance(last, int):
+        _element(data, last, where)
+        data[last] = value
+    elif not isinstance(data, dict):
+        raise CaseError(f'"{path[-2]}" is not a table', file=where)
+    elif value is None:
+        data.pop(last, None)
+    else:
+        data[last] = value
+
+
+def _element(data: Any, index: int, where: str) -> Any:
+    if not isinstance(data, list) or index >= len(data):
+        count = len(data) if isinstance(data, list) else 0
+        raise CaseError(f"there is no element {index + 1}, only {count}", file=where)
+    return data[index]

@@ -1,0 +1,76 @@
+"""How large a case is before anything is allocated: a lower estimate to refuse the absurd.
+
+Layers of thickness d hold width/d columns; graded layers grow by 1/ratio up to the coarsest. The
+exact counts come from the filling itself; this estimate is good to some percent where the fine
+depth is given.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass
+
+from lasersph.particles import Domain, Lattice
+
+LARGEST_PARTICLES = 2**32 - 1
+"""Neighbors are numbered with 32 bits."""
+LARGEST_STEPS = 1e9
+BYTES_PER_PARTICLE = 400
+BYTES_PER_NEIGHBOR = 12
+ASSUMED_FINE_DEPTH = 2e-7
+USUAL_SUPPORT = {"quintic-spline": 3.75}
+
+
+@dataclass(frozen=True)
+class Size:
+    """Estimated number of particles and bytes."""
+
+    particles: float
+    bytes: float
+
+    def __str__(self) -> str:
+        """For messages: "1.2e+12 particles, 1.5 TiB"."""
+        return f"{self.particles:.2g} particles, {in_words(self.bytes)}"
+
+
+def estimate(domain: Domain, lattice: Lattice, dimensions: int) -> Size:
+    """Estimated size of the particles of a block in 1, 2 or 3 dimensions."""
+    sides = [high - low for low, high in domain.lateral(dimensions)]
+
+    def per_layer(thickness: float) -> float:
+        return math.prod(max(1.0, side / thickness) for side in sides)
+
+    if lattice.arrangement == "uniform":
+        count = max(1.0, domain.depth / lattice.spacing) * per_layer(lattice.spacing)
+    else:
+        fine = min(lattice.fine_depth or ASSUMED_FINE_DEPTH, domain.depth)
+        count = max(1.0, fine / lattice.spacing) * per_layer(lattice.spacing)
+        depth, thickness = fine, lattice.spacing / lattice.ratio
+        while depth < domain.depth and thickness < lattice.coarsest:
+            count += per_layer(thickness)
+            depth += thickness
+            thickness /= lattice.ratio
+        if depth < domain.depth:
+            count += (domain.depth - depth) / lattice.coarsest * per_layer(lattice.coarsest)
+    reach = lattice.support_ratio or USUAL_SUPPORT.get(lattice.kernel, 3.0)
+    neighbors = {1: 2.0 * reach, 2: math.pi * reach**2, 3: 4.0 / 3.0 * math.pi * reach**3}
+    each = BYTES_PER_PARTICLE + BYTES_PER_NEIGHBOR * neighbors[dimensions]
+    return Size(count, count * each)
+
+
+def machine_memory() -> float:
+    """Memory of this machine [bytes]; infinite where the system does not tell."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, OSError, ValueError):
+        return math.inf
+
+
+def in_words(count: float) -> str:
+    """Bytes with a binary prefix: "1.5 GiB"."""
+    for unit in ("B", "KiB", "MiB", "GiB", "TiB"):
+        if count < 1024.0:
+            return f"{count:.3g} {unit}"
+        count /= 1024.0
+    return f"{count:.3g} PiB"
