@@ -99,9 +99,10 @@ def _kind_of_value(choice: Schema, where: str) -> str:
         return f"table `[{where}]`"
     if choice.get("type") == "array":
         items = choice.get("items") or {}
-        return (
-            f"list of {_kind_of_value(items, where)}" if "$ref" not in items else "list of tables"
-        )
+        if "prefixItems" in choice:
+            entries = dict.fromkeys(_kind_of_value(entry, where) for entry in choice["prefixItems"])
+            return f"list of {len(choice['prefixItems'])}: " + ", ".join(entries)
+        return "list of tables" if "$ref" in items else f"list of {_kind_of_value(items, where)}"
     return {"boolean": "true or false", "integer": "whole number", "string": "text"}.get(
         choice.get("type", ""), choice.get("type", "any")
     )
@@ -109,13 +110,22 @@ def _kind_of_value(choice: Schema, where: str) -> str:
 
 def _default(raw: Schema, choices: list[Schema]) -> str:
     if "default" not in raw:
-        return ""
+        return "see its table"
     value = raw["default"]
     if value is None:
         return "none"
-    unit = next((choice["x-unit"] for choice in choices if "x-unit" in choice), None)
-    if unit and unit != "1" and isinstance(value, int | float):
-        return f'`"{show_quantity(value, unit)}"`'
     if isinstance(value, dict | list) and len(json.dumps(value)) > 40:
         return "see its table"
-    return f"`{json.dumps(value, ensure_ascii=False)}`"
+    return f"`{_shown(value, choices[0])}`"
+
+
+def _shown(value: Any, schema: Schema) -> str:
+    """A default as one would write it in the file."""
+    unit = schema.get("x-unit", "1")
+    if isinstance(value, list):
+        entries = schema.get("prefixItems") or [schema.get("items", {})] * len(value)
+        shown = (_shown(*pair) for pair in zip(value, entries, strict=True))
+        return f"[{', '.join(shown)}]"
+    if unit != "1" and isinstance(value, int | float):
+        return f'"{show_quantity(value, unit)}"'
+    return json.dumps(value, ensure_ascii=False)
