@@ -1,3 +1,45 @@
-"""lasersph simulates what a laser pulse does to metal, with smoothed particle hydrodynamics."""
+"""lasersph simulates what a laser pulse does to metal, with smoothed particle hydrodynamics.
+
+    import lasersph
+
+    case = lasersph.load_case("dlip-steel", ["laser.fluence=0.8 J/cm^2"])
+    run = lasersph.run(case, "runs/steel")
+    run.history["time_s"], run.snapshots[-1]["temperature"]
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lasersph.case import Case, load_case
+    from lasersph.output import open_run
+    from lasersph.reading import CaseError
+    from lasersph.simulation import run
 
 __version__ = "0.1.0"
+__all__ = ["Case", "CaseError", "__version__", "load_case", "open_run", "run"]
+
+_ROOMS = {
+    "Case": "lasersph.case",
+    "CaseError": "lasersph.reading",
+    "load_case": "lasersph.case",
+    "open_run": "lasersph.output",
+    "run": "lasersph.simulation",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its room when it is first asked for."""
+    if name not in _ROOMS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(_ROOMS[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """The public names, for completion in a shell."""
+    return sorted(__all__)

@@ -35,12 +35,12 @@ class Case(Model):
     )
     domain: Domain
     particles: Lattice
-    boundaries: Boundaries = Boundaries()
+    boundaries: Boundaries = Boundaries.model_validate({})
     laser: Laser | None = None
-    solver: ConductionSettings = ConductionSettings()
+    solver: ConductionSettings = ConductionSettings.model_validate({})
     time: TimeSettings
     probes: tuple[Probe, ...] = ()
-    output: OutputSettings = OutputSettings()
+    output: OutputSettings = OutputSettings.model_validate({})
     _name: str = PrivateAttr("")
     _text: str = PrivateAttr("")
 
