@@ -6,6 +6,7 @@ defaults, units and descriptions all come from the models.
 """
 
 import json
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -21,11 +22,10 @@ def case_keys(schema: Schema) -> str:
 
 
 def _resolve(schema: Schema, definitions: Schema) -> Schema:
-    """The schema a `$ref` stands for; keys beside the `$ref` (description, default) win."""
+    """The schema a `$ref` stands for, with the model's own description."""
     if "$ref" not in schema:
         return schema
-    found = _resolve(definitions[schema["$ref"].rsplit("/", 1)[1]], definitions)
-    return found | {key: value for key, value in schema.items() if key != "$ref"}
+    return schema | _resolve(definitions[schema["$ref"].rsplit("/", 1)[1]], definitions)
 
 
 def _alternatives(schema: Schema, definitions: Schema) -> list[Schema]:
@@ -43,6 +43,7 @@ def _sections(
 ) -> Iterator[str]:
     """The section of a table, then those of the tables in it."""
     rows, inner = [], []
+    meanings = _described(schema)[1]
     for name, raw in schema.get("properties", {}).items():
         where = f"{path}.{name}" if path else name
         choices = _alternatives(raw, definitions)
@@ -55,34 +56,45 @@ def _sections(
             if "properties" in item
         ]
         inner += [(where, *table) for table in tables]
-        if not (path and name == "kind" and "const" in raw):  # the heading says it
-            rows.append(
-                _row(name, raw, choices, where, required=name in schema.get("required", []))
-            )
+        if path and name == "kind" and "const" in raw:
+            continue  # the heading says it
+        row = {"description": meanings.get(name, "")} | raw
+        rows.append(_row(name, row, choices, where, name in schema.get("required", [])))
     yield _heading(schema, path, array) + (_table(rows) if rows else "")
     for where, table, is_array in inner:
         yield from _sections(table, where, definitions, array=is_array)
 
 
 def _heading(schema: Schema, path: str, array: bool) -> str:
+    text, _ = _described(schema)
     title = f"`[[{path}]]`" if array else f"`[{path}]`" if path else "Top of the file"
     kind = schema.get("properties", {}).get("kind", {})
     if path and "const" in kind:
         title += f' with `kind = "{kind["const"]}"`'
-    text = schema.get("description", "").strip()
     return f"### {title}\n\n" + (f"{text}\n\n" if text else "")
+
+
+def _described(schema: Schema) -> tuple[str, dict[str, str]]:
+    """A model's docstring, and what its "Attributes:" say of each key."""
+    text, _, attributes = schema.get("description", "").partition("\n\nAttributes:\n")
+    meanings = {}
+    for names, meaning in re.findall(
+        r"^    ([\w, ]+): (.+(?:\n     +.+)*)", attributes, re.MULTILINE
+    ):
+        meanings |= dict.fromkeys(names.split(", "), " ".join(meaning.split()))
+    return text.strip(), meanings
 
 
 def _table(rows: list[str]) -> str:
     return "\n".join(["| key | value | default | meaning |", "|---|---|---|---|", *rows])
 
 
-def _row(name: str, raw: Schema, choices: list[Schema], where: str, *, required: bool) -> str:
+def _row(name: str, raw: Schema, choices: list[Schema], where: str, required: bool) -> str:
     kinds = dict.fromkeys(_kind_of_value(choice, where) for choice in choices)
     default = "**required**" if required else _default(raw, choices)
-    meaning = raw.get("description") or choices[0].get("description", "")
-    if "properties" in choices[0] and "description" not in raw:
-        meaning = ""
+    meaning = raw["description"] or (
+        "" if "properties" in choices[0] else _described(choices[0])[0]
+    )
     cells = [f"`{name}`", " or ".join(kinds), default, " ".join(meaning.split())]
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
@@ -114,7 +126,7 @@ def _default(raw: Schema, choices: list[Schema]) -> str:
     value = raw["default"]
     if value is None:
         return "none"
-    if isinstance(value, dict | list) and len(json.dumps(value)) > 40:
+    if isinstance(value, dict):
         return "see its table"
     return f"`{_shown(value, choices[0])}`"
 
@@ -127,5 +139,5 @@ def _shown(value: Any, schema: Schema) -> str:
         shown = (_shown(*pair) for pair in zip(value, entries, strict=True))
         return f"[{', '.join(shown)}]"
     if unit != "1" and isinstance(value, int | float):
-        return f'"{show_quantity(value, unit)}"'
+        return f'"{show_quantity(value, unit, digits=12)}"'
     return json.dumps(value, ensure_ascii=False)
