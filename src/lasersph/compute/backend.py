@@ -86,6 +86,15 @@ class Backend:
         for a, b in zip(components(first), components(last), strict=True):
             np.take(a, index, out=b[: index.size], mode="clip" if index.size == 0 else "raise")
 
+    def scatter(self, source: Any, order: Any, out: Any) -> None:
+        """out[..., order[k]] = source[..., k]; the other elements keep their values."""
+        first, last = self.unwrap(source), self.unwrap(out)
+        index = self.unwrap(order)
+        if first.dtype != last.dtype or first.shape[:-1] != last.shape[:-1]:
+            raise ValueError("scatter between arrays of different kind")
+        for a, b in zip(components(first), components(last), strict=True):
+            b[index] = a
+
     def exclusive_scan(self, counts: Any, out: Any) -> None:
         """out[k] = counts[0] + ... + counts[k-1] for k = 0 ... n; out is "offset", length n + 1."""
         first, last = self.unwrap(counts), self.unwrap(out)

@@ -1,0 +1,148 @@
+"""Filling a domain: a particle in the middle of each cell, and dummy particles beyond the faces.
+
+Dummy layers and columns continue the lattice past each face that is not free. Each dummy knows
+which inner particle it stands for (mirror image or periodic image) or which face holds its
+temperature. Patterns that repeat within one support radius are unfolded as often as needed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.particles.layers import Layers
+
+Array = NDArray[np.float64]
+GHOSTS = 5
+"""Dummy layers and columns: enough for a support radius of 3.75 spacings and graded layers."""
+FREE, IMAGE, PERIODIC, HELD = "free", "image", "periodic", "held"
+FACES = ("none", "surface", "bottom", "sides")
+
+
+@dataclass(frozen=True)
+class Filling:
+    """Host arrays of the particles; the first `count` of N are real, the others dummies.
+
+    Attributes:
+        position, width: (dim, N) [m]. layer: (N,) number of the layer, negative above z = 0.
+        source: (N,) the inner particle that a dummy stands for; the particle itself where real.
+        held: (N,) index in FACES of the face that holds the dummy's temperature, 0 if none.
+        surface: the particles of the first layer. above: (count,) the surface particle over each.
+    """
+
+    count: int
+    position: Array
+    width: Array
+    layer: NDArray[np.int64]
+    source: NDArray[np.uint32]
+    held: NDArray[np.uint8]
+    surface: NDArray[np.int64]
+    above: NDArray[np.int64]
+
+    @property
+    def volume(self) -> Array:
+        """(N,) cell volumes [m^dim]."""
+        return np.prod(self.width, axis=0)
+
+
+def fill(layers: Layers, *, surface: str, bottom: str, sides: str) -> Filling:
+    """Particles of the layers with dummies as the faces ask: FREE, IMAGE, PERIODIC or HELD."""
+    total = layers.thickness.size
+    starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
+    first = 0 if surface == FREE else -min(GHOSTS, total)
+    last = total if bottom == FREE else total + min(GHOSTS, total)
+    real, dummies = [], []
+    for number in range(first, last):
+        inside = number if 0 <= number < total else (-1 - number if number < 0
+                                                      else 2 * total - 1 - number)  # fmt: skip
+        face = 0
+        if number < 0 and surface == HELD:
+            face = FACES.index("surface")
+        if number >= total and bottom == HELD:
+            face = FACES.index("bottom")
+        block = _layer(layers, number, inside, int(starts[inside]), face, sides)
+        is_real = block["real"] & (0 <= number < total)
+        real.append({key: value[..., is_real] for key, value in block.items()})
+        dummies.append({key: value[..., ~is_real] for key, value in block.items()})
+    merged = {
+        key: np.concatenate([block[key] for block in real + dummies], axis=-1) for key in real[0]
+    }
+    count = layers.particle_count
+    source = merged["source"].astype(np.uint32)
+    surface_count = int(starts[1])
+    return Filling(
+        count=count,
+        position=np.ascontiguousarray(merged["position"]),
+        width=np.ascontiguousarray(merged["width"]),
+        layer=merged["layer"],
+        source=source,
+        held=merged["held"].astype(np.uint8),
+        surface=np.arange(surface_count),
+        above=_above(layers, merged["position"][:-1, :count]),
+    )
+
+
+def _layer(
+    layers: Layers, number: int, inside: int, start: int, face: int, sides: str
+) -> dict[str, Array]:
+    """One layer of the extended lattice, real and dummy columns; `inside` is its mirror image."""
+    center, depth = layers.center(), float(layers.thickness.sum())
+    z = center[inside]
+    if number < 0:
+        z = -z
+    elif number >= layers.thickness.size:
+        z = -2.0 * depth - z
+    axes, sources, reals, widths = [], [], [], []
+    for axis, (lower, _upper) in enumerate(layers.bounds):
+        columns = int(layers.columns[axis, inside])
+        width = float(layers.column_width()[axis, inside])
+        ghosts = 0 if sides == FREE else GHOSTS
+        index = np.arange(-ghosts, columns + ghosts)
+        axes.append(lower + (index + 0.5) * width)
+        reals.append((index >= 0) & (index < columns))
+        sources.append(index % columns if sides == PERIODIC else _reflected(index, columns))
+        widths.append(width)
+    shape = tuple(axis.size for axis in axes)
+    position = np.empty((layers.dimension, int(np.prod(shape))))
+    is_real = np.ones(shape, bool)
+    source = np.zeros(shape, np.int64)
+    for axis, values in enumerate(axes):
+        view = [1] * len(shape)
+        view[axis] = -1
+        position[axis] = np.broadcast_to(values.reshape(view), shape).ravel()
+        is_real &= reals[axis].reshape(view)
+        source = source * int(layers.columns[axis, inside]) + sources[axis].reshape(view)
+    position[-1] = z
+    width = np.broadcast_to(
+        np.array([*widths, layers.thickness[inside]])[:, None], position.shape
+    ).copy()
+    held = np.full(shape, face)
+    if face == 0 and sides == HELD:
+        held = np.where(is_real, 0, FACES.index("sides"))
+    return {
+        "position": position,
+        "width": width,
+        "real": is_real.ravel(),
+        "layer": np.full(position.shape[1], number),
+        "source": start + source.ravel(),
+        "held": held.ravel(),
+    }
+
+
+def _reflected(index: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+    """Columns 0 ... count - 1 reflected at both ends as often as needed."""
+    folded = index % (2 * count)
+    return np.where(folded < count, folded, 2 * count - 1 - folded)
+
+
+def _above(layers: Layers, lateral: Array) -> NDArray[np.int64]:
+    """Surface particle over each particle: the cell of the first layer that holds its x (and y)."""
+    found = np.zeros(lateral.shape[1], np.int64)
+    for axis, (lower, _upper) in enumerate(layers.bounds):
+        columns = int(layers.columns[axis, 0])
+        width = float(layers.column_width()[axis, 0])
+        place = np.clip(np.floor((lateral[axis] - lower) / width), 0, columns - 1)
+        found = found * columns + place.astype(np.int64)
+    return found

@@ -1,0 +1,98 @@
+"""Layers: thicknesses from the surface down, and columns of each layer.
+
+Graded layers grow by 1/ratio per layer [Demuth2020, Section 4.1].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.particles.domain import Domain
+from lasersph.particles.lattice import Lattice
+
+Array = NDArray[np.float64]
+SMALLEST_CUT = 0.25
+"""A last layer thinner than this share of its full thickness is joined to the one above."""
+
+
+@dataclass(frozen=True)
+class Layers:
+    """Layers of cells from the surface down.
+
+    Attributes:
+        thickness: (layers,) [m]. columns: (dim - 1, layers) cells along x (and y).
+        bounds: lower and upper bound along x (and y) [m].
+    """
+
+    thickness: Array
+    columns: NDArray[np.int64]
+    bounds: tuple[tuple[float, float], ...]
+
+    @property
+    def dimension(self) -> int:
+        """Number of space dimensions."""
+        return len(self.bounds) + 1
+
+    @property
+    def particle_count(self) -> int:
+        """Cells in all layers."""
+        return int(np.prod(self.columns, axis=0).sum())
+
+    @property
+    def spacing(self) -> float:
+        """Thickness of the finest layer [m]."""
+        return float(self.thickness.min())
+
+    def center(self) -> Array:
+        """z of the middle of each layer [m], below zero."""
+        return 0.5 * self.thickness - np.cumsum(self.thickness)
+
+    def column_width(self) -> Array:
+        """(dim - 1, layers) width of the cells [m]."""
+        extent = np.array([upper - lower for lower, upper in self.bounds]).reshape(-1, 1)
+        return extent / self.columns
+
+
+def stack(domain: Domain, lattice: Lattice, dimensions: int, fine_depth: float) -> Layers:
+    """Layers that fill the domain.
+
+    Args:
+        fine_depth: depth of the layers of finest spacing [m]; for graded arrangements.
+
+    The spacing is rounded so that whole numbers of cells fill the width and, where uniform, the
+    depth.
+    """
+    bounds = domain.lateral(dimensions)
+    spacing = lattice.spacing
+    if bounds:
+        extent = bounds[0][1] - bounds[0][0]
+        spacing = extent / max(1, round(extent / spacing))
+    if lattice.arrangement == "uniform":
+        count = max(1, round(domain.depth / spacing))
+        thickness = np.full(count, domain.depth / count)
+    else:
+        thickness = _graded(spacing, lattice, domain.depth, fine_depth)
+    columns = [
+        np.maximum(1, np.rint((upper - lower) / thickness)).astype(np.int64)
+        for lower, upper in bounds
+    ]
+    return Layers(thickness, np.array(columns, np.int64).reshape(len(bounds), thickness.size), bounds)
+
+
+def _graded(spacing: float, lattice: Lattice, depth: float, fine_depth: float) -> Array:
+    """Thicknesses that grow from `spacing` to `lattice.coarsest` and end at `depth`."""
+    fine = max(1, int(np.ceil(min(fine_depth, depth) / spacing - 1e-9)))
+    layers = [spacing] * fine
+    bottom = spacing * fine
+    while bottom < depth * (1.0 - 1e-9):
+        full = min(layers[-1] / lattice.ratio, max(lattice.coarsest, spacing))
+        rest = depth - bottom
+        if rest < SMALLEST_CUT * full:
+            layers[-1] += rest
+            break
+        layers.append(min(full, rest))
+        bottom += layers[-1]
+    return np.array(layers)

@@ -1,0 +1,201 @@
+"""`Conduction`: heat and melting of a body at rest. `step()` is the recipe."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.backend import Backend
+from lasersph.lasers import Laser
+from lasersph.solvers.conduction.body import Body
+from lasersph.solvers.conduction.explicit import ExplicitStep
+from lasersph.solvers.conduction.implicit import ImplicitStep
+from lasersph.solvers.conduction.published import PublishedStep
+from lasersph.solvers.conduction.settings import ConductionSettings
+from lasersph.solvers.conduction.state import ENERGIES, HeatState, NotConverged
+from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
+from lasersph.solvers.time_step import TimeSettings
+
+ARRAYS = ("enthalpy", "temperature", "potential", "melt_fraction", "vapor_fraction", "previous",
+          "evaporated")  # fmt: skip
+EXPECTED_SHARE = 1e-3
+RETRIES = 8
+
+
+def change(T, T_old):
+    """Largest change of temperature."""
+    return abs(T - T_old)
+
+
+def clipped(h, m, h_limit):
+    """Enthalpy cut at the full latent heat, and the energy discarded [J]."""
+    return min(h, h_limit), m * max(h - h_limit, 0.0)
+
+
+def thinned(evaporated, mass_flux, step):
+    """Mass per area that has evaporated [kg/m^2]."""
+    return evaporated + step * mass_flux
+
+
+class Conduction:
+    """Solver of a run that computes heat, melting and the vaporization plateau.
+
+    Attributes:
+        fields: arrays of the particles by name. state: all that survives a step.
+    """
+
+    def __init__(
+        self,
+        body: Body,
+        settings: ConductionSettings,
+        time: TimeSettings,
+        laser: Laser | None,
+    ) -> None:
+        self.body, self.settings, self.time_settings, self.laser = body, settings, time, laser
+        self.state = HeatState.at_rest(body.backend, body)
+        self.exchange = SurfaceExchange(body, evaporates=settings.plateau == "evaporate")
+        backend: Backend = body.backend
+        self._before = backend.zeros(body.count)
+        if settings.scheme == "explicit":
+            self.scheme: Any = ExplicitStep(body, self.exchange)
+            self._stable = self.scheme.stable_step()
+        else:
+            scheme = PublishedStep if settings.iteration == "published" else ImplicitStep
+            tolerance = max(settings.tolerance, 200.0 * float(np.finfo(backend.real).eps))
+            self.scheme = scheme(body, self.exchange, tolerance)
+            self._stable = np.inf
+        self.expected = 0.0
+        if laser is not None:
+            area = float(np.sum(body.irradiation.surface_area))
+            self.expected = EXPECTED_SHARE * laser.mean_fluence * area
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Arrays of the particles by name."""
+        return {name: getattr(self.state, name) for name in ARRAYS}
+
+    @property
+    def iterations(self) -> dict[str, int]:
+        """Iterations of the last step."""
+        return {"newton": self.scheme.newton, "linear": self.scheme.linear}
+
+    def carried(self) -> dict[str, float]:
+        """Numbers beside the fields that survive a step."""
+        state = self.state
+        numbers = {f"energy.{name}": state.energy[name] for name in ENERGIES}
+        return numbers | {
+            "time": state.time, "time_step": state.time_step, "fastest": state.fastest,
+        }  # fmt: skip
+
+    def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
+        """Continue from the arrays of `fields` and the numbers of `carried`."""
+        backend, state = self.body.backend, self.state
+        for name in ARRAYS:
+            backend.copy(backend.asarray(arrays[name]), getattr(state, name))
+        state.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
+        state.time, state.time_step = numbers["time"], numbers["time_step"]
+        state.fastest = numbers["fastest"]
+
+    def time_step_limits(self) -> dict[str, float]:
+        """Named limits of the next step [s]."""
+        state, time = self.state, self.time_settings
+        limits = {"end": time.end - state.time}
+        pulse = self.laser.pulse if self.laser is not None else None
+        if time.is_fixed and time.step is not None:
+            return limits | {"fixed step": time.step}
+        if self.settings.scheme == "explicit":
+            limits["conduction"] = self._stable
+            if time.step is not None:
+                limits["light"] = time.step
+        else:
+            longest = time.step
+            if longest is None and pulse is not None:
+                longest = 0.5 * pulse.resolution
+            if longest is not None:
+                limits["light"] = (
+                    longest if pulse is None else next_light(pulse, state.time, longest)
+                )
+            if state.time_step > 0.0:
+                limits["growth"] = time.growth * state.time_step
+                if state.fastest > 0.0:
+                    limits["temperature change"] = (
+                        state.time_step * time.temperature_change / state.fastest
+                    )
+            else:
+                limits["first step"] = 1e-3 * time.end
+        if pulse is not None:
+            marks = np.asarray(pulse.breakpoints(state.time, time.end))
+            ahead = marks[marks > state.time * (1 + 1e-12)]
+            if ahead.size:
+                limits["pulse edge"] = float(ahead.min()) - state.time
+        return limits
+
+    def step(self, step: float) -> float:
+        """Advance by `step` [s], or by less where that does not converge; returns the step taken.
+
+        light of the step -> enthalpies (scheme) -> temperatures and fractions -> plateau rule ->
+        energies.
+
+        Raises:
+            NotConverged: not even a 256th of the step converges.
+        """
+        state, body = self.state, self.body
+        backend = body.backend
+        backend.copy(state.temperature, self._before)
+        for attempt in range(RETRIES + 1):
+            body.irradiation.shine(state.time, state.time + step)
+            try:
+                energy = self.scheme.advance(state, step, self._exchanged())
+                break
+            except NotConverged:
+                if attempt == RETRIES:
+                    raise
+                step *= 0.5
+        discarded = self._discard()
+        state.refresh(body)
+        if self.settings.plateau == "evaporate":
+            fields = {"evaporated": state.evaporated, "mass_flux": self.exchange.mass_flux}
+            backend.pointwise(thinned, fields, state.evaporated, step=step)
+        self._account(energy, discarded)
+        fields = {"T": state.temperature, "T_old": self._before}
+        (state.fastest,) = backend.pointwise(change, fields, (None,), reduce=("max",))
+        state.time, state.time_step = state.time + step, step
+        return step
+
+    def _exchanged(self) -> float:
+        """Energy that the tolerance of a step refers to [J]."""
+        energy = self.state.energy
+        return max(self.expected, energy["absorbed"], abs(energy["lost"]))
+
+    def _discard(self) -> float:
+        """Under `clip`, cut enthalpies at the full latent heat; returns the energy cut [J]."""
+        limit = self.body.curve.enthalpy_vaporized
+        if self.settings.plateau != "clip" or limit is None:
+            return 0.0
+        fields = {"h": self.state.enthalpy, "m": self.body.mass}
+        (cut,) = self.body.backend.pointwise(
+            clipped, fields, (self.state.enthalpy, None), reduce=(None, "sum"), h_limit=limit
+        )
+        return cut
+
+    def _account(self, energy: dict[str, float], discarded: float) -> None:
+        """Add the energies of a step; what walls exchange is the balance of the pair sums."""
+        total = self.state.energy
+        incident = self.body.irradiation.incident
+        total["incident"] += incident
+        total["absorbed"] += energy["absorbed"]
+        total["reflected"] += incident - energy["absorbed"]
+        total["stored"] += energy["stored"] - discarded
+        total["lost"] += energy["lost"] - energy["walls"]
+        total["removed"] += energy["removed"]
+        total["discarded"] += discarded
+
+
+def next_light(pulse: Any, time: float, longest: float) -> float:
+    """Largest step [s] that resolves the light from `time` on: `longest` while it is on."""
+    step = longest
+    while step < 1e4 * longest and not pulse.active(time, time + 2.0 * step):
+        step *= 2.0
+    return step
+

@@ -1,0 +1,62 @@
+"""What changes during a run: the state of the particles and the energies exchanged so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from lasersph.compute.backend import Backend
+from lasersph.physics.phase_change import state as state_of
+from lasersph.solvers.conduction.body import Body
+
+ENERGIES = ("incident", "absorbed", "reflected", "stored", "lost", "removed", "discarded")
+
+
+class NotConverged(RuntimeError):
+    """A step did not converge; a smaller one may."""
+
+
+@dataclass
+class HeatState:
+    """Fields (n,) on the backend, and what survives a step beside them.
+
+    Attributes:
+        enthalpy [J/kg], temperature [K], potential [W/m], melt_fraction, vapor_fraction [1].
+        previous: enthalpy one step ago [J/kg], from which the next is foreseen.
+        evaporated: mass per area that has left, (n,), 0 below the surface [kg/m^2].
+        energy: exchanged since the start [J], by ENERGIES.
+        time, time_step: [s]; time_step is that of the last step, 0 before the first.
+    """
+
+    enthalpy: Any
+    temperature: Any
+    potential: Any
+    melt_fraction: Any
+    vapor_fraction: Any
+    previous: Any
+    evaporated: Any
+    energy: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
+    time: float = 0.0
+    time_step: float = 0.0
+    fastest: float = 0.0
+    """Largest change of temperature in the last step [K]."""
+
+    @classmethod
+    def at_rest(cls, backend: Backend, body: Body) -> HeatState:
+        """The body at its initial temperature: h = 0."""
+        count = body.count
+        state = cls(*(backend.zeros(count) for _ in range(7)))
+        state.refresh(body)
+        return state
+
+    def refresh(self, body: Body) -> None:
+        """Set temperature, potential and fractions from the enthalpy."""
+        out = (self.temperature, self.potential, self.melt_fraction, self.vapor_fraction)
+        body.backend.pointwise(state_of, {"h": self.enthalpy}, out, **body.tables)
+
+    def fields(self) -> dict[str, Any]:
+        """Arrays by symbol."""
+        return {
+            "h": self.enthalpy, "T": self.temperature, "P": self.potential,
+            "f_m": self.melt_fraction, "f_v": self.vapor_fraction,
+        }  # fmt: skip

@@ -1,0 +1,69 @@
+"""Heat that the surface loses in a step, by losses to the surroundings and by evaporation."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lasersph.physics.evaporation import STANDARD_ATMOSPHERE
+from lasersph.physics.losses import evaporation_loss, surface_loss
+from lasersph.solvers.conduction.body import Body
+
+NEVER = 1e9
+"""Critical temperature of a metal that has none in its file: L_v stays constant [K]."""
+
+
+
+def cooled(T, area, T_a, h_c, eps):
+    """Power lost by a surface particle [W] and its slope in T [W/K]."""
+    loss, slope = surface_loss(T, T_a, h_c, eps)
+    return area * loss, area * slope, area * loss
+
+
+def evaporating(T, area, T_a, h_c, eps, p_b, T_b, L_b, T_c, R_s):
+    """As `cooled` with evaporation; also its power [W] and the mass flux [kg/(m^2 s)]."""
+    loss, slope = surface_loss(T, T_a, h_c, eps)
+    heat, heat_slope, mass = evaporation_loss(T, p_b, T_b, L_b, T_c, R_s)
+    return area * (loss + heat), area * (slope + heat_slope), area * loss, area * heat, mass
+
+
+class SurfaceExchange:
+    """Losses of the surface particles, as power and slope in T.
+
+    Attributes:
+        power: (n,) [W]. slope: (n,) d power/dT [W/K]. mass_flux: (n,) evaporating [kg/(m^2 s)].
+        is_idle: no loss of any kind.
+    """
+
+    def __init__(self, body: Body, *, evaporates: bool) -> None:
+        backend, count = body.backend, body.count
+        self.body, self.evaporates = body, evaporates
+        self.power, self.slope, self.mass_flux = (backend.zeros(count) for _ in range(3))
+        self.rows = backend.asarray(body.filling.surface, "index")
+        self.is_idle = not evaporates and not body.ambient["h_c"] and not body.ambient["eps"]
+        self.constants: dict[str, Any] = dict(body.ambient)
+        vapor = body.material.vaporization
+        if evaporates and vapor is not None:
+            self.constants |= {
+                "p_b": STANDARD_ATMOSPHERE,
+                "T_b": vapor.temperature,
+                "L_b": vapor.latent_heat,
+                "T_c": vapor.critical_temperature or NEVER,
+                "R_s": vapor.specific_gas_constant,
+            }
+
+    def evaluate(self, temperature: Any) -> tuple[float, float]:
+        """Set power and slope; returns the power lost and the power removed by vapor [W]."""
+        if self.is_idle:
+            return 0.0, 0.0
+        fields = {"T": temperature, "area": self.body.area}
+        if not self.evaporates:
+            (lost,) = self.body.backend.pointwise(
+                cooled, fields, (self.power, self.slope, None), rows=self.rows,
+                reduce=(None, None, "sum"), **self.constants,
+            )  # fmt: skip
+            return lost, 0.0
+        lost, removed = self.body.backend.pointwise(
+            evaporating, fields, (self.power, self.slope, None, None, self.mass_flux),
+            rows=self.rows, reduce=(None, None, "sum", "sum", None), **self.constants,
+        )  # fmt: skip
+        return lost, removed
