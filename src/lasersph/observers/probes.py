@@ -7,7 +7,7 @@ combines the closest particles with weights w_j that reproduce every linear fiel
 
 the smallest such weights in the norm sum_j w_j^2 |x_j - x|^4, and so also extrapolates to the
 surface, half a cell above the first particle (moving least squares: Lancaster and Salkauskas,
-Math. Comp. 37 (1981) 141).
+Math. Comp. 37 (1981) 141). It never passes the vaporization temperature where no particle does.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class Probes:
         """Temperature of each probe [K]."""
         for k, probe in enumerate(self.probes):
             particles, weights = self._weights(k, probe, view)
-            self.last[k] = float(weights @ view.temperature[particles])
+            self.last[k] = combined(view.temperature[particles], weights, view.vaporization)
             self.peak[k].update(self.last[k], view.time)
             self.where[k] = [float(value) for value in view.position[:, particles] @ weights]
         return dict(zip(self.columns, self.last, strict=True))
@@ -122,6 +122,17 @@ class Probes:
         self.peak = [Peak(**values) for values in state["peak"]]
         self.last = list(state["last"])
         self.where = [list(place) for place in state["where"]]
+
+
+def combined(temperature: np.ndarray, weights: np.ndarray, vaporization: float | None) -> float:
+    """Weighted temperature [K], which does not pass T_v where no particle does.
+
+    Beside a plateau at T_v a straight line would overshoot it.
+    """
+    value = float(weights @ temperature)
+    if vaporization is not None and float(np.max(temperature)) <= vaporization:
+        value = min(value, vaporization)
+    return value
 
 
 def weights_at(

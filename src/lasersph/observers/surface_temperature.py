@@ -31,6 +31,7 @@ class SurfaceTemperature:
         self.cooling_rate = 0.0
         self.previous: tuple[float, float] | None = None
         self.depth = 0.0
+        self.symmetry = 1
         self.corners: dict[str, float | None] = {}
 
     def observe(self, view: View) -> dict[str, float]:
@@ -46,6 +47,7 @@ class SurfaceTemperature:
             self.heating_rate = max(self.heating_rate, rate)
             self.cooling_rate = max(self.cooling_rate, -rate)
         self.previous = (view.time, at_maximum)
+        self.symmetry = view.symmetry_factor
         self.depth = float(-view.position[-1, cell])
         self.corners = {
             "solidus_K": view.solidus,
@@ -65,6 +67,7 @@ class SurfaceTemperature:
                 "temperature_at_maximum_max_at_s": self.peak_at_maximum.first,
                 "temperature_at_maximum_end_K": self.previous[1] if self.previous else None,
                 "depth_of_particle_m": self.depth,
+                "symmetry_factor": self.symmetry,
                 "heating_rate_max_K_s": self.heating_rate,
                 "cooling_rate_max_K_s": self.cooling_rate,
             },
@@ -80,6 +83,7 @@ class SurfaceTemperature:
             "cooling_rate": self.cooling_rate,
             "previous": self.previous,
             "depth": self.depth,
+            "symmetry": self.symmetry,
             "corners": self.corners,
         }
 
@@ -92,6 +96,7 @@ class SurfaceTemperature:
         previous = state["previous"]
         self.previous = None if previous is None else (previous[0], previous[1])
         self.depth = state["depth"]
+        self.symmetry = state["symmetry"]
         self.corners = dict(state["corners"])
 
 

@@ -1,0 +1,125 @@
+"""One look for all figures: sizes, colors that color-blind readers tell apart, units on the axes.
+
+Figures are `matplotlib.figure.Figure` objects without pyplot: no global state, no window, safe
+in threads. Colors: Okabe and Ito (2008), https://jfly.uni-koeln.de/color/.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#333333", "#B8A800")
+LINES = ("-", "--", "-.", ":")
+TEMPERATURE_COLORS = "inferno"
+FRACTION_COLORS = "cividis"
+GRAY = "0.45"
+WIDTH = 7.4
+DPI = 150
+
+
+class Unit(NamedTuple):
+    """A unit for an axis: value in SI times `factor` is the number shown."""
+
+    factor: float
+    name: str
+
+
+TIMES = (Unit(1e12, "ps"), Unit(1e9, "ns"), Unit(1e6, "µs"), Unit(1e3, "ms"), Unit(1.0, "s"))
+LENGTHS = (Unit(1e9, "nm"), Unit(1e6, "µm"), Unit(1e3, "mm"), Unit(1.0, "m"))
+
+
+def unit_for(largest: float, units: Sequence[Unit]) -> Unit:
+    """The unit in which a size shows as a number above 1 and, if possible, below 1000."""
+    for unit in units:
+        if abs(largest) * unit.factor < 2000.0:
+            return unit
+    return units[-1]
+
+
+def new_figure(
+    rows: int = 1, columns: int = 1, *, height: float = 3.4, share_x: bool = False
+) -> tuple[Figure, list[Axes]]:
+    """An empty figure and its axes, row by row; `height` in inches."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    grid = figure.subplots(rows, columns, sharex=share_x, squeeze=False)
+    axes = list(grid.ravel())
+    for one in axes:
+        one.tick_params(labelsize=9)
+        for side in ("top", "right"):
+            one.spines[side].set_visible(False)
+        one.grid(True, color="0.9", linewidth=0.6)
+        one.set_axisbelow(True)
+    return figure, axes
+
+
+def label(axes: Axes, x: str, y: str, *, title: str = "") -> None:
+    """Name the axes, with units."""
+    axes.set_xlabel(x, fontsize=10)
+    axes.set_ylabel(y, fontsize=10)
+    if title:
+        axes.set_title(title, fontsize=10, loc="left")
+
+
+def legend(axes: Axes, *, columns: int = 1) -> None:
+    """A legend without a frame, where there is something to name."""
+    if axes.get_legend_handles_labels()[1]:
+        axes.legend(fontsize=8.5, frameon=False, ncols=columns)
+
+
+def level_line(axes: Axes, value: float, name: str) -> None:
+    """A thin horizontal line at a known temperature, named at its right end."""
+    axes.axhline(value, color=GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+    axes.annotate(
+        name,
+        (1.0, value),
+        xycoords=("axes fraction", "data"),
+        xytext=(4, 0),
+        textcoords="offset points",
+        va="center",
+        fontsize=8.5,
+        color=GRAY,
+        annotation_clip=False,
+    )
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write a figure; the ending of the name says in which format."""
+    figure.savefig(path, dpi=DPI)
+    return path
+
+
+def without_stairs(times: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A curve through the steps of a quantity that changes by whole cells.
+
+    Each value that stands for a while is drawn once, in the middle of that while, as in Figs. 4
+    and 9 of Demuth and Lasagni (2020). The zeros before and after stay.
+
+    Args:
+        times, values: (n,).
+
+    Returns:
+        Shorter arrays of the same kind; the largest value is kept.
+    """
+    if values.size == 0:
+        return times, values
+    tolerance = 1e-9 * float(np.max(np.abs(values)))
+    starts = np.flatnonzero(np.concatenate([[True], np.abs(np.diff(values)) > tolerance]))
+    ends = np.concatenate([starts[1:] - 1, [values.size - 1]])
+    middle = 0.5 * (times[starts] + times[ends])
+    height = values[starts]
+    middle[height == 0.0] = times[starts][height == 0.0]
+    keep_end = (height == 0.0) & (ends > starts)
+    all_times = np.concatenate([middle, times[ends[keep_end]]])
+    all_values = np.concatenate([height, height[keep_end]])
+    order = np.argsort(all_times, kind="stable")
+    return all_times[order], all_values[order]
