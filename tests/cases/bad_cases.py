@@ -1,0 +1,115 @@
+# ruff: noqa: E501
+"""Bad case files: what is replaced in good.toml, by what, and the message that must come.
+
+Each entry: (replaced text, replacement, message after the file name). An empty replaced text means
+that the replacement is appended. Bytes stand for files that are no text.
+"""
+
+FLUENCE = 'fluence = "0.6 J/cm^2"'
+SPACING = 'spacing = "100 nm"'
+BEAM = 'beam = { kind = "interference", period = "5 um" }'
+PULSE = 'pulse = { kind = "gaussian", fwhm = "10 ns", center = "50 ns" }'
+ABSORPTION = 'absorption = { kind = "beer-lambert" }'
+MATERIAL = 'material = "steel-304-demuth"'
+END = 'end = "200 ns"'
+STEP = 'step = "1 ns"'
+DULL = (
+    'material = { name = "dull", density = { value = "1 g/cm^3", source = "x" }, '
+    'heat_capacity = { value = "1 J/(g K)", source = "x" }, '
+    'conductivity = { value = "1 W/(m K)", source = "x" }, '
+    'vaporization = { temperature = "2000 K", latent_heat = "1 MJ/kg", source = "x" } }'
+)
+BOTTOM = 'bottom = "adiabatic"'
+
+BAD_CASES = {
+    # quantities
+    "no unit": (FLUENCE, "fluence = 0.6", ':6: laser.fluence: 0.6 has no unit; write e.g. "0.6 J/cm^2"'),
+    "no unit in text": (FLUENCE, 'fluence = "0.6"', ':6: laser.fluence: "0.6" has no unit; write e.g. "0.6 J/cm^2"'),
+    "fluence as N/m": (FLUENCE, 'fluence = "600 N/m"', ':6: laser.fluence: "600 N/m" is a surface tension, not a fluence; write e.g. "0.6 J/cm^2"'),
+    "fluence as energy": (FLUENCE, 'fluence = "1 mJ"', ':6: laser.fluence: "1 mJ" is an energy, not a fluence; write e.g. "0.6 J/cm^2"'),
+    "negative fluence": (FLUENCE, 'fluence = "-1 J/cm^2"', ':6: laser.fluence: must be greater than 0, got "-1 J/cm^2"'),
+    "zero fluence": (FLUENCE, 'fluence = "0 J/cm^2"', ':6: laser.fluence: must be greater than 0, got "0 J/cm^2"'),
+    "comma": (FLUENCE, 'fluence = "0,6 J/cm^2"', ':6: laser.fluence: the number in "0,6 J/cm^2" cannot be read; write e.g. "0.6 J/cm^2"'),
+    "unquoted": (FLUENCE, "fluence = 0.6 J/cm^2", ':6: fluence: a number with a unit is text in TOML; write fluence = "0.6 J/cm^2"'),
+    "NaN": (FLUENCE, "fluence = nan", ':6: laser.fluence: nan is not a finite number; write e.g. "0.6 J/cm^2"'),
+    "NaN in text": (FLUENCE, 'fluence = "nan J/cm^2"', ':6: laser.fluence: "nan J/cm^2" does not start with a number; write e.g. "0.6 J/cm^2"'),
+    "infinite": (END, "end = inf", ':29: time.end: inf is not a finite number; write e.g. "10 ns"'),
+    "too large a number": (END, 'end = "1e999 s"', ':29: time.end: "1e999 s" is outside the range of floating-point numbers'),
+    "boolean": (FLUENCE, "fluence = true", ':6: laser.fluence: true is not a fluence; write e.g. "0.6 J/cm^2"'),
+    "table for a number": (FLUENCE, "fluence = {}", ':6: laser.fluence: is not a fluence; write e.g. "0.6 J/cm^2"'),
+    "negative spacing": (SPACING, 'spacing = "-8 nm"', ':18: particles.spacing: must be greater than 0, got "-8 nm"'),
+    "spacing in kg": (SPACING, 'spacing = "8 kg"', ':18: particles.spacing: "8 kg" has another dimension, not a length; write e.g. "8 nm"'),
+    "unknown unit": (SPACING, 'spacing = "8 nanomts"', ':18: particles.spacing: unknown unit "nanomts" in "8 nanomts"; write e.g. "8 nm"'),
+    "case of a unit": (SPACING, 'spacing = "8 NM"', ':18: particles.spacing: unknown unit "NM" (do you mean "nm"?) in "8 NM"; write e.g. "8 nm"'),
+    "arithmetic": (SPACING, 'spacing = "9**9**9 m"', ':18: particles.spacing: the unit "**9**9 m" cannot be read in "9**9**9 m"; write e.g. "8 nm"'),
+    "below absolute zero": ('"20 degC"', '"-300 degC"', ':3: initial_temperature: "-300 degC" is below absolute zero'),
+    "temperature in coulomb": ('"20 degC"', '"20 C"', ':3: initial_temperature: unknown unit "C" (do you mean "degC"?) in "20 C"; write e.g. "298.15 K"'),
+    "degC as a difference": (STEP, 'step = "1 ns"\ntemperature_change = "5 degC"', ':31: time.temperature_change: "5 degC" is a temperature, not a difference; write it in K'),
+    # keys
+    "unknown key": (FLUENCE, 'fluense = "0.6 J/cm^2"', ':6: laser.fluense: unknown key; do you mean "fluence"?'),
+    "unknown table": ("[domain]", "[domian]", ':12: domian: unknown key; do you mean "domain"?'),
+    "key of another table": ("[domain]", '[domain]\nspacing = "8 nm"', ':13: domain.spacing: unknown key; do you mean "particles.spacing"?'),
+    "key without a table": ("title", 'fluence = "1 J/cm^2"\ntitle', ':1: fluence: unknown key; do you mean "laser.fluence"?'),
+    "duplicate key": (FLUENCE, FLUENCE + "\n" + FLUENCE, ":7: fluence: given twice; remove one"),
+    "duplicate table": ("", "\n[laser]\n", ":41: [laser]: given twice; remove one"),
+    "missing key": (SPACING, "", ":17: particles.spacing: missing"),
+    "missing table": ("[time]\nend = \"200 ns\"\nstep = \"1 ns\"\n", "", ": time: missing"),
+    "table as text": ("[time]\nend = \"200 ns\"\nstep = \"1 ns\"\n", "[solver.time]\n", ": time: missing"),
+    "future format": ("title", "schema_version = 2\ntitle", ':1: schema_version: must be "1", got 2'),
+    "text for a table": ("[boundaries]\n" + BOTTOM, "boundaries = 3", ":20: particles.boundaries: unknown key; do you mean \"boundaries\"?"),
+    # choices
+    "unknown beam": ('kind = "interference"', 'kind = "interferance"', ':8: laser.beam.kind: must be "uniform" or "top-hat" or "gaussian" or "interference", got "interferance"; do you mean "interference"?'),
+    "beam without kind": (BEAM, "beam = {}", ":8: laser.beam.kind: missing"),
+    "unknown solver": ('kind = "conduction"', 'kind = "meltpool"', ':24: solver.kind: must be "conduction", got "meltpool"'),
+    "four dimensions": ("dimensions = 2", "dimensions = 4", ":25: solver.dimensions: must be \"1\" or \"2\" or \"3\", got 4"),
+    "unknown plateau": ('plateau = "hold"', 'plateau = "held"', ':26: solver.plateau: must be "hold" or "clip" or "evaporate", got "held"; do you mean "hold"?'),
+    "fluence kind": ('"mean"', '"average"', ':7: laser.fluence_kind: must be "mean" or "peak", got "average"'),
+    # laser
+    "zero pulses": (PULSE, PULSE.replace(" }", ", count = 0 }"), ":9: laser.pulse.count: must be at least 1, got 0"),
+    "half a pulse": (PULSE, PULSE.replace(" }", ", count = 1.5 }"), ":9: laser.pulse.count: must be a whole number, got 1.5"),
+    "two pulses without period": (PULSE, PULSE.replace(" }", ", count = 2 }"), ":9: laser.pulse: 2 pulses need the time between them; give period"),
+    "zero duration": (PULSE, PULSE.replace('"10 ns"', '"0 ns"'), ':9: laser.pulse.fwhm: must be greater than 0, got "0 ns"'),
+    "pulse before the run": (PULSE, PULSE.replace('"50 ns"', '"5 ns"'), ":9: laser.pulse: a pulse of fwhm 1e-08 s centered at 5e-09 s begins before the run does; give a center of at least two fwhm, 2e-08 s"),
+    "two energies": (FLUENCE, FLUENCE + '\nintensity = "1e9 W/m^2"', ":5: laser: a laser needs one statement of its energy, got fluence and intensity; give exactly one of fluence, intensity, pulse_energy, power"),
+    "no energy": (FLUENCE, "", ":5: laser: a laser needs one statement of its energy, got none; give exactly one of fluence, intensity, pulse_energy, power"),
+    "intensity of a gaussian pulse": (FLUENCE, 'intensity = "1e9 W/m^2"', ":5: laser: intensity does not fix the energy of a gaussian pulse; give fluence"),
+    "reflectivity above one": (FLUENCE, FLUENCE + '\nreflectivity = "120 %"', ':7: laser.reflectivity: must be at most 1, got "120 %"'),
+    "no optics anywhere": (MATERIAL, DULL, ":5: laser.reflectivity: material 'dull' has no reflectivity; give laser.reflectivity"),
+    "no boiling point": (MATERIAL, DULL.partition(", vaporization")[0] + " }", ":26: solver.plateau: material 'dull' has no boiling point; plateau = \"hold\" needs one, plateau = \"evaporate\" does not"),
+    "interference in 1-D": ("dimensions = 2", "dimensions = 1", ':15: domain.extent: half of a 1-D column means nothing; write extent = "full"'),
+    "uneven beam in half a domain": (FLUENCE, FLUENCE + '\nposition = ["1 um", "0 um"]', ':16: domain.extent: this beam is not symmetric about x = 0; write extent = "full"'),
+    # material
+    "unknown material": (MATERIAL, 'material = "steal-304"', ':2: material: no material "steal-304"; do you mean "steel-304"?'),
+    "missing material file": (MATERIAL, 'material = "none.toml"', ":2: material: {folder}/none.toml: no such file"),
+    "unknown property": (MATERIAL, 'material = { base = "steel-304", colour = "3 m" }', ":2: material.colour: unknown key"),
+    "wrong property": (MATERIAL, 'material = { base = "steel-304", density = "3 m" }', ':2: material.density: "3 m" is a length, not a density; write e.g. "2700 kg/m^3"'),
+    "hotter than melting": ('"20 degC"', '"2000 K"', ":3: initial_temperature: the initial temperature 2000 K is not below 1673 K, where melting of 'steel-304-demuth' begins"),
+    # domain, particles, time
+    "no width": ('width = "5 um"\n', "", ':12: domain.width: missing for 2-D; write e.g. width = "5 um"'),
+    "width against period": ('width = "5 um"', 'width = "6 um"', ':14: domain.width: 6 um is no whole number of the pattern\'s periods of 5 um; write width = "5 um"'),
+    "thinner than particles": ('depth = "2 um"', 'depth = "200 nm"', ":13: domain.depth: 200 nm holds fewer than 4 particles of 100 nm; give a larger domain or a finer spacing"),
+    "absurd number of particles": (SPACING, 'spacing = "1e-15 m"', ":18: particles.spacing: about 5e+18 particles, 4.13e+06 PiB of memory, more than lasersph can number; take a coarser spacing or a smaller domain"),
+    "absurd number of steps": (STEP, 'step = "1e-30 s"', ":30: time.step: 2e+23 steps to the end at least, more than 1e+09; take longer steps or an earlier end"),
+    "absurd number of snapshots": ("", '\n[output.snapshots]\ninterval = "1e-20 s"', ":42: output.snapshots.interval: 20000000000000 snapshots are too many: give an interval of at least 2e-12 s"),
+    "zero end": (END, 'end = "0 ns"', ':29: time.end: must be greater than 0, got "0 ns"'),
+    "periodic half": (BOTTOM, 'sides = "periodic"', ':21: boundaries.sides: half a block is symmetric at x = 0, "periodic" does not fit; write extent = "full" in [domain] or sides = "adiabatic"'),
+    "temperature of an adiabatic face": (BOTTOM, 'bottom = "adiabatic"\nbottom_temperature = "300 K"', ':22: boundaries.bottom_temperature: says nothing where bottom = "adiabatic"; leave it out, or set bottom to "fixed-temperature" or "wall"'),
+    "laser on a held surface": (BOTTOM, 'surface = "wall"\nsurface_temperature = "300 K"', ':21: boundaries.surface: a laser heats the surface, "wall" holds its temperature; remove one of the two'),
+    "ambient without loss": (BOTTOM, 'ambient_temperature = "300 K"', ":21: boundaries.ambient_temperature: says nothing without convection or emissivity; give one of them or leave it out"),
+    # probes
+    "probe below the domain": ('depth = "1 um"', 'depth = "3 um"', ":38: probes[2].depth: 3 um lies below the domain of 2 um; place the probe inside"),
+    "probe outside": ('x = "1 um"', 'x = "-1 um"', ":39: probes[2].x: -1 um lies outside the domain, which runs from 0 m to 2.5 um; place the probe inside"),
+    "probes of one name": ('name = "deep"', 'name = "top"', ':32: probes: 2 probes are named "top"; give each its own name'),
+    "probe without a name": ('name = "deep"\n', "", ":36: probes[2].name: missing"),
+    # files
+    "empty file": (None, b"", ": material: missing"),
+    "not UTF-8": (None, b'title = "\xe9"\n', ":1: byte 0xe9 is not UTF-8 text; save the file as UTF-8"),
+    "UTF-16": (None, "title = 'a'".encode("utf-16"), ":1: byte 0xff is not UTF-8 text; save the file as UTF-8"),
+    "unclosed text": (None, b'title = "a', ":1: not valid TOML: unterminated string"),
+    "no value": (None, b"title =\n", ":1: not valid TOML: invalid value"),
+    "no TOML": (None, b"<xml>\n", ":1: not valid TOML: invalid statement"),
+    "nested brackets": (None, b"a = " + b"[" * 10_000, ": brackets nested too deeply"),
+    "huge integer": (None, b"a = " + b"9" * 10_000, ": not valid TOML: an integer of thousands of digits"),
+    "zero bytes": (None, b"\x00\x01\x02", ":1: not valid TOML: invalid statement"),
+}  # fmt: skip
+"""Name -> (replaced, replacement or whole file, message after the file name)."""

@@ -1,0 +1,217 @@
+"""Cases: overrides, materials by name, path and change, content as data, new files."""
+
+import json
+import math
+
+import pytest
+
+from lasersph.case import Case, available_cases, case_file, estimate, load_case, write_new_case
+from lasersph.case import checks as checks_module
+from lasersph.case.checks import refuse_if_too_large
+from lasersph.case.size import in_words
+from lasersph.materials import material_file
+from lasersph.reading import CaseError
+
+
+def test_overrides_are_toml_or_text():
+    """TOML where it is TOML, text where not; the later one wins; an empty value removes."""
+    case = load_case(
+        "dlip-steel",
+        [
+            "laser.fluence=0.8 J/cm^2",
+            "particles.spacing=16nm",
+            'particles.spacing="32 nm"',
+            "solver.phase_change=false",
+            "laser.pulse.count=1",
+            "probes[2].x=1um",
+            "time.step=",
+            "title=a = b",
+        ],
+    )
+    assert case.laser is not None and case.laser.fluence == 8000
+    assert case.particles.spacing == 3.2e-8
+    assert case.solver.phase_change is False
+    assert case.probes[1].x == 1e-6
+    assert case.time.step is None
+    assert case.title == "a = b"
+    assert case.text.startswith("# --set laser.fluence=0.8 J/cm^2\n")
+    assert case.text.endswith(case_file("dlip-steel").read_text(encoding="utf-8"))
+
+
+BAD_OVERRIDES = [
+    (
+        "laser.fluense=1",
+        '--set laser.fluense=1: laser.fluense: unknown key; do you mean "fluence"?',
+    ),
+    ("fluence=1", '--set fluence=1: fluence: unknown key; do you mean "laser.fluence"?'),
+    (
+        "laser.fluence=3 N/m",
+        '--set laser.fluence=3 N/m: laser.fluence: "3 N/m" is a surface tension',
+    ),
+    ("laser.fluence=3", "--set laser.fluence=3: laser.fluence: 3 has no unit"),
+    ("laser.fluence=nan", "--set laser.fluence=nan: laser.fluence: nan is not a finite number"),
+    ("spacing", "--set spacing: is not key=value"),
+    ("=3", "--set =3: is not key=value"),
+    ("a b=3", '--set a b=3: "a b" is no key'),
+    ("title.x=3", '--set title.x=3: "title" is not a table'),
+    ("probes[7].depth=1um", "--set probes[7].depth=1um: there is no element 7, only 2"),
+    ("probes[0].depth=1um", '--set probes[0].depth=1um: "probes[0]" counts from 1'),
+    ("laser[1].fluence=1um", "--set laser[1].fluence=1um: there is no element 1, only 0"),
+    ("x=" + "[" * 5000, "--set x=["),
+]
+
+
+@pytest.mark.parametrize(("setting", "message"), BAD_OVERRIDES)
+def test_bad_overrides_name_themselves(setting, message):
+    """A wrong override is refused with the override as its place."""
+    with pytest.raises(CaseError) as error:
+        load_case("dlip-steel", [setting])
+    assert str(error.value).startswith(message)
+
+
+def test_an_override_sets_one_key_only():
+    """A line break in a value does not smuggle in a second key."""
+    assert load_case("dlip-steel", ["title=1\nsolver.dimensions = 3"]).solver.dimensions == 2
+
+
+def test_material_relative_to_the_case_file(tmp_path):
+    """A path in the file counts from the file, on the command line from the working folder."""
+    text = material_file("steel-304").read_text(encoding="utf-8")
+    (tmp_path / "own.toml").write_text(text.replace('"steel-304"', '"own"'), encoding="utf-8")
+    case_text = case_file("dlip-steel").read_text(encoding="utf-8")
+    file = tmp_path / "case.toml"
+    file.write_text(case_text.replace('"steel-304-demuth"', '"own.toml"'), encoding="utf-8")
+    assert load_case(file).material.name == "own"
+
+
+def test_material_on_the_command_line_is_relative_to_the_working_folder(tmp_path, monkeypatch):
+    """--set material=own.toml finds the file where the command runs."""
+    text = material_file("steel-304").read_text(encoding="utf-8")
+    (tmp_path / "own.toml").write_text(text.replace('"steel-304"', '"own"'), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    assert load_case("dlip-steel", ["material=own.toml"]).material.name == "own"
+
+
+def test_changed_material():
+    """A property replaces the base's law, a section keeps the other numbers; sources are kept."""
+    base = load_case("dlip-steel").material
+    case = load_case(
+        "dlip-steel",
+        ["material.conductivity=20 W/(m K)", "material.melting.solidus=1600 K"],
+    )
+    material = case.material
+    assert float(material.conductivity_at(300.0)) == 20.0
+    assert material.conductivity.source == "set in the case"
+    assert material.melting is not None and base.melting is not None
+    assert material.melting.solidus == 1600.0
+    assert material.melting.liquidus == base.melting.liquidus
+    assert material.melting.source_of("solidus") == "set in the case"
+    assert material.melting.source_of("liquidus") == base.melting.source_of("liquidus")
+    assert "conductivity, melting" in material.note
+    assert case.hash() != load_case("dlip-steel").hash()
+
+
+def test_changed_material_with_laws_and_optics():
+    """Laws for solid and liquid, tables and reflectivity may be changed as well."""
+    case = load_case(
+        "dlip-steel",
+        [
+            'material = { base = "steel-304", optics = { reflectivity = 0.5 }, '
+            'conductivity = { solid = "20 W/(m K)", liquid = "30 W/(m K)" } }'
+        ],
+    )
+    assert float(case.material.conductivity_at(2000.0)) == 30.0
+    assert float(case.material.reflectivity_at(300.0)) == 0.5
+    with pytest.raises(CaseError, match="base must be the name"):
+        load_case("dlip-steel", ["material={base=3}"])
+
+
+def test_resolved_is_plain_json_in_si():
+    """All defaults, SI, no objects."""
+    resolved = load_case("dlip-steel").resolved()
+    assert json.loads(json.dumps(resolved)) == resolved
+    assert resolved["particles"]["spacing"] == 8e-9
+    assert resolved["solver"]["tolerance"] == 1e-8
+    assert resolved["schema_version"] == 1
+
+
+def test_hash_depends_on_content_only():
+    """Spelling, order and comments do not matter; values do."""
+    same = load_case("dlip-steel", ["laser.fluence=6000 J/m2"])
+    assert same.hash() == load_case("dlip-steel").hash()
+    assert load_case("dlip-steel", ["time.end=201ns"]).hash() != same.hash()
+
+
+def test_python_built_case():
+    """From Python numbers are SI, and the rooms' models are the arguments."""
+    case = Case.model_validate(
+        {
+            "material": "aluminium-demuth",
+            "domain": {"depth": 1e-6},
+            "particles": {"spacing": 1e-8},
+            "solver": {"dimensions": 1},
+            "time": {"end": 1e-8},
+        }
+    )
+    assert case.material.name == "aluminium-demuth"
+    assert case.name == "case"
+    assert case.text.startswith("#")
+
+
+def test_json_schema_is_complete():
+    """The schema names every table, and its quantities ask for text."""
+    schema = Case.model_json_schema()
+    assert set(schema["properties"]) >= {"material", "laser", "domain", "particles", "time"}
+    assert schema["$defs"]["Laser"]["properties"]["fluence"]["anyOf"][0]["x-kind"] == "fluence"
+    assert "material" in schema["required"]
+
+
+@pytest.mark.parametrize("name", available_cases())
+def test_new_case_is_the_commented_text(name, tmp_path):
+    """The written file loads as the same case and keeps its comments."""
+    file = write_new_case(name, tmp_path / "mine.toml")
+    text = file.read_text(encoding="utf-8")
+    assert "#" in text
+    assert load_case(file).hash() == load_case(name).hash()
+    if load_case(name).laser is not None:
+        assert 'fluence = "' in text.partition("[laser]")[2].partition("\n[")[0]
+    with pytest.raises(CaseError, match="exists already"):
+        write_new_case(name, file)
+
+
+def test_new_case_in_a_folder_that_is_missing(tmp_path):
+    """The reason is said."""
+    with pytest.raises(CaseError, match="cannot be written: No such file or directory"):
+        write_new_case("stefan", tmp_path / "none" / "mine.toml")
+
+
+def test_names_of_cases():
+    """The nearest shipped name is offered; a path is a path."""
+    with pytest.raises(CaseError, match='no case "dlip-stele"; do you mean "dlip-steel"'):
+        load_case("dlip-stele")
+    with pytest.raises(CaseError, match=r"mine\.toml: no such file"):
+        load_case("mine.toml")
+    with pytest.raises(CaseError):
+        load_case("a\0b")
+
+
+def test_size_by_hand():
+    """1-D: depth / spacing; 2-D uniform: times width / spacing; graded less than uniform."""
+    case = load_case("stefan")
+    assert math.isclose(estimate(case.domain, case.particles, 1).particles, 200)
+    graded = load_case("dlip-steel")
+    uniform = load_case("dlip-steel", ["particles.arrangement=uniform"])
+    few = estimate(graded.domain, graded.particles, 2).particles
+    many = estimate(uniform.domain, uniform.particles, 2).particles
+    assert math.isclose(many, 4.6e-6 / 8e-9 * 2.5e-6 / 8e-9)
+    assert few < 0.2 * many
+    assert in_words(1536 * 2**20) == "1.5 GiB"
+
+
+def test_case_larger_than_the_machine_is_refused(monkeypatch):
+    """With the estimate and the memory of the machine, before anything is allocated."""
+    monkeypatch.setattr(checks_module, "machine_memory", lambda: 2.0**20)
+    with pytest.raises(CaseError, match=r"particles, .* MiB of memory, but this machine has 1 MiB"):
+        refuse_if_too_large(load_case("dlip-steel"))
+    monkeypatch.setattr(checks_module, "machine_memory", lambda: math.inf)
+    refuse_if_too_large(load_case("dlip-steel"))

@@ -1,0 +1,63 @@
+"""The shipped cases say what their papers say."""
+
+import pytest
+
+from lasersph.case import available_cases, estimate, load_case
+from lasersph.lasers import GaussianPulse, InterferenceBeam, SquarePulse
+
+NAMES = ("dlip-aluminium", "dlip-steel", "pulsed-heating", "stefan")
+
+
+def test_names():
+    """Exactly the promised cases are shipped."""
+    assert tuple(available_cases()) == NAMES
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_round_trip_through_plain_data(name):
+    """The resolved case read back is the same case."""
+    case = load_case(name)
+    again = type(case).model_validate(case.resolved())
+    assert again.hash() == case.hash()
+    assert case.name == name
+    assert case.title
+
+
+@pytest.mark.parametrize(
+    ("name", "fluence", "depth"), [("dlip-steel", 6000, 4.6e-6), ("dlip-aluminium", 10000, 1.5e-5)]
+)
+def test_dlip(name, fluence, depth):
+    """Mean fluence, half a period of 5 um, 10 diffusion lengths, the published pulse."""
+    case = load_case(name)
+    laser = case.laser
+    assert laser is not None and laser.mean_fluence == fluence
+    assert laser.peak_fluence == 2 * fluence
+    assert isinstance(laser.beam, InterferenceBeam) and laser.beam.lateral_period == 5e-6
+    assert isinstance(laser.pulse, GaussianPulse)
+    assert (laser.pulse.fwhm, laser.pulse.center) == (1e-8, 5e-8)
+    assert (case.domain.depth, case.domain.width, case.domain.extent) == (depth, 5e-6, "half")
+    assert case.domain.lateral(2) == ((0.0, 2.5e-6),)
+    assert (case.particles.spacing, case.time.end) == (8e-9, 2e-7)
+    assert case.initial_temperature == 298.15
+    assert abs(depth / (10 * 2 * (case.material.diffusivity_reference * 1e-8) ** 0.5) - 1) < 0.25
+
+
+def test_pulsed_heating():
+    """9.6 J/cm2 in 100 ns are 9.6e11 W/m2; 800 particles; also 3-D by one setting."""
+    case = load_case("pulsed-heating")
+    assert case.laser is not None and isinstance(case.laser.pulse, SquarePulse)
+    assert case.laser.mean_fluence / case.laser.pulse.duration == 9.6e11
+    assert (case.laser.reflectivity, case.laser.pulse.count) == (0.75, 3)
+    assert round(estimate(case.domain, case.particles, 1).particles) == 800
+    solid = load_case("pulsed-heating", ["solver.dimensions=3", "domain.width=2um"])
+    assert round(estimate(solid.domain, solid.particles, 3).particles) == 800 * 8 * 8
+
+
+def test_stefan_number():
+    """c_p (T_hot - T_m) / L_f = 896 * 400 / 397e3; the solid is at its melting point."""
+    case = load_case("stefan")
+    hot = case.boundaries.temperature_of("surface", case.initial_temperature)
+    assert case.material.melting is not None
+    assert hot - case.material.melting.solidus == 400.0
+    assert 0 < case.material.melting.solidus - case.initial_temperature < 0.02
+    assert case.laser is None
