@@ -79,7 +79,9 @@ def stack(domain: Domain, lattice: Lattice, dimensions: int, fine_depth: float) 
         np.maximum(1, np.rint((upper - lower) / thickness)).astype(np.int64)
         for lower, upper in bounds
     ]
-    return Layers(thickness, np.array(columns, np.int64).reshape(len(bounds), thickness.size), bounds)
+    return Layers(
+        thickness, np.array(columns, np.int64).reshape(len(bounds), thickness.size), bounds
+    )
 
 
 def _graded(spacing: float, lattice: Lattice, depth: float, fine_depth: float) -> Array:

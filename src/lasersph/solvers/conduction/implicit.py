@@ -124,9 +124,7 @@ class ImplicitStep:
             self.newton += 1
         fields = {"h": self.h, "r": self.r, "m": self.body.mass, "h0": state.enthalpy}
         backend.copy(state.enthalpy, state.previous)
-        (stored,) = backend.pointwise(
-            settle, fields, (state.enthalpy, None), reduce=(None, "sum")
-        )
+        (stored,) = backend.pointwise(settle, fields, (state.enthalpy, None), reduce=(None, "sum"))
         return energy | {"stored": stored}
 
     def _improve(

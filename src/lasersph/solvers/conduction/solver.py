@@ -198,4 +198,3 @@ def next_light(pulse: Any, time: float, longest: float) -> float:
     while step < 1e4 * longest and not pulse.active(time, time + 2.0 * step):
         step *= 2.0
     return step
-

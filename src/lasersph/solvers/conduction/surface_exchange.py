@@ -12,7 +12,6 @@ NEVER = 1e9
 """Critical temperature of a metal that has none in its file: L_v stays constant [K]."""
 
 
-
 def cooled(T, area, T_a, h_c, eps):
     """Power lost by a surface particle [W] and its slope in T [W/K]."""
     loss, slope = surface_loss(T, T_a, h_c, eps)

@@ -1,0 +1,129 @@
+"""From a case to layers and a solver, and from a solver to what observers see."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lasersph.analytic.melt_depth import melt_depth
+from lasersph.case import Case
+from lasersph.compute.backend import Backend
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.observers.view import View
+from lasersph.particles.layers import Layers, stack
+from lasersph.physics.heating import COLDEST, HOTTEST
+from lasersph.solvers.conduction.body import SUPPORT, assemble
+from lasersph.solvers.conduction.solver import Conduction
+
+ESTIMATE_COLUMNS = 8
+LEAST_FINE_LAYERS = 8
+ABSORPTION_LENGTHS = 12.0
+"""Depth of the finest layers in units of 1/alpha, at least: light of exp(-12) goes deeper."""
+
+
+def caloric_curve(case: Case) -> CaloricCurve:
+    """Enthalpy curve of the case's material with the case's plateau rule."""
+    return case.material.caloric_curve(
+        case.initial_temperature, case.solver.plateau, phase_change=case.solver.phase_change
+    )
+
+
+def support_ratio(case: Case) -> float:
+    """Support radius over spacing."""
+    return case.particles.support_ratio or SUPPORT[case.particles.kernel]
+
+
+def lay_out(case: Case) -> Layers:
+    """Layers of the case; where graded and not given, the fine depth follows from an estimate."""
+    fine = case.particles.fine_depth or 0.0
+    if case.particles.arrangement == "graded" and not fine:
+        fine = fine_depth(case)
+    return stack(case.domain, case.particles, case.solver.dimensions, fine)
+
+
+def fine_depth(case: Case) -> float:
+    """Depth of the finest layers [m]: expected melt plus two support radii, and all the light."""
+    spacing = case.particles.spacing
+    least = LEAST_FINE_LAYERS * spacing
+    if case.laser is None:
+        return least
+    alpha = case.laser.absorption_coefficient(case.material)
+    least = max(least, ABSORPTION_LENGTHS / alpha)
+    if not case.solver.phase_change or case.material.melting is None:
+        return least
+    width = case.domain.width
+    columns, column_width = 1, None
+    if width is not None and case.laser.is_even and case.laser.beam.lateral_period is not None:
+        columns, column_width = ESTIMATE_COLUMNS, 0.5 * width / ESTIMATE_COLUMNS
+    fluence = np.array([case.laser.peak_fluence])
+    if column_width is not None:
+        faces = np.arange(columns + 1) * column_width
+        pulse = case.laser.pulse
+        share = float(pulse.delivered(-np.inf, np.inf)) or 1.0
+        density = case.laser.energy_density(faces[None, :-1], faces[None, 1:], -np.inf, np.inf)
+        fluence = density / share
+    curve = caloric_curve(case)
+    T, R = case.laser.reflectivity_table(case.material, COLDEST, HOTTEST)
+    estimate = melt_depth(
+        enthalpy=curve.enthalpy,
+        temperature=curve.temperature,
+        potential=curve.potential,
+        melt_fraction=curve.melt_fraction,
+        density=case.material.density_reference,
+        absorption_coefficient=alpha,
+        reflectivity=lambda surface: np.interp(surface, T, R),
+        fluence=fluence,
+        delivered=lambda start, end: float(case.laser.pulse.delivered(start, end)),
+        end_time=case.time.end,
+        column_width=column_width,
+    )
+    if estimate.depth == 0.0:
+        return least
+    return max(least, estimate.safe_depth + 2.0 * support_ratio(case) * spacing)
+
+
+def build(case: Case, backend: Backend) -> tuple[Layers, Conduction]:
+    """Particles and solver of a case."""
+    layers = lay_out(case)
+    body = assemble(
+        backend,
+        domain=case.domain,
+        lattice=case.particles,
+        layers=layers,
+        boundaries=case.boundaries,
+        material=case.material,
+        laser=case.laser,
+        curve=caloric_curve(case),
+        use_second_moment=case.solver.weights == "second-moment",
+    )
+    return layers, Conduction(body, case.solver, case.time, case.laser)
+
+
+def view_of(case: Case, solver: Conduction, step: int, limit: str) -> View:
+    """Host copies of the state for observers."""
+    body, state, backend = solver.body, solver.state, solver.body.backend
+    count, surface = body.count, body.filling.surface
+    evaporated = None
+    if case.solver.plateau == "evaporate":
+        mass = backend.to_host(state.evaporated)[surface]
+        evaporated = mass / case.material.density_reference
+    return View(
+        time=state.time,
+        step=step,
+        time_step=state.time_step,
+        position=body.filling.position[:, :count],
+        width=body.filling.width[:, :count],
+        volume=body.filling.volume[:count],
+        temperature=backend.to_host(state.temperature),
+        enthalpy=backend.to_host(state.enthalpy),
+        melt_fraction=backend.to_host(state.melt_fraction),
+        vapor_fraction=backend.to_host(state.vapor_fraction),
+        surface=surface,
+        symmetry_factor=case.domain.symmetry_factor,
+        energy=dict(state.energy),
+        iterations=solver.iterations,
+        limit=limit,
+        solidus=body.curve.solidus,
+        liquidus=body.curve.liquidus,
+        vaporization=body.curve.vaporization,
+        evaporated=evaporated,
+    )

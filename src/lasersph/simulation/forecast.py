@@ -1,0 +1,146 @@
+"""What a case will cost, before anything runs: particles, memory, steps, limits, resolution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import pi, sqrt
+
+import numpy as np
+
+from lasersph.case import Case
+from lasersph.particles.layers import Layers
+from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
+from lasersph.solvers.conduction.solver import next_light
+from lasersph.solvers.time_step import binding
+
+BYTES_PER_PARTICLE = 400
+BYTES_PER_PAIR = 12
+BYTES_TO_ASSEMBLE = 44
+"""Row, neighbor, weights and their host copies, while the pairs are assembled."""
+PAIRS_PER_SECOND = 2.0e8
+"""Of one thread; for the expected time only."""
+PRODUCTS_PER_STEP = {"implicit": 30.0, "explicit": 2.0}
+EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
+"""Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx; 2-D interpolated."""
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """Numbers of `lasersph check`.
+
+    Attributes:
+        particles, layers: counts. pairs: estimate. memory: peak [bytes].
+        spacing: finest, as used [m]. fine_depth: of the finest layers [m].
+        limits: time-step limits [s] while the light is on. binding: name of the smallest.
+        steps: estimate. wall_time: rough estimate [s] on `threads` threads.
+        absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
+        warnings: what a user should think about.
+    """
+
+    particles: int
+    layers: int
+    pairs: float
+    memory: float
+    spacing: float
+    fine_depth: float
+    limits: dict[str, float]
+    binding: str
+    steps: int
+    wall_time: float
+    absorption_length: float | None
+    penetration: float | None
+    warnings: tuple[str, ...] = field(default=())
+
+
+def forecast(case: Case, *, threads: int = 1) -> Forecast:
+    """Forecast of a case, without allocating its particles."""
+    layers = lay_out(case)
+    pairs = layers.particle_count * _neighbors(case)
+    each = BYTES_PER_PAIR + BYTES_TO_ASSEMBLE
+    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * each
+    limits, steps = _steps(case, layers)
+    products = PRODUCTS_PER_STEP[case.solver.scheme]
+    length, penetration = _lengths(case)
+    spacing = layers.spacing
+    is_fine = layers.thickness <= spacing * (1.0 + 1e-9)
+    return Forecast(
+        particles=layers.particle_count,
+        layers=layers.thickness.size,
+        pairs=pairs,
+        memory=memory,
+        spacing=spacing,
+        fine_depth=float(layers.thickness[is_fine].sum()),
+        limits=limits,
+        binding=binding(limits)[0],
+        steps=steps,
+        wall_time=steps * products * pairs / PAIRS_PER_SECOND / max(1, threads),
+        absorption_length=length,
+        penetration=penetration,
+        warnings=tuple(_warnings(case, layers, length, penetration)),
+    )
+
+
+def _neighbors(case: Case) -> float:
+    reach = support_ratio(case)
+    return {1: 2.0 * reach, 2: pi * reach**2, 3: 4.0 / 3.0 * pi * reach**3}[case.solver.dimensions]
+
+
+def _steps(case: Case, layers: Layers) -> tuple[dict[str, float], int]:
+    """Limits [s] while the light is on, and the number of steps."""
+    time, pulse = case.time, case.laser.pulse if case.laser is not None else None
+    if time.is_fixed and time.step is not None:
+        return {"fixed step": time.step}, int(np.ceil(time.end / time.step))
+    limits = {"end": time.end}
+    if case.solver.scheme == "explicit":
+        curve = caloric_curve(case)
+        steepest = float(np.max(np.diff(curve.potential) / np.diff(curve.enthalpy)))
+        diffusivity = steepest / case.material.density_reference
+        limits["conduction"] = EXACT_LIMIT[case.solver.dimensions] * layers.spacing**2 / diffusivity
+        if time.step is not None:
+            limits["light"] = time.step
+        return limits, int(np.ceil(time.end / min(limits.values())))
+    longest = time.step or (0.5 * pulse.resolution if pulse is not None else 1e-3 * time.end)
+    limits["light"] = longest
+    if pulse is None:
+        return limits, int(np.ceil(time.end / longest))
+    steps, now = 0, 0.0
+    while now < time.end and steps < 10_000_000:
+        now += max(next_light(pulse, now, longest), longest)
+        steps += 1
+    return limits, int(1.3 * steps)
+
+
+def _lengths(case: Case) -> tuple[float | None, float | None]:
+    """Absorption length and thermal penetration of a pulse [m] [Alshaer2017, eq. (34)]."""
+    if case.laser is None:
+        return None, None
+    alpha = case.laser.absorption_coefficient(case.material)
+    duration = case.laser.pulse.on_time or 100.0 * case.laser.pulse.resolution
+    return 1.0 / alpha, sqrt(case.material.diffusivity_reference * duration)
+
+
+def _warnings(
+    case: Case, layers: Layers, length: float | None, penetration: float | None
+) -> list[str]:
+    found = []
+    spacing = layers.spacing
+    if abs(spacing - case.particles.spacing) > 1e-3 * case.particles.spacing:
+        found.append(
+            f"spacing {case.particles.spacing:.4g} m is rounded to {spacing:.4g} m so that whole "
+            "cells fill the domain"
+        )
+    if penetration is not None and spacing > penetration / 3.0:
+        found.append(
+            f"the heat of a pulse reaches {penetration:.3g} m, less than 3 spacings of "
+            f"{spacing:.3g} m: take a finer spacing"
+        )
+    if length and spacing > length:
+        found.append(
+            f"the light is absorbed within {length:.3g} m, less than one spacing of "
+            f"{spacing:.3g} m: its profile is not resolved, though its energy is exact"
+        )
+    if penetration is not None and layers.thickness.sum() < 5.0 * penetration:
+        found.append("the domain is thinner than 5 penetration depths: the bottom will be felt")
+    if case.time.is_fixed:
+        found.append("the time step is fixed: it may be unstable")
+    return found

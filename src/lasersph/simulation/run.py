@@ -1,0 +1,199 @@
+"""The time loop, and the run folder around it.
+
+limits -> step -> observers -> history -> snapshots -> checkpoint, until the end of the case.
+No decision reads the clock, so that a run resumed from a checkpoint repeats the same numbers.
+"""
+
+from __future__ import annotations
+
+import platform
+import time as clock
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from lasersph import __version__, compute
+from lasersph.case import Case
+from lasersph.case.checks import refuse_if_too_large
+from lasersph.observers import Observers, SnapshotSchedule, heat_observers
+from lasersph.observers.snapshots import UNITS, snapshot_fields
+from lasersph.output import RunFolder
+from lasersph.output.checkpoint import Checkpoint
+from lasersph.particles.layers import Layers
+from lasersph.simulation.build import build, view_of
+from lasersph.solvers.conduction.solver import Conduction
+from lasersph.solvers.time_step import binding
+
+PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
+END = 1.0 - 1e-12
+
+Progress = Callable[[float, float, int, float], None]
+"""Called after each step with time, end [s], steps done and highest temperature [K]."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run leaves: its folder and the numbers of summary.json."""
+
+    folder: Path
+    summary: dict[str, Any]
+
+
+class Stopped(Exception):
+    """The run was asked to stop; its checkpoint is written."""
+
+
+def run(
+    case: Case,
+    out: str | Path,
+    *,
+    resume: bool = False,
+    threads: int | None = None,
+    precision: str = "float64",
+    progress: Progress | None = None,
+    should_stop: Callable[[], bool] = lambda: False,
+) -> Result:
+    """Compute a case into a run folder.
+
+    Args:
+        out: folder of the run; must be new or empty unless `resume`.
+        resume: continue from the last checkpoint in `out`; from the start where there is none.
+        threads: None takes all processors. precision: "float64" or "float32".
+        should_stop: asked after each step; True writes a checkpoint and raises `Stopped`.
+
+    Raises:
+        CaseError: too large for this machine. FolderRefused, OutputError: see `output`.
+        NotConverged: a step does not converge however small; the last checkpoint is kept.
+    """
+    refuse_if_too_large(case)
+    backend = compute.cpu(threads, precision)
+    folder, checkpoint = _open(case, out, resume, precision)
+    try:
+        if folder.is_complete:
+            return Result(folder.path, folder.summary)
+        layers, solver = build(case, backend)
+        loop = _Loop(case, layers, solver, folder)
+        loop.begin(checkpoint)
+        loop.go(progress, should_stop)
+        return Result(folder.path, loop.finish())
+    finally:
+        folder.close()
+
+
+def _open(
+    case: Case, out: str | Path, resume: bool, precision: str
+) -> tuple[RunFolder, Checkpoint | None]:
+    versions = {"lasersph": __version__, "python": platform.python_version()}
+    versions |= {name: version(name) for name in PACKAGES}
+    arguments: dict[str, Any] = {
+        "case_text": case.text,
+        "case": case.resolved(),
+        "versions": versions,
+        "case_hash": f"{case.hash()}-{precision}",
+    }
+    if resume:
+        return RunFolder.resume(out, **arguments)
+    return RunFolder.create(out, **arguments), None
+
+
+class _Loop:
+    """One run from its first or resumed step to its end."""
+
+    def __init__(self, case: Case, layers: Layers, solver: Conduction, folder: RunFolder) -> None:
+        self.case, self.layers, self.solver, self.folder = case, layers, solver, folder
+        self.observers: Observers = heat_observers(
+            case.solver.dimensions, probes=case.probes, iterations=tuple(solver.iterations)
+        )
+        self.snapshots = SnapshotSchedule(case.output.snapshots, case.time.end)
+        self.steps, self.limit, self.wall_before = 0, "", 0.0
+        self.started = clock.monotonic()
+
+    def begin(self, checkpoint: Checkpoint | None) -> None:
+        """Start at rest, or where the checkpoint left off."""
+        if checkpoint is None:
+            self.folder.log(f"{self.case.name}: {self.solver.body.count} particles")
+            self.folder.events.append("started", time=0.0, step=0)
+            self._observe()
+            return
+        scalars = checkpoint.scalars
+        self.steps, self.limit = checkpoint.step, scalars["limit"]
+        self.wall_before = scalars["wall_time"]
+        self.solver.restore(dict(checkpoint.arrays), scalars["solver"])
+        self.observers.restore(scalars["observers"])
+        self.snapshots.restore(scalars["snapshots"])
+        self.folder.log(f"resumed at step {self.steps}, {checkpoint.time:.6g} s")
+        self.folder.events.append("resumed", time=checkpoint.time, step=self.steps)
+
+    def go(self, progress: Progress | None, should_stop: Callable[[], bool]) -> None:
+        """Step until the end of the case."""
+        state, end = self.solver.state, self.case.time.end
+        while state.time < end * END:
+            limits = self.solver.time_step_limits()
+            limits["snapshot"] = max(self.snapshots.next_time - state.time, 0.0) or float("inf")
+            self.limit, step = binding(limits)
+            taken = self.solver.step(step)
+            if taken == step and self.limit in ("end", "snapshot"):
+                state.time = end if self.limit == "end" else self.snapshots.next_time
+            self.steps += 1
+            self._observe()
+            if self.steps % self.case.output.checkpoint_every == 0:
+                self._save()
+            if progress is not None:
+                progress(state.time, end, self.steps, self.hottest)
+            if should_stop():
+                self._save()
+                raise Stopped(f"stopped at {state.time:.4g} s after {self.steps} steps")
+
+    def finish(self) -> dict[str, Any]:
+        """Write the summary; the run is complete."""
+        state, body = self.solver.state, self.solver.body
+        summary = {
+            "case": self.case.name,
+            "title": self.case.title,
+            "solver": self.case.solver.kind,
+            "dimensions": self.case.solver.dimensions,
+            "particles": body.count,
+            "spacing_m": self.layers.spacing,
+            "spacing_requested_m": self.case.particles.spacing,
+            "steps": self.steps,
+            "time_s": state.time,
+            "wall_time_s": self._wall_time(),
+            "precision": str(body.backend.real),
+            "threads": body.backend.threads,
+            **self.observers.summary(),
+        }
+        self.folder.events.append("finished", time=state.time, step=self.steps)
+        self.folder.log(f"finished after {self.steps} steps, {summary['wall_time_s']:.1f} s")
+        self.folder.finish(summary)
+        return self.folder.summary
+
+    def _observe(self) -> None:
+        view = view_of(self.case, self.solver, self.steps, self.limit)
+        self.hottest = float(view.temperature.max())
+        row = self.observers.observe(view)
+        if self.steps % self.case.output.history_every == 0:
+            self.folder.history.append(row)
+        if self.snapshots.due(view.time):
+            self.folder.particles.append(
+                view.time, view.position, snapshot_fields(view), units=UNITS
+            )
+
+    def _save(self) -> None:
+        state, backend = self.solver.state, self.solver.body.backend
+        self.folder.save_checkpoint(
+            step=self.steps,
+            time=state.time,
+            arrays={name: backend.to_host(array) for name, array in self.solver.fields.items()},
+            scalars={
+                "limit": self.limit,
+                "wall_time": self._wall_time(),
+                "solver": self.solver.carried(),
+                "observers": self.observers.state(),
+                "snapshots": self.snapshots.state(),
+            },
+        )
+
+    def _wall_time(self) -> float:
+        return self.wall_before + clock.monotonic() - self.started
