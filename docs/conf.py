@@ -19,6 +19,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
     "sphinxcontrib.bibtex",
+    "docstring_equations",
     "generated_pages",
 ]
 exclude_patterns = ["_build", "generated"]
@@ -37,5 +38,6 @@ html_static_path = ["_static"]
 html_css_files = ["page.css"]
 
 autodoc_typehints = "description"
+autodoc_typehints_description_target = "documented"
 autodoc_member_order = "bysource"
 napoleon_google_docstring = True
