@@ -8,6 +8,7 @@ temperature. Patterns that repeat within one support radius are unfolded as ofte
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,7 +64,7 @@ def fill(layers: Layers, *, surface: str, bottom: str, sides: str) -> Filling:
         if number >= total and bottom == HELD:
             face = FACES.index("bottom")
         block = _layer(layers, number, inside, int(starts[inside]), face, sides)
-        is_real = block["real"] & (0 <= number < total)
+        is_real = np.logical_and(block["real"], 0 <= number < total)
         real.append({key: value[..., is_real] for key, value in block.items()})
         dummies.append({key: value[..., ~is_real] for key, value in block.items()})
     merged = {
@@ -86,7 +87,7 @@ def fill(layers: Layers, *, surface: str, bottom: str, sides: str) -> Filling:
 
 def _layer(
     layers: Layers, number: int, inside: int, start: int, face: int, sides: str
-) -> dict[str, Array]:
+) -> dict[str, NDArray[Any]]:
     """One layer of the extended lattice, real and dummy columns; `inside` is its mirror image."""
     center, depth = layers.center(), float(layers.thickness.sum())
     z = center[inside]

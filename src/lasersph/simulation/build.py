@@ -7,6 +7,7 @@ import numpy as np
 from lasersph.analytic.melt_depth import melt_depth
 from lasersph.case import Case
 from lasersph.compute.backend import Backend
+from lasersph.lasers import InterferenceBeam
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.observers.view import View
 from lasersph.particles.layers import Layers, stack
@@ -44,25 +45,27 @@ def fine_depth(case: Case) -> float:
     """Depth of the finest layers [m]: expected melt plus two support radii, and all the light."""
     spacing = case.particles.spacing
     least = LEAST_FINE_LAYERS * spacing
-    if case.laser is None:
+    laser = case.laser
+    if laser is None:
         return least
-    alpha = case.laser.absorption_coefficient(case.material)
+    alpha = laser.absorption_coefficient(case.material)
     least = max(least, ABSORPTION_LENGTHS / alpha)
     if not case.solver.phase_change or case.material.melting is None:
         return least
     width = case.domain.width
     columns, column_width = 1, None
-    if width is not None and case.laser.is_even and case.laser.beam.lateral_period is not None:
+    is_pattern = isinstance(laser.beam, InterferenceBeam)
+    if width is not None and laser.is_even and is_pattern:
         columns, column_width = ESTIMATE_COLUMNS, 0.5 * width / ESTIMATE_COLUMNS
-    fluence = np.array([case.laser.peak_fluence])
+    fluence = np.array([laser.peak_fluence])
     if column_width is not None:
         faces = np.arange(columns + 1) * column_width
-        pulse = case.laser.pulse
+        pulse = laser.pulse
         share = float(pulse.delivered(-np.inf, np.inf)) or 1.0
-        density = case.laser.energy_density(faces[None, :-1], faces[None, 1:], -np.inf, np.inf)
+        density = laser.energy_density(faces[None, :-1], faces[None, 1:], -np.inf, np.inf)
         fluence = density / share
     curve = caloric_curve(case)
-    T, R = case.laser.reflectivity_table(case.material, COLDEST, HOTTEST)
+    T, R = laser.reflectivity_table(case.material, COLDEST, HOTTEST)
     estimate = melt_depth(
         enthalpy=curve.enthalpy,
         temperature=curve.temperature,
@@ -72,7 +75,7 @@ def fine_depth(case: Case) -> float:
         absorption_coefficient=alpha,
         reflectivity=lambda surface: np.interp(surface, T, R),
         fluence=fluence,
-        delivered=lambda start, end: float(case.laser.pulse.delivered(start, end)),
+        delivered=lambda start, end: float(laser.pulse.delivered(start, end)),
         end_time=case.time.end,
         column_width=column_width,
     )

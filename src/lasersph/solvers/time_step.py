@@ -23,7 +23,10 @@ class TimeSettings(Model):
         False, description="take `step` always, also where it is unstable (for studies)"
     )
     temperature_change: Annotated[TemperatureDifference, Field(gt=0)] = Field(
-        20.0, description="aimed at per step, by the fastest particle (implicit)"
+        50.0, description="aimed at per step, by the fastest particle (implicit)"
+    )
+    cooling: Annotated[float, Field(gt=0, le=1)] = Field(
+        0.005, description="largest step after a pulse, over the time since its light (implicit)"
     )
     growth: Annotated[float, Field(gt=1, le=10)] = Field(
         1.25, description="of the step, at most, from one to the next"

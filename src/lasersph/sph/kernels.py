@@ -87,7 +87,7 @@ def wendland_c2_slope(s):
 
 
 def wendland_c2_line(s):
-    """f(s) = (1 - s)^3 (1 + 3 s), the C2 function of the family that is positive definite in 1-D."""
+    """f(s) = (1 - s)^3 (1 + 3 s), the C2 function of the family in 1-D."""
     outer = max(1.0 - s, 0.0)
     return outer**3 * (1.0 + 3.0 * s)
 

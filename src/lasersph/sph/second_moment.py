@@ -180,7 +180,7 @@ class _Lattice:
             self._offsets(axis, k, other, support) for axis in range(len(self.layers.bounds))
         ]
         samples = 1
-        squares = [np.zeros(1)]
+        squares: list[Array] = [np.zeros(1)]
         if len(offsets) == 1:
             samples = offsets[0].shape[0]
             squares = [offsets[0].ravel() ** 2]
@@ -188,7 +188,7 @@ class _Lattice:
             samples = offsets[0].shape[0] * offsets[1].shape[0]
             x, y = np.meshgrid(offsets[0].ravel() ** 2, offsets[1].ravel() ** 2, indexing="ij")
             squares = [x.ravel(), y.ravel()]
-        r2 = z * z + sum(squares)
+        r2 = z * z + np.sum(squares, axis=0)
         is_near = (r2 < support * support) & (r2 > 1e-12 * support * support)
         r = np.sqrt(r2[is_near])
         slope = np.vectorize(self.kernel.slope, otypes=[float])(r / support)
@@ -196,7 +196,7 @@ class _Lattice:
         scale = self.kernel.sigma / support ** (self.kernel.dimension + 1)
         g = -2.0 * volume * scale * slope / r / samples
         share = z * z / (r * r)
-        lateral = sum(s[is_near] for s in squares) / max(1, len(offsets))
+        lateral = np.mean([s[is_near] for s in squares], axis=0)
         parts = (share * g, (1.0 - share) * g)
         return np.array([parts[0].sum(), parts[1].sum(),
                          (parts[0] * lateral).sum(), (parts[1] * lateral).sum()])  # fmt: skip

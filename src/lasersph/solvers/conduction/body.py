@@ -37,7 +37,8 @@ class Body:
 
     Attributes:
         filling: host arrays of the particles. pairs: assembled weights g_ij [m^(d-2)].
-        mass: (n,) [kg per (3 - d) lengths]. wall_flow, wall_heat: (n,) sums over held faces of A_i P_w and A_i T_w.
+        mass: (n,) [kg per (3 - d) lengths]. wall_flow, wall_heat: (n,) sums over held
+            faces of A_i P_w and A_i T_w.
         area: (n,) exposed cross-section of surface particles [m^(d-1)], 0 for all others.
         tables: nodes of the caloric curve as tables of the backend.
     """

@@ -16,8 +16,8 @@ class ConductionSettings(Model):
     dimensions: Literal[1, 2, 3] = 2
     scheme: Literal["implicit", "explicit"] = Field(
         "implicit",
-        description="implicit enthalpy [Demuth2020, eqs. (64)-(66)] or explicit predictor-corrector "
-        "[Alshaer2017, eqs. (29), (30)]",
+        description="implicit enthalpy [Demuth2020, eqs. (64)-(66)] or explicit "
+        "predictor-corrector [Alshaer2017, eqs. (29), (30)]",
     )
     plateau: Literal["hold", "clip", "evaporate"] = Field(
         "hold",

@@ -86,6 +86,7 @@ class Conduction:
         numbers = {f"energy.{name}": state.energy[name] for name in ENERGIES}
         return numbers | {
             "time": state.time, "time_step": state.time_step, "fastest": state.fastest,
+            "lit_until": state.lit_until,
         }  # fmt: skip
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
@@ -95,7 +96,7 @@ class Conduction:
             backend.copy(backend.asarray(arrays[name]), getattr(state, name))
         state.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
         state.time, state.time_step = numbers["time"], numbers["time_step"]
-        state.fastest = numbers["fastest"]
+        state.fastest, state.lit_until = numbers["fastest"], numbers["lit_until"]
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]."""
@@ -116,6 +117,9 @@ class Conduction:
                 limits["light"] = (
                     longest if pulse is None else next_light(pulse, state.time, longest)
                 )
+            if longest is not None and state.lit_until > 0.0:
+                dark = state.time - state.lit_until
+                limits["cooling"] = max(longest, time.cooling * dark)
             if state.time_step > 0.0:
                 limits["growth"] = time.growth * state.time_step
                 if state.fastest > 0.0:
@@ -160,6 +164,8 @@ class Conduction:
         self._account(energy, discarded)
         fields = {"T": state.temperature, "T_old": self._before}
         (state.fastest,) = backend.pointwise(change, fields, (None,), reduce=("max",))
+        if self.laser is not None and self.laser.pulse.active(state.time, state.time + step):
+            state.lit_until = state.time + step
         state.time, state.time_step = state.time + step, step
         return step
 

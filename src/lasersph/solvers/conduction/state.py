@@ -40,6 +40,8 @@ class HeatState:
     time_step: float = 0.0
     fastest: float = 0.0
     """Largest change of temperature in the last step [K]."""
+    lit_until: float = 0.0
+    """End of the last step with light [s]."""
 
     @classmethod
     def at_rest(cls, backend: Backend, body: Body) -> HeatState:
