@@ -8,6 +8,7 @@ from pathlib import Path
 
 from lasersph.case.case import Case
 from lasersph.case.overrides import override
+from lasersph.case.quick import quick_settings
 from lasersph.reading import CaseError, Document, build, nearest, read_toml
 
 LIBRARY = Path(__file__).parent / "cases"
@@ -46,16 +47,21 @@ def read_case(name_or_path: str | os.PathLike[str], overrides: Sequence[str] = (
     return override(read_toml(case_file(name_or_path)), overrides)
 
 
-def load_case(name_or_path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Case:
+def load_case(
+    name_or_path: str | os.PathLike[str], overrides: Sequence[str] = (), *, quick: bool = False
+) -> Case:
     """Read a case file or a shipped case.
 
     Args:
         name_or_path: "dlip-steel" or "my-case.toml".
         overrides: settings like "laser.fluence=0.8 J/cm^2"; later ones win.
+        quick: four times coarser, where `overrides` do not say otherwise.
 
     Raises:
         CaseError: every problem of the case in one line: file, line, key, what is wrong.
     """
+    if quick:
+        overrides = [*quick_settings(load_case(name_or_path, overrides)), *overrides]
     document = read_case(name_or_path, overrides)
     file = Path(document.file)
     case = build(Case, document, {"folder": file.parent})

@@ -1,0 +1,93 @@
+"""`lasersph new`, `check`, `cases`, `schema`: cases before they run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lasersph.cli.arguments import CaseName, Quick, Settings, Threads
+from lasersph.cli.tables import aligned
+
+if TYPE_CHECKING:
+    from lasersph.case import Case
+    from lasersph.simulation import Forecast
+
+NewFile = Annotated[str, typer.Argument(metavar="FILE", help="The file to write; must be new.")]
+
+
+def new(case: CaseName, file: NewFile) -> None:
+    """Write a commented case file to start from."""
+    from lasersph.case import write_new_case
+
+    path = write_new_case(case, file)
+    print(f"wrote {path}: edit it, then lasersph check {path} or lasersph run {path}")
+
+
+def list_cases() -> None:
+    """List the shipped cases."""
+    from lasersph.case import available_cases
+    from lasersph.reading import read_toml
+
+    rows = [(name, read_toml(path).data["title"]) for name, path in available_cases().items()]
+    print(aligned(rows))
+
+
+def schema() -> None:
+    """Print the JSON Schema of case files."""
+    import json
+
+    from lasersph.case import Case
+
+    print(json.dumps(Case.model_json_schema(), indent=2))
+
+
+def check(
+    case: CaseName, settings: Settings = None, quick: Quick = False, threads: Threads = None
+) -> None:
+    """Say what a run would need, before anything runs: particles, memory, steps, warnings."""
+    from lasersph.case import load_case, refuse_if_too_large
+    from lasersph.compute.threads import chosen
+    from lasersph.simulation import forecast
+
+    loaded = load_case(case, settings or (), quick=quick)
+    refuse_if_too_large(loaded)
+    count = chosen(threads)
+    expected = forecast(loaded, threads=count)
+    print(aligned(_rows(loaded, expected, count)))
+    for warning in expected.warnings:
+        print(f"warning: {warning}")
+    print("the case is right" + ("; think about the warnings" if expected.warnings else ""))
+
+
+def _rows(case: Case, expected: Forecast, threads: int) -> list[tuple[str, str]]:
+    from lasersph.case.size import in_words, machine_memory
+    from lasersph.observers import duration
+    from lasersph.reading import show_quantity
+
+    memory = f"{in_words(expected.memory)} of {in_words(machine_memory())}"
+    rows = [
+        ("case", case.title or case.name),
+        ("material", case.material.title or case.material.name),
+        ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {case.solver.scheme}"),
+        ("particles", f"{expected.particles} in {expected.layers} layers"),
+        (
+            "finest spacing",
+            f"{show_quantity(expected.spacing, 'm')} down to "
+            f"{show_quantity(expected.fine_depth, 'm')}",
+        ),
+        ("memory", f"about {memory}"),
+    ]
+    for name, limit in sorted(expected.limits.items(), key=lambda item: item[1]):
+        binds = "  <- binding" if name == expected.binding else ""
+        rows.append((f"step limit: {name}", show_quantity(limit, "s") + binds))
+    rows.append(("steps", f"about {expected.steps} to {show_quantity(case.time.end, 's')}"))
+    rows.append(("time", f"roughly {duration(expected.wall_time)} on {threads} threads"))
+    for name, length in (
+        ("absorption length", expected.absorption_length),
+        ("thermal penetration", expected.penetration),
+    ):
+        if length:
+            cells = f"{length / expected.spacing:.2g} spacings"
+            rows.append((name, f"{show_quantity(length, 'm')}, {cells}"))
+    return rows

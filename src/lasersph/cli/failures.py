@@ -1,0 +1,73 @@
+"""What a failure says, in one line, and which exit code it gives.
+
+0 done    1 the run failed    2 the case or the command is wrong, nothing was written
+130, 143 stopped by Ctrl-C or SIGTERM
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+
+DONE, FAILED, WRONG, INTERRUPTED, TERMINATED = 0, 1, 2, 130, 143
+
+
+class WrongCommand(Exception):
+    """The command asks for something that makes no sense; the text says what would."""
+
+
+class StoppedBySignal(Exception):
+    """A run wrote its checkpoint and stopped after a signal; the text says how to go on."""
+
+    def __init__(self, text: str, code: int) -> None:
+        super().__init__(text)
+        self.code = code
+
+
+def exit_code_of(command: Callable[[], int], *, wants_traceback: bool) -> int:
+    """Run a command; say failures in one line on standard error, or raise them with --debug."""
+    try:
+        code = command()
+        sys.stdout.flush()
+        return code
+    except KeyboardInterrupt:
+        return _say("interrupted", INTERRUPTED)
+    except BrokenPipeError:  # the reader of our output has left, as in `lasersph cases | head -1`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except Exception as error:
+        text, code = _described(error)
+        if wants_traceback and code == FAILED:
+            raise
+        return _say(text, code)
+
+
+def _say(text: str, code: int) -> int:
+    for line in text.splitlines() or [""]:
+        print(f"lasersph: {line}", file=sys.stderr)
+    return code
+
+
+def _described(error: Exception) -> tuple[str, int]:
+    """Text and exit code of an exception."""
+    if isinstance(error, StoppedBySignal):
+        return str(error), error.code
+    if isinstance(error, WrongCommand):
+        return str(error), WRONG
+    if hasattr(error, "format_message"):  # usage errors of typer, whichever click it brings
+        return f"{error.format_message()}; see lasersph --help", WRONG  # pyright: ignore[reportAttributeAccessIssue]
+    if type(error).__name__ == "Abort":
+        return "interrupted", INTERRUPTED
+    from lasersph.reading import CaseError
+
+    if isinstance(error, CaseError):
+        return str(error), WRONG
+    from lasersph.output import FolderRefused, OutputError
+
+    if isinstance(error, OutputError):
+        return str(error), WRONG if isinstance(error, FolderRefused) else FAILED
+    if isinstance(error, MemoryError):
+        return "not enough memory; take a coarser spacing or a smaller domain", FAILED
+    what = " ".join(str(error).split()) or type(error).__name__
+    return f"the run failed: {what} (--debug shows where)", FAILED

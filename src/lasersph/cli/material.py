@@ -1,0 +1,107 @@
+"""`lasersph material list|show|check`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lasersph.cli.tables import aligned
+
+if TYPE_CHECKING:
+    from lasersph.materials import Material
+
+app = typer.Typer(help="List, show and check materials.", no_args_is_help=False)
+Name = Annotated[str, typer.Argument(metavar="NAME", help="A material, or the path of a file.")]
+Plot = Annotated[
+    Path | None,
+    typer.Option("--plot", metavar="FILE", help="Draw all properties, e.g. into steel.png."),
+]
+SHOWN = {
+    "density": "kg/m^3",
+    "heat_capacity": "J/(kg K)",
+    "conductivity": "W/(m K)",
+    "viscosity": "Pa s",
+    "surface_tension": "N/m",
+    "surface_tension_slope": "N/(m K)",
+    "expansion": "1/K",
+    "reflectivity": "1",
+}
+
+
+@app.command("list")
+def list_materials() -> None:
+    """List the materials that a case can name."""
+    from lasersph.materials import available_materials, load_material
+
+    print(aligned([(name, load_material(name).title) for name in available_materials()]))
+
+
+@app.command()
+def show(name: Name, plot: Plot = None) -> None:
+    """Show a material: every number with its source."""
+    from lasersph.materials import load_material
+
+    material = load_material(name)
+    if plot is not None:
+        _draw(material, plot)
+    print(material.title or material.name)
+    if material.note:
+        print(" ".join(material.note.split()))
+    print()
+    print(aligned([("quantity", "value", "range", "source"), *_rows(material)], header=True))
+
+
+@app.command()
+def check(name: Name, plot: Plot = None) -> None:
+    """Check a material: what is missing, what is implausible, what contradicts."""
+    from lasersph.materials import check_material, load_material
+
+    material = load_material(name)
+    if plot is not None:
+        _draw(material, plot)
+    findings = check_material(material)
+    print(aligned([(found.level, found.subject, found.text) for found in findings]))
+    warnings = sum(found.level == "warning" for found in findings)
+    print(f"{material.name}: {warnings} warnings" if warnings else f"{material.name}: no warnings")
+
+
+def _draw(material: Material, file: Path) -> None:
+    from lasersph.plots.material import plot_material
+
+    print(f"drew {plot_material(material, file)}")
+
+
+def _rows(material: Material) -> list[tuple[str, str, str, str]]:
+    """Quantity, value, range, source of every number."""
+    rows = []
+    for name, property_ in material.properties().items():
+        for phase, law in property_.laws().items():
+            low, high = float(law.at(law.lower or 300.0)), float(law.at(min(law.upper, 1e4)))
+            unit = SHOWN.get(name, "")
+            value = f"{low:.5g}" if law.is_constant else f"{low:.5g} ... {high:.5g}"
+            bounded = not law.is_constant or law.range is not None
+            span = f"{law.lower:g} ... {law.upper:g} K" if bounded else "all temperatures"
+            where = name if phase == "all" else f"{name}, {phase}"
+            rows.append((where, f"{value} {unit}".removesuffix(" 1"), span, law.source))
+    for group, units in (
+        ("melting", {"solidus": "K", "liquidus": "K", "latent_heat": "J/kg"}),
+        (
+            "vaporization",
+            {
+                "temperature": "K",
+                "latent_heat": "J/kg",
+                "molar_mass": "kg/mol",
+                "critical_temperature": "K",
+            },
+        ),
+        ("optics", {"absorption_coefficient": "1/m", "wavelength": "m", "emissivity": ""}),
+    ):
+        section = getattr(material, group)
+        for name, unit in units.items():
+            number = getattr(section, name, None)
+            if number is not None:
+                source = section.source_of(name)
+                rows.append((f"{group}, {name}", f"{number:.5g} {unit}".strip(), "", source))
+    return [tuple(" ".join(cell.split()) for cell in row) for row in rows]  # pyright: ignore[reportReturnType]

@@ -1,0 +1,73 @@
+"""`lasersph info`, `plot`, `report`: what a run folder holds."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import typer
+
+from lasersph.cli.arguments import RunFolder
+from lasersph.cli.tables import aligned
+
+Kind = Annotated[Literal["png", "svg", "pdf"], typer.Option("--kind", help="Of the files.")]
+
+
+def info(folder: RunFolder) -> None:
+    """Show what a run folder holds: the case, how far it is, the main numbers."""
+    from lasersph.output import open_run
+    from lasersph.reading import show_quantity
+
+    found = open_run(folder)
+    if found.is_complete:
+        print(aligned(summary_rows(found.summary)))
+        print(f"{folder}: complete")
+        return
+    times = found.history.get("time_s", ())
+    end = show_quantity(float(found.case["time"]["end"]), "s")
+    now = show_quantity(float(times[-1]), "s") if len(times) else "0 s"
+    print(aligned([("case", found.case["title"]), ("history", f"up to {now} of {end}")]))
+    print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
+
+
+def plot(folder: RunFolder, kind: Kind = "png") -> None:
+    """Draw the figures of a run into DIR/figures."""
+    from lasersph.plots import draw_run
+
+    for file in draw_run(folder, kind=kind):
+        print(file)
+
+
+def report(folder: RunFolder) -> None:
+    """Write DIR/report.html: figures and numbers on one self-contained page."""
+    from lasersph.report import write_report
+
+    print(write_report(folder))
+
+
+def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """The main numbers of summary.json, with units."""
+    from lasersph.observers import duration
+    from lasersph.reading import show_quantity
+
+    energy = summary["energy"]
+    rows = [
+        ("case", str(summary.get("title") or summary["case"])),
+        ("particles", str(summary["particles"])),
+        ("time", f"{show_quantity(summary['time_s'], 's')} in {summary['steps']} steps"),
+        ("computed in", duration(summary["wall_time_s"])),
+        ("highest temperature", f"{summary['temperature_max_K']:.1f} K"),
+    ]
+    melt = summary.get("melt") or {}
+    if melt.get("start_s") is not None:
+        span = (show_quantity(melt[key], "s") for key in ("start_s", "end_s"))
+        rows.append(("molten (f_m = 1)", " to ".join(span)))
+        for word in ("depth", "width"):
+            if melt.get(f"{word}_max_m") is not None:
+                size = show_quantity(melt[f"{word}_max_m"], "m")
+                rows.append(
+                    (f"melt {word}", f"{size} at {show_quantity(melt[f'{word}_max_at_s'], 's')}")
+                )
+    unit = energy.get("unit", "J")
+    rows.append(("absorbed energy", f"{energy['absorbed_J']:.5g} {unit}"))
+    rows.append(("energy imbalance", f"{energy['imbalance_relative']:.1e} of the absorbed"))
+    return rows

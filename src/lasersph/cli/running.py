@@ -1,0 +1,119 @@
+"""`lasersph run`: compute a case into a run folder, then draw its figures and its report."""
+
+from __future__ import annotations
+
+import shlex
+import signal
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import typer
+
+from lasersph.cli.arguments import CaseName, Out, Quick, Settings, Threads
+from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal
+
+if TYPE_CHECKING:
+    from lasersph.case import Case
+    from lasersph.simulation import Result
+
+RUNS = Path("runs")
+Resume = Annotated[
+    bool, typer.Option("--resume", help="Continue the run in DIR, or start it where there is none.")
+]
+Precision = Annotated[
+    Literal["float64", "float32"], typer.Option("--precision", help="Of the computation.")
+]
+Figures = Annotated[bool, typer.Option(help="Draw the figures and write report.html at the end.")]
+
+
+class StopSignals:
+    """Notes Ctrl-C and SIGTERM, so that the run can stop between two steps.
+
+    A second Ctrl-C stops at once.
+    """
+
+    def __init__(self) -> None:
+        self.code = 0
+        self._before: dict[int, Any] = {}
+
+    def __enter__(self) -> StopSignals:
+        """Listen."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self._before[number] = signal.signal(number, self._note)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the signals as they were."""
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+
+    def _note(self, number: int, _frame: FrameType | None) -> None:
+        if self.code and number == signal.SIGINT:
+            raise KeyboardInterrupt
+        self.code = INTERRUPTED if number == signal.SIGINT else TERMINATED
+
+    def asked(self) -> bool:
+        """Whether a signal has come."""
+        return self.code != 0
+
+
+def run(
+    case: CaseName,
+    out: Out = None,
+    settings: Settings = None,
+    resume: Resume = False,
+    quick: Quick = False,
+    threads: Threads = None,
+    precision: Precision = "float64",
+    figures: Figures = True,
+) -> None:
+    """Compute a case; the run folder then holds history, summary, particles, figures, report."""
+    from lasersph.case import load_case
+
+    loaded = load_case(case, settings or (), quick=quick)
+    folder = out or RUNS / loaded.name
+    command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
+    command += [word for setting in settings or () for word in ("--set", setting)]
+    command += ["--quick"] if quick else []
+    command += ["--precision", precision] if precision != "float64" else []
+    options = {"resume": resume, "threads": threads, "precision": precision}
+    result = _compute(loaded, folder, shlex.join(command), options)
+    _tell(result)
+    if figures:
+        _draw(result.folder)
+
+
+def _compute(case: Case, folder: Path, again: str, options: dict[str, Any]) -> Result:
+    """Run with progress; a signal ends it with a checkpoint and the way to go on."""
+    from lasersph import simulation
+    from lasersph.cli.progress import ProgressDisplay
+    from lasersph.simulation.run import Stopped
+
+    with StopSignals() as signals, ProgressDisplay() as progress:
+        try:
+            return simulation.run(
+                case, folder, progress=progress, should_stop=signals.asked, **options
+            )
+        except Stopped as stopped:
+            raise StoppedBySignal(
+                f"{stopped}; continue with\nlasersph: {again}".replace("\nlasersph:", "\n "),
+                signals.code,
+            ) from None
+
+
+def _tell(result: Result) -> None:
+    """The main numbers of a finished run."""
+    from lasersph.cli.results import summary_rows
+    from lasersph.cli.tables import aligned
+
+    print(aligned(summary_rows(result.summary)))
+    print(f"{result.folder}: complete")
+
+
+def _draw(folder: Path) -> None:
+    from lasersph.plots import draw_run
+    from lasersph.report import write_report
+
+    draw_run(folder)
+    print(f"open {write_report(folder)} in a browser")
