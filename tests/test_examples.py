@@ -1,0 +1,58 @@
+"""Every example, run with --quick, gives the numbers that its expected.toml states; the notebook
+of the documentation runs."""
+
+import re
+import tempfile
+import tomllib
+from functools import reduce
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot
+import pytest
+
+import lasersph
+
+ROOT = Path(__file__).resolve().parent.parent
+EXAMPLES = sorted((ROOT / "examples").glob("*/case.toml"))
+
+
+@pytest.mark.parametrize("case", EXAMPLES, ids=lambda case: case.parent.name)
+def test_example_gives_expected_numbers(case, tmp_path):
+    """Each number of summary.json lies within the stated relative tolerance of its source."""
+    expected = tomllib.loads(case.with_name("expected.toml").read_text(encoding="utf-8"))
+    result = lasersph.run(lasersph.load_case(case, quick=True), tmp_path / "out", threads=2)
+    found = {
+        name: reduce(lambda table, key: table[key], name.split("."), result.summary)
+        for name in expected
+    }
+    wanted = {
+        name: pytest.approx(entry["value"], rel=entry["relative"])
+        for name, entry in expected.items()
+    }
+    assert expected
+    assert all(entry["source"] for entry in expected.values())
+    assert found == wanted
+    assert result.summary["energy"]["imbalance_relative"] <= 1e-6
+
+
+def test_every_example_explains_itself():
+    """A case comes with its expected numbers and its page."""
+    assert len(EXAMPLES) >= 5
+    for case in EXAMPLES:
+        assert case.with_name("expected.toml").exists()
+        assert case.with_name("README.md").read_text(encoding="utf-8").startswith("# ")
+
+
+def test_notebook_runs(tmp_path, monkeypatch):
+    """The cells of "From Python" run one after the other, in a folder that they do not fill."""
+    matplotlib.use("Agg")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    page = (ROOT / "docs" / "examples" / "python-api.md").read_text(encoding="utf-8")
+    cells = re.findall(r"^```\{code-cell\}.*?\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
+    assert len(cells) > 5
+    names: dict[str, object] = {}
+    for cell in cells:
+        exec(compile(cell, "python-api.md", "exec"), names)
+    matplotlib.pyplot.close("all")
+    assert names["melt"]["depth_half_max_m"] > 2e-7
