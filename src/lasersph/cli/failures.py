@@ -56,7 +56,8 @@ def _described(error: Exception) -> tuple[str, int]:
     if isinstance(error, WrongCommand):
         return str(error), WRONG
     if hasattr(error, "format_message"):  # usage errors of typer, whichever click it brings
-        return f"{error.format_message()}; see lasersph --help", WRONG  # pyright: ignore[reportAttributeAccessIssue]
+        text = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
+        return f"{text.rstrip('.')}; see lasersph --help", WRONG
     if type(error).__name__ == "Abort":
         return "interrupted", INTERRUPTED
     from lasersph.reading import CaseError

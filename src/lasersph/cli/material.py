@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from lasersph.cli.tables import aligned
 
 if TYPE_CHECKING:
-    from lasersph.materials import Material
+    from lasersph.materials import Law, Material
 
 app = typer.Typer(help="List, show and check materials.", no_args_is_help=False)
 Name = Annotated[str, typer.Argument(metavar="NAME", help="A material, or the path of a file.")]
@@ -26,7 +26,7 @@ SHOWN = {
     "surface_tension": "N/m",
     "surface_tension_slope": "N/(m K)",
     "expansion": "1/K",
-    "reflectivity": "1",
+    "reflectivity": "",
 }
 
 
@@ -73,18 +73,32 @@ def _draw(material: Material, file: Path) -> None:
     print(f"drew {plot_material(material, file)}")
 
 
+def _values(material: Material, name: str, law: Law[Any]) -> str:
+    """Value, or the values at both ends of the range in which the material needs the law."""
+    from lasersph.materials.checking import LIQUID_ONLY
+
+    unit = SHOWN.get(name, "")
+    bottom = material.liquidus if name in LIQUID_ONLY else None
+    top = material.vaporization.temperature if material.vaporization else 3000.0
+    ends = max(law.lower, bottom or material.reference_temperature), min(law.upper, top)
+    values = [f"{float(law.at(T)):.5g}" for T in ends]
+    return f"{values[0] if law.is_constant else ' ... '.join(values)} {unit}".strip()
+
+
+def _span(law: Law[Any]) -> str:
+    """Temperatures for which the source gives the law."""
+    if law.lower <= 0.0 and law.upper == float("inf"):
+        return "not given"
+    return f"{law.lower:g} ... {law.upper:g} K"
+
+
 def _rows(material: Material) -> list[tuple[str, str, str, str]]:
     """Quantity, value, range, source of every number."""
     rows = []
     for name, property_ in material.properties().items():
         for phase, law in property_.laws().items():
-            low, high = float(law.at(law.lower or 300.0)), float(law.at(min(law.upper, 1e4)))
-            unit = SHOWN.get(name, "")
-            value = f"{low:.5g}" if law.is_constant else f"{low:.5g} ... {high:.5g}"
-            bounded = not law.is_constant or law.range is not None
-            span = f"{law.lower:g} ... {law.upper:g} K" if bounded else "all temperatures"
             where = name if phase == "all" else f"{name}, {phase}"
-            rows.append((where, f"{value} {unit}".removesuffix(" 1"), span, law.source))
+            rows.append((where, _values(material, name, law), _span(law), law.source))
     for group, units in (
         ("melting", {"solidus": "K", "liquidus": "K", "latent_heat": "J/kg"}),
         (

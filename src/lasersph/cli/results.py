@@ -22,9 +22,9 @@ def info(folder: RunFolder) -> None:
         print(aligned(summary_rows(found.summary)))
         print(f"{folder}: complete")
         return
-    times = found.history.get("time_s", ())
+    times = [float(time) for time in found.history.get("time_s", ())]
     end = show_quantity(float(found.case["time"]["end"]), "s")
-    now = show_quantity(float(times[-1]), "s") if len(times) else "0 s"
+    now = show_quantity(times[-1] if times else 0.0, "s")
     print(aligned([("case", found.case["title"]), ("history", f"up to {now} of {end}")]))
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
 

@@ -96,10 +96,7 @@ def _compute(case: Case, folder: Path, again: str, options: dict[str, Any]) -> R
                 case, folder, progress=progress, should_stop=signals.asked, **options
             )
         except Stopped as stopped:
-            raise StoppedBySignal(
-                f"{stopped}; continue with\nlasersph: {again}".replace("\nlasersph:", "\n "),
-                signals.code,
-            ) from None
+            raise StoppedBySignal(f"{stopped}; continue with: {again}", signals.code) from None
 
 
 def _tell(result: Result) -> None:

@@ -23,7 +23,7 @@ Of = Annotated[
 Tolerance = Annotated[
     float,
     typer.Option(
-        "--tolerance", min=1e-6, max=0.5, help="Half-width of the answer over the answer."
+        "--tolerance", min=1e-6, max=0.5, help="Half-width of the bracket over its middle."
     ),
 ]
 Json = Annotated[
