@@ -3,9 +3,9 @@ the package or asking the command line for help starts no numerical library."""
 
 import ast
 import re
+import resource
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -59,7 +59,11 @@ def test_layer_list_is_the_folder_list():
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_imports_point_down(path):
-    """No file imports from a room above its own; the package's own modules may use every room."""
+    """No file imports from a room above its own.
+
+    The package's own modules may use every room; only the top room may import the package itself,
+    whose public names come from rooms.
+    """
     room = room_of(path)
     wrong = []
     for line, name in imported_modules(path):
@@ -70,7 +74,7 @@ def test_imports_point_down(path):
         if target in LAYERS:
             if LAYERS.index(target) < LAYERS.index(room):
                 wrong.append(f"{path}:{line}: {room} imports {name}, which lies above it")
-        elif target != "__version__":
+        elif target != "__version__" and (target or room != LAYERS[0]):
             wrong.append(f"{path}:{line}: {name} is no room; import it from the room that owns it")
     assert not wrong, "\n".join(wrong)
 
@@ -99,23 +103,17 @@ def test_import_starts_no_backend():
     assert not loaded_by("import lasersph") & {"numba", "matplotlib", "h5py", "pint", "scipy"}
 
 
-def seconds(*command: str, tries: int = 5) -> float:
-    """Shortest wall time of a command over some tries [s]."""
-    times = []
-    for _ in range(tries):
-        start = time.perf_counter()
-        subprocess.run(command, capture_output=True, check=True)
-        times.append(time.perf_counter() - start)
-    return min(times)
+def processor_seconds(*command: str) -> float:
+    """Processor time of a command [s], which other programs on the machine hardly change."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, capture_output=True, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
 
 def test_help_answers_quickly():
-    """`lasersph --help` answers within 0.5 s on an idle machine.
-
-    A loaded machine slows every process alike: the bound grows with the time that a bare
-    interpreter takes beyond the 30 ms it needs on an idle one.
-    """
-    bare = seconds(sys.executable, "-c", "pass")
-    helped = seconds(str(Path(sys.executable).with_name("lasersph")), "--help")
-    print(f"lasersph --help: {helped:.3f} s (bare interpreter {bare:.3f} s)")
-    assert helped < 0.5 * max(1.0, bare / 0.03)
+    """`lasersph --help` takes less than 0.5 s of one processor, its best of three tries."""
+    lasersph = str(Path(sys.executable).with_name("lasersph"))
+    best = min(processor_seconds(lasersph, "--help") for _ in range(3))
+    print(f"lasersph --help: {best:.2f} s")
+    assert best < 0.5
