@@ -13,11 +13,14 @@ import importlib.util
 import os
 import sys
 import tempfile
+import warnings
 from functools import cache
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 _PREFIX = "loop_"
+_loaded: dict[str, ModuleType] = {}
 
 
 @cache
@@ -53,24 +56,77 @@ def location() -> Path:
 
 
 def load(text: str) -> ModuleType:
-    """Module with this text from the cache folder; the file is written where it is missing."""
+    """Module with this text from the cache folder; the file is written where it is missing.
+
+    Where the disk is full, the loop is compiled without being stored.
+    """
     digest = hashlib.sha256(text.encode()).hexdigest()[:24]
     folder = location()
     path = folder / f"{_PREFIX}{digest}.py"
     name = f"lasersph_{folder_key(folder)}_{path.stem}"
-    if name in sys.modules:
-        return sys.modules[name]
-    if not path.is_file() or path.read_text(encoding="utf-8") != text:
-        handle, temporary = tempfile.mkstemp(dir=folder, suffix=".tmp")
+    if name in _loaded:
+        return _loaded[name]
+    try:
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            _write(path, text)
+        spec = importlib.util.spec_from_file_location(name, path)
+        assert spec is not None and spec.loader is not None
+        module = sys.modules[name] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+    except OSError as error:
+        _warn(error)
+        module = sys.modules[name] = ModuleType(name)
+        exec(compile(text.replace(", cache=True", ""), str(path), "exec"), module.__dict__)
+    _loaded[name] = module
+    for dispatcher in _dispatchers(module):
+        _keep_going(dispatcher)
+    return module
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a file at once: another process sees all of it or nothing."""
+    handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
+    try:
         with os.fdopen(handle, "w", encoding="utf-8") as file:
             file.write(text)
         os.replace(temporary, path)
-    spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
+    except OSError:
+        os.unlink(temporary)
+        raise
+
+
+def _dispatchers(module: ModuleType) -> list[Any]:
+    return [value for value in vars(module).values() if hasattr(value, "stats")]
+
+
+def _keep_going(dispatcher: Any) -> None:
+    """Let a loop run although its machine code cannot be stored (full disk)."""
+    store = getattr(dispatcher, "_cache", None)
+    save = getattr(store, "save_overload", None)
+    if store is None or save is None:
+        return
+
+    def save_if_possible(*arguments: Any) -> None:
+        try:
+            save(*arguments)
+        except OSError as error:
+            _warn(error)
+
+    store.save_overload = save_if_possible
+
+
+def _warn(error: OSError) -> None:
+    warnings.warn(f"compiled loops are not stored: {error}", RuntimeWarning, stacklevel=2)
+
+
+def statistics() -> tuple[int, int]:
+    """(loops found in the folder, loops compiled) by this process so far."""
+    found = compiled = 0
+    for module in _loaded.values():
+        for dispatcher in _dispatchers(module):
+            found += sum(dispatcher.stats.cache_hits.values())
+            compiled += sum(dispatcher.stats.cache_misses.values())
+    return found, compiled
 
 
 def folder_key(folder: Path) -> str:

@@ -1,0 +1,265 @@
+"""Cell sort and neighbor list: all pairs with r_ij < mean(l_i, l_j), j != i.
+
+Particles are binned into levels by the powers of two of their support l, each level with its own
+bounding box and cells, so that a set whose supports span any ratio costs in proportion to its
+particles and pairs. `mean` must grow with both arguments, and l > 0. Lists are one-sided: the row
+of i holds all its neighbors, in the order of levels, cells and particle numbers, which does not
+depend on the number of threads. On a periodic axis the nearest image counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from lasersph.compute import cache
+from lasersph.compute.backend import Backend
+from lasersph.compute.generate import BLOCK
+from lasersph.compute.scan import scan_text
+
+_CELLS_PER_REACH = 1.0
+_CELLS_PER_PARTICLE = 4
+
+
+class EscapedParticle(ValueError):
+    """A particle is not finite or left the box."""
+
+
+class _Cells(NamedTuple):
+    """Levels of cells: one row or entry per level; cells and members are concatenated."""
+
+    position: np.ndarray
+    support: np.ndarray
+    order: np.ndarray
+    starts: np.ndarray
+    first_cell: np.ndarray
+    first_member: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    inverse: np.ndarray
+    shape: np.ndarray
+    largest: np.ndarray
+
+
+def cell_order(
+    backend: Backend,
+    position: Any,
+    cell_size: float,
+    lower: Sequence[float] | None = None,
+    upper: Sequence[float] | None = None,
+) -> Any:
+    """Order of the particles by cells of a grid, first axis fastest, for locality in memory.
+
+    Args:
+        position: [m], shape (dim, N). cell_size: edge of a cell [m], enlarged where there would be
+            more than four cells per particle. lower, upper: box [m], as in `neighbor_list`.
+
+    Returns:
+        Particle numbers in their new order, kind "index"; stable within a cell.
+
+    Raises:
+        EscapedParticle: a position is not finite or outside the box.
+    """
+    if not cell_size > 0.0:
+        raise ValueError(f"cell_size must be positive, not {cell_size}")
+    host = backend.unwrap(position)
+    _refuse_escape(host, lower, upper)
+    count = host.shape[1]
+    order = np.arange(count, dtype=np.uint32)
+    if count:
+        module = _module(backend, host.shape[0], _first, (False,) * host.shape[0])
+        low, high = host.min(axis=1), host.max(axis=1)
+        _sorted(module, host, order.copy(), low, high, cell_size, order)
+    return backend.wrap(order)
+
+
+def neighbor_list(
+    backend: Backend,
+    position: Any,
+    support: Any,
+    count: int,
+    *,
+    mean: Callable[[float, float], float],
+    lower: Sequence[float] | None = None,
+    upper: Sequence[float] | None = None,
+    period: Sequence[float] = (),
+) -> tuple[Any, Any]:
+    """Neighbors of the first `count` particles among all.
+
+    Args:
+        position: [m], shape (dim, N). support: l per particle [m], shape (N,).
+        mean: plain function (l_i, l_j) -> l_ij, growing with both.
+        lower, upper: box [m] that no particle may leave; None for no limit.
+        period: width of the box per axis [m], 0.0 where not periodic; () for no periodic axis.
+
+    Returns:
+        row_start, kind "offset", shape (count + 1,), and neighbor, kind "index".
+
+    Raises:
+        EscapedParticle: a position is not finite or outside the box; number and position are named.
+        ValueError: a support is not positive, a period is not longer than twice the reach or
+            shorter than the particles' extent, or more than 2^32 - 1 particles.
+    """
+    host, reach = backend.unwrap(position), backend.unwrap(support)
+    dimension, total = host.shape
+    widths = np.array(tuple(period) or (0.0,) * dimension, dtype=backend.real)
+    if not 0 <= count <= total or reach.shape != (total,) or widths.shape != (dimension,):
+        raise ValueError(f"{count} rows, {total} particles, {reach.shape[0]} supports")
+    if total >= 2**32 - 1:
+        raise ValueError(f"{total} particles; a list holds fewer than 2^32 - 1")
+    _refuse_escape(host, lower, upper)
+    if total and not (np.isfinite(reach).all() and reach.min() > 0.0):
+        bad = int(np.flatnonzero(~(np.isfinite(reach) & (reach > 0.0)))[0])
+        raise ValueError(f"support of particle {bad} is {reach[bad]} m; it must be positive")
+    row_start = np.zeros(count + 1, dtype=np.uint64)
+    if count == 0:
+        return backend.wrap(row_start), backend.wrap(np.zeros(0, dtype=np.uint32))
+    _refuse_short_period(host, widths, float(mean(reach.max(), reach.max())))
+    module = _module(backend, dimension, mean, tuple(bool(width) for width in widths))
+    cells = _levels(module, host, reach, mean)
+    extent = max(float(np.abs(cells.low).max()), float(np.abs(cells.high).max()), widths.max())
+    slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(reach.max())))
+    arguments = (np.uint64(count), host, reach, *cells, slack, widths)
+    neighbor = _scanned(module, backend, arguments, count, row_start)
+    return backend.wrap(row_start), backend.wrap(neighbor)
+
+
+def _scanned(
+    module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray
+) -> np.ndarray:
+    """Scan groups of blocks into scratch, growing it where it is too short, and join them."""
+    from numba import set_num_threads
+
+    set_num_threads(backend.threads)
+    blocks, group = -(-count // BLOCK), 8 * backend.threads
+    scratch = np.empty((min(group, blocks), 64 * min(BLOCK, count)), dtype=np.uint32)
+    ends = np.empty(count, dtype=np.uint64)
+    used = np.empty(group, dtype=np.uint64)
+    neighbor = np.empty(0, dtype=np.uint32)
+    filled = begin = 0
+    while begin < blocks:
+        end = min(begin + group, blocks)
+        module.scan_blocks(begin, end, *arguments, scratch, ends, used)
+        counts = used[: end - begin]
+        if counts.max() > scratch.shape[1]:
+            scratch = np.empty((scratch.shape[0], 2 * scratch.shape[1]), dtype=np.uint32)
+            continue
+        bases = np.uint64(filled) + np.cumsum(counts, dtype=np.uint64) - counts
+        before, filled = filled, filled + int(counts.sum())
+        if filled > neighbor.size:  # memory that is never written costs nothing
+            longer = np.empty(filled + (blocks - end) * int(counts.max()), dtype=np.uint32)
+            longer[:before] = neighbor[:before]
+            neighbor = longer
+        module.store_blocks(begin, end, np.uint64(count), bases, scratch, ends, row_start, neighbor)
+        begin = end
+    neighbor.resize(filled, refcheck=False)
+    return neighbor
+
+
+def _levels(module: Any, position: np.ndarray, support: np.ndarray, mean: Callable) -> _Cells:
+    """Sort the particles into levels and cells."""
+    dimension, total = position.shape
+    smallest = support.min()
+    if support.max() < 2.0 * smallest:
+        groups = [np.arange(total, dtype=np.uint32)]
+    else:
+        level = np.frexp(support / smallest)[1]
+        groups = [np.flatnonzero(level == k).astype(np.uint32) for k in np.unique(level)]
+    order = np.empty(total, dtype=np.uint32)
+    real = position.dtype
+    low, high = (np.empty((len(groups), dimension), real) for _ in range(2))
+    inverse, largest = (np.empty(len(groups), real) for _ in range(2))
+    shape = np.empty((len(groups), dimension), np.int64)
+    first_cell, first_member = (np.zeros(len(groups), np.uint64) for _ in range(2))
+    starts, cells, members = [], 0, 0
+    for k, group in enumerate(groups):
+        single = group.size == total
+        part = position if single else np.ascontiguousarray(position[:, group])
+        low[k], high[k] = part.min(axis=1), part.max(axis=1)
+        largest[k] = (support if single else support[group]).max()
+        size = float(mean(largest[k], largest[k])) / _CELLS_PER_REACH
+        place = order[members : members + group.size]
+        start, shape[k], inverse[k] = _sorted(module, position, group, low[k], high[k], size, place)
+        first_cell[k], first_member[k] = cells, members
+        starts.append(start)
+        cells, members = cells + start.size, members + group.size
+    return _Cells(
+        np.take(position, order, axis=1), support[order], order, np.concatenate(starts),
+        first_cell, first_member, low, high, inverse, shape, largest,
+    )  # fmt: skip
+
+
+def _sorted(
+    module: Any,
+    position: np.ndarray,
+    members: np.ndarray,
+    low: np.ndarray,
+    high: np.ndarray,
+    size: float,
+    order: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, Any]:
+    """Sort members by cell into `order`; first member per cell, cells per axis, 1 / size."""
+    width = (high - low).astype(float)
+    while True:
+        shape = np.floor(width / size) + 1.0
+        if np.prod(shape) <= _CELLS_PER_PARTICLE * members.size + 64:
+            break
+        size *= 1.25
+    shape = shape.astype(np.int64)
+    inverse = position.dtype.type(1.0 / size)
+    start = np.empty(int(np.prod(shape)) + 1, dtype=np.uint32)
+    cell = np.empty(members.size, dtype=np.uint32)
+    module.sort(position, members, low, inverse, shape, cell, start, order)
+    return start, shape, inverse
+
+
+def _first(l_i: float, l_j: float) -> float:
+    """Stands in where no support is looked at."""
+    return l_i
+
+
+def _module(backend: Backend, dimension: int, mean: Callable, periodic: tuple[bool, ...]) -> Any:
+    return cache.load(scan_text(backend.precision, dimension, mean, periodic))
+
+
+def _refuse_escape(
+    position: np.ndarray, lower: Sequence[float] | None, upper: Sequence[float] | None
+) -> None:
+    if not position.size:
+        return
+    dimension = position.shape[0]
+    low = np.full(dimension, -np.inf) if lower is None else np.asarray(lower, dtype=float)
+    high = np.full(dimension, np.inf) if upper is None else np.asarray(upper, dtype=float)
+    least, most = position.min(axis=1), position.max(axis=1)
+    finite = np.isfinite(least).all() and np.isfinite(most).all()
+    if finite and (least >= low).all() and (most <= high).all():
+        return
+    inside = np.isfinite(position) & (position >= low[:, None]) & (position <= high[:, None])
+    outside = np.flatnonzero(~inside.all(axis=0))
+    number = int(outside[0])
+    place = ", ".join(f"{x:.6g}" for x in position[:, number])
+    box = "" if lower is None and upper is None else f"; the box is {_box(low)} to {_box(high)} m"
+    others = f" and {outside.size - 1} more" if outside.size > 1 else ""
+    raise EscapedParticle(f"particle {number} escaped: position ({place}) m{box}{others}")
+
+
+def _box(corner: np.ndarray) -> str:
+    return "(" + ", ".join(f"{x:.6g}" for x in corner) + ")"
+
+
+def _refuse_short_period(position: np.ndarray, widths: np.ndarray, reach: float) -> None:
+    for k, width in enumerate(widths):
+        if width == 0.0:
+            continue
+        if not width > 2.0 * reach:
+            raise ValueError(
+                f"period {width:.6g} m of axis {k} must be longer than twice the reach"
+                f" {reach:.6g} m of a particle; use more particles per period"
+            )
+        extent = float(position[k].max() - position[k].min())
+        if extent > width:
+            raise ValueError(
+                f"particles span {extent:.6g} m along axis {k}, more than its period {width:.6g} m"
+            )
