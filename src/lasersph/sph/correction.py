@@ -1,7 +1,7 @@
 """Kernel gradient correction: gradients exact on linear fields wherever there are neighbors.
 
     M_i = sum_j V_j grad W_ij (x) (x_j - x_i),      grad~ W_ij = M_i^-1 grad W_ij
-    grad f_i = sum_j V_j (f_j - f_i) grad~ W_ij                         [Alshaer2017, eqs. (12)-(15)]
+    grad f_i = sum_j V_j (f_j - f_i) grad~ W_ij                   [Alshaer2017, eqs. (12)-(15)]
 
 Inside a body M is close to +I. The paper prints x_i - x_j in M; here x_j - x_i, because otherwise
 M = -I and every gradient changes its sign. Quadratic fields keep an error at a one-sided support.

@@ -4,9 +4,9 @@
     G-_i{f}  = 1/rho_i sum_j m_j (f_j - f_i) grad W_ij                         difference (45)
     G+_i{f}  = rho_i sum_j m_j (f_i / rho_i^2 + f_j / rho_j^2) grad W_ij       symmetric (46)
 
-with grad W_ij = dW/dr x_ij / r_ij. The difference form is exactly zero on a constant; the symmetric
-one conserves momentum and is skew-adjoint to `divergence`. Left out: corrections of the kernel where
-the support is cut, see `correction`.
+with grad W_ij = dW/dr x_ij / r_ij. The difference form is exactly zero on a constant; the
+symmetric one conserves momentum and is skew-adjoint to `divergence`. Left out: corrections of the
+kernel where the support is cut, see `correction`.
 """
 
 from __future__ import annotations

@@ -2,13 +2,13 @@
 
     L_i = tr(Gamma_i^-1) / d { sum_j V_j (mu_i + mu_j) (f_i - f_j) F_ij - 2 mu_i grad f_i . N_i }
     F_ij = x_ij . grad~ W_ij / r_ij^2,   N_i = sum_j V_j x_ij F_ij,
-    Gamma_i = - sum_j V_j F_ij x_ij (x) x_ij                            [Alshaer2017, eqs. (16), (17)]
+    Gamma_i = - sum_j V_j F_ij x_ij (x) x_ij                       [Alshaer2017, eqs. (16), (17)]
 
-grad~ W = C grad W with C = M^-1 of `correction`, or C = I for the raw kernel; sums, Gamma and grad f
-take the same one. The paper prints Gamma without V_j and with the other sign: here +I inside a body.
-It prints the second sum as sum V_j grad~ W_ij, which leaves 0.222/dx for a linear function at a flat
-3-D surface; with N_i above a linear function gives exactly zero. Its bracket grad(mu f) - f grad mu
-+ mu grad f is 2 mu grad f. Without Gamma the factor in front is 1.
+grad~ W = C grad W with C = M^-1 of `correction`, or C = I for the raw kernel; sums, Gamma and
+grad f take the same one. The paper prints Gamma without V_j and with the other sign: here +I inside
+a body. It prints the second sum as sum V_j grad~ W_ij, which leaves 0.222/dx for a linear function
+at a flat 3-D surface; with N_i above a linear function gives exactly zero. Its bracket
+grad(mu f) - f grad mu + mu grad f is 2 mu grad f. Without Gamma the factor in front is 1.
 
 References: [Schwaiger2008], [Alshaer2017].
 """

@@ -1,4 +1,4 @@
-"""Gradients, divergences and the kernel correction: two particles by hand, published table, laws."""
+"""Gradients, divergences, kernel correction: two particles by hand, lattices, laws."""
 
 import numpy as np
 import pytest
@@ -80,7 +80,7 @@ def test_symmetric_gradient_is_skew_adjoint_to_divergence(backend, dimension):
     neighbors = with_neighbors(backend, position, 2.5, "quintic-spline")
     m, rho, p = (random.random(n) + 0.5 for _ in range(3))
     v = random.random((dimension, n)) - 0.5
-    fields = {name: backend.asarray(a) for name, a in zip("m p v".split(), (m, p, v), strict=True)}
+    fields = {name: backend.asarray(a) for name, a in zip(["m", "p", "v"], (m, p, v), strict=True)}
     fields |= {"rho": backend.asarray(rho), "f": fields["p"]}
     G, D = backend.zeros((dimension, n)), backend.zeros(n)
     gradient.symmetric_gradient(backend, neighbors, fields, G)
