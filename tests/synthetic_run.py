@@ -131,7 +131,7 @@ def make_run(folder: Path, *, dimension=2, strength=1.0, fluence=6000.0, complet
     position, width = lattice(dimension)
     probes = (Probe(name="surface", method="linear"), Probe(name="deep", depth=500 * NM))
     observers = heat_observers(dimension, probes=probes, iterations=("newton", "linear"))
-    schedule = SnapshotSchedule(SnapshotPlan(interval=5 * NS), END)
+    schedule = SnapshotSchedule(SnapshotPlan(interval=10 * NS), END)
     for step, time in enumerate(times()):
         view = view_at(float(time), step, position, width, strength)
         run.history.append(observers.observe(view))

@@ -26,20 +26,23 @@ SUPPORT = {1: 2, 2: 6, 3: 12}
 
 
 class Probe(Model):
-    """A named point whose temperature is recorded in every step.
+    """A named point whose temperature is recorded in every step."""
 
-    Attributes:
-        name: letters, digits, - and _; names the history column `probe_<name>_K`.
-        depth: below the original surface [m].
-        x, y: lateral place [m]; not used in 1-D (y: in 2-D).
-        method: "nearest" particle, or "linear" combination of the closest ones.
-    """
-
-    name: Annotated[str, Field(min_length=1, max_length=40, pattern=r"^[A-Za-z0-9_-]+$")]
-    depth: Length = 0.0
-    x: Length = 0.0
-    y: Length = 0.0
-    method: Literal["nearest", "linear"] = "nearest"
+    name: Annotated[
+        str,
+        Field(
+            min_length=1,
+            max_length=40,
+            pattern=r"^[A-Za-z0-9_-]+$",
+            description="letters, digits, - and _; names the history column probe_<name>_K",
+        ),
+    ]
+    depth: Length = Field(0.0, description="below the original surface")
+    x: Length = Field(0.0, description="not used in 1-D")
+    y: Length = Field(0.0, description="used in 3-D")
+    method: Literal["nearest", "linear"] = Field(
+        "nearest", description="nearest: the closest particle; linear: exact for linear fields"
+    )
 
     @field_validator("depth")
     @classmethod

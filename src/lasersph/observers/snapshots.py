@@ -30,8 +30,10 @@ class SnapshotPlan(Model):
     40 evenly spaced ones.
     """
 
-    interval: Annotated[Time, Field(gt=0.0)] | None = None
-    times: tuple[Annotated[Time, Field(ge=0.0)], ...] = ()
+    interval: Annotated[Time, Field(gt=0.0)] | None = Field(
+        None, description="from one snapshot to the next; default: a fortieth of the run"
+    )
+    times: tuple[Annotated[Time, Field(ge=0.0)], ...] = Field((), description="further snapshots")
 
 
 class SnapshotSchedule:

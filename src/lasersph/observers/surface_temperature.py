@@ -9,6 +9,9 @@ import numpy as np
 from lasersph.observers.peak import Peak
 from lasersph.observers.view import View
 
+SHORTEST = 1e-9
+"""Steps shorter than this part of the time are left out of the rates: they hold rounding only."""
+
 
 class SurfaceTemperature:
     """Observes the temperature of the whole body and of its surface layer.
@@ -42,7 +45,7 @@ class SurfaceTemperature:
         largest = float(np.max(view.temperature))
         self.peak.update(largest, view.time)
         self.peak_at_maximum.update(at_maximum, view.time)
-        if self.previous is not None and view.time > self.previous[0]:
+        if self.previous is not None and view.time - self.previous[0] > SHORTEST * view.time:
             rate = (at_maximum - self.previous[1]) / (view.time - self.previous[0])
             self.heating_rate = max(self.heating_rate, rate)
             self.cooling_rate = max(self.cooling_rate, -rate)

@@ -14,7 +14,6 @@ import numpy as np
 from lasersph.output import Run
 from lasersph.plots import style
 from lasersph.plots.history import draw_corner_temperatures, draw_pulse, material_of, time_axis
-from lasersph.plots.space import color_scale
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,13 +33,13 @@ def surface_temperatures(
     names = fluence_labels(runs) if labels is None else list(labels)
     draw_pulse(axes, runs[0].history, time_axis(runs[0].history)[0])
     name = ""
-    for color, run, text in zip(color_scale("plasma", len(runs)), runs, names, strict=True):
+    for color, run, text in zip(style.color_scale("plasma", len(runs)), runs, names, strict=True):
         time, name = time_axis(run.history)
         axes.plot(time, run.history["temperature_at_maximum_K"], color=color, label=text)
         axes.set_xlim(time[0], time[-1])
     draw_corner_temperatures(axes, material_of(runs[0]))
     style.label(axes, name, "surface temperature at the maximum [K]", title=title)
-    style.legend(axes, columns=2)
+    style.legend_above(figure, axes, columns=5)
     return figure
 
 
@@ -64,7 +63,9 @@ def melt_pools(
         column = f"melt_{quantity}_{level}m"
         largest = max(float(np.max(run.history[column])) for run in runs)
         unit = style.unit_for(largest, style.LENGTHS)
-        for color, run, text in zip(color_scale("plasma", len(runs)), runs, names, strict=True):
+        for color, run, text in zip(
+            style.color_scale("plasma", len(runs)), runs, names, strict=True
+        ):
             time, name = time_axis(run.history)
             values = run.history[column]
             if not np.any(values > 0.0):
@@ -81,7 +82,7 @@ def melt_pools(
             axes.set_xlim(max(first - margin, 0.0), last + margin)
     if title:
         figure.suptitle(title, fontsize=10)
-    style.legend(all_axes[0])
+    style.legend_above(figure, all_axes[0], columns=5)
     return figure
 
 

@@ -17,13 +17,14 @@ LEVELS = {"solidus_K": "$T_s$", "liquidus_K": "$T_l$", "vaporization_K": "$T_v$"
 
 
 def temperature_history(run: Run) -> Figure:
-    """Temperature at the maximum of the light, the largest, and at probes; pulse shaded."""
+    """Temperature of the surface (at x = 0), the largest, and at probes; pulse shaded."""
     history = run.history
     figure, (axes,) = style.new_figure()
     time, name = time_axis(history)
     at_maximum, largest = history["temperature_at_maximum_K"], history["temperature_max_K"]
     draw_pulse(axes, history, time)
-    axes.plot(time, at_maximum, color=style.COLORS[0], label="surface, at the maximum of light")
+    place = " at x = 0" if "melt_width_m" in history else ""
+    axes.plot(time, at_maximum, color=style.COLORS[0], label=f"surface{place}")
     if np.max(np.abs(largest - at_maximum)) > 1e-3 * np.max(largest):
         axes.plot(time, largest, color=style.COLORS[1], linestyle="--", label="largest anywhere")
     probes = [column for column in history if column.startswith("probe_")]
@@ -33,7 +34,7 @@ def temperature_history(run: Run) -> Figure:
     draw_corner_temperatures(axes, material_of(run))
     style.label(axes, name, "temperature [K]")
     axes.set_xlim(time[0], time[-1])
-    style.legend(axes, columns=2 if len(probes) > 4 else 1)
+    style.legend_above(figure, axes, columns=4)
     return figure
 
 
@@ -60,7 +61,7 @@ def melt_pool_history(run: Run) -> Figure | None:
         max(time[wet[0]] - margin, time[0]), min(time[wet[-1]] + margin, time[-1])
     )
     all_axes[-1].set_xlabel(name, fontsize=10)
-    style.legend(all_axes[0])
+    style.legend_above(figure, all_axes[0], columns=3)
     return figure
 
 
@@ -70,9 +71,10 @@ def energy_history(run: Run) -> Figure:
     figure, (above, below) = style.new_figure(2, height=4.6, share_x=True)
     time, name = time_axis(history)
     unit = summary_of(run).get("energy", {}).get("unit", "J")
+    largest = max(float(np.max(history[f"energy_{term}_J"])) for term in ("absorbed", "stored"))
     for k, term in enumerate(("absorbed", "stored", "lost", "removed", "discarded")):
         values = history[f"energy_{term}_J"]
-        if term in ("absorbed", "stored") or np.any(values != 0.0):
+        if term in ("absorbed", "stored") or np.max(np.abs(values)) > 1e-6 * largest:
             above.plot(
                 time, values, color=style.COLORS[k], linestyle=style.LINES[k % 4], label=term
             )
@@ -187,3 +189,8 @@ def summary_of(run: Run) -> dict[str, Any]:
 def material_of(run: Run) -> dict[str, Any]:
     """Corner temperatures of the material, where the summary gives them."""
     return summary_of(run).get("material", {})
+
+
+def symmetry_of(run: Run) -> int:
+    """2 where half a period was computed, else 1."""
+    return int(summary_of(run).get("surface", {}).get("symmetry_factor", 1))

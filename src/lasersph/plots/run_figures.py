@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.errors import clear_errors
-from lasersph.plots import history, space, style
+from lasersph.plots import history, style
+from lasersph.plots.arrangement import arrangement
+from lasersph.plots.particle_map import particle_map
+from lasersph.plots.surface_profiles import surface_profiles
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,7 +27,7 @@ class Drawing(NamedTuple):
 
 def draw_arrangement(run: Run) -> Figure | None:
     """The particles as they lay at the start."""
-    return space.arrangement(run.snapshots[0]) if len(run.snapshots) else None
+    return arrangement(run.snapshots[0]) if len(run.snapshots) else None
 
 
 DRAWINGS = (
@@ -44,13 +47,13 @@ DRAWINGS = (
     Drawing(
         "surface-profiles",
         "Temperature along the surface at several times.",
-        space.surface_profiles,
+        surface_profiles,
     ),
     Drawing(
         "particles",
         "Temperature and melt fraction of the particles near the surface, at the snapshot closest"
         " to the deepest melt (without melt: to the largest temperature).",
-        space.particle_map,
+        particle_map,
     ),
     Drawing(
         "energy",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -70,10 +70,19 @@ def label(axes: Axes, x: str, y: str, *, title: str = "") -> None:
         axes.set_title(title, fontsize=10, loc="left")
 
 
-def legend(axes: Axes, *, columns: int = 1) -> None:
-    """A legend without a frame, where there is something to name."""
+def legend(axes: Axes) -> None:
+    """A legend inside the axes, where there is something to name."""
     if axes.get_legend_handles_labels()[1]:
-        axes.legend(fontsize=8.5, frameon=False, ncols=columns)
+        axes.legend(fontsize=8.5, framealpha=0.85, edgecolor="none")
+
+
+def legend_above(figure: Figure, axes: Axes, *, columns: int) -> None:
+    """The legend of some axes above the whole figure, where it hides no curve."""
+    handles, labels = axes.get_legend_handles_labels()
+    if labels:
+        figure.legend(
+            handles, labels, loc="outside upper left", ncols=columns, fontsize=8.5, frameon=False
+        )
 
 
 def level_line(axes: Axes, value: float, name: str) -> None:
@@ -90,6 +99,13 @@ def level_line(axes: Axes, value: float, name: str) -> None:
         color=GRAY,
         annotation_clip=False,
     )
+
+
+def color_scale(name: str, count: int) -> list[Any]:
+    """Colors from a scale, dark to light without the palest end."""
+    from matplotlib import colormaps
+
+    return list(colormaps[name](np.linspace(0.0, 0.9, count)))
 
 
 def save(figure: Figure, path: Path) -> Path:

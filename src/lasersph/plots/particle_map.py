@@ -1,0 +1,202 @@
+"""Temperature and melt fraction of the particles near the surface, from particles.vtkhdf."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lasersph.output import Run
+from lasersph.plots import style
+from lasersph.plots.history import draw_corner_temperatures, material_of, summary_of, symmetry_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LARGEST_STRETCH = 4.0
+MAP_WIDTH = 5.6
+PIXELS = (320, 1280)
+OUTSIDE = 0.8
+"""A pixel farther than this part of a cell's width from its center lies in no cell."""
+
+Snapshot = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Cells:
+    """Cells of a plane section: x and z of their centers and their widths, (2, m) [m] each.
+
+    `number` says which particle each cell is, (m,).
+    """
+
+    center: np.ndarray
+    size: np.ndarray
+    number: np.ndarray
+
+    def mirrored(self) -> Cells:
+        """The cells and their mirror images about x = 0."""
+        image = self.center * np.array([[-1.0], [1.0]])
+        return Cells(
+            np.concatenate([image, self.center], axis=1),
+            np.tile(self.size, 2),
+            np.tile(self.number, 2),
+        )
+
+    @property
+    def frame(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom and top edge [m]."""
+        low = np.min(self.center - 0.5 * self.size, axis=1)
+        high = np.max(self.center + 0.5 * self.size, axis=1)
+        return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+    def picture(self) -> np.ndarray:
+        """Number of the particle that each pixel of the frame shows: that of the closest cell.
+
+        Returns:
+            Array of `PIXELS` rows and columns, -1 outside all cells.
+        """
+        from scipy.spatial import KDTree
+
+        left, right, bottom, top = self.frame
+        rows, columns = PIXELS
+        across = left + (np.arange(columns) + 0.5) * (right - left) / columns
+        up = bottom + (np.arange(rows) + 0.5) * (top - bottom) / rows
+        pixels = np.array([grid.ravel() for grid in np.meshgrid(across, up)])
+        square = np.array([[np.median(self.size[1] / self.size[0])], [1.0]])
+        _, cell = KDTree((self.center * square).T).query((pixels * square).T)
+        far = np.abs(pixels - self.center[:, cell]) > OUTSIDE * self.size[:, cell]
+        return np.where(far.any(axis=0), -1, self.number[cell]).reshape(PIXELS)
+
+
+def particle_map(run: Run, time: float | None = None) -> Figure | None:
+    """Temperature and melt fraction of the particles near the surface at one time.
+
+    In 1-D both are drawn against depth; in 3-D the cells of the cut y = 0 are shown. Half a period
+    is mirrored.
+
+    Args:
+        run: the run.
+        time: seconds; if not given, when the melt is deepest, else when the metal is hottest.
+
+    Returns:
+        The figure; None where the run has no snapshots.
+    """
+    if not len(run.snapshots):
+        return None
+    step = run.snapshots.nearest(telling_time(run) if time is None else time)
+    depth = shown_depth(run, step)
+    if run.snapshots.dimension == 1:
+        return depth_profile(step, depth, material_of(run))
+    cells = cells_of_cut(step, depth)
+    cells = cells.mirrored() if symmetry_of(run) == 2 else cells
+    left, right, _, _ = cells.frame
+    shape = (right - left) / depth
+    stretch = max(1.0, shape / LARGEST_STRETCH)
+    stretch = 1.0 if stretch < 1.25 else stretch
+    figure, all_axes = style.new_figure(2, height=2.0 * MAP_WIDTH * stretch / shape + 1.7)
+    picture = cells.picture()
+    unit = style.unit_for(max(abs(left), abs(right)), style.LENGTHS)
+    for axes, field, name, colors in (
+        (all_axes[0], "temperature", "temperature [K]", style.TEMPERATURE_COLORS),
+        (all_axes[1], "melt_fraction", "melt fraction [1]", style.FRACTION_COLORS),
+    ):
+        values = np.where(picture < 0, np.nan, step[field][picture])
+        limits = (0.0, 1.0) if field == "melt_fraction" else None
+        paint(axes, values, cells.frame, unit, colors=colors, limits=limits, name=name)
+        axes.set_ylim(-depth * unit.factor, 0.02 * depth * unit.factor)
+        axes.set_aspect(stretch)
+    note = f"; the depth is drawn {stretch:.3g} times larger" if stretch > 1.0 else ""
+    clock = style.unit_for(step["time"], style.TIMES)
+    text = f"t = {step['time'] * clock.factor:.4g} {clock.name}{note}"
+    all_axes[0].set_title(text, fontsize=10, loc="left")
+    return figure
+
+
+def paint(
+    axes: Axes,
+    values: np.ndarray,
+    frame: tuple[float, float, float, float],
+    unit: style.Unit,
+    *,
+    colors: str,
+    limits: tuple[float, float] | None,
+    name: str,
+) -> None:
+    """Draw a picture with its color bar; axes in `unit`."""
+    left, right, bottom, top = (edge * unit.factor for edge in frame)
+    image = axes.imshow(
+        values,
+        extent=(left, right, bottom, top),
+        origin="lower",
+        cmap=colors,
+        interpolation="nearest",
+    )
+    if limits is not None:
+        image.set_clim(*limits)
+    axes.grid(False)
+    bar = axes.figure.colorbar(image, ax=axes, pad=0.015, aspect=14)
+    bar.set_label(name, fontsize=10)
+    style.label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
+
+
+def cells_of_cut(step: Snapshot, depth: float) -> Cells:
+    """The cells down to a depth; in 3-D of the cut y = 0."""
+    position, width = step["position"], step["width"]
+    chosen = np.flatnonzero(position[-1] + 0.5 * width[-1] > -depth)
+    if position.shape[0] == 3:
+        chosen = chosen[in_cut(step, chosen)]
+    axes = np.array([0, position.shape[0] - 1])
+    return Cells(position[axes[:, None], chosen], width[axes[:, None], chosen], chosen)
+
+
+def in_cut(step: Snapshot, cells: np.ndarray) -> np.ndarray:
+    """Which of some cells of a 3-D snapshot the plane y = 0 (nearest row) passes through."""
+    y, width = step["position"][1, cells], step["width"][1, cells]
+    return np.abs(y - y[np.argmin(np.abs(y))]) < 0.5 * width
+
+
+def depth_profile(step: Snapshot, depth: float, corners: dict[str, Any]) -> Figure:
+    """Temperature and melt fraction against depth of a 1-D run."""
+    below = -step["position"][-1]
+    order = np.argsort(below)
+    order = order[below[order] < depth]
+    unit = style.unit_for(depth, style.LENGTHS)
+    time_unit = style.unit_for(step["time"], style.TIMES)
+    figure, (above, under) = style.new_figure(2, height=4.6, share_x=True)
+    text = f"t = {step['time'] * time_unit.factor:.4g} {time_unit.name}"
+    for axes, name, color, label in (
+        (above, "temperature", style.COLORS[1], "temperature [K]"),
+        (under, "melt_fraction", style.COLORS[0], "melt fraction [1]"),
+    ):
+        axes.plot(below[order] * unit.factor, step[name][order], ".-", ms=3, lw=1.0, color=color)
+        style.label(axes, "", label)
+    above.set_title(text, fontsize=10, loc="left")
+    draw_corner_temperatures(above, corners)
+    under.set_ylim(-0.05, 1.05)
+    under.set_xlabel(f"depth [{unit.name}]", fontsize=10)
+    under.set_xlim(0.0, depth * unit.factor)
+    return figure
+
+
+def shown_depth(run: Run, step: Snapshot) -> float:
+    """Depth that a map shows: the melt and half as much again, else where it is warm [m]."""
+    z, height = step["position"][-1], step["width"][-1]
+    bottom = float(np.max(0.5 * height - z))
+    melt = summary_of(run).get("melt", {}).get("depth_any_max_m") or 0.0
+    if melt == 0.0:
+        rise = step["temperature"] - float(np.min(step["temperature"]))
+        warm = rise > 0.05 * float(np.max(rise))
+        melt = float(np.max(-z[warm])) if np.any(warm) else 0.5 * bottom
+    return min(max(1.6 * melt, 8.0 * float(np.min(height))), bottom)
+
+
+def telling_time(run: Run) -> float:
+    """When the melt is deepest, else when the metal is hottest [s]."""
+    history = run.history
+    depth = history.get("melt_depth_any_m", np.zeros(0))
+    if np.any(depth > 0.0):
+        deepest = np.flatnonzero(depth == np.max(depth))
+        return float(history["time_s"][deepest[deepest.size // 2]])
+    return float(history["time_s"][np.argmax(history["temperature_max_K"])])

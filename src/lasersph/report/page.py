@@ -1,0 +1,109 @@
+"""Pieces of a self-contained HTML page: no scripts, no links to other files, prints well."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Sequence
+from html import escape
+from pathlib import Path
+
+STYLE = """
+:root { color-scheme: light; }
+body { font: 16px/1.55 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: #1c2430;
+  background: #f3f5f7; margin: 0; }
+main { max-width: 60rem; margin: 0 auto; background: #fff; padding: 2.2rem 3rem 3rem;
+  box-shadow: 0 0 10px #0001; }
+h1 { font-size: 1.75rem; line-height: 1.25; margin: 0 0 .2rem; }
+h2 { font-size: 1.25rem; margin: 2.4rem 0 .7rem; padding-bottom: .25rem;
+  border-bottom: 2px solid #0072b2; }
+p.about { color: #5a6675; margin: 0 0 1.2rem; }
+p.result { font-size: 1.08rem; background: #eef5fa; border-left: 4px solid #0072b2;
+  padding: .8rem 1rem; }
+p.warning { background: #fdf3e4; border-left: 4px solid #d55e00; padding: .5rem 1rem;
+  margin: .5rem 0; }
+p.note { background: #f6f8fa; border-left: 4px solid #aab4bf; padding: .5rem 1rem;
+  margin: .5rem 0; }
+nav a { margin-right: 1.1rem; color: #0072b2; text-decoration: none; white-space: nowrap; }
+table { border-collapse: collapse; margin: .6rem 0; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; padding: .3rem 1.2rem .3rem 0; border-bottom: 1px solid #e2e7ec;
+  vertical-align: top; }
+th { font-weight: 600; color: #44505e; }
+td.number, th + th { text-align: right; white-space: nowrap; }
+th + th { white-space: normal; vertical-align: bottom; }
+figure { margin: 1.4rem 0 1.8rem; }
+figure img { max-width: 100%; height: auto; display: block; margin: 0 auto; }
+figcaption { color: #44505e; font-size: .92rem; margin-top: .4rem; }
+pre { background: #f6f8fa; padding: .8rem 1rem; overflow-x: auto; font-size: .86rem;
+  line-height: 1.4; border: 1px solid #e2e7ec; }
+code { font-size: .92em; }
+details { margin: .8rem 0; } summary { cursor: pointer; color: #0072b2; }
+@media print { body { background: #fff; } nav { display: none; }
+  main { box-shadow: none; padding: 0; }
+  figure, table { break-inside: avoid; } }
+@media (max-width: 40rem) { main { padding: 1.2rem; } }
+"""
+
+
+def page(title: str, body: Iterable[str]) -> str:
+    """A whole HTML document."""
+    return (
+        '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n"
+        + "\n".join(body)
+        + "\n</main>\n</body>\n</html>\n"
+    )
+
+
+def table(rows: Sequence[Sequence[str]], head: Sequence[str] = ()) -> str:
+    """A table; the first column names, the others are numbers. Text is escaped."""
+    lines = ["<table>"]
+    if head:
+        lines.append("<tr>" + "".join(f"<th>{escape(cell)}</th>" for cell in head) + "</tr>")
+    for row in rows:
+        cells = f"<td>{escape(row[0])}</td>"
+        cells += "".join(f'<td class="number">{escape(cell)}</td>' for cell in row[1:])
+        lines.append(f"<tr>{cells}</tr>")
+    return "\n".join([*lines, "</table>"])
+
+
+def figure(image: Path, caption: str, number: int) -> str:
+    """An image inside the page, with its caption. Raises OSError where it cannot be read."""
+    data = base64.b64encode(image.read_bytes()).decode()
+    return (
+        f'<figure id="{escape(image.stem)}"><img alt="{escape(caption)}"'
+        f' src="data:image/png;base64,{data}">'
+        f"<figcaption><b>Figure {number}.</b> {escape(caption)}</figcaption></figure>"
+    )
+
+
+def heading(text: str) -> str:
+    """A section heading that the contents line can point to."""
+    return f'<h2 id="{anchor(text)}">{escape(text)}</h2>'
+
+
+def anchor(text: str) -> str:
+    """Name of a section within the page."""
+    return text.lower().replace(" ", "-")
+
+
+def contents(titles: Iterable[str]) -> str:
+    """A line of links to the sections."""
+    links = (f'<a href="#{anchor(title)}">{escape(title)}</a>' for title in titles)
+    return "<nav>" + " ".join(links) + "</nav>"
+
+
+def paragraph(text: str, kind: str = "") -> str:
+    """A paragraph; `kind` is about, result, warning or note. Text is escaped."""
+    name = f' class="{kind}"' if kind else ""
+    return f"<p{name}>{escape(text)}</p>"
+
+
+def listing(text: str) -> str:
+    """Text as it stands."""
+    return f"<pre>{escape(text)}</pre>"
+
+
+def folded(title: str, body: str) -> str:
+    """A part that opens on a click; `body` is HTML."""
+    return f"<details><summary>{escape(title)}</summary>{body}</details>"

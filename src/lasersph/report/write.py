@@ -1,0 +1,128 @@
+"""`write_report`: one HTML file that tells a run from question to result."""
+
+from __future__ import annotations
+
+import json
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from lasersph.output import OutputError, Run, open_run
+from lasersph.output.atomic import replace_text
+from lasersph.output.errors import clear_errors
+from lasersph.plots.run_figures import DRAWINGS, draw_run
+from lasersph.report import tables
+from lasersph.report.page import (
+    contents,
+    figure,
+    folded,
+    heading,
+    listing,
+    page,
+    paragraph,
+    table,
+)
+from lasersph.report.words import notes_of, verdict, warnings_of
+
+SECTIONS = ("Results", "Figures", "Energy", "What was asked", "Computation", "Reproduce")
+
+
+def write_report(folder: str | Path) -> Path:
+    """Draw the figures of a complete run and write its report.html.
+
+    The page holds its images and needs no other file.
+
+    Returns:
+        Path of the report.
+
+    Raises:
+        OutputError: no run there, the run is not complete, or nothing can be written.
+    """
+    run = open_run(folder)
+    if not run.is_complete:
+        raise OutputError(
+            f"{run.path}: the run is not complete, so there is nothing to report yet;"
+            " go on with --resume"
+        )
+    images = draw_run(folder)
+    path = run.path / "report.html"
+    with clear_errors("read", run.path):
+        text = report_page(run, images)
+    replace_text(path, text)
+    return path
+
+
+def report_page(run: Run, images: list[Path]) -> str:
+    """The whole page. Raises OSError where an image cannot be read."""
+    summary = run.summary
+    name = str(summary.get("title") or summary["case"])
+    versions = run.resolved.get("versions", {})
+    about = f"lasersph {versions.get('lasersph', '')}, case {summary['case']}, run {run.path.name}"
+    body = [f"<h1>{escape(name)}</h1>", paragraph(about, "about")]
+    body += [contents(SECTIONS), paragraph(verdict(summary), "result")]
+    body += [paragraph(text, "warning") for text in warnings_of(summary, run.events)]
+    body += [paragraph(text, "note") for text in notes_of(summary)]
+    parts = (
+        results(summary),
+        figures(images),
+        [table(tables.energy(summary), tables.ENERGY_HEAD)],
+        asked(run),
+        [table(tables.computation(summary)), table(tables.time_steps(summary))],
+        reproduce(run, versions),
+    )
+    for title, part in zip(SECTIONS, parts, strict=True):
+        body += [heading(title), *part]
+    return page(f"{name} – lasersph", body)
+
+
+def results(summary: dict[str, Any]) -> list[str]:
+    """Tables of the results."""
+    body = [table(tables.temperatures(summary))]
+    if rows := tables.melt_pool(summary):
+        body.append(table(rows, tables.MELT_HEAD))
+        body.append(
+            paragraph(
+                "Depth: lower face of the deepest such cell below the original surface. Width:"
+                " full width of one pool at the surface. Sizes are whole cells."
+            )
+        )
+    if rows := tables.vaporization(summary):
+        body.append(table(rows))
+    if rows := tables.probes(summary):
+        body.append(table(rows, tables.PROBE_HEAD))
+    body.append(folded("All numbers of summary.json", table(tables.flat(summary))))
+    return body
+
+
+def figures(images: list[Path]) -> list[str]:
+    """All figures that were drawn, numbered."""
+    captions = {drawing.name: drawing.caption for drawing in DRAWINGS}
+    return [figure(image, captions[image.stem], k) for k, image in enumerate(images, start=1)]
+
+
+def asked(run: Run) -> list[str]:
+    """The case as given and as the program read it."""
+    resolved = json.dumps(run.case, indent=2, ensure_ascii=False)
+    return [
+        paragraph("The case file as given:"),
+        listing(run.case_text),
+        folded("The case with every default filled in, SI units", listing(resolved)),
+    ]
+
+
+def reproduce(run: Run, versions: dict[str, str]) -> list[str]:
+    """How to get the same numbers again."""
+    command = "lasersph run case.toml --out again"
+    return [
+        paragraph(
+            "The run folder holds case.toml as given. The same program computes the same numbers,"
+            " bit for bit, with any number of threads:"
+        ),
+        listing(command),
+        paragraph(f"Case {run.resolved.get('case_hash', '')}, computed with:"),
+        table([(name, number) for name, number in versions.items()]),
+        paragraph(
+            "Data: history.csv (one row per step), particles.vtkhdf (open it in ParaView 5.12 or"
+            " later), summary.json (SI units). In Python: lasersph.open_run(folder)."
+        ),
+    ]

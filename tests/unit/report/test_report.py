@@ -1,0 +1,145 @@
+"""The report: one file, complete, in plain words with right numbers."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+import synthetic_run
+
+from lasersph.output import OutputError, open_run
+from lasersph.report import write_report
+from lasersph.report.numbers import entry, quantity, shown
+from lasersph.report.words import notes_of, verdict, warnings_of
+from lasersph.report.write import report_page
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return synthetic_run.make_run(tmp_path_factory.mktemp("report") / "run")
+
+
+@pytest.fixture(scope="module")
+def page(folder):
+    return write_report(folder).read_text(encoding="utf-8")
+
+
+class Balance(HTMLParser):
+    """Checks that every element is closed, in order."""
+
+    alone = ("meta", "img")
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.images = [], 0
+
+    def handle_starttag(self, tag, attrs):
+        self.images += tag == "img"
+        if tag not in self.alone:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def test_page_is_well_formed_and_self_contained(page):
+    """Every element closed, images inside, no script, no address, no other file."""
+    balance = Balance()
+    balance.feed(page)
+    assert balance.open == []
+    assert balance.images == 7
+    assert page.count("data:image/png;base64,") == 7
+    assert "<script" not in page
+    assert "http" not in re.sub(r"base64,[^\"]+", "", page)
+
+
+def test_page_says_what_was_asked_and_found(page, folder):
+    """Case file, main numbers with units, warnings, versions, how to repeat it."""
+    summary = open_run(folder).summary
+    melt = summary["melt"]
+    assert "fluence = &quot;0.6 J/cm^2&quot;" in page
+    assert quantity(melt["depth_max_m"], "m") in page
+    assert quantity(melt["width_max_m"], "m") in page
+    assert "3 273 K" in page
+    assert "4.0 cells per absorption length" in page
+    assert "lasersph run case.toml" in page
+    assert "numpy" in page
+
+
+def test_text_of_the_case_cannot_break_the_page(tmp_path):
+    """Titles and case files with markup are shown as text."""
+    folder = synthetic_run.make_run(tmp_path / "run", dimension=1)
+    (folder / "case.toml").write_text('title = "<b>&</b><script>"\n')
+    text = report_page(open_run(folder), [])
+    assert "&lt;b&gt;&amp;&lt;/b&gt;&lt;script&gt;" in text
+    assert "<script" not in text
+
+
+def test_unfinished_run_has_no_report(tmp_path):
+    """One clear line instead."""
+    folder = synthetic_run.make_run(tmp_path / "run", dimension=1, complete=False)
+    with pytest.raises(OutputError, match="not complete"):
+        write_report(folder)
+
+
+def test_verdict_in_words(folder):
+    """Sentences name temperature, melt and vaporization."""
+    text = verdict(open_run(folder).summary)
+    assert text.startswith("The metal reached at most 3 273 K")
+    assert "Completely fluid metal was there from" in text
+    assert "The surface was at the vaporization temperature" in text
+
+
+def test_verdict_without_melt(folder):
+    """Nothing melted, or material that cannot melt."""
+    summary = {k: v for k, v in open_run(folder).summary.items() if k != "melt"}
+    assert "Nothing melted." in verdict(summary)
+    assert "does not melt" in verdict({**summary, "material": {"solidus_K": None}})
+
+
+def test_a_bad_energy_balance_is_shouted(folder):
+    """An imbalance above a millionth is in the verdict and among the warnings."""
+    summary = open_run(folder).summary
+    bad = {**summary, "energy": {**summary["energy"], "imbalance_relative": 2e-3}}
+    assert "do not trust this run" in verdict(bad)
+    assert any("energy balance" in text for text in warnings_of(bad, []))
+
+
+def test_notes(folder):
+    """Rounded spacing and melt left at the end are noted."""
+    summary = open_run(folder).summary
+    summary = {**summary, "spacing_m": 8.0128e-9, "spacing_requested_m": 8e-9}
+    summary["melt"] = {**summary["melt"], "molten_at_end": True}
+    notes = notes_of(summary)
+    assert any("8 nm was rounded to 8.0128 nm" in text for text in notes)
+    assert any("still fluid" in text for text in notes)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (2.7712e-7, "m", "277.1 nm"),
+        (4.626e-8, "s", "46.26 ns"),
+        (9.99996e-7, "s", "1 µs"),
+        (3273.0, "K", "3 273 K"),
+        (4.669e11, "K/s", "4.669·10¹¹ K/s"),
+        (-1.5e-9, "m", "-1.5 nm"),
+        (0.0, "m", "0 m"),
+        (-7e-22, "m", "0 m"),
+        (0.00666, "J/m", "0.00666 J/m"),
+        (12.0, "J/m^2", "12 J/m²"),
+        (None, "m", "–"),
+        (float("nan"), "K", "–"),
+    ],
+)
+def test_quantities_as_people_read_them(value, unit, text):
+    """Four digits, prefixes for lengths and times, powers of ten, dashes for nothing."""
+    assert quantity(value, unit) == text
+
+
+def test_entries_take_their_unit_from_the_key():
+    """depth_max_m is a length, incident_J an energy in the unit of the budget."""
+    assert entry("depth_max_m", 2e-7) == "200 nm"
+    assert entry("incident_J", 3.0, "J/m") == "3 J/m"
+    assert entry("molten_at_end", False) == "no"
+    assert entry("steps", 1829) == "1 829"
+    assert shown(1e-12) == "1·10⁻¹²"
