@@ -65,6 +65,9 @@ class Bound:
         self.finish_roles: tuple = ()
         if call.finish is not None:
             self.finish_roles = self._bound(call.finish, roles("finish", call.finish))
+        if len(self.constants) < len(call.constants):
+            extra = ", ".join(sorted(set(call.constants) - set(self.constants)))
+            raise ValueError(f"{call.function.__name__}() has no argument {extra}")
         self.outs = [None if o is None else unwrap(o) for o in _listed(call.out)]
         self.reduce = () if call.reduce is None else tuple(_listed(call.reduce))
         self.rows = None if call.rows is None else unwrap(call.rows)
@@ -237,10 +240,6 @@ class Loops:
 
     def compiled(self, bound: Bound) -> Compiled:
         """Generate, cache and load the loop of a new key."""
-        extra = set(bound.call.constants) - set(bound.constants)
-        if extra:
-            name = bound.call.function.__name__
-            raise ValueError(f"{name}() has no argument {', '.join(sorted(extra))}")
         if any(how not in (None, "sum", "max", "min") for how in bound.reduce):
             raise ValueError('reduce takes None, "sum", "max" or "min"')
         arrays = [*bound.arrays.items(), *((f"out {k}", o) for k, o in enumerate(bound.outs))]
