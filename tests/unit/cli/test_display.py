@@ -1,0 +1,36 @@
+"""Tables and progress as text."""
+
+import time
+
+from lasersph.cli.progress import ProgressDisplay
+from lasersph.cli.tables import aligned
+
+
+def test_aligned_columns():
+    """Columns as wide as their widest cell, a rule below the header, nothing trailing."""
+    text = aligned([("a", "long name", "x"), ("bbb", "c")], header=True)
+    assert text.splitlines() == ["a    long name  x", "---  ---------  -", "bbb  c"]
+    assert aligned([]) == ""
+
+
+def test_plain_progress_off_a_terminal(capsys, monkeypatch):
+    """One line for each tenth of the time, with the time left, and no escape codes."""
+    clock = iter(range(1000))
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
+    with ProgressDisplay(is_terminal=False) as progress:
+        for step in range(1, 101):
+            progress(step * 1e-9, 1e-7, step, 300.0 + step)
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 10
+    assert lines[0].startswith("  10 %  10 ns, step 10, 310 K")
+    assert lines[4].endswith(" left")
+    assert lines[-1] == " 100 %  100 ns, step 100, 400 K"
+    assert "\x1b" not in "".join(lines)
+
+
+def test_bar_on_a_terminal(capsys):
+    """The bar names time, step and temperature."""
+    with ProgressDisplay(is_terminal=True) as progress:
+        progress(5e-8, 1e-7, 7, 1234.0)
+        progress(1e-7, 1e-7, 8, 1235.0)
+    assert "step 8, 1235 K" in capsys.readouterr().err

@@ -1,0 +1,188 @@
+"""Every verb answers, with its exit code, and says the numbers it is asked for."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import lasersph
+from lasersph.cli import main
+
+PROGRAM = "import sys; from lasersph.cli import main; sys.exit(main())"
+SMALL = ["--set", "particles.spacing=2um", "--set", "time.end=200ns", "--set", "time.step=5ns"]
+
+
+@pytest.fixture(autouse=True)
+def in_empty_folder(tmp_path, monkeypatch):
+    """Every test runs in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+
+
+def said(capsys, *arguments: str, code: int = 0) -> str:
+    """What a command prints on standard output; its exit code is checked."""
+    assert main(arguments) == code
+    return capsys.readouterr().out
+
+
+def test_help_lists_every_verb(capsys):
+    """No argument and --help show the same."""
+    text = said(capsys, "--help")
+    verbs = "new check run info plot report validate material schema cases cache converge threshold"
+    for verb in verbs.split():
+        assert f" {verb} " in text
+    assert said(capsys) == text
+
+
+def test_version(capsys):
+    """--version prints the version."""
+    assert said(capsys, "--version") == f"lasersph {lasersph.__version__}\n"
+
+
+def test_cases(capsys):
+    """The shipped cases with their titles."""
+    text = said(capsys, "cases")
+    assert [line.split()[0] for line in text.splitlines()] == [
+        "dlip-aluminium",
+        "dlip-steel",
+        "pulsed-heating",
+        "stefan",
+    ]
+
+
+def test_schema_is_json(capsys):
+    """The schema parses and forbids unknown keys."""
+    schema = json.loads(said(capsys, "schema"))
+    assert schema["additionalProperties"] is False
+
+
+def test_material_verbs(capsys):
+    """list, show with sources and figure, check."""
+    assert "steel-304 " in said(capsys, "material", "list")
+    text = said(capsys, "material", "show", "steel-304-demuth", "--plot", "steel.png")
+    assert "7262 kg/m^3" in text and "Demuth & Lasagni 2020" in text
+    assert Path("steel.png").stat().st_size > 10_000
+    assert "no warnings" in said(capsys, "material", "check", "steel-304")
+    assert main(["material", "show", "steal-304"]) == 2
+    assert 'do you mean "steel-304"' in capsys.readouterr().err
+
+
+def test_new_then_check(capsys):
+    """The written file has the line that people edit, and is right."""
+    said(capsys, "new", "dlip-steel", "mine.toml")
+    text = Path("mine.toml").read_text(encoding="utf-8")
+    assert 'fluence = "0.6 J/cm^2"' in text.partition("[laser]")[2]
+    Path("mine.toml").write_text(text.replace("0.6 J/cm^2", "0.7 J/cm^2"), encoding="utf-8")
+    answer = said(capsys, "check", "mine.toml", "--threads", "1")
+    assert "the case is right" in answer
+    for word in ("particles", "memory", "binding", "steps", "absorption length", "thermal pen"):
+        assert word in answer
+    assert main(["new", "dlip-steel", "mine.toml"]) == 2
+    assert capsys.readouterr().err == ("lasersph: mine.toml: exists already; choose another name\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["chek"], "No such command 'chek'"),
+        (["check"], "Missing argument 'CASE'; see lasersph --help"),
+        (["run", "stefan", "--threads", "0"], "--threads"),
+        (["run", "stefan", "--precision", "float16"], "--precision"),
+        (["run", "stefan", "--nonsense"], "--nonsense"),
+        (["check", "nothing.toml"], "nothing.toml: no such file"),
+        (["converge", "stefan", "--spacing", "1um,2um"], "an order needs three different"),
+        (["converge", "stefan", "--spacing", "1um,2um,3"], '"3" has no unit'),
+        (["converge", "stefan", "--spacing", "1um,2um,-3um"], "must be greater than 0"),
+        (["threshold", "stefan", "--of", "melt"], "stefan has no laser"),
+        (["threshold", "dlip-steel", "--of", "boil"], "boil"),
+        (["info", "."], "is not a run folder"),
+    ],
+)
+def test_wrong_commands(arguments, text, capsys, tmp_path):
+    """One clear line, exit code 2 (1 for a folder that cannot be read), nothing written."""
+    assert main(arguments) == (1 if arguments[0] == "info" else 2)
+    error = capsys.readouterr().err
+    assert text in error
+    assert len(error.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_run_and_what_follows(capsys):
+    """A small run, its folder, figures and report; resuming it; running into it again."""
+    text = said(capsys, "run", "stefan", "--out", "out", "--threads", "1", *SMALL)
+    assert "complete" in text and "energy imbalance" in text
+    names = {path.name for path in Path("out").iterdir()}
+    assert names >= {"summary.json", "history.csv", "particles.vtkhdf", "report.html", "figures"}
+    assert "complete" in said(capsys, "info", "out")
+    assert "report.html" in said(capsys, "report", "out")
+    assert ".svg" in said(capsys, "plot", "out", "--kind", "svg")
+    again = ["run", "stefan", "--out", "out", "--no-figures", *SMALL]
+    said(capsys, *again, "--resume")
+    assert main(again) == 2
+    assert "--resume" in capsys.readouterr().err
+    assert main([*again, "--resume", "--set", "time.end=300ns"]) == 2
+    assert "another case" in capsys.readouterr().err
+
+
+def test_default_folder_is_named_after_the_case(capsys):
+    """Without --out a run goes to runs/NAME."""
+    said(capsys, "run", "stefan", "--no-figures", "--threads", "1", *SMALL)
+    assert Path("runs/stefan/summary.json").is_file()
+
+
+def test_converge(capsys):
+    """Order and uncertainty of every number, as a table and as JSON."""
+    text = said(
+        capsys, "converge", "stefan", "--spacing", "1um,2um,4um", "--threads", "1",
+        "--json", "answer.json", "--set", "time.end=200ns", "--set", "time.step=5ns",
+    )  # fmt: skip
+    assert "temperature_max_K" in text and "GCI" in text
+    assert len(json.loads(Path("answer.json").read_text())["spacings_m"]) == 3
+    assert main(["converge", "stefan", "--spacing", "1um,2um,4um"]) == 2
+
+
+def test_cache(capsys):
+    """Where the compiled loops are."""
+    assert "loops" in said(capsys, "cache")
+
+
+def test_failures_are_one_line_and_debug_shows_the_traceback(monkeypatch, capsys):
+    """An unexpected error: one line and exit code 1; with --debug the error itself."""
+
+    def fail(*_args, **_options):
+        raise RuntimeError("the matrix\nis singular")
+
+    monkeypatch.setattr("lasersph.simulation.run", fail)
+    assert main(["run", "stefan"]) == 1
+    assert capsys.readouterr().err == (
+        "lasersph: the run failed: the matrix is singular (--debug shows where)\n"
+    )
+    with pytest.raises(RuntimeError):
+        main(["run", "stefan", "--debug"])
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_signals_stop_a_run_that_can_be_resumed(number, code, capsys):
+    """Ctrl-C and SIGTERM leave a checkpoint and the command to go on with."""
+    command = ["run", "stefan", "--out", "out", "--set", "time.step=20 ps", "--no-figures"]
+    process = subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, *command, "--threads", "1"],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=dict(os.environ),
+    )
+    deadline = time.monotonic() + 120
+    while not Path("out/events.jsonl").exists() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    time.sleep(0.3)
+    process.send_signal(number)
+    _, error = process.communicate(timeout=120)
+    assert process.returncode == code, error
+    assert "continue with: lasersph run stefan --out out --resume" in error
+    assert any(Path("out/checkpoint").iterdir())
+    assert "not complete" in said(capsys, "info", "out")
