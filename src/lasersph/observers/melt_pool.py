@@ -4,7 +4,7 @@ A cell counts as fluid where its melt fraction reaches a level: 1 (completely fl
 the pool in the paper), 0.5 (which depends least on the cell size) or anything above 0. The depth
 is that of the lower face of the deepest fluid cell below the original surface; the width is the
 sum of the widths of the surface cells that hang together with the hottest one, doubled where half
-a period is computed and the pool lies on its symmetry plane. [Demuth and Lasagni 2020, Sec. 5]
+a period is computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5]
 
 Left out: pools that wrap around a periodic boundary, and the second lateral direction in 3-D (the
 width is taken along x through the hottest surface cell). Sizes are whole cells.

@@ -1,4 +1,4 @@
-"""Where the particles lie, as Fig. 2 of Demuth and Lasagni, Computation 8 (2020) 9."""
+"""Where the particles lie, as in Fig. 2 of [Demuth2020]."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Figures of several runs together, as the papers draw them.
 
-`surface_temperatures` and `melt_pools` are Figs. 3 and 4 (steel) and 8 and 9 (aluminium) of Demuth
-and Lasagni, Computation 8 (2020) 9.
+`surface_temperatures` and `melt_pools` are Figs. 3 and 4 (steel) and 8 and 9 (aluminium) of
+[Demuth2020].
 """
 
 from __future__ import annotations

@@ -118,7 +118,7 @@ def without_stairs(times: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, n
     """A curve through the steps of a quantity that changes by whole cells.
 
     Each value that stands for a while is drawn once, in the middle of that while, as in Figs. 4
-    and 9 of Demuth and Lasagni (2020). The zeros before and after stay.
+    and 9 of [Demuth2020]. The zeros before and after stay.
 
     Args:
         times, values: (n,).
