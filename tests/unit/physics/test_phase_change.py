@@ -1,0 +1,73 @@
+"""State from enthalpy, and the balance of one particle, on a curve with a plateau."""
+
+import numpy as np
+import pytest
+
+from lasersph.physics.conduction import enthalpy_rate
+from lasersph.physics.phase_change import (
+    balanced_enthalpy,
+    potential_slope,
+    state,
+    thermal_state,
+)
+
+# c = 1000 J/(kg K), k = 20 W/(m K), melting at 500 K with 2e5 J/kg, T_0 = 300 K
+H = np.array([0.0, 2e5, 4e5, 6e5])
+T = np.array([300.0, 500.0, 500.0, 700.0])
+P = np.array([0.0, 4000.0, 4000.0, 8000.0])
+M = np.array([0.0, 0.0, 1.0, 1.0])
+V = np.zeros(4)
+
+
+@pytest.mark.parametrize(
+    ("h", "expected"),
+    [
+        (1e5, (400.0, 2000.0, 0.0)),
+        (3e5, (500.0, 4000.0, 0.5)),
+        (5e5, (600.0, 6000.0, 1.0)),
+        (8e5, (900.0, 12000.0, 1.0)),
+        (-1e5, (200.0, -2000.0, 0.0)),
+    ],
+)
+def test_state(h, expected):
+    """Below, on, above the plateau, and beyond both ends, where the end segments continue."""
+    assert state(h, H, T, P, M, V) == pytest.approx((*expected, 0.0))
+    assert thermal_state(h, H, T, P) == pytest.approx(expected[:2])
+
+
+def test_fractions_stay_within_zero_and_one():
+    """A curve that ends on a sloping fraction does not lead beyond 1."""
+    fractions = np.array([0.0, 0.0, 0.5, 1.0])
+    assert state(9e5, H, T, P, fractions, fractions)[2:] == (1.0, 1.0)
+    assert state(-9e5, H, T, P, 1.0 - fractions, fractions)[2:] == (1.0, 0.0)
+
+
+def test_potential_slope():
+    """k / c = 0.02 off the plateau, 0 on it."""
+    assert potential_slope(1e5, H, P) == pytest.approx(0.02)
+    assert potential_slope(3e5, H, P) == 0.0
+    assert potential_slope(7e5, H, P) == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize("h", [-2e5, 0.0, 1e5, 2e5, 2.7e5, 4e5, 5e5, 9e5])
+@pytest.mark.parametrize(("m", "S"), [(2.0, 30.0), (1e-9, 1e-7), (1.0, 0.0), (1e-3, 1e6)])
+def test_balanced_enthalpy_inverts_the_balance(h, m, S):
+    """m h + S P(h) = energy gives h back, on and off the plateau."""
+    energy = m * h + S * np.interp(h, H, P)
+    if h < 0.0:
+        energy = m * h + S * 0.02 * h
+    if h > 6e5:
+        energy = m * h + S * (8000.0 + 0.02 * (h - 6e5))
+    found = balanced_enthalpy(energy, m, S, H, P)
+    assert found == pytest.approx(h, rel=1e-6, abs=1e-3)
+
+
+def test_balanced_enthalpy_by_hand():
+    """m = 2, S = 30, energy 5e5 + 30 * 4000: on the plateau, h = 2.5e5."""
+    assert balanced_enthalpy(6.2e5, 2.0, 30.0, H, P) == pytest.approx(2.5e5)
+
+
+def test_enthalpy_rate():
+    """(6 + k (b - a T) + E/step - q) / m = (6 + 20 (4 - 1) + 8/2 - 10) / 5 = 12; walls 60 W."""
+    rate, walls = enthalpy_rate(6.0, 100.0, 20.0, 8.0, 10.0, 5.0, 0.01, 4.0, 2.0)
+    assert (rate, walls) == pytest.approx((12.0, 60.0))
