@@ -1,17 +1,79 @@
-"""`lasersph validate`: published numbers beside computed ones."""
+"""`lasersph validate`: published and exact numbers beside computed ones, with a verdict."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+from lasersph.cli.arguments import Out
+from lasersph.cli.failures import FAILED
+
+SCHEMA_VERSION = 1
+RUNS = Path("runs") / "validation"
+Names = Annotated[
+    list[str] | None, typer.Argument(metavar="[NAME]...", help="Default: all of them, in order.")
+]
+Json = Annotated[
+    Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers as JSON as well.")
+]
+Short = Annotated[bool, typer.Option("--quick", help="Shortened runs; still judged.")]
+OnlyList = Annotated[bool, typer.Option("--list", help="List the validations and run none.")]
+
 
 def validate(
-    names: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME]...", help="Default: all of them.")
-    ] = None,
+    names: Names = None,
+    json_file: Json = None,
+    out: Out = None,
+    quick: Short = False,
+    only_list: OnlyList = False,
 ) -> None:
-    """Compute published cases and compare."""
-    print(names, Path())
+    """Compute published cases; print published, reference and computed numbers with verdicts."""
+    from lasersph import validation
+    from lasersph.cli.tables import aligned
+
+    if only_list:
+        print(aligned(validation.titles().items()))
+        return
+    wanted = _known(names or [], validation.names())
+    if json_file is not None:
+        _write(json_file, {})
+    reports: dict[str, dict[str, Any]] = {}
+    for name in wanted:
+        report = validation.validate(name, (out or RUNS) / name, quick=quick)
+        print(report.table(), end="\n\n", flush=True)
+        reports[name] = report.as_dict()
+        if json_file is not None:
+            _write(json_file, reports)
+    failed = [name for name, report in reports.items() if not report["passed"]]
+    print(f"{len(reports) - len(failed)} of {len(reports)} passed")
+    if failed:
+        print(f"not passed: {', '.join(failed)}")
+        raise typer.Exit(FAILED)
+
+
+def _known(names: list[str], known: tuple[str, ...]) -> list[str]:
+    """The names without repetition, or all; refuses an unknown one before anything runs."""
+    from lasersph.reading import CaseError, nearest
+
+    for name in names:
+        if name not in known:
+            near = nearest(name, known)
+            hint = f'do you mean "{near}"?' if near else "there are " + ", ".join(known)
+            raise CaseError(f'no validation "{name}"', hint)
+    return list(dict.fromkeys(names or known))
+
+
+def _write(file: Path, reports: dict[str, dict[str, Any]]) -> None:
+    """All reports so far; long validations leave what they have when they are stopped."""
+    import lasersph
+    from lasersph.output.atomic import replace_json
+
+    content = {
+        "schema_version": SCHEMA_VERSION,
+        "lasersph": lasersph.__version__,
+        "passed": bool(reports) and all(report["passed"] for report in reports.values()),
+        "validations": reports,
+    }
+    replace_json(file, content)

@@ -186,3 +186,44 @@ def test_signals_stop_a_run_that_can_be_resumed(number, code, capsys):
     assert "continue with: lasersph run stefan --out out --resume" in error
     assert any(Path("out/checkpoint").iterdir())
     assert "not complete" in said(capsys, "info", "out")
+
+
+class FakeReport:
+    """A validation result with a verdict."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.passed = name == "good"
+
+    def table(self) -> str:
+        """The text printed."""
+        return f"table of {self.name}"
+
+    def as_dict(self) -> dict:
+        """The content of the JSON file."""
+        return {"name": self.name, "passed": self.passed}
+
+
+def test_validate(monkeypatch, capsys):
+    """Tables and JSON of every validation; exit code 1 where one did not pass."""
+    folders = []
+
+    def fake(name, folder, *, quick):
+        folders.append((str(folder), quick))
+        return FakeReport(name)
+
+    monkeypatch.setattr("lasersph.validation.names", lambda: ("good", "bad"))
+    monkeypatch.setattr("lasersph.validation.titles", lambda: {"good": "A?", "bad": "B?"})
+    monkeypatch.setattr("lasersph.validation.validate", fake)
+    assert said(capsys, "validate", "--list") == "good  A?\nbad   B?\n"
+    assert "1 of 1 passed" in said(capsys, "validate", "good", "good", "--quick")
+    assert folders == [("runs/validation/good", True)]
+    text = said(capsys, "validate", "--json", "all.json", "--out", "v", code=1)
+    assert "table of bad" in text and "not passed: bad" in text
+    content = json.loads(Path("all.json").read_text())
+    assert content["passed"] is False and content["schema_version"] == 1
+    assert list(content["validations"]) == ["good", "bad"]
+    assert main(["validate", "goood"]) == 2
+    assert 'do you mean "good"' in capsys.readouterr().err
+    assert main(["validate", "good", "--json", "none/all.json"]) == 1
+    assert "cannot write none/all.json" in capsys.readouterr().err
