@@ -1,0 +1,50 @@
+"""The list of validations; each is imported when it is run.
+
+A validation is a module with `TITLE` and `run(out_dir, *, quick) -> Report`.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+
+from lasersph.reading import CaseError, nearest
+from lasersph.validation.report import Report
+
+MODULES = {
+    "kernels": "kernels",
+    "kernel-correction": "kernel_correction",
+}
+
+
+def names() -> tuple[str, ...]:
+    """Names of all validations, in the order in which they are best run."""
+    return tuple(MODULES)
+
+
+def titles() -> dict[str, str]:
+    """Name and the question that it answers."""
+    return {name: _module(name).TITLE for name in MODULES}
+
+
+def validate(name: str, out_dir: str | Path, *, quick: bool = False) -> Report:
+    """Run one validation and draw its figures into `out_dir`.
+
+    Args:
+        quick: shortened, with tolerances as stated in its rows; still judged.
+
+    Raises:
+        CaseError: no such validation; says the nearest name.
+    """
+    folder = Path(out_dir)
+    module = _module(name)
+    folder.mkdir(parents=True, exist_ok=True)
+    return module.run(folder, quick=quick)
+
+
+def _module(name: str):
+    if name not in MODULES:
+        near = nearest(name, MODULES)
+        hint = f'do you mean "{near}"?' if near else "there are " + ", ".join(MODULES)
+        raise CaseError(f'no validation "{name}"', hint)
+    return import_module(f"lasersph.validation.{MODULES[name]}")

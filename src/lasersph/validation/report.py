@@ -1,0 +1,102 @@
+"""`Report`: the rows, figures and remarks of one validation, as a table or as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from lasersph.validation.verdict import Row
+
+HEAD = ("quantity", "unit", "published", "reference", "computed", "tolerance", "verdict")
+WORDS = {True: "ok", False: "FAILED", None: "shown"}
+
+
+@dataclass(frozen=True)
+class Report:
+    """Result of one validation.
+
+    Attributes:
+        name: as in `lasersph validate NAME`. title: the question, in one line.
+        rows: compared numbers. figures: files drawn. remarks: what the numbers say.
+        quick: whether it ran shortened.
+    """
+
+    name: str
+    title: str
+    rows: tuple[Row, ...]
+    figures: tuple[Path, ...] = ()
+    remarks: tuple[str, ...] = ()
+    quick: bool = False
+
+    @property
+    def passed(self) -> bool:
+        """Whether there are judged numbers and all of them lie within their tolerance."""
+        verdicts = [row.verdict for row in self.rows if row.verdict is not None]
+        return bool(verdicts) and all(verdicts)
+
+    @property
+    def failures(self) -> tuple[Row, ...]:
+        """Rows outside their tolerance."""
+        return tuple(row for row in self.rows if row.verdict is False)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Everything as plain data for JSON, SI or the unit of each row; NaN becomes None."""
+        return {
+            "name": self.name,
+            "title": self.title,
+            "passed": self.passed,
+            "quick": self.quick,
+            "rows": [
+                {key: _finite(value) for key, value in asdict(row).items()} for row in self.rows
+            ],
+            "figures": [str(path) for path in self.figures],
+            "remarks": list(self.remarks),
+        }
+
+    def table(self) -> str:
+        """Plain text: title, one line per number, remarks, verdict."""
+        lines = [f"{self.name}: {self.title}" + (" (quick)" if self.quick else ""), ""]
+        lines += columns([HEAD, *(_cells(row) for row in self.rows)])
+        lines += ["", *(f"- {text}" for text in self.remarks)]
+        lines += [f"figure {path}" for path in self.figures]
+        judged = sum(row.verdict is not None for row in self.rows)
+        verdict = "passed" if self.passed else f"FAILED: {len(self.failures)}"
+        lines.append(f"{self.name} {verdict} of {judged} judged, {len(self.rows)} numbers")
+        return "\n".join(lines)
+
+
+def columns(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Lines of a table with aligned columns; the first column to the left, numbers to the right."""
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return [
+        "  ".join(
+            cell.ljust(width) if k < 2 else cell.rjust(width)
+            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    return (
+        row.quantity,
+        row.unit,
+        _text(row.published),
+        _text(row.reference),
+        _text(row.computed),
+        "" if row.tolerance is None else f"{row.tolerance:.3g}",
+        WORDS[row.verdict],
+    )
+
+
+def _text(value: float | str | None) -> str:
+    if value is None:
+        return ""
+    return value if isinstance(value, str) else f"{value:.7g}"
+
+
+def _finite(value: Any) -> Any:
+    return None if isinstance(value, float) and not isfinite(value) else value
