@@ -8,7 +8,7 @@ KEY = re.compile(r"\[([A-Za-z][A-Za-z\-]*(?:19|20)\d\d[a-z]?)\b")
 
 
 def test_citations_are_in_the_bibliography():
-    """Each `[Name2020]` in a source file, with or without an equation, is a key of references.bib."""
+    """Each `[Name2020]` in a source file, alone or with an equation, is a key of references.bib."""
     bibliography = (ROOT / "docs" / "references.bib").read_text(encoding="utf-8")
     known = set(re.findall(r"^@\w+\{([^,]+),", bibliography, flags=re.MULTILINE))
     cited = {
