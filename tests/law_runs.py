@@ -1,0 +1,38 @@
+"""Solvers stepped in memory, without a run folder, for tests of laws."""
+
+import numpy as np
+
+from lasersph import compute
+from lasersph.case import load_case
+from lasersph.simulation.build import build
+from lasersph.solvers.time_step import binding
+
+
+def solver_of(name, *settings, threads=2, backend=None):
+    """Case with settings, and its solver at rest."""
+    case = load_case(name, settings)
+    return case, build(case, backend or compute.cpu(threads=threads))[1]
+
+
+def go(solver, end):
+    """Step to `end` [s] by the solver's own limits; returns the number of steps."""
+    steps = 0
+    while solver.state.time < end * (1.0 - 1e-12):
+        limits = solver.time_step_limits()
+        limits["end"] = end - solver.state.time
+        solver.step(binding(limits)[1])
+        steps += 1
+    return steps
+
+
+def host(solver, name):
+    """Field of the particles as an array."""
+    return solver.body.backend.to_host(solver.fields[name])
+
+
+def start_from(solver, enthalpy):
+    """Give the particles enthalpies [J/kg], as after a step that changed nothing."""
+    backend, state = solver.body.backend, solver.state
+    for array in (state.enthalpy, state.previous):
+        backend.copy(backend.asarray(np.asarray(enthalpy, float)), array)
+    state.refresh(solver.body)

@@ -1,0 +1,50 @@
+"""A disk that is full in the middle of a run costs nothing but the steps since the checkpoint."""
+
+import resource
+import signal
+
+import pytest
+from reliability_runs import assert_same, small_case
+
+from lasersph.output import OutputError
+from lasersph.simulation import run
+
+
+@pytest.fixture
+def file_size_limit():
+    """Function that limits the size of written files [bytes], as a full disk does."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+    def limit(size):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+
+    yield limit
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    signal.signal(signal.SIGXFSZ, handler)
+
+
+@pytest.mark.parametrize("kilobytes", [8, 40, 120])
+def test_full_disk(tmp_path, file_size_limit, kilobytes):
+    """One clear line, no summary; with room again the run resumes to the same bits."""
+    folder = tmp_path / "run"
+    file_size_limit(kilobytes * 1024)
+    with pytest.raises(OutputError) as caught:
+        run(small_case(), folder, threads=2)
+    assert str(folder) in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert not (folder / "summary.json").exists()
+    file_size_limit(resource.RLIM_INFINITY)
+    run(small_case(), folder, resume=True, threads=2)
+    alone = tmp_path / "alone"
+    run(small_case(), alone, threads=2)
+    assert_same(folder, alone)
+
+
+def test_unwritable_folder(tmp_path):
+    """A file in place of the folder is refused by name."""
+    blocked = tmp_path / "file"
+    blocked.write_text("mine")
+    with pytest.raises(OutputError, match="is a file, not a folder"):
+        run(small_case(), blocked, threads=2)
+    assert blocked.read_text() == "mine"
