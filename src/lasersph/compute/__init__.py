@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from lasersph.compute.backend import Backend
-    from lasersph.compute.strict import StrictBackend
+    from lasersph.compute.strict_backend import StrictBackend
 
 __all__ = ["cpu", "strict"]
 
@@ -28,6 +28,6 @@ def cpu(threads: int | None = None, precision: str = "float64") -> Backend:
 
 def strict(threads: int | None = None, precision: str = "float64") -> StrictBackend:
     """Backend like `cpu` whose arrays refuse every NumPy function; for tests."""
-    from lasersph.compute.strict import StrictBackend
+    from lasersph.compute.strict_backend import StrictBackend
 
     return StrictBackend(threads, precision)

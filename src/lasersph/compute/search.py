@@ -17,7 +17,7 @@ import numpy as np
 from lasersph.compute import cache
 from lasersph.compute.backend import Backend
 from lasersph.compute.generate import BLOCK
-from lasersph.compute.scan import scan_text
+from lasersph.compute.scan import scan_text, sort_text, store_text
 
 _CELLS_PER_REACH = 1.0
 _CELLS_PER_PARTICLE = 4
@@ -69,9 +69,9 @@ def cell_order(
     count = host.shape[1]
     order = np.arange(count, dtype=np.uint32)
     if count:
-        module = _module(backend, host.shape[0], _first, (False,) * host.shape[0])
+        sort = cache.load(sort_text(backend.precision, host.shape[0])).sort
         low, high = host.min(axis=1), host.max(axis=1)
-        _sorted(module, host, order.copy(), low, high, cell_size, order)
+        _sorted(sort, host, order.copy(), low, high, cell_size, order)
     return backend.wrap(order)
 
 
@@ -117,8 +117,9 @@ def neighbor_list(
     if count == 0:
         return backend.wrap(row_start), backend.wrap(np.zeros(0, dtype=np.uint32))
     _refuse_short_period(host, widths, float(mean(reach.max(), reach.max())))
-    module = _module(backend, dimension, mean, tuple(bool(width) for width in widths))
-    cells = _levels(module, host, reach, mean)
+    periodic = tuple(bool(width) for width in widths)
+    module = cache.load(scan_text(backend.precision, dimension, mean, periodic))
+    cells = _levels(cache.load(sort_text(backend.precision, dimension)).sort, host, reach, mean)
     extent = max(float(np.abs(cells.low).max()), float(np.abs(cells.high).max()), widths.max())
     slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(reach.max())))
     arguments = (np.uint64(count), host, reach, *cells, slack, widths)
@@ -133,6 +134,7 @@ def _scanned(
     from numba import set_num_threads
 
     set_num_threads(backend.threads)
+    store = cache.load(store_text()).store_blocks
     blocks, group = -(-count // BLOCK), 8 * backend.threads
     scratch = np.empty((min(group, blocks), 64 * min(BLOCK, count)), dtype=np.uint32)
     ends = np.empty(count, dtype=np.uint64)
@@ -141,7 +143,10 @@ def _scanned(
     filled = begin = 0
     while begin < blocks:
         end = min(begin + group, blocks)
-        module.scan_blocks(begin, end, *arguments, scratch, ends, used)
+        if blocks == 1:
+            used[0] = module.scan(np.uint64(0), *arguments, scratch, ends)
+        else:
+            module.scan_blocks(begin, end, *arguments, scratch, ends, used)
         counts = used[: end - begin]
         if counts.max() > scratch.shape[1]:
             scratch = np.empty((scratch.shape[0], 2 * scratch.shape[1]), dtype=np.uint32)
@@ -152,13 +157,13 @@ def _scanned(
             longer = np.empty(filled + (blocks - end) * int(counts.max()), dtype=np.uint32)
             longer[:before] = neighbor[:before]
             neighbor = longer
-        module.store_blocks(begin, end, np.uint64(count), bases, scratch, ends, row_start, neighbor)
+        store(begin, end, np.uint64(count), bases, scratch, ends, row_start, neighbor)
         begin = end
     neighbor.resize(filled, refcheck=False)
     return neighbor
 
 
-def _levels(module: Any, position: np.ndarray, support: np.ndarray, mean: Callable) -> _Cells:
+def _levels(sort: Callable, position: np.ndarray, support: np.ndarray, mean: Callable) -> _Cells:
     """Sort the particles into levels and cells."""
     dimension, total = position.shape
     smallest = support.min()
@@ -181,7 +186,7 @@ def _levels(module: Any, position: np.ndarray, support: np.ndarray, mean: Callab
         largest[k] = (support if single else support[group]).max()
         size = float(mean(largest[k], largest[k])) / _CELLS_PER_REACH
         place = order[members : members + group.size]
-        start, shape[k], inverse[k] = _sorted(module, position, group, low[k], high[k], size, place)
+        start, shape[k], inverse[k] = _sorted(sort, position, group, low[k], high[k], size, place)
         first_cell[k], first_member[k] = cells, members
         starts.append(start)
         cells, members = cells + start.size, members + group.size
@@ -192,7 +197,7 @@ def _levels(module: Any, position: np.ndarray, support: np.ndarray, mean: Callab
 
 
 def _sorted(
-    module: Any,
+    sort: Callable,
     position: np.ndarray,
     members: np.ndarray,
     low: np.ndarray,
@@ -211,17 +216,8 @@ def _sorted(
     inverse = position.dtype.type(1.0 / size)
     start = np.empty(int(np.prod(shape)) + 1, dtype=np.uint32)
     cell = np.empty(members.size, dtype=np.uint32)
-    module.sort(position, members, low, inverse, shape, cell, start, order)
+    sort(position, members, low, inverse, shape, cell, start, order)
     return start, shape, inverse
-
-
-def _first(l_i: float, l_j: float) -> float:
-    """Stands in where no support is looked at."""
-    return l_i
-
-
-def _module(backend: Backend, dimension: int, mean: Callable, periodic: tuple[bool, ...]) -> Any:
-    return cache.load(scan_text(backend.precision, dimension, mean, periodic))
 
 
 def _refuse_escape(
