@@ -14,6 +14,8 @@ from lasersph.validation.report import Report
 MODULES = {
     "kernels": "kernels",
     "kernel-correction": "kernel_correction",
+    "stefan": "stefan",
+    "pulsed-heating": "pulsed_heating",
 }
 
 
