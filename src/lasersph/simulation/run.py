@@ -24,7 +24,7 @@ from lasersph.output.checkpoint import Checkpoint
 from lasersph.particles.layers import Layers
 from lasersph.simulation.build import build, view_of
 from lasersph.solvers.conduction.solver import Conduction
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.time_step import choose
 
 PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
 END = 1.0 - 1e-12
@@ -132,8 +132,8 @@ class _Loop:
         while state.time < end * END:
             limits = self.solver.time_step_limits()
             limits["snapshot"] = max(self.snapshots.next_time - state.time, 0.0) or float("inf")
-            self.limit, step = binding(limits)
-            taken = self.solver.step(step)
+            self.limit, step, pace = choose(limits)
+            taken = self.solver.step(step, pace)
             if taken == step and self.limit in ("end", "snapshot"):
                 state.time = end if self.limit == "end" else self.snapshots.next_time
             self.steps += 1

@@ -33,6 +33,27 @@ class TimeSettings(Model):
     )
 
 
+TARGETS = ("end", "pulse edge", "snapshot")
+"""Limits that are times to be hit; the others bound the step itself."""
+
+
+def choose(limits: Mapping[str, float]) -> tuple[str, float, float]:
+    """Name of the binding limit, the step [s], and the pace: the step without times to be hit.
+
+    The way to a target is split evenly where one step falls short of it but two would not, so that
+    no sliver of a step remains.
+    """
+    name, step = binding(limits)
+    bounds = {key: value for key, value in limits.items() if key not in TARGETS}
+    if not bounds:
+        return name, step, step
+    bound, pace = binding(bounds)
+    target = min((limits[key] for key in TARGETS if key in limits), default=float("inf"))
+    if pace >= target:
+        return name, step, pace
+    return bound, 0.5 * target if 2.0 * pace > target else pace, pace
+
+
 def binding(limits: Mapping[str, float]) -> tuple[str, float]:
     """Name and value [s] of the smallest limit; the first one of equals."""
     name = min(limits, key=lambda key: limits[key])

@@ -86,7 +86,7 @@ class Conduction:
         numbers = {f"energy.{name}": state.energy[name] for name in ENERGIES}
         return numbers | {
             "time": state.time, "time_step": state.time_step, "fastest": state.fastest,
-            "lit_until": state.lit_until,
+            "lit_until": state.lit_until, "pace": state.pace,
         }  # fmt: skip
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
@@ -97,6 +97,7 @@ class Conduction:
         state.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
         state.time, state.time_step = numbers["time"], numbers["time_step"]
         state.fastest, state.lit_until = numbers["fastest"], numbers["lit_until"]
+        state.pace = numbers["pace"]
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]."""
@@ -120,8 +121,8 @@ class Conduction:
             if longest is not None and state.lit_until > 0.0:
                 dark = state.time - state.lit_until
                 limits["cooling"] = max(longest, time.cooling * dark)
-            if state.time_step > 0.0:
-                limits["growth"] = time.growth * state.time_step
+            if state.pace > 0.0:
+                limits["growth"] = time.growth * state.pace
                 if state.fastest > 0.0:
                     limits["temperature change"] = (
                         state.time_step * time.temperature_change / state.fastest
@@ -135,8 +136,10 @@ class Conduction:
                 limits["pulse edge"] = float(ahead.min()) - state.time
         return limits
 
-    def step(self, step: float) -> float:
+    def step(self, step: float, pace: float | None = None) -> float:
         """Advance by `step` [s], or by less where that does not converge; returns the step taken.
+
+        `pace` [s] is the step that would be taken were there no time to be hit; growth goes from it.
 
         light of the step -> enthalpies (scheme) -> temperatures and fractions -> plateau rule ->
         energies.
@@ -156,6 +159,7 @@ class Conduction:
                 if attempt == RETRIES:
                     raise
                 step *= 0.5
+                pace = step
         discarded = self._discard()
         state.refresh(body)
         if self.settings.plateau == "evaporate":
@@ -167,6 +171,7 @@ class Conduction:
         if self.laser is not None and self.laser.pulse.active(state.time, state.time + step):
             state.lit_until = state.time + step
         state.time, state.time_step = state.time + step, step
+        state.pace = step if pace is None else pace
         return step
 
     def _exchanged(self) -> float:

@@ -42,6 +42,8 @@ class HeatState:
     """Largest change of temperature in the last step [K]."""
     lit_until: float = 0.0
     """End of the last step with light [s]."""
+    pace: float = 0.0
+    """The last step, had no time been to be hit [s]."""
 
     @classmethod
     def at_rest(cls, backend: Backend, body: Body) -> HeatState:
