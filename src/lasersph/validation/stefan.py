@@ -32,7 +32,7 @@ TEMPERATURE_TOLERANCE = 0.01
 
 
 def run(out_dir: Path, *, quick: bool = False) -> Report:
-    """Compute the front at three spacings [nm]; `quick` two coarse ones to a quarter of the time."""
+    """Compute the front at three spacings [nm]; `quick`: two coarse ones, a quarter of the time."""
     spacings = QUICK_SPACINGS if quick else SPACINGS
     short = ["time.end=250 ns", "time.step=2 ns", "output.snapshots.interval=25 ns"]
     settings = short if quick else []
