@@ -125,5 +125,5 @@ def parsed(function: AnyObject) -> tuple[ast.FunctionDef, str, int]:
 
 
 def _builtins_of(function: types.FunctionType) -> dict:
-    space = function.__builtins__ if hasattr(function, "__builtins__") else {}
-    return space if isinstance(space, dict) else vars(space)
+    space = getattr(function, "__builtins__", {})
+    return space if isinstance(space, dict) else space.__dict__

@@ -1,0 +1,88 @@
+"""The strict backend's arrays refuse NumPy; the backend's own operations accept them."""
+
+import operator
+
+import numpy as np
+import pytest
+
+from lasersph import compute
+
+
+@pytest.fixture
+def strict():
+    """Strict backend."""
+    return compute.strict(threads=1)
+
+
+@pytest.mark.parametrize(
+    "attempt",
+    [
+        np.sqrt,
+        np.sum,
+        np.asarray,
+        lambda a: np.concatenate([a, a]),
+        abs,
+        len,
+        list,
+        float,
+        bool,
+        operator.neg,
+        lambda a: a + 1,
+        lambda a: 1 + a,
+        lambda a: a * a,
+        lambda a: a < 2,
+        lambda a: a == a,
+        lambda a: np.ones(2) + a,
+        lambda a: a[0],
+        lambda a: operator.setitem(a, 0, 1.0),
+        lambda a: operator.iadd(a, 1.0),
+    ],
+)
+def test_refusals(strict, attempt):
+    """Functions, operators, indexing and conversions raise with one clear line."""
+    array = strict.asarray([1.0, 2.0])
+    with pytest.raises(TypeError, match=r"on a backend's array; use the backend's loops"):
+        attempt(array)
+
+
+def test_foreign_arrays(strict):
+    """A NumPy array is refused where a backend's array is needed."""
+    with pytest.raises(TypeError, match=r"ndarray given; make it with backend.asarray\(\)"):
+        strict.fill(np.zeros(3), 1.0)
+
+
+def test_arrays(backend):
+    """zeros, asarray, fill, copy, gather, head and to_host on every backend."""
+    a = backend.zeros((2, 3))
+    assert a.shape == (2, 3) and a.dtype == np.float64 and a.ndim == 2 and a.size == 6
+    backend.fill(a, 2.0)
+    b = backend.asarray([[1.0, 2, 3], [4, 5, 6]])
+    backend.copy(b, a)
+    backend.fill(b, 0.0)
+    order = backend.asarray([2, 0, 1], "index")
+    backend.gather(a, order, b)
+    assert backend.to_host(b).tolist() == [[3, 1, 2], [6, 4, 5]]
+    backend.fill(backend.head(b, 1), 9.0)
+    assert backend.to_host(b).tolist() == [[9, 1, 2], [9, 4, 5]]
+    host = backend.to_host(a)
+    host[:] = 0.0
+    assert backend.to_host(a)[0, 0] == 1.0
+    kinds = {kind: backend.zeros(1, kind).dtype for kind in ("index", "offset", "flag")}
+    assert kinds == {"index": np.uint32, "offset": np.uint64, "flag": np.uint8}
+    with pytest.raises(ValueError, match="kind must be"):
+        backend.zeros(1, "double")
+    with pytest.raises(ValueError, match="copy of shape"):
+        backend.copy(a, backend.zeros(3))
+    with pytest.raises(ValueError, match="the first 4 of 3"):
+        backend.head(a, 4)
+
+
+def test_scan_and_sort(backend):
+    """Running sums start at zero; sorting by key keeps the order of equal keys."""
+    counts, out = backend.asarray([2, 0, 3], "index"), backend.zeros(4, "offset")
+    backend.exclusive_scan(counts, out)
+    assert backend.to_host(out).tolist() == [0, 2, 2, 5]
+    keys = backend.asarray([1, 0, 1, 0], "index")
+    assert backend.to_host(backend.sort_by_key(keys, 2)).tolist() == [1, 3, 0, 2]
+    with pytest.raises(ValueError, match="key 1 is not below 1"):
+        backend.sort_by_key(keys, 1)

@@ -1,0 +1,65 @@
+"""The same bits for any number of threads."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from lasersph import compute
+from lasersph.compute import search
+
+
+def flow(T_i, T_j, r_ij):
+    return (T_j - T_i) / r_ij
+
+
+def squared(total):
+    return total, total**2
+
+
+def product(a, b):
+    return a * b
+
+
+def mean(l_i, l_j):
+    return 0.5 * (l_i + l_j)
+
+
+def results(threads, position, T):
+    """List, sums and reductions of 20 000 particles."""
+    backend = compute.cpu(threads=threads)
+    count = position.shape[1]
+    row_start, neighbor = search.neighbor_list(
+        backend, position, np.full(count, 0.02), count, mean=mean
+    )
+    neighbors = SimpleNamespace(
+        row_start=row_start, neighbor=neighbor, position=position,
+        support=np.full(count, 0.02), kernel=None, mean=mean, period=(),
+    )  # fmt: skip
+    out = (backend.zeros(count), None)
+    sums = backend.pair_sum(
+        flow, neighbors, {"T": T}, out, finish=squared, reduce=("min", "sum")
+    )
+    dot = backend.pointwise(product, {"a": T, "b": T}, None, reduce="sum")
+    return row_start.tobytes(), neighbor.tobytes(), out[0].tobytes(), sums, dot
+
+
+def test_bits_do_not_depend_on_threads():
+    """One and two threads: identical lists, sums and reductions over several blocks."""
+    rng = np.random.default_rng(3)
+    position, T = rng.random((2, 20_000)), rng.random(20_000)
+    one = results(1, position, T)
+    assert one == results(2, position, T)
+    assert one[4][0] == pytest.approx(float(np.dot(T, T)), rel=1e-13)
+
+
+def test_number_of_threads():
+    """More threads than processors are cut down; fewer than one is an error."""
+    from lasersph.compute import threads
+
+    assert compute.cpu(threads=10_000).threads == threads.chosen(None)
+    assert compute.cpu(threads=1).threads == 1
+    with pytest.raises(ValueError, match="at least 1"):
+        compute.cpu(threads=0)
+    with pytest.raises(ValueError, match="precision must be"):
+        compute.cpu(precision="half")
