@@ -124,7 +124,7 @@ def _warnings(
 ) -> list[str]:
     found = []
     spacing = layers.spacing
-    if abs(spacing - case.particles.spacing) > 1e-3 * case.particles.spacing:
+    if abs(spacing - case.particles.spacing) > 1e-2 * case.particles.spacing:
         found.append(
             f"spacing {case.particles.spacing:.4g} m is rounded to {spacing:.4g} m so that whole "
             "cells fill the domain"

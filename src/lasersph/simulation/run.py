@@ -23,6 +23,7 @@ from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.particles.layers import Layers
 from lasersph.simulation.build import build, view_of
+from lasersph.simulation.scales import dimensionless
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.time_step import choose
 
@@ -163,6 +164,7 @@ class _Loop:
             "precision": str(body.backend.real),
             "threads": body.backend.threads,
             **self.observers.summary(),
+            "dimensionless": dimensionless(self.case),
         }
         self.folder.events.append("finished", time=state.time, step=self.steps)
         self.folder.log(f"finished after {self.steps} steps, {summary['wall_time_s']:.1f} s")
