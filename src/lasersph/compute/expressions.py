@@ -1,0 +1,236 @@
+"""Translation of expressions into scalar code; `compute.translate` adds the statements.
+
+Understood: arithmetic, comparisons, conditional expressions, components by literal index, calls of
+plain functions, of the helpers of `compute.vectors` and of the functions in `compute.intrinsics`.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import types
+from typing import TYPE_CHECKING
+from typing import Any as AnyObject
+
+from lasersph.compute import algebra
+from lasersph.compute.intrinsics import intrinsic, is_helper
+from lasersph.compute.tensors import HELPERS
+from lasersph.compute.values import (
+    Any,
+    Group,
+    LoopSourceError,
+    Number,
+    boolean_text,
+    flat_parts,
+    is_atom,
+    joined_kind,
+    kind_of,
+    named,
+    scalar,
+)
+
+if TYPE_CHECKING:
+    from lasersph.compute.source import SourceUnit
+
+_BINARY = {
+    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
+    ast.Pow: "**",
+}  # fmt: skip
+_COMPARE = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
+
+
+class ExpressionWriter:
+    """Writes the expressions of one function, and the statements that they need before them."""
+
+    def __init__(
+        self, unit: SourceUnit, function: types.FunctionType, tree: ast.FunctionDef, place: tuple
+    ) -> None:
+        self.unit, self.function, self.tree = unit, function, tree
+        self.file, self.first_line = place
+        self.line = 1
+        self.lines: list[tuple[int, AnyObject]] = []
+        self.indent = 1
+        self.locals: dict[str, Any] = {}
+        self.count = 0
+        self.whole_names = {
+            name.id
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Subscript)
+            for name in ast.walk(node.slice)
+            if isinstance(name, ast.Name)
+        }
+
+    def put(self, text: str) -> None:
+        """Append a statement."""
+        self.lines.append((self.indent, text))
+
+    def atom(self, text: str) -> str:
+        """Name of a local that holds the expression."""
+        if is_atom(text):
+            return text
+        self.count += 1
+        self.put(f"t__{self.count} = {text}")
+        return f"t__{self.count}"
+
+    def _operator(self, node: ast.operator) -> str:
+        if type(node) not in _BINARY:
+            raise LoopSourceError(f"operator {type(node).__name__} is not understood")
+        return _BINARY[type(node)]
+
+    def expression(self, node: ast.expr) -> Any:
+        """Value of an expression."""
+        if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
+            return Number(node.value)
+        if isinstance(node, ast.Name | ast.Attribute):
+            return self.name(node)
+        if isinstance(node, ast.BinOp):
+            left, right = self.expression(node.left), self.expression(node.right)
+            return algebra.binary(self, self._operator(node.op), left, right)
+        if isinstance(node, ast.UnaryOp):
+            value = self.expression(node.operand)
+            if isinstance(node.op, ast.Not):
+                return algebra.invert(value)
+            return algebra.negative(value) if isinstance(node.op, ast.USub) else value
+        if isinstance(node, ast.Compare):
+            return self.comparison(node)
+        if isinstance(node, ast.BoolOp):
+            word, stop = ("and", False) if isinstance(node.op, ast.And) else ("or", True)
+            return self.joined(word, stop, node.values)
+        if isinstance(node, ast.IfExp):
+            return self.conditional(node)
+        if isinstance(node, ast.Tuple):
+            return Group(tuple(self.expression(item) for item in node.elts))
+        if isinstance(node, ast.Subscript):
+            index = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+            owner = self.expression(node.value)
+            return algebra.component(self, owner, [self.expression(k) for k in index])
+        if isinstance(node, ast.Call):
+            return self.call(node)
+        raise LoopSourceError(f"a loop cannot contain `{ast.unparse(node)}`")
+
+    def name(self, node: ast.expr) -> Any:
+        """Local variable or module constant."""
+        from lasersph.compute.source import constant
+
+        if isinstance(node, ast.Name) and node.id in self.locals:
+            return self.locals[node.id]
+        found = constant(self.resolved(node))
+        if found is None:
+            raise LoopSourceError(f"{ast.unparse(node)} is no number; use constants only")
+        return found
+
+    def resolved(self, node: ast.expr) -> AnyObject:
+        """Python object that a global name or dotted name means."""
+        if isinstance(node, ast.Name):
+            if node.id in self.locals:
+                raise LoopSourceError(f"local {node.id} is no function or module")
+            return self.unit.look_up(self.function, node.id)
+        if isinstance(node, ast.Attribute):
+            return self.unit.attribute(self.resolved(node.value), node.attr)
+        raise LoopSourceError(f"`{ast.unparse(node)}` is not understood")
+
+    def comparison(self, node: ast.Compare) -> Any:
+        """Comparison, chains included."""
+        values = [self.expression(value) for value in (node.left, *node.comparators)]
+        results: list[Any] = []
+        for k, op in enumerate(node.ops):
+            if type(op) not in _COMPARE:
+                raise LoopSourceError(f"`{ast.unparse(node)}` is not understood")
+            results.append(algebra.compare(_COMPARE[type(op)], values[k], values[k + 1]))
+        if len(results) == 1:
+            return results[0]
+        return scalar("(" + " and ".join(boolean_text(r) for r in results) + ")", "bool")
+
+    def joined(self, word: str, stop: bool, nodes: list[ast.expr]) -> Any:
+        """and / or; a literal operand decides at once or drops out."""
+        first = self.expression(nodes[0])
+        if len(nodes) == 1:
+            return first
+        if isinstance(first, Number):
+            return first if bool(first.value) is stop else self.joined(word, stop, nodes[1:])
+        start = len(self.lines)
+        result = f"t__{self.count + 1}"
+        self.count += 1
+        self.indent += 1
+        rest = boolean_text(self.joined(word, stop, nodes[1:]))
+        self.indent -= 1
+        if len(self.lines) == start:
+            return scalar(f"({boolean_text(first)} {word} {rest})", "bool")
+        test = f"not {boolean_text(first)}" if stop else boolean_text(first)
+        self.lines.insert(start, (self.indent, f"if {test}:"))
+        self.lines.insert(start, (self.indent, f"{result} = {stop}"))
+        self.lines.append((self.indent + 1, f"{result} = {rest}"))
+        return scalar(result, "bool")
+
+    def conditional(self, node: ast.IfExp) -> Any:
+        """a if test else b: a select where both are plain, else branches."""
+        test = self.expression(node.test)
+        if isinstance(test, Number):
+            return self.expression(node.body if test.value else node.orelse)
+        start = len(self.lines)
+        self.indent += 1
+        first = self.expression(node.body)
+        middle = len(self.lines)
+        second = self.expression(node.orelse)
+        self.indent -= 1
+        if len(self.lines) == start:
+            return algebra.select(self, test, first, second)
+        kind = joined_kind(kind_of(first), kind_of(second))
+        self.count += 1
+        result = named(kind, f"t__{self.count}")
+        names = flat_parts(result, kind)
+        copies = [
+            (self.indent + 1, f"{', '.join(names)} = {', '.join(flat_parts(value, kind))}")
+            for value in (first, second)
+        ]
+        head = (self.indent, f"if {boolean_text(test)}:")
+        tail = self.lines[middle:]
+        self.lines[start:] = [
+            head, *self.lines[start:middle], copies[0], (self.indent, "else:"), *tail, copies[1],
+        ]  # fmt: skip
+        return result
+
+    def call(self, node: ast.Call) -> Any:
+        """Call of a mathematical function, a helper or another plain function."""
+        target = self.resolved(node.func)
+        values = [self.expression(argument) for argument in node.args]
+        options = {k.arg: self.expression(k.value) for k in node.keywords if k.arg is not None}
+        if isinstance(target, types.FunctionType) and not is_helper(target):
+            return self.function_call(target, values, options)
+        if options:
+            raise LoopSourceError(f"`{ast.unparse(node)}`: keywords are for plain functions")
+        if is_helper(target):
+            return HELPERS[target.__name__](self, *values)
+        value = intrinsic(self, target, values)
+        if value is None:
+            raise LoopSourceError(f"`{ast.unparse(node)}` is not understood")
+        return value
+
+    def function_call(
+        self, target: types.FunctionType, values: list[Any], options: dict[str, Any]
+    ) -> Any:
+        """Call of a plain Python function, which is written into the same file."""
+        from lasersph.compute.source import constant
+
+        try:
+            bound = inspect.signature(target).bind(*values, **options)
+        except TypeError as error:
+            raise LoopSourceError(f"{target.__qualname__}(): {error}") from None
+        defaults = {
+            name: constant(parameter.default)
+            for name, parameter in inspect.signature(target).parameters.items()
+            if parameter.default is not inspect.Parameter.empty
+        }
+        arguments = {**defaults, **bound.arguments}
+        ordered = [arguments[name] for name in inspect.signature(target).parameters]
+        if any(value is None for value in ordered):
+            raise LoopSourceError(f"{target.__qualname__}() has a default that is no number")
+        kinds = tuple(kind_of(value) for value in ordered)
+        name, result = self.unit.add(target, kinds)
+        parts = [p for v, k in zip(ordered, kinds, strict=True) for p in flat_parts(v, k)]
+        text = f"{name}({', '.join(parts)})"
+        self.count += 1
+        value = named(result, f"t__{self.count}")
+        names = flat_parts(value, result)
+        self.put(f"{', '.join(names)} = {text}")
+        return value
