@@ -31,7 +31,7 @@ from lasersph.validation.verdict import Row, at_most, claimed, judged, shown
 Array = NDArray[np.float64]
 TITLE = "First and second derivatives at a free end, with and without corrections"
 SPACING = 0.25
-LINE = 1.0 + SPACING * np.arange(17)
+LINE: Array = np.linspace(1.0, 5.0, 17)
 SUPPORT = 2.0 * 1.5 * SPACING
 DERIVED = "operators of Alshaer et al. 2017, eqs. (10)-(17), worked out independently"
 SECTION = "Alshaer et al. 2017, Section "

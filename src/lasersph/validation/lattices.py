@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 
 def cubic_lattice(dimension: int, side: int, spacing: float = 1.0) -> Array:
     """Positions of side^dimension particles, shape (dimension, n)."""
-    axes = np.meshgrid(*[spacing * np.arange(side)] * dimension, indexing="ij")
-    return np.array([axis.ravel() for axis in axes])
+    axes = np.meshgrid(*[spacing * np.arange(float(side))] * dimension, indexing="ij")
+    return np.array([axis.ravel() for axis in axes], dtype=np.float64)
 
 
 def all_pairs(backend: Backend, position: Any, support: float, kernel: Kernel) -> NeighborList:

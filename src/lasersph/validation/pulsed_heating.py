@@ -11,6 +11,7 @@ program with the same discretization.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -73,6 +74,7 @@ def run(out_dir: Path, *, quick: bool = False) -> Report:
     rows += train_rows(light, trains)
     drawn += figures.trains(out_dir, light, trains)
     remarks = (
+        "with the printed -0.0086 and P = 1.12 eq. (37) gives 0.0092; the paper prints 0.019",
         "the deviation of the 3-D lattice is that of its kernel: the second moment of the weights "
         "is 1.0101 in 3-D and 0.988 in 1-D, not 1; there are no cold side walls here",
         f"heat travels {1e6 * thermal_penetration(light.diffusivity, 5e-9):.2f} um in 5 ns "
@@ -99,7 +101,7 @@ class Light:
         )
         self.intensity, self.duration = 9.6e11, 100e-9
 
-    def pulses(self, reflectivity: float, count: int) -> dict[str, float]:
+    def pulses(self, reflectivity: float, count: int) -> dict[str, Any]:
         """Arguments of the exact solution."""
         return {
             "flux": (1.0 - reflectivity) * self.intensity, "pulse_duration": self.duration,
@@ -131,7 +133,8 @@ def with_fixed_step(out_dir: Path, step: float) -> Run | None:
     settings = [*lattice(1, 0.25), "time.end=100 ns", f"time.step={step} ns", "time.is_fixed=true",
                 "output.snapshots.interval=100 ns"]  # fmt: skip
     try:
-        return computed("pulsed-heating", settings, out_dir, f"step-{step:g}ns")
+        with np.errstate(over="ignore"):  # snapshots of a diverging run are single precision
+            return computed("pulsed-heating", settings, out_dir, f"step-{step:g}ns")
     except (NotConverged, ArithmeticError):
         return None
 
@@ -252,8 +255,9 @@ def train_rows(light: Light, trains: dict[tuple[int, float], Run]) -> list[Row]:
         if k < time.size - 1:
             rows.append(
                 judged(f"1-D, R = 0.75: delay of that peak, {depth} um", "ns",
-                       1e9 * float(time[int(np.argmax(column))]) - 500.0, 1e9 * float(time[k]) - 500.0,
-                       2.0, published="10-60", source=f"{PAPER}.3.3, Fig. 15; {EXACT}")
+                       1e9 * float(time[int(np.argmax(column))]) - 500.0,
+                       1e9 * float(time[k]) - 500.0, 2.0, published="10-60",
+                       source=f"{PAPER}.3.3, Fig. 15; {EXACT}")
             )  # fmt: skip
     rate = float(np.max(np.diff(surface(one)) / np.diff(one.history["time_s"])))
     rows.append(

@@ -16,6 +16,8 @@ MODULES = {
     "kernel-correction": "kernel_correction",
     "stefan": "stefan",
     "pulsed-heating": "pulsed_heating",
+    "gaussian-pulse": "gaussian_pulse",
+    "dlip-thermal": "dlip_thermal",
 }
 
 
