@@ -41,6 +41,7 @@ def test_every_example_explains_itself():
     assert len(EXAMPLES) >= 5
     for case in EXAMPLES:
         assert case.with_name("expected.toml").exists()
+        assert case.with_name("figure.png").exists()
         assert case.with_name("README.md").read_text(encoding="utf-8").startswith("# ")
 
 

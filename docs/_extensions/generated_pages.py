@@ -16,9 +16,9 @@ def gallery(folder: Path) -> str:
     for case in sorted(folder.glob("*/case.toml")):
         readme = case.with_name("README.md").read_text(encoding="utf-8")
         title, _, text = readme.partition("\n")
-        parts.append(
-            f"#{title}\n{text}\n```toml\n{case.read_text(encoding='utf-8').rstrip()}\n```\n"
-        )
+        picture = f"../examples/{case.parent.name}/figure.png"
+        file = case.read_text(encoding="utf-8").rstrip()
+        parts.append(f"#{title}\n{text}\n![{title[2:]}]({picture})\n\n```toml\n{file}\n```\n")
     return "\n".join(parts)
 
 

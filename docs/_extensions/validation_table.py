@@ -36,7 +36,7 @@ def _count(report: dict[str, Any]) -> str:
 
 
 def _cells(row: dict[str, Any]) -> tuple[str, ...]:
-    unit = f" [{row['unit']}]" if row["unit"] else ""
+    unit = f" [{row['unit']}]" if row["unit"] not in ("", "1") else ""
     tolerance = "" if row["tolerance"] is None else f"{row['tolerance']:.3g}"
     numbers = (_number(row[key]) for key in ("published", "reference", "computed"))
     return _plain(row["quantity"] + unit), *numbers, tolerance, WORDS[row["verdict"]]
