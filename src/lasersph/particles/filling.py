@@ -17,7 +17,9 @@ from lasersph.particles.layers import Layers
 
 Array = NDArray[np.float64]
 GHOSTS = 5
-"""Dummy layers and columns: enough for a support radius of 3.75 spacings and graded layers."""
+"""Dummy layers, and columns of uniform layers: enough for the largest support radius, 6 spacings."""
+GRADED_GHOSTS = 12
+"""Dummy columns of graded layers: a coarse particle reaches over many columns of a finer layer."""
 FREE, IMAGE, PERIODIC, HELD = "free", "image", "periodic", "held"
 FACES = ("none", "surface", "bottom", "sides")
 
@@ -95,11 +97,13 @@ def _layer(
         z = -z
     elif number >= layers.thickness.size:
         z = -2.0 * depth - z
+    is_uniform = np.ptp(layers.thickness) <= 1e-9 * layers.thickness[0]
+    beyond = GHOSTS if is_uniform else GRADED_GHOSTS
     axes, sources, reals, widths = [], [], [], []
     for axis, (lower, _upper) in enumerate(layers.bounds):
         columns = int(layers.columns[axis, inside])
         width = float(layers.column_width()[axis, inside])
-        ghosts = 0 if sides == FREE else GHOSTS
+        ghosts = 0 if sides == FREE else beyond
         index = np.arange(-ghosts, columns + ghosts)
         axes.append(lower + (index + 0.5) * width)
         reals.append((index >= 0) & (index < columns))

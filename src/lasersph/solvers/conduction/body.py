@@ -118,12 +118,14 @@ def assemble(
 
 
 def _potential(curve: CaloricCurve, temperature: float) -> float:
-    """Heat potential of a wall [W/m]; the end segments of the curve continue."""
-    h, T, P = curve.enthalpy, curve.temperature, curve.potential
-    rising = np.concatenate([[True], np.diff(T) > 0.0])
+    """Heat potential of a wall [W/m]; the end segments of the curve continue, flat where T is held."""
+    rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
+    T, P = curve.temperature[rising], curve.potential[rising]
     if temperature < T[0]:
         return float(P[0] + (P[1] - P[0]) / (T[1] - T[0]) * (temperature - T[0]))
-    return float(np.interp(temperature, T[rising], P[rising])) if h.size else 0.0
+    if temperature > T[-1] and rising[-1]:
+        return float(P[-1] + (P[-1] - P[-2]) / (T[-1] - T[-2]) * (temperature - T[-1]))
+    return float(np.interp(temperature, T, P))
 
 
 def _pairs(

@@ -18,6 +18,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from lasersph.compute.vectors import interpolation_slope
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
 from lasersph.physics.phase_change import balanced_enthalpy, potential_slope, thermal_state
@@ -30,6 +32,8 @@ FORCING = 0.05
 """Residual of the linear solver over that of the Newton iteration."""
 HALVINGS = 4
 MAX_NEWTON = 60
+ROUNDING = 4.0
+"""Smallest residual asked for, in units of the rounding of its terms."""
 MAX_LINEAR = 400
 
 
@@ -52,11 +56,12 @@ def balance(total, h0, P, E, q, m, S, a, B, s, h_nodes, T_nodes, P_nodes):
     return h, T, P_new
 
 
-def residual(total, h, h0, P, E, q, m, a, B, s):
-    """Energy r [J] that is missing in the balance of a particle, |r|, and heat from walls [W]."""
+def residual(total, h, h0, P, E, q, m, S, a, B, s):
+    """Energy r [J] missing in the balance of a particle, |r|, heat from walls [W], and the size
+    of the terms [J], whose rounding r cannot fall below."""
     walls = B - a * P
     r = m * (h0 - h) + E + s * (total + walls - q)
-    return r, abs(r), walls
+    return r, abs(r), walls, m * abs(h) + s * (S + a) * abs(P)
 
 
 def linearize(h, m, dq, s, h_nodes, T_nodes, P_nodes):
@@ -96,6 +101,8 @@ class ImplicitStep:
         )
         tables = body.tables
         self.curve = {key: tables[key] for key in ("h_nodes", "T_nodes", "P_nodes")}
+        self.rounding = ROUNDING * float(np.finfo(backend.real).eps)
+        self.size = 0.0
         self.newton = self.linear = 0
 
     def advance(self, state: HeatState, step: float, exchanged: float) -> dict[str, float]:
@@ -114,6 +121,7 @@ class ImplicitStep:
         backend.pointwise(foresee, fields, (self.h, self.T, self.P), ratio=ratio, **self.curve)
         error, energy = self._residual(state, step)
         allowed = self.tolerance * max(exchanged, energy["absorbed"] + abs(energy["lost"]), error)
+        allowed = max(allowed, self.rounding * self.size)
         while error > allowed:
             if self.newton == self.max_iterations:
                 raise NotConverged(
@@ -171,9 +179,9 @@ class ImplicitStep:
         body, backend = self.body, self.body.backend
         absorbed = body.irradiation.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
-        error, walls = backend.pair_sum(
-            flow, body.pairs.neighbors, self._fields(state), (self.r, None, None),
-            finish=residual, reduce=(None, "sum", "sum"), s=step,
+        error, walls, self.size = backend.pair_sum(
+            flow, body.pairs.neighbors, self._fields(state), (self.r, None, None, None),
+            finish=residual, reduce=(None, "sum", "sum", "sum"), s=step,
         )  # fmt: skip
         return error, {
             "absorbed": absorbed, "lost": lost * step, "removed": removed * step,

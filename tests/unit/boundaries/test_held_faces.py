@@ -1,0 +1,73 @@
+"""The pull of faces that hold a temperature."""
+
+import numpy as np
+import pytest
+
+from lasersph.boundaries import Boundaries
+from lasersph.boundaries.held_faces import HeldFace, face_pulls
+from lasersph.particles import Domain, Lattice
+from lasersph.particles.filling import FREE, HELD, fill
+from lasersph.particles.layers import stack
+
+SPACING = 1.0
+
+
+def column():
+    """Four cells of 1 m under a free surface, dummies below."""
+    layers = stack(Domain(depth=4.0), Lattice(spacing=SPACING), 1, 0.0)
+    return fill(layers, surface=FREE, bottom=HELD, sides=FREE)
+
+
+def pulls_of(*, is_wall):
+    """Pulls and remaining weights of the pairs (3, first dummy), (3, second), (2, first), (2, 3)."""
+    filling = column()
+    below = np.argsort(-filling.position[-1, filling.count :]) + filling.count
+    row = np.array([3, 3, 2, 2])
+    neighbor = np.array([below[0], below[1], below[0], 3], np.uint32)
+    weights = np.array([8.0, 2.0, 1.0, 5.0])
+    pulls = face_pulls(
+        [HeldFace("bottom", 500.0, is_wall)], filling, weights, row, neighbor, (), 4.0
+    )
+    return pulls["bottom"], weights
+
+
+def test_wall_of_particles():
+    """Dummies at the wall's temperature pull with their weights: 8 + 2 and 1."""
+    pull, weights = pulls_of(is_wall=True)
+    assert pull.tolist() == [0.0, 0.0, 1.0, 10.0]
+    assert weights.tolist() == [0.0, 0.0, 0.0, 5.0]
+
+
+def test_held_face():
+    """Extrapolation through the face at -4 m: 8 * 1/0.5 + 2 * 2/0.5 = 24, and 1 * 2/1.5."""
+    pull, _ = pulls_of(is_wall=False)
+    assert pull == pytest.approx([0.0, 0.0, 2.0 / 1.5, 24.0])
+
+
+def test_held_sides_and_corner():
+    """Beyond a side the distances along x count: n_ij = 1 m, n_i = 0.5 m."""
+    layers = stack(Domain(depth=4.0, width=4.0, extent="full"), Lattice(spacing=1.0), 2, 0.0)
+    filling = fill(layers, surface=FREE, bottom=FREE, sides=HELD)
+    x, z = filling.position
+    i = int(np.flatnonzero((x[:16] == -1.5) & (z[:16] == -0.5))[0])
+    j = int(np.flatnonzero((x == -2.5) & (z == -1.5))[0])
+    pulls = face_pulls(
+        [HeldFace("sides", 500.0, False)], filling, np.array([3.0]), np.array([i]),
+        np.array([j], np.uint32), layers.bounds, 4.0,
+    )  # fmt: skip
+    assert pulls["sides"][i] == pytest.approx(3.0 * 1.0 / 0.5)
+
+
+def test_temperature_of_a_face():
+    """Held faces take their own temperature, else the initial one."""
+    held = Boundaries(bottom="wall", sides="fixed-temperature", side_temperature=350.0)
+    assert held.temperature_of("bottom", 300.0) == 300.0
+    assert held.temperature_of("sides", 300.0) == 350.0
+
+
+def test_refusals():
+    """A temperature for a face that is not held, and a held surface without one, are refused."""
+    with pytest.raises(ValueError, match="says nothing where bottom"):
+        Boundaries(bottom_temperature=300.0)
+    with pytest.raises(ValueError, match="is missing for a surface that is held"):
+        Boundaries(surface="wall")
