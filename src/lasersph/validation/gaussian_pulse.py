@@ -36,6 +36,8 @@ CASES = {
     "steel 2-D": ("dlip-steel", ["particles.spacing=3.97 nm"]),
     "aluminium 2-D": ("dlip-aluminium", ["particles.spacing=3.97 nm"]),
 }
+STEP = "time.step=20 ps"
+"""The published 50 ps lag by 0.2-0.6 % of the rise where it grows fastest (backward Euler)."""
 QUICK = {
     "steel 1-D": ("dlip-steel", [*FLAT, "particles.spacing=4 nm", "time.end=60 ns"]),
     "steel 2-D": ("dlip-steel", [*NARROW, "particles.spacing=5 nm", "time.end=60 ns"]),
@@ -49,7 +51,7 @@ def run(out_dir: Path, *, quick: bool = False) -> Report:
     figures = []
     for label, (name, settings) in (QUICK if quick else CASES).items():
         without = ["solver.phase_change=false", f"laser.reflectivity={REFLECTIVITY[name]}"]
-        one = computed(name, [*settings, *without], out_dir, label.replace(" ", "-"))
+        one = computed(name, [*settings, STEP, *without], out_dir, label.replace(" ", "-"))
         times, temperature = one.history["time_s"], one.history["temperature_at_maximum_K"]
         exact = exact_temperature(name, one, times)
         initial = one.case["initial_temperature"]
