@@ -15,8 +15,8 @@ from lasersph.output import open_run
 CASE = "dlip-steel"
 SETTINGS = (
     "particles.spacing=100nm",
-    "time.step=0.5ns",
-    "time.end=120ns",
+    "time.step=1ns",
+    "time.end=90ns",
     "output.snapshots.interval=10ns",
     "output.checkpoint_every=9",
 )

@@ -14,7 +14,8 @@ def error(dimensions, spacing, *, scheme="explicit", weights="second-moment", ke
     """Relative error of the rate of decay, after the amplitude has fallen to 1/e."""
     settings = ["particles.arrangement=uniform", "solver.phase_change=false", "laser=", "probes=",
                 f"domain.depth={DEPTH} m", f"particles.spacing={spacing} m",
-                f"solver.scheme={scheme}", f"solver.weights={weights}", "time.temperature_change=1 K",
+                f"solver.scheme={scheme}", f"solver.weights={weights}",
+                "time.temperature_change=1 K",
                 f"solver.dimensions={dimensions}"]  # fmt: skip
     settings += ["domain.extent=full", f"domain.width={WIDTH} m"]
     settings += [f"particles.kernel={kernel}"] if kernel else []

@@ -17,7 +17,7 @@ from lasersph.particles.layers import Layers
 
 Array = NDArray[np.float64]
 GHOSTS = 5
-"""Dummy layers, and columns of uniform layers: enough for the largest support radius, 6 spacings."""
+"""Dummy layers, and columns of uniform layers: enough for a support radius of 6 spacings."""
 GRADED_GHOSTS = 12
 """Dummy columns of graded layers: a coarse particle reaches over many columns of a finer layer."""
 FREE, IMAGE, PERIODIC, HELD = "free", "image", "periodic", "held"

@@ -19,7 +19,7 @@ def column():
 
 
 def pulls_of(*, is_wall):
-    """Pulls and remaining weights of the pairs (3, first dummy), (3, second), (2, first), (2, 3)."""
+    """Pulls and weights left: particle 3 and two dummies, 2 and the first dummy, 2 and 3."""
     filling = column()
     below = np.argsort(-filling.position[-1, filling.count :]) + filling.count
     row = np.array([3, 3, 2, 2])

@@ -1,4 +1,4 @@
-"""Pairs folded onto the real particles form a symmetric operator, whatever lies beyond the faces."""
+"""Folded onto the real particles the pairs form a symmetric operator."""
 
 import numpy as np
 import pytest

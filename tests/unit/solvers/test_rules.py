@@ -66,7 +66,9 @@ def test_light_of_a_step_is_absorbed():
     solver = solver_of(laser=SQUARE, scheme="implicit")
     solver.step(1e-10)
     energy = solver.state.energy
-    assert (energy["incident"], energy["absorbed"], energy["reflected"]) == pytest.approx((10, 5, 5))
+    assert (energy["incident"], energy["absorbed"], energy["reflected"]) == pytest.approx(
+        (10, 5, 5)
+    )
     mass = 2705.0 * SPACING
     assert enthalpy_of(solver).sum() * mass == pytest.approx(5.0, rel=1e-9)
     assert temperature_of(solver)[0] > temperature_of(solver)[1] > COLD

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-
 from lattice_pairs import pairs_of
 
 KERNELS = [("quintic-spline", 3.75), ("cubic-spline", 3.0), ("wendland-c2", 3.0)]

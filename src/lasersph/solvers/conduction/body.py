@@ -118,7 +118,7 @@ def assemble(
 
 
 def _potential(curve: CaloricCurve, temperature: float) -> float:
-    """Heat potential of a wall [W/m]; the end segments of the curve continue, flat where T is held."""
+    """Heat potential of a wall [W/m]; the end segments continue, flat where T is held."""
     rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
     T, P = curve.temperature[rising], curve.potential[rising]
     if temperature < T[0]:
