@@ -1,0 +1,11 @@
+"""Validations at full resolution run only when they are asked for: `pytest -m validate`."""
+
+
+def pytest_collection_modifyitems(config, items):
+    """Deselect tests marked `validate` unless -m names the mark."""
+    if "validate" in config.getoption("-m"):
+        return
+    full = [item for item in items if item.get_closest_marker("validate")]
+    if full:
+        config.hook.pytest_deselected(items=full)
+        items[:] = [item for item in items if item not in full]

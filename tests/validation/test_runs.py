@@ -1,0 +1,92 @@
+"""The validations that run cases, shortened; in full with `pytest -m validate`."""
+
+import numpy as np
+import pytest
+
+from lasersph.reading import CaseError
+from lasersph.validation import (
+    Report,
+    dlip_thermal,
+    gaussian_pulse,
+    names,
+    pulsed_heating,
+    runs,
+    stefan,
+    validate,
+)
+from lasersph.validation.dlip_numbers import table_rows
+from lasersph.validation.dlip_reference import METALS
+
+
+def test_stefan(tmp_path):
+    """The front within 1 % of Neumann's, and closer at half the spacing."""
+    report = stefan.run(tmp_path, quick=True)
+    assert report.passed, report.table()
+
+
+def test_pulsed_heating(tmp_path):
+    """Particle 1 within 0.5 K at two spacings in 1-D and one in 3-D; the exact solution."""
+    light = pulsed_heating.Light()
+    rows = pulsed_heating.exact_rows(pulsed_heating.Light(pulsed_heating.PRINTED_DIFFUSIVITY))
+    for dimension, spacings in ((1, (1.0, 0.5)), (3, (1.0,))):
+        found = {d: pulsed_heating.single(tmp_path, dimension, d) for d in spacings}
+        rows += pulsed_heating.spacing_rows(light, dimension, found)
+    report = Report("pulsed-heating", "", tuple(rows))
+    assert report.passed, report.table()
+
+
+def test_time_steps(tmp_path):
+    """0.5 ns stays bounded, 1 ns diverges, as published."""
+    found = {step: pulsed_heating.with_fixed_step(tmp_path, step) for step in (0.5, 1.0)}
+    assert pulsed_heating.is_bounded(found[0.5])
+    assert not pulsed_heating.is_bounded(found[1.0])
+
+
+def test_gaussian_pulse(tmp_path, monkeypatch):
+    """The uniform beam within 0.3 % of the rise."""
+    one = {"steel 1-D": ("dlip-steel", [*gaussian_pulse.QUICK["steel 1-D"][1], "time.end=46 ns"])}
+    monkeypatch.setattr(gaussian_pulse, "QUICK", one)
+    report = gaussian_pulse.run(tmp_path, quick=True)
+    assert report.passed, report.table()
+
+
+@pytest.mark.parametrize("label", METALS)
+def test_tables_of_the_paper(label):
+    """Tables 4 and 5 from the shipped materials."""
+    rows = table_rows(label, METALS[label], quick=True)
+    assert Report(label, "", tuple(rows)).passed, Report(label, "", tuple(rows)).table()
+
+
+def test_surface_temperature_by_a_parabola():
+    """T = 1000 - 8 z^2 / dx^2 is 998 and 982 at the first two rows and 1000 at the surface."""
+
+    class One:
+        history = {  # noqa: RUF012
+            "time_s": np.array([0.0, 1e-6]),
+            "temperature_at_maximum_K": np.array([998.0, 998.0]),
+            "probe_second_K": np.array([982.0, 982.0]),
+        }
+        summary = {"material": {"vaporization_K": 3000.0}}  # noqa: RUF012
+
+    np.testing.assert_allclose(dlip_thermal.at_times(One()), 1000.0)
+
+
+def test_runs_are_computed_anew(tmp_path):
+    """An older run is replaced; a folder that is no run is refused and kept."""
+    settings = ["particles.spacing=2 um", "time.end=4 ns", "time.step=2 ns"]
+    first = runs.computed("stefan", settings, tmp_path, "short")
+    assert runs.computed("stefan", settings[:2], tmp_path, "short").path == first.path
+    other = tmp_path / "runs" / "notes"
+    other.mkdir()
+    (other / "notes.txt").write_text("mine")
+    with pytest.raises(CaseError, match="not a run folder"):
+        runs.computed("stefan", settings, tmp_path, "notes")
+    assert (other / "notes.txt").exists()
+
+
+@pytest.mark.validate
+@pytest.mark.parametrize("name", names())
+def test_in_full(tmp_path, name):
+    """Every validation as `lasersph validate` runs it; hours for dlip-thermal."""
+    report = validate(name, tmp_path)
+    assert report.passed, report.table()
