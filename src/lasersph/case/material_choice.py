@@ -18,7 +18,6 @@ from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
 
 from lasersph.materials import Material, load_material, material_file
 from lasersph.reading import read_toml
-from lasersph.reading.types import mark_numbers
 
 SET_HERE = "set in the case"
 SECTIONS = ("melting", "vaporization", "optics")
@@ -48,7 +47,7 @@ def _changed(table: dict[str, Any], folder: Path | None) -> dict[str, Any]:
         raise ValueError('base must be the name or path of a material; write e.g. "steel-304"')
     located = _located(base, folder)
     load_material(located)
-    data = mark_numbers(read_toml(material_file(located)).data)
+    data = read_toml(material_file(located)).data
     changes = {key: value for key, value in table.items() if key != "base"}
     if changes:
         data["note"] = f"{data.get('note', '')} Changed in the case: {', '.join(changes)}.".strip()

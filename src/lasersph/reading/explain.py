@@ -12,7 +12,6 @@ from lasersph.reading.document import Document
 from lasersph.reading.errors import CaseError, Problem
 from lasersph.reading.key_lines import Path
 from lasersph.reading.model import nearest
-from lasersph.reading.types import mark_numbers
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -52,7 +51,8 @@ def build(model: type[M], document: Document, context: dict[str, Any] | None = N
         CaseError: one problem per mistake, with file, line and key.
     """
     try:
-        return model.model_validate(mark_numbers(document.data), context=context)
+        context = {"strict_units": True, **(context or {})}
+        return model.model_validate(document.data, context=context)
     except ValidationError as error:
         raise CaseError(_placed_elsewhere(explain(error, document), model)) from None
     except RecursionError:

@@ -1,7 +1,6 @@
 """`Model`: the frozen pydantic model that every input object of lasersph is.
 
-Unknown keys are refused with the nearest spelling; defaults are validated like given values;
-numbers are finite.
+Unknown keys are refused with the nearest spelling; numbers are finite; defaults are SI numbers.
 """
 
 from __future__ import annotations
@@ -17,9 +16,7 @@ from pydantic_core import PydanticCustomError
 class Model(BaseModel):
     """Base of all input objects: frozen, no unknown keys, SI floats inside."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", validate_default=True, allow_inf_nan=False
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     @model_validator(mode="before")
     @classmethod

@@ -1,7 +1,8 @@
 """Pydantic types of every kind of quantity; the value of a field is a float in SI units.
 
-From a file a quantity is text with a unit: `mark_numbers` lets the types tell the file's bare
-numbers, which they refuse, from defaults and numbers given in Python, which mean SI.
+From a file (`strict_units` in the validation context) a quantity is text with a unit and a bare
+number is refused; from Python a bare number means SI and text with a unit works as well. Defaults
+are SI numbers and not validated again.
 """
 
 from __future__ import annotations
@@ -11,32 +12,11 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import Annotated, Any
 
-from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from lasersph.reading.kinds import KINDS
 from lasersph.reading.quantity import QuantityError, parse_quantity
-
-
-class _FileFloat(float):
-    """A float that stood in a file."""
-
-
-class _FileInt(int):
-    """A whole number that stood in a file."""
-
-
-def mark_numbers(data: Any) -> Any:
-    """The same TOML data with its numbers marked as coming from a file."""
-    if isinstance(data, dict):
-        return {key: mark_numbers(value) for key, value in data.items()}
-    if isinstance(data, list):
-        return [mark_numbers(value) for value in data]
-    if isinstance(data, float):
-        return _FileFloat(data)
-    if isinstance(data, int) and not isinstance(data, bool):
-        return _FileInt(data)
-    return data
 
 
 @dataclass(frozen=True)
@@ -49,7 +29,7 @@ class Quantity:
         self, _source: Any, _handler: GetCoreSchemaHandler
     ) -> CoreSchema:
         """Read the text first, then require a finite float."""
-        return core_schema.no_info_before_validator_function(
+        return core_schema.with_info_before_validator_function(
             _reader(self.kind), core_schema.float_schema(allow_inf_nan=False, strict=False)
         )
 
@@ -64,16 +44,16 @@ class Quantity:
         return {"anyOf": [{"type": "number"}, text], "x-kind": self.kind, "x-unit": "1"}
 
 
-def _reader(kind: str) -> Callable[[Any], Any]:
+def _reader(kind: str) -> Callable[[Any, ValidationInfo], Any]:
     example = KINDS[kind].example
 
-    def read(value: Any) -> float:
-        number = read_number(value)
+    def read(value: Any, info: ValidationInfo) -> float:
+        number = read_number(value, bool(info.context) and bool(info.context.get("strict_units")))
         if kind == "temperature" and number < 0:
             raise _refusal(f'"{value}" is below absolute zero')
         return number
 
-    def read_number(value: Any) -> float:
+    def read_number(value: Any, needs_unit: bool) -> float:
         if isinstance(value, str):
             try:
                 return parse_quantity(value, kind)
@@ -85,7 +65,7 @@ def _reader(kind: str) -> Callable[[Any], Any]:
         number = _float(value)
         if number is None or number != number or number in (float("inf"), float("-inf")):
             raise _refusal(f'{value} is not a finite number; write e.g. "{example}"')
-        if isinstance(value, _FileFloat | _FileInt) and kind != "fraction":
+        if needs_unit and kind != "fraction":
             raise _refusal(f'{value} has no unit; write e.g. "{example}"')
         return number
 
