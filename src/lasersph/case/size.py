@@ -17,7 +17,8 @@ LARGEST_PARTICLES = 2**32 - 1
 """Neighbors are numbered with 32 bits."""
 LARGEST_STEPS = 1e9
 BYTES_PER_PARTICLE = 400
-BYTES_PER_NEIGHBOR = 12
+BYTES_PER_NEIGHBOR = 56
+"""Index and weight, and their copies while the list is assembled."""
 ASSUMED_FINE_DEPTH = 2e-7
 USUAL_SUPPORT = {"quintic-spline": 3.75}
 

@@ -47,13 +47,22 @@ def check(
 ) -> None:
     """Say what a run would need, before anything runs: particles, memory, steps, warnings."""
     from lasersph.case import load_case, refuse_if_too_large
+    from lasersph.case.size import in_words, machine_memory
     from lasersph.compute.threads import chosen
+    from lasersph.reading import CaseError
     from lasersph.simulation import forecast
 
     loaded = load_case(case, settings or (), quick=quick)
     refuse_if_too_large(loaded)
     count = chosen(threads)
     expected = forecast(loaded, threads=count)
+    if expected.memory > machine_memory():
+        raise CaseError(
+            f"{expected.particles} particles need about {in_words(expected.memory)} of memory, "
+            f"but this machine has {in_words(machine_memory())}",
+            "take a coarser spacing or a smaller domain",
+            key="particles.spacing",
+        )
     print(aligned(_rows(loaded, expected, count)))
     for warning in expected.warnings:
         print(f"warning: {warning}")

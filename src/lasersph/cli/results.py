@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from lasersph.cli.arguments import RunFolder
+from lasersph.cli.failures import WrongCommand
 from lasersph.cli.tables import aligned
+
+if TYPE_CHECKING:
+    from lasersph.output import Run
 
 Kind = Annotated[Literal["png", "svg", "pdf"], typer.Option("--kind", help="Of the files.")]
 
 
 def info(folder: RunFolder) -> None:
     """Show what a run folder holds: the case, how far it is, the main numbers."""
-    from lasersph.output import open_run
     from lasersph.reading import show_quantity
 
-    found = open_run(folder)
+    found = _opened(folder)
     if found.is_complete:
         print(aligned(summary_rows(found.summary)))
         print(f"{folder}: complete")
@@ -33,6 +37,7 @@ def plot(folder: RunFolder, kind: Kind = "png") -> None:
     """Draw the figures of a run into DIR/figures."""
     from lasersph.plots import draw_run
 
+    _opened(folder)
     for file in draw_run(folder, kind=kind):
         print(file)
 
@@ -41,7 +46,18 @@ def report(folder: RunFolder) -> None:
     """Write DIR/report.html: figures and numbers on one self-contained page."""
     from lasersph.report import write_report
 
+    _opened(folder)
     print(write_report(folder))
+
+
+def _opened(folder: Path) -> Run:
+    """The run in a folder; a folder without one is a wrong command."""
+    from lasersph.output import OutputError, open_run
+
+    try:
+        return open_run(folder)
+    except OutputError as error:
+        raise WrongCommand(str(error)) from None
 
 
 def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:

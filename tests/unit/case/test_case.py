@@ -8,6 +8,7 @@ import pytest
 from lasersph.case import Case, available_cases, case_file, estimate, load_case, write_new_case
 from lasersph.case import checks as checks_module
 from lasersph.case.checks import refuse_if_too_large
+from lasersph.case.quick import quick_settings
 from lasersph.case.size import in_words
 from lasersph.materials import material_file
 from lasersph.reading import CaseError
@@ -193,6 +194,30 @@ def test_names_of_cases():
         load_case("mine.toml")
     with pytest.raises(CaseError):
         load_case("a\0b")
+
+
+@pytest.mark.parametrize("name", available_cases())
+def test_quick_is_four_times_coarser(name):
+    """Spacing times 4, steps times 2 (implicit), unless an override says otherwise."""
+    usual, quick = load_case(name), load_case(name, quick=True)
+    assert math.isclose(quick.particles.spacing, 4 * usual.particles.spacing)
+    if usual.time.step is not None and usual.solver.scheme == "implicit":
+        assert quick.time.step == 2 * usual.time.step
+    chosen = load_case(name, ["particles.spacing=100nm"], quick=True)
+    assert chosen.particles.spacing == 1e-7
+
+
+def test_quick_keeps_ten_cells():
+    """A coarse case does not become a handful of particles, and stays valid."""
+    case = load_case("stefan", ["domain.depth=1.2um"], quick=True)
+    assert math.isclose(case.particles.spacing, 1.2e-7)
+    graded = load_case("dlip-steel", ["particles.coarsest=20nm", "particles.fine_depth=10nm"])
+    assert [setting.partition("=")[0] for setting in quick_settings(graded)] == [
+        "particles.spacing",
+        "particles.coarsest",
+        "particles.fine_depth",
+        "time.step",
+    ]
 
 
 def test_size_by_hand():
