@@ -3,7 +3,8 @@
     import lasersph
 
     case = lasersph.load_case("dlip-steel", ["laser.fluence=0.8 J/cm^2"])
-    run = lasersph.run(case, "runs/steel")
+    result = lasersph.run(case, "runs/steel")
+    run = lasersph.open_run(result.folder)
     run.history["time_s"], run.snapshots[-1]["temperature"]
 """
 

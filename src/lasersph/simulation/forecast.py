@@ -8,15 +8,12 @@ from math import pi, sqrt
 import numpy as np
 
 from lasersph.case import Case
+from lasersph.case.size import BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
 from lasersph.particles.layers import Layers
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
 from lasersph.solvers.conduction.solver import next_light
 from lasersph.solvers.time_step import binding
 
-BYTES_PER_PARTICLE = 400
-BYTES_PER_PAIR = 12
-BYTES_TO_ASSEMBLE = 44
-"""Row, neighbor, weights and their host copies, while the pairs are assembled."""
 PAIRS_PER_SECOND = 2.0e8
 """Of one thread; for the expected time only."""
 PRODUCTS_PER_STEP = {"implicit": 30.0, "explicit": 2.0}
@@ -56,8 +53,7 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
     """Forecast of a case, without allocating its particles."""
     layers = lay_out(case)
     pairs = layers.particle_count * _neighbors(case)
-    each = BYTES_PER_PAIR + BYTES_TO_ASSEMBLE
-    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * each
+    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * BYTES_PER_NEIGHBOR
     limits, steps = _steps(case, layers)
     products = PRODUCTS_PER_STEP[case.solver.scheme]
     length, penetration = _lengths(case)

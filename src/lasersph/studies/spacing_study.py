@@ -16,7 +16,10 @@ from typing import Any
 from lasersph.analytic.convergence import Convergence, assess
 from lasersph.studies.variation import Run, changed, simulate
 
-NOT_PHYSICS = ("schema_version", "particles", "steps", "wall_time_s", "spacing_m")
+NOT_PHYSICS = (
+    "dimensions", "particles", "schema_version", "spacing_m", "spacing_requested_m", "steps",
+    "threads", "time_step", "wall_time_s",
+)  # fmt: skip
 """Numbers of the summary that belong to the computation, not to the answer."""
 
 
@@ -120,11 +123,13 @@ def _row(name: str, values: list[float], spacings: list[float]) -> StudyRow:
 def _numbers(summary: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, float]]:
     """Every number of the summary with its dotted key."""
     for key, value in summary.items():
+        if not prefix and key in NOT_PHYSICS:
+            continue
         if isinstance(value, dict):
             yield from _numbers(value, f"{prefix}{key}.")
         elif isinstance(value, bool) or not isinstance(value, int | float):
             continue
-        elif prefix or key not in NOT_PHYSICS:
+        else:
             yield prefix + key, float(value)
 
 
