@@ -7,7 +7,9 @@ combines the closest particles with weights w_j that reproduce every linear fiel
 
 the smallest such weights in the norm sum_j w_j^2 |x_j - x|^4, and so also extrapolates to the
 surface, half a cell above the first particle (moving least squares: Lancaster and Salkauskas,
-Math. Comp. 37 (1981) 141). It never passes the vaporization temperature where no particle does.
+Math. Comp. 37 (1981) 141). `even` reproduces a + b x + c z^2 instead, as at a surface that no heat
+crosses and light heats from within: a straight line would overshoot there. Neither passes the
+vaporization temperature where no particle does.
 """
 
 from __future__ import annotations
@@ -40,8 +42,10 @@ class Probe(Model):
     depth: Length = Field(0.0, description="below the original surface")
     x: Length = Field(0.0, description="not used in 1-D")
     y: Length = Field(0.0, description="used in 3-D")
-    method: Literal["nearest", "linear"] = Field(
-        "nearest", description="nearest: the closest particle; linear: exact for linear fields"
+    method: Literal["nearest", "linear", "even"] = Field(
+        "nearest",
+        description="nearest: the closest particle; linear: exact for linear fields; even: exact "
+        "for fields of no slope at the surface, for adiabatic surfaces",
     )
 
     @field_validator("depth")
@@ -146,7 +150,7 @@ def weights_at(
     Args:
         position: (dim, n) [m].
         place: (dim,) [m].
-        method: "nearest" or "linear".
+        method: "nearest", "linear" or "even".
 
     Returns:
         Indices (k,) and weights (k,), which add up to 1.
@@ -163,6 +167,8 @@ def weights_at(
     near = offset[:, particles] / scale
     closeness = 1.0 / (np.sum(near * near, axis=0) + 1e-12) ** 2
     linear = np.vstack([np.ones(wanted), near])
+    if method == "even":
+        linear[-1] = (position[-1, particles] ** 2 - place[-1] ** 2) / scale**2
     moments = (linear * closeness) @ linear.T
     target = np.zeros(dimension + 1)
     target[0] = 1.0

@@ -65,3 +65,12 @@ def test_bad_probes_are_refused():
         Probe(name="a", depth=-1e-9)
     with pytest.raises(ValueError, match="same name"):
         Probes((Probe(name="a"), Probe(name="a", depth=1e-9)))
+
+
+def test_even_reproduces_fields_without_slope_at_the_surface() -> None:
+    """Of 300 + 2 x - 5 z^2, the value at z = 0 comes from cells whose centers lie below it."""
+    x, z = np.meshgrid((np.arange(6) + 0.5), -(np.arange(6) + 0.5))
+    position = np.vstack([x.ravel(), z.ravel()])
+    field = 300.0 + 2.0 * position[0] - 5.0 * position[1] ** 2
+    particles, weights = weights_at(position, np.array([2.0, 0.0]), "even")
+    assert weights @ field[particles] == pytest.approx(304.0, rel=1e-12)
