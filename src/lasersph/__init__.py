@@ -1,11 +1,11 @@
 """lasersph simulates what a laser pulse does to metal, with smoothed particle hydrodynamics.
 
-    import lasersph
+import lasersph
 
-    case = lasersph.load_case("dlip-steel", ["laser.fluence=0.8 J/cm^2"])
-    result = lasersph.run(case, "runs/steel")
-    run = lasersph.open_run(result.folder)
-    run.history["time_s"], run.snapshots[-1]["temperature"]
+case = lasersph.load_case("dlip-steel", ["laser.fluence=0.8 J/cm^2"])
+result = lasersph.run(case, "runs/steel")
+run = lasersph.open_run(result.folder)
+run.history["time_s"], run.snapshots[-1]["temperature"]
 """
 
 from __future__ import annotations

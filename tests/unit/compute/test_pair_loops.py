@@ -88,7 +88,7 @@ def test_row_sum(backend):
 
 
 def test_finish_and_reduce(backend):
-    """The sum is finished in the same pass: T + dt sum, its largest value and the sum of squares."""
+    """The sum is finished in the same pass: T + dt sum, its largest value, the sum of squares."""
     fields = {"g_ij": backend.asarray([1.0, 1, 1, 1]), "T": backend.asarray([1.0, 2, 5])}
     out = backend.zeros(3)
     largest = backend.pair_sum(
@@ -138,9 +138,7 @@ def test_vectors_and_tensors(backend):
     assert host[:, 0, 1].tolist() == [1.0 - 300.0, 4.0 - 600.0]
     assert backend.to_host(vector)[:, 1].tolist() == [4.0, 10.0]
     out = (backend.zeros((2, 3)), backend.zeros(3))
-    sums = backend.pair_sum(
-        dyad, neighbors, fields, out, finish=two_totals, reduce=(None, "min")
-    )
+    sums = backend.pair_sum(dyad, neighbors, fields, out, finish=two_totals, reduce=(None, "min"))
     assert backend.to_host(out[0])[:, 1].tolist() == [0.4, 1.0]
     assert backend.to_host(out[1]).tolist() == [-20.0, -299.0, 20.0]
     assert sums == (-299.0,)
@@ -200,9 +198,7 @@ def test_not_a_number_is_seen(backend):
         values = np.array([1.0, 2, 5])
         values[place] = np.nan
         field = {"T": backend.asarray(values)}
-        found = backend.pointwise(
-            scaled, field, (None, None), reduce=("max", "min"), factor=1.0
-        )
+        found = backend.pointwise(scaled, field, (None, None), reduce=("max", "min"), factor=1.0)
         assert np.isnan(found).all()
 
 
@@ -270,7 +266,11 @@ def radiation(T, V, epsilon, x, nodes, values, gravity):
         count += 1
     a, b = flux, total
     a, b = b, a
-    return a + b * T**1.5 + norm(y) + count, y / V + gravity, abs(x[-1]) ** -2 if V > 1 else trace(M)
+    return (
+        a + b * T**1.5 + norm(y) + count,
+        y / V + gravity,
+        abs(x[-1]) ** -2 if V > 1 else trace(M),
+    )
 
 
 @pytest.mark.parametrize("dimension", [1, 2, 3])

@@ -72,9 +72,7 @@ def test_no_double(monkeypatch, tmp_path, precision):
     )  # fmt: skip
     ones = [np.ones(2, precision) for _ in range(5)]
     partial = np.zeros((1, 1), precision)
-    text = compiled(
-        monkeypatch, tmp_path, loop, (*lists(), *ones, np.ones(2, precision), partial)
-    )
+    text = compiled(monkeypatch, tmp_path, loop, (*lists(), *ones, np.ones(2, precision), partial))
     assert ("double" in text) == (precision == "float64")
     assert re.search(r"\bfloat\b", text) or precision == "float64"
 

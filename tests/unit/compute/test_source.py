@@ -102,7 +102,7 @@ def test_literals_keep_every_bit():
 def test_integers_stay_integers():
     """Integer arguments meet integer literals without a conversion."""
     unit = SourceUnit()
-    name, kind = unit.add(whole, (WHOLE, WHOLE))
+    _name, kind = unit.add(whole, (WHOLE, WHOLE))
     assert kind == WHOLE
     assert "(kind + 1)" in unit.texts[0] and "(count == 2)" in unit.texts[0]
 

@@ -37,9 +37,7 @@ def results(threads, position, T):
         support=np.full(count, 0.02), kernel=None, mean=mean, period=(),
     )  # fmt: skip
     out = (backend.zeros(count), None)
-    sums = backend.pair_sum(
-        flow, neighbors, {"T": T}, out, finish=squared, reduce=("min", "sum")
-    )
+    sums = backend.pair_sum(flow, neighbors, {"T": T}, out, finish=squared, reduce=("min", "sum"))
     dot = backend.pointwise(product, {"a": T, "b": T}, None, reduce="sum")
     return row_start.tobytes(), neighbor.tobytes(), out[0].tobytes(), sums, dot
 

@@ -139,7 +139,7 @@ class Conduction:
     def step(self, step: float, pace: float | None = None) -> float:
         """Advance by `step` [s], or by less where that does not converge; returns the step taken.
 
-        `pace` [s] is the step that would be taken were there no time to be hit; growth goes from it.
+        `pace` [s] is the step that would be taken were no time to be hit; growth goes from it.
 
         light of the step -> enthalpies (scheme) -> temperatures and fractions -> plateau rule ->
         energies.
