@@ -83,8 +83,10 @@ class Backend:
         index = self.unwrap(order)
         if first.dtype != last.dtype or first.shape[:-1] != last.shape[:-1]:
             raise ValueError("gather between arrays of different kind")
+        if index.size and int(index.max()) >= first.shape[-1]:
+            raise IndexError(f"gather of element {int(index.max())} of {first.shape[-1]}")
         for a, b in zip(components(first), components(last), strict=True):
-            np.take(a, index, out=b[: index.size], mode="clip" if index.size == 0 else "raise")
+            np.take(a, index, out=b[: index.size], mode="clip")  # "raise" would copy twice
 
     def scatter(self, source: Any, order: Any, out: Any) -> None:
         """out[..., order[k]] = source[..., k]; the other elements keep their values."""
@@ -102,6 +104,10 @@ class Backend:
             raise ValueError("out must be of kind offset and one longer than counts")
         last[0] = 0
         np.cumsum(first, dtype=np.uint64, out=last[1:])
+
+    def rows_where(self, array: Any, value: float) -> Any:
+        """Rows k in order, kind "index", whose array[k] is exactly `value`."""
+        return self.wrap(np.flatnonzero(self.unwrap(array) == value).astype(np.uint32))
 
     def sort_by_key(self, keys: Any, key_count: int) -> Any:
         """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""

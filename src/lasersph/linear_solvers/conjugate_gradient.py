@@ -1,9 +1,12 @@
-"""Conjugate gradients with a Jacobi preconditioner, for a diagonal plus a sum over pairs.
+"""Preconditioned conjugate gradients, for a diagonal plus a sum over pairs.
 
     A = C + s G,    (G p)_i = sum_j g_ij (p_i - p_j) + a_i p_i
 
 on the particles whose mask is 1; the others keep 0. All vectors stay on the backend, products and
 dot products are fused into the loops. Symmetric positive definite for g_ij = g_ji >= 0, C > 0.
+
+The preconditioner is Jacobi's, whose iterations grow with the root of the stiffness
+s max(sum_j g_ij / C_i); where that exceeds `STIFF`, `multigrid` corrects it and they do not.
 Reference: [Saad2003], Algorithm 9.1.
 """
 
@@ -13,6 +16,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from lasersph.compute.backend import Backend
+from lasersph.linear_solvers.multigrid import Multigrid
+
+STIFF = 20.0
+"""Stiffness above which setting up and applying multigrid costs less than it saves."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +61,11 @@ def advance(x, r, p, q, C, S, a, alpha, s):
     return x + alpha * p, rest, z, rest * z, abs(rest)
 
 
+def stiffness(C, S, mask):
+    """Sum of a particle's weights over its diagonal [1/s]."""
+    return mask * S / C
+
+
 def turn(z, p, beta):
     """New direction p = z + beta p."""
     return z + beta * p
@@ -70,6 +82,7 @@ class ConjugateGradient:
         self.backend, self.operator = backend, operator
         self.solution = backend.zeros(count)
         self._r, self._z, self._p, self._q = (backend.zeros(count) for _ in range(4))
+        self._multigrid: Multigrid | None = None
 
     def solve(
         self, b: Any, C: Any, mask: Any, s: float, *, residual: float, max_iterations: int
@@ -84,6 +97,9 @@ class ConjugateGradient:
         rz, error = backend.pointwise(
             start, fields, (x, r, z, None, None), reduce=(None, None, None, "sum", "sum"), s=s
         )
+        multigrid = self._prepared(C, mask, s)
+        if multigrid:
+            rz = multigrid.correct(r, z, mask)
         backend.copy(z, p)
         fields |= {"x": x, "r": r, "z": z, "p": p, "q": q, "g_ij": operator.weights}
         iterations = 0
@@ -99,6 +115,23 @@ class ConjugateGradient:
                 advance, fields, (x, r, z, None, None),
                 reduce=(None, None, None, "sum", "sum"), alpha=rz / pq, s=s,
             )  # fmt: skip
-            backend.pointwise(turn, fields, p, beta=rz / rz_old)
             iterations += 1
+            if error <= residual:
+                break
+            if multigrid:
+                rz = multigrid.correct(r, z, mask)
+            backend.pointwise(turn, fields, p, beta=rz / rz_old)
         return iterations
+
+    def _prepared(self, C: Any, mask: Any, s: float) -> Multigrid | None:
+        """Multigrid for this matrix, where it is stiff; levels are built when first needed."""
+        fields = {"C": C, "S": self.operator.total, "mask": mask}
+        (stiffest,) = self.backend.pointwise(stiffness, fields, (None,), reduce=("max",))
+        if s * stiffest <= STIFF:
+            return None
+        if self._multigrid is None:
+            self._multigrid = Multigrid(self.backend, self.operator, self.solution.shape[0])
+        if not self._multigrid.levels:
+            return None
+        self._multigrid.prepare(C, mask, s)
+        return self._multigrid

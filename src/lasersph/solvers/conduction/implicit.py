@@ -7,8 +7,9 @@ The paper eliminates T through h and freezes the fractions (66); its equation mu
 this one. One iteration is
 
     1  Newton: (C + s G) dP = r on the particles off the plateaus, C = m dh/dP + s dq/dP
-    2  each particle balanced with its neighbors held (65), which moves it on or off plateaus
-    3  residual r; the Newton step is halved until the sum of |r| falls
+    2  these take dh = dP dh/dP, so that one that reaches a plateau stores the rest as latent heat
+    3  those on a plateau are balanced with their neighbors held (65), which lets them leave it
+    4  residual r; the Newton step is halved until the sum of |r| falls
 
 and ends at sum |r| <= tolerance times the absorbed energy. Whatever is left of r is added to the
 enthalpies, so that energy balances to rounding.
@@ -28,7 +29,7 @@ from lasersph.solvers.conduction.state import HeatState, NotConverged
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
 from lasersph.sph.laplacian import flow
 
-FORCING = 0.05
+FORCING = 0.02
 """Residual of the linear solver over that of the Newton iteration."""
 HALVINGS = 4
 MAX_NEWTON = 60
@@ -45,10 +46,11 @@ def foresee(h, h_old, ratio, h_nodes, T_nodes, P_nodes):
 
 
 def balance(total, h0, P, E, q, m, S, a, B, s, h_nodes, T_nodes, P_nodes):
-    """Enthalpy, T and P of a particle that balances with its neighbors held; `total` = sum g P_j.
+    """Enthalpy, T and P of a particle that balances with its neighbors held.
 
     Args:
-        h0: enthalpy before the step. S, a: sums of weights. B: sum of A_i P_w. s: time step.
+        total: sum of g_ij (P_j - P_i). h0: enthalpy before the step. S, a: sums of weights.
+        B: sum of A_i P_w. s: time step.
     """
     energy = m * h0 + E + s * (total + S * P + B - q)
     h = balanced_enthalpy(energy, m, s * (S + a), h_nodes, P_nodes)
@@ -72,9 +74,14 @@ def linearize(h, m, dq, s, h_nodes, T_nodes, P_nodes):
     return (m + s * dq * interpolation_slope(h, h_nodes, T_nodes)) / slope, 1.0 + 0.0 * h
 
 
-def move(P, dP, damping):
-    """Potential after a damped Newton step."""
-    return P + damping * dP
+def move(h, dP, damping, h_nodes, T_nodes, P_nodes):
+    """Enthalpy, T and P after a damped Newton step; on plateaus dP = 0 and nothing moves."""
+    slope = potential_slope(h, h_nodes, P_nodes)
+    new = h
+    if slope > 0.0:
+        new = h + damping * dP / slope
+    T, P = thermal_state(new, h_nodes, T_nodes, P_nodes)
+    return new, T, P
 
 
 def settle(h, r, m, h0):
@@ -96,7 +103,7 @@ class ImplicitStep:
         backend, count = body.backend, body.count
         self.body, self.exchange, self.tolerance = body, exchange, tolerance
         self.solver = ConjugateGradient(backend, body.pairs, count)
-        self.h, self.T, self.P, self.spare, self.trial, self.r, self.C, self.mask = (
+        self.h, self.T, self.P, self.spare, self.start, self.r, self.C, self.mask = (
             backend.zeros(count) for _ in range(8)
         )
         tables = body.tables
@@ -138,19 +145,20 @@ class ImplicitStep:
     def _improve(
         self, state: HeatState, step: float, error: float, linear_residual: float
     ) -> tuple[float, dict[str, float]]:
-        """One Newton step, halved until the residual falls; then whatever balancing gives."""
+        """One Newton step, halved until the residual falls; then whatever the last one gives."""
         body, backend = self.body, self.body.backend
         fields = {"h": self.h, "m": body.mass, "dq": self.exchange.slope}
         backend.pointwise(linearize, fields, (self.C, self.mask), s=step, **self.curve)
+        plateau = backend.rows_where(self.mask, 0.0)
         self.linear += self.solver.solve(
             self.r, self.C, self.mask, step, residual=linear_residual, max_iterations=MAX_LINEAR
         )
-        backend.copy(self.P, self.trial)
+        backend.copy(self.h, self.start)
         damping = 1.0
         for _ in range(HALVINGS):
-            fields = {"P": self.trial, "dP": self.solver.solution}
-            backend.pointwise(move, fields, self.P, damping=damping)
-            self._balance(state, step)
+            fields = {"h": self.start, "dP": self.solver.solution}
+            backend.pointwise(move, fields, (self.h, self.T, self.P), damping=damping, **self.curve)
+            self._balance(state, step, plateau)
             found, energy = self._residual(state, step)
             if found < error:
                 return found, energy
@@ -165,12 +173,13 @@ class ImplicitStep:
             "a": body.pairs.pull, "B": body.wall_flow, "g_ij": body.pairs.weights,
         }  # fmt: skip
 
-    def _balance(self, state: HeatState, step: float) -> None:
-        """Balance every particle once with its neighbors held."""
+    def _balance(self, state: HeatState, step: float, rows: Any) -> None:
+        """Balance the particles `rows` with their neighbors held."""
         backend = self.body.backend
+        backend.copy(self.P, self.spare)
         backend.pair_sum(
             flow, self.body.pairs.neighbors, self._fields(state), (self.h, self.T, self.spare),
-            finish=balance, s=step, **self.curve,
+            rows=rows, finish=balance, s=step, **self.curve,
         )  # fmt: skip
         self.P, self.spare = self.spare, self.P
 
