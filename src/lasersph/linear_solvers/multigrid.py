@@ -19,6 +19,7 @@ mask at each `prepare`. References: [Vanek1996], [Bramble1990] for the additive 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,7 +31,7 @@ DAMPING = 0.9
 
 
 class Rows(NamedTuple):
-    """A list for pair sums without geometry: members of aggregates, or pairs of them.
+    """A list for pair sums without geometry: members of aggregates, aggregates of members, pairs.
 
     `support` only tells how many values there are to sum, where not as many as rows.
     """
@@ -59,8 +60,8 @@ def pinned(total, C, a, mask, s):
     return mask * (C + s * (total + a))
 
 
-def member(v_j):
-    """Value of a member."""
+def value(v_j):
+    """Value of a member, or of the aggregate of a member."""
     return v_j
 
 
@@ -102,9 +103,9 @@ def sweep(total, r, C, w, x, d, s, damping):
     return x + damping * (r - C * x - s * w * total) / d
 
 
-def add(x, y):
-    """Correction from the level above."""
-    return x + y
+def add(total, x):
+    """x + P e, where P e of a member is the value `total` of its aggregate."""
+    return x + total
 
 
 def product(inverse_ij, r_j):
@@ -112,9 +113,9 @@ def product(inverse_ij, r_j):
     return inverse_ij * r_j
 
 
-def corrected(z, r, e, mask):
-    """z + P e on free particles, and r z."""
-    new = z + mask * e
+def corrected(total, z, r, mask):
+    """As `add` on free particles, and r z."""
+    new = z + mask * total
     return new, r * new
 
 
@@ -135,34 +136,41 @@ class _Level:
             None,
         )
         self.count = count
-        self.parent = backend.asarray(aggregates.parent, "index")
+        self.parents = Rows(
+            backend.asarray(np.arange(members + 1), "offset"),
+            backend.asarray(aggregates.parent, "index"),
+            None,
+        )
         self.weights = backend.asarray(aggregates.weight)
         self.size = backend.asarray(aggregates.size)
-        self.C, self.w, self.d, self.r, self.x, self.y, self.rest = (
-            backend.zeros(count) for _ in range(7)
-        )
-        self.spread = backend.zeros(members)
+        self.C, self.w, self.d, self.r, self.x, self.rest = (backend.zeros(count) for _ in range(6))
+        self._padded = backend.zeros(members)  # sums want as many values as there are rows
+        self.solution = backend.head(self._padded, count)
 
     def prepare(self, C: Any, w: Any, s: float) -> None:
         """Set the operator from the row sums C and the free shares w of the members."""
         backend = self.backend
-        backend.pair_sum(member, self.members, {"v": C}, self.C)
-        backend.pair_sum(member, self.members, {"v": w, "size": self.size}, self.w, finish=mean)
+        backend.pair_sum(value, self.members, {"v": C}, self.C)
+        backend.pair_sum(value, self.members, {"v": w, "size": self.size}, self.w, finish=mean)
         fields = {"g_ij": self.weights, "w": self.w, "C": self.C}
         backend.pair_sum(weighted, self.pairs, fields, self.d, finish=diagonal, s=s)
 
     def restrict(self, residual: Any) -> None:
         """Right-hand side: the members' residuals."""
-        self.backend.pair_sum(member, self.members, {"v": residual}, self.r)
+        self.backend.pair_sum(value, self.members, {"v": residual}, self.r)
 
     def fields(self) -> dict[str, Any]:
         """Arrays by symbol."""
-        return {"g_ij": self.weights, "r": self.r, "C": self.C, "w": self.w, "d": self.d}
+        return {
+            "g_ij": self.weights, "r": self.r, "C": self.C, "w": self.w, "d": self.d,
+            "x": self.x,
+        }  # fmt: skip
 
-    def spread_solution(self, x: Any) -> Any:
-        """(members,) the solution of each member's aggregate."""
-        self.backend.gather(x, self.parent, self.spread)
-        return self.spread
+    def prolong(self, function: Callable, fields: dict, out: Any, reduce: Any = None) -> tuple:
+        """Give each member the `solution` of its aggregate, as `total` of `function`."""
+        return self.backend.pair_sum(
+            value, self.parents, fields | {"v": self._padded}, out, finish=function, reduce=reduce
+        )
 
 
 class Multigrid:
@@ -205,27 +213,27 @@ class Multigrid:
         """Add P B P^T r to z on the particles whose mask is 1; returns r z."""
         finest = self.levels[0]
         finest.restrict(r)
-        e = finest.spread_solution(self._cycle(0))
-        fields = {"z": z, "r": r, "e": e, "mask": mask}
-        return self.backend.pointwise(corrected, fields, (z, None), reduce=(None, "sum"))[0]
+        self._cycle(0)
+        fields = {"z": z, "r": r, "mask": mask}
+        return finest.prolong(corrected, fields, (z, None), reduce=(None, "sum"))[0]
 
-    def _cycle(self, k: int) -> Any:
-        """V cycle from level k upward for its right-hand side; returns the solution."""
+    def _cycle(self, k: int) -> None:
+        """V cycle from level k upward: its `solution` for its right-hand side."""
         backend, level, s = self.backend, self.levels[k], self._step
         fields = level.fields()
         if level is self.levels[-1]:
             fields = {"inverse_ij": self._inverse, "r": level.r}
-            backend.pair_sum(product, self._dense, fields, level.x)
-            return level.x
+            backend.pair_sum(product, self._dense, fields, level.solution)
+            return
         backend.pointwise(first_sweep, fields, level.x, damping=DAMPING)
-        fields["x"] = level.x
         backend.pair_sum(coupling, level.pairs, fields, level.rest, finish=rest, s=s)
         above = self.levels[k + 1]
         above.restrict(level.rest)
-        e = above.spread_solution(self._cycle(k + 1))
-        backend.pointwise(add, {"x": level.x, "y": e}, level.x)
-        backend.pair_sum(coupling, level.pairs, fields, level.y, finish=sweep, s=s, damping=DAMPING)
-        return level.y
+        self._cycle(k + 1)
+        above.prolong(add, fields, level.x)
+        backend.pair_sum(
+            coupling, level.pairs, fields, level.solution, finish=sweep, s=s, damping=DAMPING
+        )
 
 
 def _inverse(backend: Backend, level: _Level, s: float) -> np.ndarray:
