@@ -1,6 +1,7 @@
 """Observers look at a run after each step and never change it."""
 
 from lasersph.observers.energy_budget import EnergyBudget
+from lasersph.observers.flow_view import FlowView
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.probes import Probe, Probes
 from lasersph.observers.progress import Progress, Standing, duration
@@ -14,6 +15,7 @@ from lasersph.observers.view import ENERGY_UNITS, View
 __all__ = [
     "ENERGY_UNITS",
     "EnergyBudget",
+    "FlowView",
     "MeltPool",
     "Observer",
     "Observers",

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from lasersph.observers.flow_view import FlowView
+
 ENERGY_UNITS = {1: "J/m^2", 2: "J/m", 3: "J"}
 """Unit of energies by dimension: a 1-D run holds a unit area, a 2-D run a unit length."""
 
@@ -31,6 +33,7 @@ class View:
             has none.
         evaporated: (surface,) thickness that has evaporated from each surface cell [m], where the
             run follows it.
+        flow: velocity, pressure and what belongs to them; None in a run without flow.
     """
 
     time: float
@@ -52,6 +55,7 @@ class View:
     liquidus: float | None = None
     vaporization: float | None = None
     evaporated: np.ndarray | None = None
+    flow: FlowView | None = None
 
     @property
     def dimension(self) -> int:

@@ -1,0 +1,54 @@
+"""What an observer sees of a flow after a step: host arrays, SI, never changed by the observer.
+
+Speeds at the surface are extrapolated to it: a row of particles lies half a spacing below, where
+the speed already is smaller by depth * tau / eta, the Marangoni stress tau over the viscosity.
+[Demuth2020, eq. (15)]
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class FlowView:
+    """Flow of a run after a step; n particles, s of them at the lid.
+
+    Attributes:
+        velocity: (dim, n) [m/s], 0 where nothing flows.
+        pressure: (n,) dynamic pressure [Pa], 0 where nothing flows.
+        flows: (n,) whether a particle flows (f_m = 1).
+        surface: (s,) indices of the particles at the lid in order of x, flowing or not; empty
+            where a box has no free surface.
+        surface_temperature: (s,) temperature of the surface above them [K].
+        surface_gradient: (s,) its derivative dT/dx [K/m].
+        surface_velocity: (s,) horizontal velocity extrapolated to the surface [m/s].
+        lid_pressure: (s,) dynamic pressure at the surface [Pa].
+        divergence_rms, divergence_max: of the velocity of flowing particles after the projection
+            [1/s].
+        spacing_min: smallest distance of two particles [m].
+        density, viscosity: of the liquid at the liquidus [kg/m^3], [Pa s].
+        surface_tension_slope: d gamma/dT [N/(m K)], 0 where there is none.
+        saturation_pressure: (s,) recoil pressure 0.54 p_sat(T) of a free surface [Pa]; None where
+            the material has no data of its vapor.
+        box: whether this is a closed box that is all fluid, from a `[flow]` table.
+    """
+
+    velocity: np.ndarray
+    pressure: np.ndarray
+    flows: np.ndarray
+    surface: np.ndarray
+    surface_temperature: np.ndarray
+    surface_gradient: np.ndarray
+    surface_velocity: np.ndarray
+    lid_pressure: np.ndarray
+    divergence_rms: float
+    divergence_max: float
+    spacing_min: float
+    density: float
+    viscosity: float
+    surface_tension_slope: float = 0.0
+    saturation_pressure: np.ndarray | None = None
+    box: bool = False
