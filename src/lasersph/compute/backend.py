@@ -126,6 +126,7 @@ class Backend:
         rows: Any = None,
         finish: Callable | None = None,
         reduce: Any = None,
+        combine: Any = None,
         **constants: Any,
     ) -> tuple[float, ...]:
         """For each row i: out[i] = finish(sum over neighbors j of function(...)).
@@ -138,6 +139,9 @@ class Backend:
             rows: active rows (index array); the others keep their values.
             finish: pointwise function of `total` (or `total_0`, ...), fields at i and constants.
             reduce: None or per returned value None, "sum", "max" or "min".
+            combine: None for sums, or per value of `function` "sum", "min" or "max" over the
+                neighbors, component by component. A row without neighbors has 0, inf or -inf;
+                NaN of any neighbor stays NaN.
 
         Returns:
             The reductions in order, the same bits for any number of threads.
@@ -146,7 +150,9 @@ class Backend:
             ValueError: a missing field, a wrong length, precision or shape.
             LoopSourceError: a function contains what a loop cannot.
         """
-        call = Call("pair_sum", function, neighbors, fields, out, rows, finish, reduce, constants)
+        call = Call(
+            "pair_sum", function, neighbors, fields, out, rows, finish, reduce, constants, combine
+        )
         return self._loops.run(call)
 
     def pair_values(

@@ -30,6 +30,7 @@ ROWS_ARE_LISTED = {listed}
 
 '''
 _START = {"sum": "real(0.0)", "max": "real(-np.inf)", "min": "real(np.inf)"}
+"""Values that change nothing when they are combined; also what a row without neighbors has."""
 _REDUCE = {
     "sum": "{0} += {1}",
     "max": "{0} = {1} if ({1} > {0} or {1} != {1}) else {0}",
@@ -56,7 +57,8 @@ class Loop:
     """Everything that decides the text of a loop.
 
     shape: "pair_sum", "pair_values" or "pointwise". outputs: kind of each output array, None where
-    a result is not stored. geometry: (kernel, mean, periodic axes, dimension) or None.
+    a result is not stored. geometry: (kernel, mean, periodic axes, dimension) or None. combine: how
+    the values of a row's pairs become one, "sum", "min" or "max" for each; () for sums.
     """
 
     shape: str
@@ -69,6 +71,7 @@ class Loop:
     finish: AnyObject = None
     finish_arguments: tuple[Argument, ...] = ()
     geometry: AnyObject = None
+    combine: tuple[str, ...] = ()
 
 
 class LoopText:
@@ -96,9 +99,7 @@ class LoopText:
         if loop.shape == "pair_sum":
             sums = [f"s{k}" for k in range(len(items))]
             items = [("real", kind[1]) for kind in items]
-            total = [n for v, kind in zip(sums, items, strict=True) for n in _names(kind, v)]
-            rows += [f"{name} = real(0.0)" for name in total]
-            inner += [f"{s} += real({y})" for s, y in zip(total, flat, strict=True)]
+            self._combine(values, sums, items, rows, inner)
             values = sums
             if loop.finish is not None:
                 values, items = self._finish(values, items, after)
@@ -117,6 +118,22 @@ class LoopText:
         parts = [head, *(f"@njit({OPTIONS})\n{text}\n" for text in self.unit.texts)]
         parts.append(self._block(starts, lines, ends))
         return "\n".join(parts)
+
+    def _combine(
+        self, values: list, sums: list, items: list, rows: list[str], inner: list[str]
+    ) -> None:
+        """Lines that make one value per row of the pairs' values, component by component."""
+        combine = self.loop.combine or ("sum",) * len(items)
+        if len(combine) != len(items):
+            raise ValueError(f"combine has {len(combine)} entries for {len(items)} values")
+        for value, total, kind, how in zip(values, sums, items, combine, strict=True):
+            pairs = zip(_names(kind, total), _names(kind, value), strict=True)
+            for s, y in pairs:
+                rows.append(f"{s} = {_START[how]}")
+                if how == "sum":
+                    inner.append(f"{s} += real({y})")
+                else:
+                    inner += [f"{y} = real({y})", _REDUCE[how].format(s, y)]
 
     def _call(
         self, function: AnyObject, arguments: tuple[Argument, ...], rows: list, inner: list

@@ -40,6 +40,7 @@ class Call(NamedTuple):
     finish: Callable | None
     reduce: Any
     constants: dict[str, Any]
+    combine: Any = None
 
 
 class Compiled(NamedTuple):
@@ -70,6 +71,7 @@ class Bound:
             raise ValueError(f"{call.function.__name__}() has no argument {extra}")
         self.outs = [None if o is None else unwrap(o) for o in _listed(call.out)]
         self.reduce = () if call.reduce is None else tuple(_listed(call.reduce))
+        self.combine = () if call.combine is None else tuple(_listed(call.combine))
         self.rows = None if call.rows is None else unwrap(call.rows)
         self.geometry = None if call.neighbors is None else self._geometry(call.neighbors)
 
@@ -119,7 +121,8 @@ class Bound:
         """Hashable that decides which loop is needed."""
         call = self.call
         return (
-            call.shape, call.function, call.finish, self.reduce, self.rows is None, self.geometry,
+            call.shape, call.function, call.finish, self.reduce, self.combine, self.rows is None,
+            self.geometry,
             tuple([(name, fingerprint(value)) for name, value in self.arrays.items()]),
             tuple([(name, fingerprint(value)) for name, value in self.constants.items()]),
             tuple([o if o is None else fingerprint(o) for o in self.outs]),
@@ -234,7 +237,7 @@ class Loops:
         loop = Loop(
             call.shape, self.precision, call.function, arguments(bound.roles), outputs,
             bound.reduce, bound.rows is not None, call.finish, arguments(bound.finish_roles),
-            bound.geometry,
+            bound.geometry, bound.combine,
         )  # fmt: skip
         return LoopText(loop)
 
@@ -242,6 +245,8 @@ class Loops:
         """Generate, cache and load the loop of a new key."""
         if any(how not in (None, "sum", "max", "min") for how in bound.reduce):
             raise ValueError('reduce takes None, "sum", "max" or "min"')
+        if any(how not in ("sum", "max", "min") for how in bound.combine):
+            raise ValueError('combine takes "sum", "max" or "min"')
         arrays = [*bound.arrays.items(), *((f"out {k}", o) for k, o in enumerate(bound.outs))]
         for name, array in [*arrays, *bound.constants.items()]:
             real = isinstance(array, np.ndarray) and array.dtype.kind == "f"

@@ -98,6 +98,48 @@ def test_finish_and_reduce(backend):
     assert largest == (3.5,)
 
 
+def values_beside(T_j, x_ij):
+    return T_j, T_j, T_j, x_ij
+
+
+def spread(total_0, total_1, T):
+    return max(total_1, T) - min(total_0, T)
+
+
+def test_combine(backend):
+    """Least, largest and total of the neighbors' values; a row without neighbors has none."""
+    neighbors = three(backend, 2)
+    neighbors.row_start = backend.asarray([0, 0, 2, 3], "offset")
+    neighbors.neighbor = backend.asarray([0, 2, 1], "index")
+    fields = {"T": backend.asarray([4.0, 2, 5])}
+    out = (*(backend.zeros(3) for _ in range(3)), backend.zeros((2, 3)))
+    largest = backend.pair_sum(
+        values_beside, neighbors, fields, out,
+        combine=("min", "max", "sum", "min"), reduce=(None, None, "max", None),
+    )  # fmt: skip
+    least, most, total, step = (backend.to_host(a) for a in out)
+    assert least.tolist() == [np.inf, 4.0, 2.0]
+    assert most.tolist() == [-np.inf, 5.0, 2.0]
+    assert total.tolist() == [0.0, 9.0, 2.0]
+    assert step[0].tolist() == [np.inf, -1.0, 1.0]
+    assert largest == (9.0,)
+    fields["T"] = backend.asarray([np.nan, 2, 5])
+    backend.pair_sum(values_beside, neighbors, fields, out, combine=("min", "max", "sum", "min"))
+    assert [bool(np.isnan(backend.to_host(a)[1])) for a in out[:2]] == [True, True]
+
+
+def test_combine_and_finish(backend):
+    """The finish reads what the neighbors' values were combined to: a limiter's range."""
+    fields = {"T": backend.asarray([1.0, 2, 5])}
+    out = backend.zeros(3)
+    backend.pair_sum(twice, three(backend), fields, out, finish=spread, combine=("min", "max"))
+    assert backend.to_host(out).tolist() == [1.0, 4.0, 3.0]
+
+
+def twice(T_j):
+    return T_j, T_j
+
+
 @pytest.mark.parametrize("dimension", [1, 2, 3])
 def test_geometry(backend, dimension):
     """Pair (0, 1): r = 1, l = 2, W = 3 / 2^dim / 2; pair (1, 2): l = 3, W = 3 / 3^dim * 2 / 3."""
@@ -219,6 +261,10 @@ def test_errors(backend):
         backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, T)
     with pytest.raises(ValueError, match="shape"):
         backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, backend.zeros((2, 3)))
+    with pytest.raises(ValueError, match="combine takes"):
+        backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out, combine="mean")
+    with pytest.raises(ValueError, match="combine has 2 entries for 1 values"):
+        backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out, combine=("sum", "min"))
     with pytest.raises(ValueError, match="row 7 of 3"):
         rows = backend.asarray([7], "index")
         backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out, rows=rows)
