@@ -7,10 +7,11 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, model_validator
 
-from lasersph.boundaries import Boundaries
+from lasersph.boundaries import Boundaries, FlowSides
 from lasersph.case.checks import problems_of
 from lasersph.case.material_choice import MaterialChoice
 from lasersph.case.outputs import OutputSettings
+from lasersph.case.solver_choice import SolverChoice
 from lasersph.lasers import Laser
 from lasersph.observers import Probe
 from lasersph.particles import Domain, Lattice
@@ -37,7 +38,10 @@ class Case(Model):
     particles: Lattice
     boundaries: Boundaries = Boundaries.model_validate({})
     laser: Laser | None = None
-    solver: ConductionSettings = ConductionSettings.model_validate({})
+    flow: FlowSides | None = Field(
+        None, description="only for a closed box that is all fluid; without it what is molten flows"
+    )
+    solver: SolverChoice = ConductionSettings.model_validate({})
     time: TimeSettings
     probes: tuple[Probe, ...] = ()
     output: OutputSettings = OutputSettings.model_validate({})

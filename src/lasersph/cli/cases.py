@@ -74,11 +74,12 @@ def _rows(case: Case, expected: Forecast, threads: int) -> list[tuple[str, str]]
     from lasersph.observers import duration
     from lasersph.reading import show_quantity
 
+    scheme = getattr(case.solver, "scheme", "heat implicit")
     memory = f"{in_words(expected.memory)} of {in_words(machine_memory())}"
     rows = [
         ("case", case.title or case.name),
         ("material", case.material.title or case.material.name),
-        ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {case.solver.scheme}"),
+        ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {scheme}"),
         ("particles", f"{expected.particles} in {expected.layers} layers"),
         (
             "finest spacing",

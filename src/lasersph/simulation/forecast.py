@@ -11,6 +11,7 @@ from lasersph.case import Case
 from lasersph.case.size import BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
 from lasersph.particles.layers import Layers
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
+from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import next_light
 from lasersph.solvers.time_step import binding
 
@@ -55,7 +56,7 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
     pairs = layers.particle_count * _neighbors(case)
     memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * BYTES_PER_NEIGHBOR
     limits, steps = _steps(case, layers)
-    products = PRODUCTS_PER_STEP[case.solver.scheme]
+    products = PRODUCTS_PER_STEP[_scheme(case)]
     length, penetration = _lengths(case)
     spacing = layers.spacing
     is_fine = layers.thickness <= spacing * (1.0 + 1e-9)
@@ -76,6 +77,11 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
     )
 
 
+def _scheme(case: Case) -> str:
+    """Of the heat: the melt pool's is implicit."""
+    return case.solver.scheme if isinstance(case.solver, ConductionSettings) else "implicit"
+
+
 def _neighbors(case: Case) -> float:
     reach = support_ratio(case)
     return {1: 2.0 * reach, 2: pi * reach**2, 3: 4.0 / 3.0 * pi * reach**3}[case.solver.dimensions]
@@ -87,7 +93,7 @@ def _steps(case: Case, layers: Layers) -> tuple[dict[str, float], int]:
     if time.is_fixed and time.step is not None:
         return {"fixed step": time.step}, int(np.ceil(time.end / time.step))
     limits = {"end": time.end}
-    if case.solver.scheme == "explicit":
+    if _scheme(case) == "explicit":
         curve = caloric_curve(case)
         steepest = float(np.max(np.diff(curve.potential) / np.diff(curve.enthalpy)))
         diffusivity = steepest / case.material.density_reference

@@ -31,6 +31,11 @@ class TimeSettings(Model):
     growth: Annotated[float, Field(gt=1, le=10)] = Field(
         1.25, description="of the step, at most, from one to the next"
     )
+    steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
+        None,
+        description="stop before the end once the flow is steady: largest change of velocity per "
+        "step, over the largest velocity and over the step's share of spacing/velocity",
+    )
 
 
 TARGETS = ("end", "pulse edge", "snapshot")

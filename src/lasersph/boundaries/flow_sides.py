@@ -1,0 +1,116 @@
+"""`FlowSides`: what holds for the flow at each side of a closed box, named by side.
+
+    no-slip        the fluid has the velocity of the wall, which rests: v = 0
+    moving-wall    the fluid has the velocity of the wall, which moves along itself
+    free-slip      nothing crosses, no stress: v n = 0, d(v t)/dn = 0
+    symmetry       the same; also heat and pressure are mirrored
+    periodic       what leaves on one side enters on the other
+    free-surface   flat: v n = 0, and the tangential gradient of surface tension is the stress
+                   eta d(v t)/dn (top only)                            [Demuth2020, eq. (15)]
+
+n is the normal of a side and t its tangent: x along surface and bottom, z along left and right.
+Without a `[flow]` table what is molten flows in the block below the flat surface.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, model_validator
+from pydantic_core import CoreSchema
+
+from lasersph.boundaries.initial_flow import InitialFlow, RestingFlow
+from lasersph.reading import Model, Velocity, refusal
+
+FlowKind = Literal["no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface"]
+KINDS: tuple[FlowKind, ...] = (
+    "no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface",
+)  # fmt: skip
+SIDES = ("left", "right", "bottom", "surface")
+WALLS = ("no-slip", "moving-wall")
+
+
+class FlowSide(Model):
+    """What holds for the flow at one side: a word, or a table with the velocity of the wall."""
+
+    kind: FlowKind = "no-slip"
+    velocity: Velocity = Field(
+        0.0, description="of a moving wall, along it: x at surface and bottom, z at left and right"
+    )
+
+    @model_validator(mode="after")
+    def _check_velocity(self) -> FlowSide:
+        if self.kind == "moving-wall" and self.velocity == 0.0:
+            raise refusal(
+                ("velocity", 'a moving wall needs its velocity; write velocity = "1 m/s"')
+            )
+        if self.kind != "moving-wall" and self.velocity != 0.0:
+            raise refusal(
+                (
+                    "velocity",
+                    f'says nothing where kind = "{self.kind}"; leave it out or write '
+                    'kind = "moving-wall"',
+                )
+            )
+        return self
+
+    @property
+    def is_wall(self) -> bool:
+        """Whether the fluid sticks to this side."""
+        return self.kind in WALLS
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """A word or the table."""
+        words = [kind for kind in KINDS if kind != "moving-wall"]
+        table = handler.resolve_ref_schema(handler(schema))
+        return {"anyOf": [{"enum": words, "type": "string"}, table]}
+
+
+def _from_word(value: Any) -> Any:
+    return {"kind": value} if isinstance(value, str) else value
+
+
+AT_REST = FlowSide.model_validate({})
+Side = Annotated[FlowSide, BeforeValidator(_from_word)]
+
+
+class FlowSides(Model):
+    """A closed box that is all fluid: what holds for the flow at its sides, and how it starts."""
+
+    left: Side = Field(AT_REST, description="at the smaller x")
+    right: Side = Field(AT_REST, description="at the larger x")
+    bottom: Side = AT_REST
+    surface: Side = Field(AT_REST, description="at z = 0")
+    initial: InitialFlow = Field(RestingFlow(), description="velocity at the start")
+
+    @model_validator(mode="after")
+    def _check_pairs(self) -> FlowSides:
+        problems = []
+        for one, other in (("left", "right"), ("bottom", "surface")):
+            kinds = {side: getattr(self, side).kind for side in (one, other)}
+            single = [side for side, kind in kinds.items() if kind == "periodic"]
+            if len(single) == 1:
+                partner = other if single[0] == one else one
+                problems.append(
+                    (
+                        single[0],
+                        f'periodic on one side only; write {partner} = "periodic" too, or another '
+                        "kind here",
+                    )
+                )
+        for side in SIDES[:3]:
+            if getattr(self, side).kind == "free-surface":
+                problems.append(
+                    (side, 'a free surface lies at the top; write surface = "free-surface"')
+                )
+        if problems:
+            raise refusal(*problems)
+        return self
+
+    @property
+    def sides(self) -> dict[str, FlowSide]:
+        """The sides by name: left, right, bottom, surface."""
+        return {name: getattr(self, name) for name in SIDES}

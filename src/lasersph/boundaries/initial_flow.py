@@ -1,0 +1,116 @@
+"""Velocities that a flow in a box starts from: rest, Taylor-Green vortices, a table."""
+
+from __future__ import annotations
+
+import csv
+import math
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, ValidationInfo, model_validator
+
+from lasersph.analytic.taylor_green import TaylorGreen
+from lasersph.reading import CaseError, Length, Model, Velocity, refusal
+
+Array = NDArray[np.float64]
+Box = tuple[tuple[float, float], tuple[float, float]]
+COLUMNS = ("x", "z", "u", "w")
+
+
+class RestingFlow(Model):
+    """Nothing moves at the start."""
+
+    kind: Literal["rest"] = "rest"
+
+    def velocity(self, position: Array, box: Box) -> Array:
+        """(2, n) velocity [m/s] at positions (2, n) [m]: zero."""
+        return np.zeros_like(position)
+
+
+class TaylorGreenFlow(Model):
+    """Taylor-Green vortices, as many as fit into the box (`lasersph.analytic.taylor_green`)."""
+
+    kind: Literal["taylor-green"] = "taylor-green"
+    speed: Annotated[Velocity, Field(gt=0)] = Field(description="the largest")
+    period: Annotated[Length, Field(gt=0)] | None = Field(
+        None, description="of the vortices in x and z; default: the width of the box"
+    )
+
+    def velocity(self, position: Array, box: Box) -> Array:
+        """(2, n) velocity [m/s] at positions (2, n) [m] in a box ((x0, x1), (z0, z1)) [m]."""
+        period = self.period or box[0][1] - box[0][0]
+        return TaylorGreen(self.speed, period, viscosity=0.0).velocity(position)
+
+
+class TabulatedFlow(Model):
+    """Velocities from a table: linear between its places, the nearest one's outside them."""
+
+    kind: Literal["table"] = "table"
+    path: str = Field("", description="CSV file with columns x, z [m], u, w [m/s] and a headline")
+    rows: tuple[tuple[float, float, float, float], ...] = Field(
+        (), description="the same as numbers, instead of a file; the file's are kept here"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill(cls, data: Any, info: ValidationInfo) -> Any:
+        """Rows from the file, which counts from the folder of the case file."""
+        if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("rows"):
+            folder = (info.context or {}).get("folder") or Path()
+            return data | {"rows": read_rows(Path(folder) / Path(data["path"]).expanduser())}
+        return data
+
+    @model_validator(mode="after")
+    def _check_rows(self) -> TabulatedFlow:
+        if not self.rows:
+            raise refusal(("path", "missing; name a CSV file with columns x, z, u, w"))
+        return self
+
+    def velocity(self, position: Array, box: Box) -> Array:
+        """(2, n) velocity [m/s] at positions (2, n) [m]; the box is not needed."""
+        from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
+
+        table = np.array(self.rows)
+        places, values = table[:, :2], table[:, 2:]
+        nearest = NearestNDInterpolator(places, values)(position.T)
+        if np.linalg.matrix_rank(places - places[0]) < 2:
+            return nearest.T.copy()
+        linear = LinearNDInterpolator(places, values)(position.T)
+        return np.where(np.isnan(linear), nearest, linear).T.copy()
+
+
+def read_rows(file: Path) -> list[tuple[float, ...]]:
+    """Rows (x, z, u, w) of a CSV file with these column names.
+
+    Raises CaseError with the line of what cannot be read.
+    """
+    try:
+        with file.open(newline="", encoding="utf-8-sig") as stream:
+            reader = csv.DictReader(stream)
+            missing = [name for name in COLUMNS if name not in (reader.fieldnames or ())]
+            if missing:
+                raise CaseError(
+                    f"no column {', '.join(missing)}",
+                    'the first line must name the columns "x,z,u,w"',
+                    file=str(file),
+                    line=1,
+                )
+            return [_numbers(row, file, reader.line_num) for row in reader]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or "is no CSV text"
+        raise CaseError(f"cannot be read: {reason}", file=str(file)) from None
+
+
+def _numbers(row: dict[str, str], file: Path, line: int) -> tuple[float, ...]:
+    try:
+        numbers = tuple(float(row[name]) for name in COLUMNS)
+    except (TypeError, ValueError):
+        numbers = (math.nan,)
+    if not all(math.isfinite(number) for number in numbers):
+        raise CaseError("needs four finite numbers", file=str(file), line=line)
+    return numbers
+
+
+InitialFlow = Annotated[RestingFlow | TaylorGreenFlow | TabulatedFlow, Field(discriminator="kind")]

@@ -1,0 +1,29 @@
+"""`HeatSettings`: the keys of `[solver]` that every solver with heat and melting shares."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from lasersph.reading import Model
+
+
+class HeatSettings(Model):
+    """How heat and changes of phase are computed."""
+
+    kind: str
+    dimensions: Literal[1, 2, 3] = 2
+    plateau: Literal["hold", "clip", "evaporate"] = Field(
+        "hold",
+        description="at the vaporization temperature: hold it for any enthalpy; clip the enthalpy "
+        "at the full latent heat; or no plateau but a surface that evaporates",
+    )
+    phase_change: bool = Field(True, description="false: neither melting nor vaporization")
+    weights: Literal["second-moment", "plain"] = Field(
+        "second-moment",
+        description="conduction weights corrected to conduct exactly on the lattice, or as printed",
+    )
+    tolerance: Annotated[float, Field(gt=0, lt=1e-2)] = Field(
+        1e-8, description="residual of a step over the absorbed energy"
+    )
