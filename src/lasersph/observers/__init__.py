@@ -8,7 +8,7 @@ from lasersph.observers.progress import Progress, Standing, duration
 from lasersph.observers.snapshots import SnapshotPlan, SnapshotSchedule, snapshot_fields
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_temperature import SurfaceTemperature
-from lasersph.observers.together import Observer, Observers, heat_observers
+from lasersph.observers.together import Observer, Observers, flow_observers, heat_observers
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import ENERGY_UNITS, View
 
@@ -30,6 +30,7 @@ __all__ = [
     "Vaporization",
     "View",
     "duration",
+    "flow_observers",
     "heat_observers",
     "snapshot_fields",
 ]

@@ -7,7 +7,8 @@ the speed already is smaller by depth * tau / eta, the Marangoni stress tau over
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -34,6 +35,9 @@ class FlowView:
         saturation_pressure: (s,) recoil pressure 0.54 p_sat(T) of a free surface [Pa]; None where
             the material has no data of its vapor.
         box: whether this is a closed box that is all fluid, from a `[flow]` table.
+        conductivity: of the liquid [W/(m K)]; boxes report heat fluxes with it.
+        held: temperature of each side of a box that has a given one [K], by the name of the side:
+            left, right, bottom, surface.
     """
 
     velocity: np.ndarray
@@ -52,3 +56,5 @@ class FlowView:
     surface_tension_slope: float = 0.0
     saturation_pressure: np.ndarray | None = None
     box: bool = False
+    conductivity: float = 0.0
+    held: Mapping[str, float] = field(default_factory=dict)

@@ -2,12 +2,13 @@
 
 A cell counts as fluid where its melt fraction reaches a level: 1 (completely fluid; the size of
 the pool in the paper), 0.5 (which depends least on the cell size) or anything above 0. The depth
-is that of the lower face of the deepest fluid cell below the original surface; the width is the
-sum of the widths of the surface cells that hang together with the hottest one, doubled where half
-a period is computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5]
+is that of the lower face of the deepest fluid cell below the original surface; the width is that
+of the surface cells that hang together with the hottest one, doubled where half a period is
+computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5] Surface cells meet half way
+between their particles, also where these move: at rest sizes are whole cells.
 
 Left out: pools that wrap around a periodic boundary, and the second lateral direction in 3-D (the
-width is taken along x through the hottest surface cell). Sizes are whole cells.
+width is taken along x through the hottest surface cell).
 """
 
 from __future__ import annotations
@@ -113,9 +114,21 @@ def pool_width(view: View, least: float) -> float:
     after = int(np.searchsorted(solid, seed))
     first = int(solid[after - 1]) + 1 if after > 0 else 0
     last = int(solid[after]) - 1 if after < solid.size else row.size - 1
-    total = float(np.sum(view.width[0, row[first : last + 1]]))
+    edge = cell_edges(view, row)
+    total = float(edge[last + 1] - edge[first])
     on_symmetry_plane = first == 0 or last == row.size - 1
     return total * (view.symmetry_factor if on_symmetry_plane else 1)
+
+
+def cell_edges(view: View, row: np.ndarray) -> np.ndarray:
+    """Where the cells of a row (m,) in order of x begin and end, (m + 1,) [m].
+
+    Half a period begins at x = 0.
+    """
+    x, half = view.position[0, row], 0.5 * view.width[0, row]
+    between = 0.5 * ((x[:-1] + half[:-1]) + (x[1:] - half[1:]))
+    first = 0.0 if view.symmetry_factor == 2 else x[0] - half[0]
+    return np.concatenate([[first], between, [x[-1] + half[-1]]])
 
 
 def surface_row(view: View) -> np.ndarray:

@@ -19,6 +19,14 @@ UNITS = {
     "vapor_fraction": "1",
     "width": "m",
     "surface": "1",
+    "velocity": "m/s",
+    "speed": "m/s",
+    "pressure": "Pa",
+    "flows": "1",
+    "surface_temperature": "K",
+    "surface_gradient": "K/m",
+    "surface_velocity": "m/s",
+    "lid_pressure": "Pa",
 }
 """Unit of each field of a snapshot."""
 
@@ -82,9 +90,11 @@ class SnapshotSchedule:
 def snapshot_fields(view: View) -> dict[str, np.ndarray]:
     """What a snapshot holds beside the positions, in single precision: see `UNITS`.
 
-    The history and the checkpoints keep double precision.
+    The history and the checkpoints keep double precision. With flow the fields of the surface
+    above the particles (`surface_temperature`, ...) are 0 for particles that do not lie at it.
     """
-    surface = np.zeros(view.temperature.size, dtype=np.uint8)
+    count = view.temperature.size
+    surface = np.zeros(count, dtype=np.uint8)
     surface[view.surface] = 1
     fields = {
         "temperature": view.temperature,
@@ -93,4 +103,14 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
         "vapor_fraction": view.vapor_fraction,
         "width": view.width,
     }
-    return {**{name: a.astype(np.float32) for name, a in fields.items()}, "surface": surface}
+    marks = {"surface": surface}
+    if view.flow is not None:
+        flow = view.flow
+        fields["velocity"] = flow.velocity
+        fields["speed"] = np.sqrt(np.sum(flow.velocity * flow.velocity, axis=0))
+        fields["pressure"] = flow.pressure
+        for name in ("surface_temperature", "surface_gradient", "surface_velocity", "lid_pressure"):
+            fields[name] = np.zeros(count)
+            fields[name][flow.surface] = getattr(flow, name)
+        marks["flows"] = flow.flows.astype(np.uint8)
+    return {**{name: a.astype(np.float32) for name, a in fields.items()}, **marks}

@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Protocol
 
+from lasersph.observers.box_flow import BoxFlow
 from lasersph.observers.energy_budget import EnergyBudget
+from lasersph.observers.flow_extrema import FlowExtrema
+from lasersph.observers.flow_speed import FlowSpeed
+from lasersph.observers.lid_pressure import LidPressure
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.probes import Probe, Probes
 from lasersph.observers.steps import Steps
+from lasersph.observers.surface_speed import SurfaceSpeed
 from lasersph.observers.surface_temperature import SurfaceTemperature
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import View
@@ -61,10 +66,12 @@ class Observers:
         return row
 
     def summary(self) -> dict[str, Any]:
-        """What all observers have to say at the end."""
+        """What all observers have to say at the end; sections of one name are joined."""
         result: dict[str, Any] = {}
         for member in self.members:
-            result.update(member.summary())
+            for name, part in member.summary().items():
+                joined = isinstance(part, dict) and name in result
+                result[name] = {**result[name], **part} if joined else part
         return result
 
     def state(self) -> dict[str, Any]:
@@ -95,5 +102,37 @@ def heat_observers(
             Vaporization(),
             EnergyBudget(dimension),
             Probes(tuple(probes)),
+        ]
+    )
+
+
+def flow_observers(
+    dimension: int,
+    *,
+    box: bool = False,
+    probes: Sequence[Probe] = (),
+    iterations: Sequence[str] = (),
+) -> Observers:
+    """What every run with flow observes: what a run with heat does, and the flow.
+
+    Args:
+        dimension, probes, iterations: as of `heat_observers`.
+        box: a closed box that is all liquid has no melt pool, but center lines and heat through
+            its walls.
+    """
+    if not box:
+        heat = heat_observers(dimension, probes=probes, iterations=iterations)
+        flow = [FlowSpeed(dimension), SurfaceSpeed(), FlowExtrema(), LidPressure()]
+        return Observers([*heat.members, *flow])
+    return Observers(
+        [
+            Steps(tuple(iterations)),
+            SurfaceTemperature(),
+            EnergyBudget(dimension),
+            Probes(tuple(probes)),
+            FlowSpeed(dimension),
+            SurfaceSpeed(),
+            LidPressure(),
+            BoxFlow(),
         ]
     )

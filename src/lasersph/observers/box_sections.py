@@ -1,0 +1,160 @@
+"""Sections through a closed box of liquid: center lines, stream function, slopes at the walls.
+
+Everything is interpolated from particles by moving least squares. The stream function counts from
+the bottom,
+
+    psi(x, z) = int_bottom^z u dz',    u = dpsi/dz,  w = -dpsi/dx,
+
+by the trapezoidal rule, so that psi = 0 along the bottom and, where no liquid crosses the sides,
+along all walls: a clockwise eddy has psi < 0 (below a lid that moves to the right, for example).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lasersph.observers.interpolation import interpolate, local_fit
+
+SIDES = ("left", "right", "bottom", "surface")
+
+
+@dataclass(frozen=True)
+class Box:
+    """Edges of a box [m]."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+    @classmethod
+    def around(cls, position: np.ndarray, width: np.ndarray) -> Box:
+        """The box that particles on a lattice fill; position and width (2, n) [m]."""
+        low = np.min(position - 0.5 * width, axis=1)
+        high = np.max(position + 0.5 * width, axis=1)
+        return cls(float(low[0]), float(high[0]), float(low[1]), float(high[1]))
+
+    @property
+    def width(self) -> float:
+        """Along x [m]."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """Along z [m]."""
+        return self.top - self.bottom
+
+    def across(self, shares: np.ndarray) -> np.ndarray:
+        """x at some shares of the width, counted from the left [m]."""
+        return self.left + self.width * shares
+
+    def up(self, shares: np.ndarray) -> np.ndarray:
+        """z at some shares of the height, counted from the bottom [m]."""
+        return self.bottom + self.height * shares
+
+    def along(self, side: str, shares: np.ndarray) -> np.ndarray:
+        """Points (2, m) of a side, counted from the left or from the bottom [m]."""
+        if side in ("left", "right"):
+            x = self.left if side == "left" else self.right
+            return np.stack([np.full(shares.size, x), self.up(shares)])
+        z = self.bottom if side == "bottom" else self.top
+        return np.stack([self.across(shares), np.full(shares.size, z)])
+
+
+@dataclass(frozen=True)
+class CenterLines:
+    """u over z at half the width, and w over x at half the height; arrays (m,) [m], [m/s]."""
+
+    z: np.ndarray
+    u: np.ndarray
+    x: np.ndarray
+    w: np.ndarray
+
+
+def center_lines(
+    position: np.ndarray, velocity: np.ndarray, box: Box, shares: np.ndarray
+) -> CenterLines:
+    """Velocity along the two lines through the middle of a box.
+
+    Args:
+        position, velocity: (2, n) [m], [m/s].
+        shares: (m,) of the height and of the width, from 0 to 1.
+    """
+    middle = np.full(shares.size, 0.5)
+    x, z = box.across(shares), box.up(shares)
+    upward = np.stack([box.across(middle), z])
+    across = np.stack([x, box.up(middle)])
+    places = np.concatenate([upward, across], axis=1)
+    found = interpolate(position, velocity, places, degree=2)
+    return CenterLines(z, found[0, : shares.size], x, found[1, shares.size :])
+
+
+def stream_function(
+    position: np.ndarray, velocity: np.ndarray, box: Box, count: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Stream function on a grid of `count` by `count` nodes from wall to wall.
+
+    Args:
+        position, velocity: (2, n) [m], [m/s].
+
+    Returns:
+        x (count,), z (count,) [m] and psi (count, count) [m^2/s], rows along z.
+    """
+    shares = np.linspace(0.0, 1.0, count)
+    x, z = box.across(shares), box.up(shares)
+    nodes = np.array([grid.ravel() for grid in np.meshgrid(x, z)])
+    u = interpolate(position, velocity[0], nodes, degree=2).reshape(count, count)
+    steps = 0.5 * (u[1:] + u[:-1]) * np.diff(z)[:, None]
+    return x, z, np.concatenate([np.zeros((1, count)), np.cumsum(steps, axis=0)])
+
+
+def wall_temperature(
+    position: np.ndarray,
+    temperature: np.ndarray,
+    box: Box,
+    side: str,
+    *,
+    count: int,
+    held: float | None = None,
+) -> tuple[float, float]:
+    """Mean temperature of a side [K], and mean of its slope along the inward normal [K/m].
+
+    Args:
+        position: (2, n) [m]. temperature: (n,) [K].
+        count: points along the side.
+        held: temperature that the side has [K], where it has a given one: the fit then goes
+            through it.
+    """
+    points = box.along(side, (np.arange(count) + 0.5) / count)
+    if held is not None:
+        length = box.height if side in ("left", "right") else box.width
+        spacing = np.sqrt(box.width * box.height / position.shape[1])
+        rows = max(round(length / spacing), 1)
+        foot = box.along(side, (np.arange(rows) + 0.5) / rows)
+        position = np.concatenate([position, foot], axis=1)
+        temperature = np.concatenate([temperature, np.full(rows, held)])
+    value, along_x, along_z = local_fit(position, temperature, points, degree=2)
+    inward = {"left": along_x, "right": -along_x, "bottom": along_z, "surface": -along_z}[side]
+    return float(np.mean(value)), float(np.mean(inward))
+
+
+def extremum(places: np.ndarray, values: np.ndarray, sign: float) -> tuple[float, float]:
+    """Place and value of the largest (sign 1) or smallest (-1) of sampled values.
+
+    Within the samples the parabola through the three next to it is taken.
+
+    Args:
+        places, values: (m,), places evenly spaced.
+    """
+    k = int(np.argmax(sign * values))
+    if not 0 < k < values.size - 1:
+        return float(places[k]), float(values[k])
+    before, here, after = (float(values[k + i]) for i in (-1, 0, 1))
+    bend = before - 2.0 * here + after
+    shift = 0.5 * (before - after) / bend if bend else 0.0
+    return (
+        float(places[k] + shift * (places[1] - places[0])),
+        here - 0.25 * (before - after) * shift,
+    )

@@ -1,0 +1,66 @@
+"""Fields between particles: moving least squares on host arrays, for lines, grids and walls.
+
+At a place x the polynomial sum_k c_k p_k(x_j - x) is fitted to the closest particles,
+
+    sum_j w_j [ f_j - sum_k c_k p_k(x_j - x) ]^2 -> min,   w_j = (1 - |x_j - x|^2 / R^2)^2,
+
+so that c_0 is the value and c_1, c_2 are the slopes there. Fields of the polynomial's degree are
+reproduced exactly, however disordered the particles, also at a wall or a surface half a spacing
+beyond the last row, where the fit extrapolates (moving least squares: Lancaster and Salkauskas,
+Math. Comp. 37 (1981) 141). R is a little larger than the distance of the farthest particle taken.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+NEIGHBORS = {1: 12, 2: 21}
+"""Particles taken for a fit in the plane, by degree: twice or more the unknowns, in all
+directions also beside a wall."""
+REACH = 1.1
+"""Radius R over the distance of the farthest particle taken."""
+CONDITION = 1e-10
+"""Directions in which the particles do not spread more than this part are left out of a fit."""
+
+
+def local_fit(
+    position: np.ndarray, values: np.ndarray, places: np.ndarray, *, degree: int = 1
+) -> np.ndarray:
+    """Value and slopes of fields at places.
+
+    Args:
+        position: (2, n) of the particles [m].
+        values: (n,) or (fields, n).
+        places: (2, m) [m].
+        degree: of the polynomial, 1 or 2.
+
+    Returns:
+        (3, m) or (3, fields, m): value, derivative along x, derivative along z.
+    """
+    from scipy.spatial import KDTree
+
+    fields = np.atleast_2d(values)
+    wanted = min(NEIGHBORS[degree], position.shape[1])
+    distance, near = KDTree(position.T).query(places.T, k=wanted)
+    distance, near = distance.reshape(-1, wanted), near.reshape(-1, wanted)
+    radius = REACH * np.maximum(distance[:, -1:], 1e-300)
+    weight = (1.0 - (distance / radius) ** 2) ** 2
+    x, z = (position[:, near] - places[:, :, None]) / radius
+    basis = [np.ones_like(x), x, z]
+    if degree == 2:
+        basis += [x * x, x * z, z * z]
+    terms = np.stack(basis, axis=-1)
+    weighted = terms * weight[:, :, None]
+    moments = np.einsum("mka,mkb->mab", weighted, terms)
+    sums = np.einsum("mka,fmk->maf", weighted, fields[:, near])
+    found = np.linalg.pinv(moments, rcond=CONDITION, hermitian=True) @ sums
+    slopes = found[:, 1:3] / radius[:, :, None]
+    result = np.concatenate([found[:, :1], slopes], axis=1).transpose(1, 2, 0)
+    return result if np.ndim(values) == 2 else result[:, 0]
+
+
+def interpolate(
+    position: np.ndarray, values: np.ndarray, places: np.ndarray, *, degree: int = 1
+) -> np.ndarray:
+    """Fields at places: the first row of `local_fit`, (m,) or (fields, m)."""
+    return local_fit(position, values, places, degree=degree)[0]

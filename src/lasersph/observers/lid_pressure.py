@@ -1,0 +1,87 @@
+"""Pressure of the flat lid, beside the recoil pressure of a free surface at the same place.
+
+The lid keeps the surface flat. Where it pushes (above zero) the liquid would rise, where it pulls
+(below zero) it would sink; this pressure drives a return flow that a free surface would not have.
+A boiling surface is pushed down by 0.54 p_sat(T) [Anisimov1968], which is what the lid pressure is
+compared with. The dynamic pressure is known up to a constant; its mean over the liquid is zero.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.observers.flow_speed import flow_of, time_of
+from lasersph.observers.peak import Peak
+from lasersph.observers.view import View
+
+
+class LidPressure:
+    """Observes the pressure at the surface of the liquid."""
+
+    columns: tuple[str, ...] = ("lid_pressure_max_Pa", "lid_pressure_min_Pa", "lid_recoil_max_Pa")
+
+    def __init__(self) -> None:
+        self.largest, self.lowest, self.recoil = Peak(), Peak(), Peak()
+        self.at_largest: dict[str, float] = {}
+        self.at_lowest: dict[str, float] = {}
+        self.has_vapor = False
+
+    def observe(self, view: View) -> dict[str, float]:
+        """Largest and smallest pressure of the lid and largest recoil pressure [Pa]."""
+        flow = flow_of(view)
+        wet = np.flatnonzero(flow.flows[flow.surface])
+        if wet.size == 0:
+            return dict.fromkeys(self.columns, 0.0)
+        vapor = flow.saturation_pressure
+        self.has_vapor = vapor is not None
+        recoil = np.zeros(wet.size) if vapor is None else vapor[wet]
+        pressure, x = flow.lid_pressure[wet], view.position[0, flow.surface[wet]]
+        high, low = int(np.argmax(pressure)), int(np.argmin(pressure))
+        values = (float(pressure[high]), float(pressure[low]), float(np.max(recoil)))
+        self.largest.update(values[0], view.time)
+        self.lowest.update(-values[1], view.time)
+        self.recoil.update(values[2], view.time)
+        if self.largest.last == view.time:
+            self.at_largest = {"x_m": float(x[high]), "recoil_there_Pa": float(recoil[high])}
+        if self.lowest.last == view.time:
+            self.at_lowest = {"x_m": float(x[low]), "recoil_there_Pa": float(recoil[low])}
+        return dict(zip(self.columns, values, strict=True))
+
+    def summary(self) -> dict[str, Any]:
+        """`lid`: largest and smallest pressure, where, when, and the recoil pressure there.
+
+        Nothing where the surface was never liquid; recoil None without data of the vapor.
+        """
+        if not self.at_largest:
+            return {}
+        lid: dict[str, Any] = {}
+        for name, peak, sign, at in (
+            ("pressure_max", self.largest, 1.0, self.at_largest),
+            ("pressure_min", self.lowest, -1.0, self.at_lowest),
+        ):
+            lid[f"{name}_Pa"], lid[f"{name}_at_s"] = sign * peak.value, peak.time
+            lid[f"{name}_x_m"] = at["x_m"]
+            lid[f"recoil_at_{name}_Pa"] = at["recoil_there_Pa"] if self.has_vapor else None
+        lid["recoil_max_Pa"] = self.recoil.value if self.has_vapor else None
+        lid["recoil_max_at_s"] = time_of(self.recoil) if self.has_vapor else None
+        return {"lid": lid}
+
+    def state(self) -> dict[str, Any]:
+        """What `restore` needs."""
+        return {
+            "largest": self.largest.state(),
+            "lowest": self.lowest.state(),
+            "recoil": self.recoil.state(),
+            "at_largest": dict(self.at_largest),
+            "at_lowest": dict(self.at_lowest),
+            "has_vapor": self.has_vapor,
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from a state."""
+        for name in ("largest", "lowest", "recoil"):
+            setattr(self, name, Peak(**state[name]))
+        self.at_largest, self.at_lowest = dict(state["at_largest"]), dict(state["at_lowest"])
+        self.has_vapor = state["has_vapor"]
