@@ -10,6 +10,7 @@ from pathlib import Path
 
 from lasersph.reading import CaseError, nearest
 from lasersph.validation.report import Report
+from lasersph.validation.runs import threads as using_threads
 
 MODULES = {
     "kernels": "kernels",
@@ -31,11 +32,16 @@ def titles() -> dict[str, str]:
     return {name: _module(name).TITLE for name in MODULES}
 
 
-def validate(name: str, out_dir: str | Path, *, quick: bool = False) -> Report:
+def validate(
+    name: str, out_dir: str | Path, *, quick: bool = False, threads: int | None = None
+) -> Report:
     """Run one validation and draw its figures into `out_dir`.
+
+    Runs that an earlier call with the same sources left there are taken or continued.
 
     Args:
         quick: shortened, with tolerances as stated in its rows; still judged.
+        threads: of each run; None takes all processors.
 
     Raises:
         CaseError: no such validation; says the nearest name.
@@ -43,7 +49,8 @@ def validate(name: str, out_dir: str | Path, *, quick: bool = False) -> Report:
     folder = Path(out_dir)
     module = _module(name)
     folder.mkdir(parents=True, exist_ok=True)
-    return module.run(folder, quick=quick)
+    with using_threads(threads):
+        return module.run(folder, quick=quick)
 
 
 def _module(name: str):

@@ -1,32 +1,85 @@
-"""Runs of shipped cases for validations: always computed anew, each in a folder of its own."""
+"""Runs of shipped cases for validations, each in a folder of its own.
+
+A run is kept: where the same program finds it again it is taken as it is, or continued where it was
+interrupted. A run of another version of the program is computed anew, so that a validation never
+judges what other sources computed.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 
-from lasersph.case import load_case
+import lasersph
+from lasersph.case import Case, load_case
 from lasersph.output import Run, open_run
 from lasersph.reading import CaseError
 from lasersph.simulation import run
 
-THREADS = 2
+LOOK_ONLY = ("cli", "plots", "report", "studies", "validation")
+"""Rooms whose sources no run depends on."""
+NUMERICS = ("numba", "numpy", "scipy")
+_threads: ContextVar[int | None] = ContextVar("threads of the runs of a validation", default=None)
+
+
+@contextmanager
+def threads(count: int | None) -> Iterator[None]:
+    """Within this context runs use `count` threads; None takes all processors."""
+    token = _threads.set(count)
+    try:
+        yield
+    finally:
+        _threads.reset(token)
 
 
 def computed(case_name: str, overrides: Sequence[str], out_dir: Path, label: str) -> Run:
-    """Run a shipped case with overrides into out_dir/runs/label and open the result.
+    """Run a shipped case with overrides in out_dir/runs/label and open the result.
 
-    An older run in that folder is replaced: a validation never judges what another version of the
-    program computed.
+    The file LABEL.made-by beside the folder says which case and sources the run belongs to.
 
     Raises:
         CaseError: the folder holds something that is no run.
     """
+    case = load_case(case_name, overrides)
     folder = out_dir / "runs" / label
-    if folder.exists() and any(folder.iterdir()):
-        if not (folder / "resolved.json").exists():
-            raise CaseError(f"{folder} is not a run folder", "give another folder")
-        shutil.rmtree(folder)
-    run(load_case(case_name, overrides), folder, threads=THREADS)
+    made_by = folder.with_name(f"{label}.made-by")
+    maker = fingerprint(case)
+    if not made_by.is_file() or made_by.read_text(encoding="utf-8") != maker:
+        _remove(folder)
+        folder.mkdir(parents=True)
+        made_by.write_text(maker, encoding="utf-8")
+    run(case, folder, resume=True, threads=_threads.get())
     return open_run(folder)
+
+
+def fingerprint(case: Case) -> str:
+    """What a run depends on: the case, the sources that compute it and the versions below them."""
+    versions = " ".join(f"{name} {version(name)}" for name in NUMERICS)
+    return f"case {case.hash()}\nsources {_sources()}\n{versions}\n"
+
+
+@cache
+def _sources() -> str:
+    """Hash of all sources and data of the package outside `LOOK_ONLY`."""
+    package = Path(lasersph.__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted(package.rglob("*")):
+        place = path.relative_to(package)
+        if path.suffix in (".py", ".toml") and place.parts[0] not in LOOK_ONLY:
+            digest.update(str(place).encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def _remove(folder: Path) -> None:
+    """Remove an older run; a folder that holds something else is refused."""
+    if not folder.exists():
+        return
+    if any(folder.iterdir()) and not (folder / "resolved.json").exists():
+        raise CaseError(f"{folder} is not a run folder", "give another folder")
+    shutil.rmtree(folder)
