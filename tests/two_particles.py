@@ -31,7 +31,6 @@ def solver_of(
     lattice = Lattice(spacing=SPACING, kernel=kernel, support_ratio=support_ratio)
     body = assemble(
         backend or compute.cpu(threads=2),
-        domain=domain,
         lattice=lattice,
         layers=stack(domain, lattice, 1, 0.0),
         boundaries=boundaries,

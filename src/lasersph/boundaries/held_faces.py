@@ -1,11 +1,12 @@
 """Faces that hold a temperature: their pull on each particle, from the pairs with dummies.
 
-    q_i = A_i (P_w - P_i),    A_i = sum over the dummies j beyond the face of g_ij c_ij
+    q_i = sum over the dummies j beyond the face of g_ij c_ij (P_w(x_c) - P_i)
 
-with c_ij = 1 for a wall of particles of that temperature (dynamic boundary particles), and
-c_ij = n_ij / n_i for a face of that temperature, n_ij being the distance of i and j and n_i the
-distance of i and the face, both normal to it: the linear extrapolation through particle and face
-[Morris1997]. Walls of several temperatures add up.
+with c_ij = 1 and x_c = x_j for a wall of particles of that temperature (dynamic boundary
+particles), and c_ij = n_ij / n_i for a face of that temperature, n_ij being the distance of i and j
+and n_i the distance of i and the face, both normal to it, and x_c the place where the line from i
+to j crosses the face: the linear extrapolation through particle and face [Morris1997]. Pulls of
+several faces add up.
 """
 
 from __future__ import annotations
@@ -18,15 +19,37 @@ from numpy.typing import NDArray
 from lasersph.particles.filling import FACES, Filling
 
 Array = NDArray[np.float64]
+Extents = tuple[tuple[float, float], ...]
+ENDS = {"left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1), "bottom": (-1, 0),
+        "surface": (-1, 1)}  # fmt: skip
+"""Axis and end (0 lower, 1 upper) of each face."""
 
 
 @dataclass(frozen=True)
 class HeldFace:
-    """A face whose temperature is held [K]; is_wall: by particles beyond it."""
+    """A face whose temperature is held; is_wall: by particles beyond it."""
 
     name: str
-    temperature: float
     is_wall: bool
+
+
+@dataclass(frozen=True)
+class Pull:
+    """What a face pulls: for each of its pairs, row i, weight g_ij c_ij [m^(d-2)], x_c [m]."""
+
+    row: NDArray[np.int64]
+    weight: Array
+    place: Array
+
+    def total(self, count: int, value: Array | float = 1.0) -> Array:
+        """(count,) sums of the weights of each row, times the pairs' values."""
+        return np.bincount(self.row, self.weight * np.asarray(value, float), minlength=count)
+
+
+def plane_of(face: str, extents: Extents) -> tuple[int, float]:
+    """Axis normal to a face, and where it lies [m]."""
+    axis, end = ENDS[face]
+    return axis, extents[axis][end]
 
 
 def face_pulls(
@@ -35,44 +58,25 @@ def face_pulls(
     weights: Array,
     row: NDArray[np.int64],
     neighbor: NDArray[np.uint32],
-    bounds: tuple[tuple[float, float], ...],
-    depth: float,
-) -> dict[str, Array]:
-    """A_i of each face, shape (count,) [m^(d-2)]; weights of the used pairs are set to zero.
+    extents: Extents,
+) -> dict[str, Pull]:
+    """Pull of each face; weights of the used pairs are set to zero.
 
     Args:
         weights: (pairs,) g_ij, changed in place. row, neighbor: (pairs,) i and j.
-        bounds, depth: of the domain [m].
+        extents: bounds of the block along each axis [m].
     """
     pulls = {}
     held = filling.held[neighbor]
     for face in faces:
         pairs = np.flatnonzero(held == FACES.index(face.name))
         i, j = row[pairs], neighbor[pairs]
-        factor = np.ones(pairs.size)
+        place, weight = filling.position[:, j], weights[pairs]
         if not face.is_wall:
-            factor = _extrapolation(face.name, filling.position, i, j, bounds, depth)
-        pulls[face.name] = np.bincount(i, weights[pairs] * factor, minlength=filling.count)
+            axis, plane = plane_of(face.name, extents)
+            start = filling.position[:, i]
+            factor = (place[axis] - start[axis]) / (plane - start[axis])
+            place, weight = start + (place - start) / factor, weight * factor
+        pulls[face.name] = Pull(i, weight, place)
         weights[pairs] = 0.0
     return pulls
-
-
-def _extrapolation(
-    name: str,
-    position: Array,
-    i: NDArray[np.int64],
-    j: NDArray[np.uint32],
-    bounds: tuple[tuple[float, float], ...],
-    depth: float,
-) -> Array:
-    """n_ij / n_i of pairs across a face."""
-    if name != "sides":
-        z, plane = position[-1], 0.0 if name == "surface" else -depth
-        return np.abs(z[i] - z[j]) / np.abs(z[i] - plane)
-    factor = np.zeros(i.size)
-    for axis, (lower, upper) in enumerate(bounds):
-        x = position[axis]
-        for plane, is_beyond in ((lower, x[j] < lower), (upper, x[j] > upper)):
-            share = np.abs(x[i] - x[j]) / np.abs(x[i] - plane)
-            factor = np.where(is_beyond & (factor == 0.0), share, factor)
-    return factor

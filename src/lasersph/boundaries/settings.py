@@ -1,40 +1,83 @@
-"""`Boundaries`: what holds at the faces of the domain, named by face.
+"""`Boundaries`: what holds for heat at the faces of the domain, named by face.
 
     adiabatic           no heat crosses; dummy particles mirror the ones inside
-    periodic            what leaves on one side enters on the other (sides only)
+    periodic            what leaves on one side enters on the other (opposite faces in pairs)
     free                no particles beyond: the support is cut off, no heat crosses [Alshaer2017]
     fixed-temperature   the face itself has the given temperature
     wall                particles of fixed temperature lie beyond (dynamic boundary particles)
+    prescribed-flux     a given heat flux enters (leaves, where negative)
 
 `convection` and `emissivity` let the surface lose heat to the surroundings [Alshaer2017, eq. (2)].
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from lasersph.reading import Fraction, HeatTransferCoefficient, Model, Temperature, refusal
+from lasersph.reading import (
+    Fraction,
+    HeatFlux,
+    HeatTransferCoefficient,
+    Length,
+    Model,
+    Temperature,
+    TemperatureDifference,
+    refusal,
+)
 
-Face = Literal["adiabatic", "free", "fixed-temperature", "wall"]
-Side = Literal["adiabatic", "periodic", "free", "fixed-temperature", "wall"]
+Array = NDArray[np.float64]
+Face = Literal["adiabatic", "periodic", "free", "fixed-temperature", "wall", "prescribed-flux"]
 HELD = ("fixed-temperature", "wall")
+FLUX = "prescribed-flux"
+KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left", "right": "right"}
+"""Each face and how the keys of its temperature and flux begin."""
+
+
+class TemperatureWave(Model):
+    """What the temperature of a held surface varies by: amplitude cos(2 pi x / period)."""
+
+    amplitude: TemperatureDifference = Field(description="at x = 0")
+    period: Annotated[Length, Field(gt=0)]
+
+    def at(self, x: Array) -> Array:
+        """Temperature above the mean [K] at x [m], any shape."""
+        return self.amplitude * np.cos(2.0 * np.pi * np.asarray(x, float) / self.period)
 
 
 class Boundaries(Model):
-    """Conditions at surface, bottom and sides."""
+    """Conditions for heat at surface, bottom and sides."""
 
     surface: Face = Field("adiabatic", description="at z = 0; the laser heats it in any case")
     surface_temperature: Temperature | None = None
+    surface_temperature_wave: TemperatureWave | None = Field(
+        None, description="added to surface_temperature"
+    )
+    surface_flux: HeatFlux | None = Field(None, description="into the body")
     bottom: Face = "adiabatic"
     bottom_temperature: Temperature | None = Field(
         None, description="default: the initial temperature"
     )
-    sides: Side = Field("adiabatic", description="at both ends of x and y")
+    bottom_flux: HeatFlux | None = Field(None, description="into the body")
+    sides: Face = Field("adiabatic", description="at both ends of x and y")
     side_temperature: Temperature | None = Field(
         None, description="default: the initial temperature"
     )
+    side_flux: HeatFlux | None = Field(None, description="into the body")
+    left: Face | None = Field(None, description="at the smaller x; default: as sides")
+    left_temperature: Temperature | None = Field(
+        None, description="default: side_temperature, else the initial temperature"
+    )
+    left_flux: HeatFlux | None = Field(None, description="into the body")
+    right: Face | None = Field(None, description="at the larger x; default: as sides")
+    right_temperature: Temperature | None = Field(
+        None, description="default: side_temperature, else the initial temperature"
+    )
+    right_flux: HeatFlux | None = Field(None, description="into the body")
     convection: Annotated[HeatTransferCoefficient, Field(ge=0)] = Field(
         0.0, description="heat transfer coefficient of the surface"
     )
@@ -46,31 +89,74 @@ class Boundaries(Model):
     )
 
     @model_validator(mode="after")
-    def _check_temperatures(self) -> Boundaries:
-        problems = []
-        for face, key in (
-            ("surface", "surface_temperature"),
-            ("bottom", "bottom_temperature"),
-            ("sides", "side_temperature"),
-        ):
-            kind = getattr(self, face)
-            if getattr(self, key) is not None and kind not in HELD:
-                problems.append(
-                    (
-                        key,
-                        f'says nothing where {face} = "{kind}"; leave it out, or set {face} to '
-                        '"fixed-temperature" or "wall"',
-                    )
-                )
-        if self.surface in HELD and self.surface_temperature is None:
-            problems.append(("surface_temperature", "is missing for a surface that is held at it"))
+    def _check(self) -> Boundaries:
+        problems = [*self._contradictions(), *self._halves_of_periods()]
         if problems:
             raise refusal(*problems)
         return self
 
+    def _contradictions(self) -> Iterator[tuple[str, str]]:
+        """Temperatures and fluxes that say nothing, or are missing."""
+        for face, stem in KEYS.items():
+            kind = getattr(self, face)
+            shown = f'{face} = "{kind}"' if kind else f"{face} is not given"
+            if getattr(self, f"{stem}_temperature") is not None and kind not in HELD:
+                yield (
+                    f"{stem}_temperature",
+                    f"says nothing where {shown}; leave it out, or set {face} to "
+                    '"fixed-temperature" or "wall"',
+                )
+            given = getattr(self, f"{stem}_flux") is not None
+            if given and kind != FLUX:
+                yield (
+                    f"{stem}_flux",
+                    f'says nothing where {shown}; leave it out, or set {face} to "{FLUX}"',
+                )
+            if kind == FLUX and not given:
+                yield f"{stem}_flux", 'is missing; write e.g. "1e6 W/m^2", positive into the body'
+        if self.surface in HELD and self.surface_temperature is None:
+            yield "surface_temperature", "is missing for a surface that is held at it"
+        if self.surface_temperature_wave is not None and self.surface not in HELD:
+            yield (
+                "surface_temperature_wave",
+                f'says nothing where surface = "{self.surface}"; write '
+                'surface = "fixed-temperature"',
+            )
+
+    def _halves_of_periods(self) -> Iterator[tuple[str, str]]:
+        for one, other in (("surface", "bottom"), ("left", "right")):
+            kinds = {face: self.kind_of(face) for face in (one, other)}
+            if list(kinds.values()).count("periodic") == 1:
+                face = one if kinds[one] == "periodic" else other
+                partner = other if face == one else one
+                yield (
+                    face if getattr(self, face) else "sides",
+                    f'periodic on one side only; write {partner} = "periodic" too, or another '
+                    "kind here",
+                )
+
+    def kind_of(self, face: str) -> Face:
+        """Kind of a face: surface, bottom, left, right, front or back (the sides)."""
+        if face in ("surface", "bottom"):
+            return getattr(self, face)
+        return getattr(self, face, None) or self.sides
+
     def temperature_of(self, face: str, initial: float) -> float:
-        """Temperature of "surface", "bottom" or "sides" where it is held [K]."""
-        key = {"surface": self.surface_temperature, "bottom": self.bottom_temperature,
-               "sides": self.side_temperature}  # fmt: skip
-        given = key[face]
+        """Temperature of a face where it is held [K], without the surface's wave."""
+        given = self._given(face, "temperature")
         return initial if given is None else given
+
+    def temperature_along(self, face: str, x: Array, initial: float) -> Array:
+        """Temperature of a held face [K] at places x along it [m], any shape."""
+        mean = np.full(np.shape(x), self.temperature_of(face, initial))
+        wave = self.surface_temperature_wave
+        return mean + wave.at(x) if wave is not None and face == "surface" else mean
+
+    def flux_of(self, face: str) -> float:
+        """Heat flux into the body through a face of prescribed flux [W/m^2], 0 at others."""
+        return self._given(face, "flux") or 0.0 if self.kind_of(face) == FLUX else 0.0
+
+    def _given(self, face: str, what: str) -> float | None:
+        own = getattr(self, f"{face}_{what}", None)
+        is_lateral = face not in ("surface", "bottom")
+        return getattr(self, f"side_{what}") if own is None and is_lateral else own

@@ -3,6 +3,8 @@
 Dummy layers and columns continue the lattice past each face that is not free. Each dummy knows
 which inner particle it stands for (mirror image or periodic image) or which face holds its
 temperature. Patterns that repeat within one support radius are unfolded as often as needed.
+Faces are named surface and bottom (z), left and right (x), front and back (y); `sides` are the
+last four.
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ GHOSTS = 5
 GRADED_GHOSTS = 12
 """Dummy columns of graded layers: a coarse particle reaches over many columns of a finer layer."""
 FREE, IMAGE, PERIODIC, HELD = "free", "image", "periodic", "held"
-FACES = ("none", "surface", "bottom", "sides")
+FACES = ("none", "surface", "bottom", "left", "right", "front", "back")
+LATERAL = (("left", "right"), ("front", "back"))
+"""Faces at the lower and the upper end of x and of y."""
 
 
 @dataclass(frozen=True)
@@ -50,22 +54,34 @@ class Filling:
         return np.prod(self.width, axis=0)
 
 
-def fill(layers: Layers, *, surface: str, bottom: str, sides: str) -> Filling:
-    """Particles of the layers with dummies as the faces ask: FREE, IMAGE, PERIODIC or HELD."""
+def fill(
+    layers: Layers,
+    *,
+    surface: str,
+    bottom: str,
+    sides: str,
+    left: str | None = None,
+    right: str | None = None,
+) -> Filling:
+    """Particles of the layers with dummies as the faces ask: FREE, IMAGE, PERIODIC or HELD.
+
+    Left and right are as the sides where not given; opposite faces are periodic in pairs.
+    """
+    kinds = {"left": left or sides, "right": right or sides, "front": sides, "back": sides}
+    kinds["surface"] = surface
     total = layers.thickness.size
     starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
     first = 0 if surface == FREE else -min(GHOSTS, total)
     last = total if bottom == FREE else total + min(GHOSTS, total)
     real, dummies = [], []
     for number in range(first, last):
-        inside = number if 0 <= number < total else (-1 - number if number < 0
-                                                      else 2 * total - 1 - number)  # fmt: skip
+        inside = _inside(number, total, is_periodic=surface == PERIODIC)
         face = 0
         if number < 0 and surface == HELD:
             face = FACES.index("surface")
         if number >= total and bottom == HELD:
             face = FACES.index("bottom")
-        block = _layer(layers, number, inside, int(starts[inside]), face, sides)
+        block = _layer(layers, number, inside, int(starts[inside]), face, kinds)
         is_real = np.logical_and(block["real"], 0 <= number < total)
         real.append({key: value[..., is_real] for key, value in block.items()})
         dummies.append({key: value[..., ~is_real] for key, value in block.items()})
@@ -87,45 +103,67 @@ def fill(layers: Layers, *, surface: str, bottom: str, sides: str) -> Filling:
     )
 
 
-def _layer(
-    layers: Layers, number: int, inside: int, start: int, face: int, sides: str
-) -> dict[str, NDArray[Any]]:
-    """One layer of the extended lattice, real and dummy columns; `inside` is its mirror image."""
-    center, depth = layers.center(), float(layers.thickness.sum())
-    z = center[inside]
+def _inside(number: int, total: int, *, is_periodic: bool) -> int:
+    """The layer of the block that layer `number` of the extended lattice repeats or mirrors."""
+    if is_periodic:
+        return number % total
     if number < 0:
-        z = -z
-    elif number >= layers.thickness.size:
-        z = -2.0 * depth - z
+        return -1 - number
+    return number if number < total else 2 * total - 1 - number
+
+
+def _height(layers: Layers, number: int, inside: int, *, is_periodic: bool) -> float:
+    """z of the middle of a layer of the extended lattice [m]."""
+    depth, total = float(layers.thickness.sum()), layers.thickness.size
+    z = float(layers.center()[inside])
+    if is_periodic:
+        return z - depth * (number // total)
+    if number < 0:
+        return -z
+    return z if number < total else -2.0 * depth - z
+
+
+def _layer(
+    layers: Layers, number: int, inside: int, start: int, face: int, kinds: dict[str, str]
+) -> dict[str, NDArray[Any]]:
+    """One layer of the extended lattice, real and dummy columns; `inside` is its image."""
+    z = _height(layers, number, inside, is_periodic=kinds["surface"] == PERIODIC)
     is_uniform = np.ptp(layers.thickness) <= 1e-9 * layers.thickness[0]
     beyond = GHOSTS if is_uniform else GRADED_GHOSTS
-    axes, sources, reals, widths = [], [], [], []
+    axes, sources, reals, widths, holders = [], [], [], [], []
     for axis, (lower, _upper) in enumerate(layers.bounds):
+        low, high = LATERAL[axis]
         columns = int(layers.columns[axis, inside])
         width = float(layers.column_width()[axis, inside])
-        ghosts = 0 if sides == FREE else beyond
-        index = np.arange(-ghosts, columns + ghosts)
+        ghosts = [0 if kinds[end] == FREE else beyond for end in (low, high)]
+        index = np.arange(-ghosts[0], columns + ghosts[1])
         axes.append(lower + (index + 0.5) * width)
         reals.append((index >= 0) & (index < columns))
-        sources.append(index % columns if sides == PERIODIC else _reflected(index, columns))
+        is_periodic = kinds[low] == PERIODIC
+        sources.append(index % columns if is_periodic else _reflected(index, columns))
+        holder = np.zeros(index.size, int)
+        if kinds[low] == HELD:
+            holder[index < 0] = FACES.index(low)
+        if kinds[high] == HELD:
+            holder[index >= columns] = FACES.index(high)
+        holders.append(holder)
         widths.append(width)
     shape = tuple(axis.size for axis in axes)
     position = np.empty((layers.dimension, int(np.prod(shape))))
     is_real = np.ones(shape, bool)
     source = np.zeros(shape, np.int64)
+    held = np.full(shape, face)
     for axis, values in enumerate(axes):
         view = [1] * len(shape)
         view[axis] = -1
         position[axis] = np.broadcast_to(values.reshape(view), shape).ravel()
         is_real &= reals[axis].reshape(view)
+        held = np.where(held == 0, holders[axis].reshape(view), held)
         source = source * int(layers.columns[axis, inside]) + sources[axis].reshape(view)
     position[-1] = z
     width = np.broadcast_to(
         np.array([*widths, layers.thickness[inside]])[:, None], position.shape
     ).copy()
-    held = np.full(shape, face)
-    if face == 0 and sides == HELD:
-        held = np.where(is_real, 0, FACES.index("sides"))
     return {
         "position": position,
         "width": width,

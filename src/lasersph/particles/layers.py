@@ -46,6 +46,11 @@ class Layers:
         """Thickness of the finest layer [m]."""
         return float(self.thickness.min())
 
+    @property
+    def extents(self) -> tuple[tuple[float, float], ...]:
+        """Lower and upper bound of the block along each axis, z last [m]."""
+        return (*self.bounds, (-float(self.thickness.sum()), 0.0))
+
     def center(self) -> Array:
         """z of the middle of each layer [m], below zero."""
         return 0.5 * self.thickness - np.cumsum(self.thickness)

@@ -47,6 +47,7 @@ _ALL = (
     Kind("temperature_difference", "K", "5 K", _KELVIN),
     Kind("fluence", "J/m^2", "0.6 J/cm^2", dimension(kg=1, s=-2), **_LIGHT),
     Kind("intensity", "W/m^2", "9.6e11 W/m^2", dimension(kg=1, s=-3), **_LIGHT),
+    Kind("heat_flux", "W/m^2", "1e6 W/m^2", dimension(kg=1, s=-3), **_LIGHT),
     Kind("power", "W", "20 W", POWER, refuses=frozenset({FORCE})),
     Kind("energy", "J", "1 mJ", ENERGY, refuses=frozenset({FORCE})),
     Kind("angle", "rad", "0.071 rad", dimension(rad=1)),

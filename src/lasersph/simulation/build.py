@@ -89,7 +89,6 @@ def build(case: Case, backend: Backend) -> tuple[Layers, Conduction]:
     layers = lay_out(case)
     body = assemble(
         backend,
-        domain=case.domain,
         lattice=case.particles,
         layers=layers,
         boundaries=case.boundaries,

@@ -26,9 +26,9 @@ def pulls_of(*, is_wall):
     neighbor = np.array([below[0], below[1], below[0], 3], np.uint32)
     weights = np.array([8.0, 2.0, 1.0, 5.0])
     pulls = face_pulls(
-        [HeldFace("bottom", 500.0, is_wall)], filling, weights, row, neighbor, (), 4.0
+        [HeldFace("bottom", is_wall)], filling, weights, row, neighbor, ((-4.0, 0.0),)
     )
-    return pulls["bottom"], weights
+    return pulls["bottom"].total(4), weights
 
 
 def test_wall_of_particles():
@@ -52,17 +52,22 @@ def test_held_sides_and_corner():
     i = int(np.flatnonzero((x[:16] == -1.5) & (z[:16] == -0.5))[0])
     j = int(np.flatnonzero((x == -2.5) & (z == -1.5))[0])
     pulls = face_pulls(
-        [HeldFace("sides", 500.0, False)], filling, np.array([3.0]), np.array([i]),
-        np.array([j], np.uint32), layers.bounds, 4.0,
+        [HeldFace("left", False)], filling, np.array([3.0]), np.array([i]),
+        np.array([j], np.uint32), layers.extents,
     )  # fmt: skip
-    assert pulls["sides"][i] == pytest.approx(3.0 * 1.0 / 0.5)
+    pull = pulls["left"]
+    assert pull.total(16)[i] == pytest.approx(3.0 * 1.0 / 0.5)
+    # the line from (-1.5, -0.5) to (-2.5, -1.5) crosses the face halfway
+    assert pull.place[:, 0] == pytest.approx([-2.0, -1.0])
+    assert pull.total(16, pull.place[1])[i] == pytest.approx(-6.0)
 
 
 def test_temperature_of_a_face():
     """Held faces take their own temperature, else the initial one."""
     held = Boundaries(bottom="wall", sides="fixed-temperature", side_temperature=350.0)
     assert held.temperature_of("bottom", 300.0) == 300.0
-    assert held.temperature_of("sides", 300.0) == 350.0
+    assert held.temperature_of("left", 300.0) == 350.0
+    assert held.temperature_of("back", 300.0) == 350.0
 
 
 def test_refusals():

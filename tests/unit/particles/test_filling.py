@@ -88,7 +88,9 @@ def test_corners_belong_to_the_bottom_where_both_hold():
     x, z = filling.position
     outside = np.abs(x) > 3e-7
     assert np.all(filling.held[z < -8e-7] == FACES.index("bottom"))
-    assert np.all(filling.held[(z > -8e-7) & outside] == FACES.index("sides"))
+    assert np.all(filling.held[(z > -8e-7) & (x < -3e-7)] == FACES.index("left"))
+    assert np.all(filling.held[(z > -8e-7) & (x > 3e-7)] == FACES.index("right"))
+    assert not filling.held[~outside & (z > -8e-7)].any()
     assert not filling.held[: filling.count].any()
 
 

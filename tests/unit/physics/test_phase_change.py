@@ -68,6 +68,6 @@ def test_balanced_enthalpy_by_hand():
 
 
 def test_enthalpy_rate():
-    """(6 + k (b - a T) + E/step - q) / m = (6 + 20 (4 - 1) + 8/2 - 10) / 5 = 12; walls 60 W."""
-    rate, walls = enthalpy_rate(6.0, 100.0, 20.0, 8.0, 10.0, 5.0, 0.01, 4.0, 2.0)
-    assert (rate, walls) == pytest.approx((12.0, 60.0))
+    """(6 + k (b - a T) + w + E/step - q) / m = (6 + 20 (4 - 1) + 5 + 8/2 - 10) / 5 = 13."""
+    rate, walls = enthalpy_rate(6.0, 100.0, 20.0, 8.0, 10.0, 5.0, 0.01, 4.0, 5.0, 2.0)
+    assert (rate, walls) == pytest.approx((13.0, 65.0))

@@ -6,27 +6,28 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
-from lasersph.boundaries.held_faces import HeldFace, face_pulls
 from lasersph.compute.backend import Backend
 from lasersph.lasers import Laser
 from lasersph.linear_solvers.conjugate_gradient import PairOperator
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Lattice
 from lasersph.particles.filling import FREE, HELD, IMAGE, PERIODIC, Filling, fill
 from lasersph.particles.layers import Layers
-from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.neighbors import NeighborList, find_neighbors
 from lasersph.particles.support import arithmetic, graded
 from lasersph.physics.heating import Irradiation
+from lasersph.solvers.conduction.walls import walls_of
 from lasersph.sph.kernels import kernel
 from lasersph.sph.laplacian import layered_weight, weight
 from lasersph.sph.second_moment import layer_factors
 
 KINDS = {
     "adiabatic": IMAGE, "periodic": PERIODIC, "free": FREE,
-    "fixed-temperature": HELD, "wall": HELD,
+    "fixed-temperature": HELD, "wall": HELD, "prescribed-flux": IMAGE,
 }  # fmt: skip
 SUPPORT = {"quintic-spline": 3.75, "cubic-spline": 3.0, "wendland-c2": 3.0}
 
@@ -37,8 +38,9 @@ class Body:
 
     Attributes:
         filling: host arrays of the particles. pairs: assembled weights g_ij [m^(d-2)].
-        mass: (n,) [kg per (3 - d) lengths]. wall_flow, wall_heat: (n,) sums over held
-            faces of A_i P_w and A_i T_w.
+        mass: (n,) [kg per (3 - d) lengths]. wall_flow, wall_heat: (n,) sums over the pairs with
+            held faces of weight times P_w and times T_w. wall_power: (n,) power of prescribed
+            fluxes [W per (3 - d) lengths].
         area: (n,) exposed cross-section of surface particles [m^(d-1)], 0 for all others.
         tables: nodes of the caloric curve as tables of the backend.
     """
@@ -52,6 +54,7 @@ class Body:
     mass: Any
     wall_flow: Any
     wall_heat: Any
+    wall_power: Any
     area: Any
     tables: dict[str, Any]
     ambient: dict[str, float]
@@ -65,7 +68,6 @@ class Body:
 def assemble(
     backend: Backend,
     *,
-    domain: Domain,
     lattice: Lattice,
     layers: Layers,
     boundaries: Boundaries,
@@ -75,19 +77,21 @@ def assemble(
     use_second_moment: bool,
 ) -> Body:
     """Fill the domain, find the pairs, and assemble their weights."""
-    faces = {"surface": boundaries.surface, "bottom": boundaries.bottom, "sides": boundaries.sides}
-    filling = fill(layers, **{face: KINDS[kind] for face, kind in faces.items()})
-    held = [
-        HeldFace(face, boundaries.temperature_of(face, curve.initial_temperature), kind == "wall")
-        for face, kind in faces.items()
-        if KINDS[kind] == HELD
-    ]
-    pairs, pulls = _pairs(backend, domain, lattice, layers, filling, held, use_second_moment)
+    ends = {
+        face: KINDS[boundaries.kind_of(face)] for face in ("surface", "bottom", "left", "right")
+    }
+    filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
+    neighbors, row, weights = _weights(backend, lattice, layers, filling, use_second_moment)
+    walls = walls_of(
+        boundaries, curve, layers, filling, weights, row, backend.to_host(neighbors.neighbor)
+    )
     count = filling.count
-    wall_flow, wall_heat = np.zeros(count), np.zeros(count)
-    for face in held:
-        wall_flow += pulls[face.name] * _potential(curve, face.temperature)
-        wall_heat += pulls[face.name] * face.temperature
+    pairs = PairOperator(
+        neighbors=neighbors.folded(backend, backend.asarray(filling.source, "index")),
+        weights=backend.asarray(weights),
+        pull=backend.asarray(walls.pull),
+        total=backend.asarray(np.bincount(row, weights, minlength=count)),
+    )
     area = np.zeros(count)
     area[filling.surface] = np.prod(filling.width[:-1, filling.surface], axis=0)
     ambient = boundaries.ambient_temperature
@@ -99,8 +103,9 @@ def assemble(
         irradiation=Irradiation(backend, laser, material, filling),
         pairs=pairs,
         mass=backend.asarray(material.density_reference * filling.volume[:count]),
-        wall_flow=backend.asarray(wall_flow),
-        wall_heat=backend.asarray(wall_heat),
+        wall_flow=backend.asarray(walls.flow),
+        wall_heat=backend.asarray(walls.heat),
+        wall_power=backend.asarray(walls.power),
         area=backend.asarray(area),
         tables={
             "h_nodes": backend.asarray(curve.enthalpy),
@@ -117,27 +122,14 @@ def assemble(
     )
 
 
-def _potential(curve: CaloricCurve, temperature: float) -> float:
-    """Heat potential of a wall [W/m]; the end segments continue, flat where T is held."""
-    rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
-    T, P = curve.temperature[rising], curve.potential[rising]
-    if temperature < T[0]:
-        return float(P[0] + (P[1] - P[0]) / (T[1] - T[0]) * (temperature - T[0]))
-    if temperature > T[-1] and rising[-1]:
-        return float(P[-1] + (P[-1] - P[-2]) / (T[-1] - T[-2]) * (temperature - T[-1]))
-    return float(np.interp(temperature, T, P))
-
-
-def _pairs(
+def _weights(
     backend: Backend,
-    domain: Domain,
     lattice: Lattice,
     layers: Layers,
     filling: Filling,
-    held: list[HeldFace],
     use_second_moment: bool,
-) -> tuple[PairOperator, dict[str, Any]]:
-    """Weights of all pairs, dummies folded onto the particles that they stand for."""
+) -> tuple[NeighborList, NDArray[np.int64], NDArray[np.float64]]:
+    """All pairs with dummies, and on the host the row and the weight of each pair."""
     dimension = layers.dimension
     ratio = lattice.support_ratio or SUPPORT[lattice.kernel]
     shape = kernel(lattice.kernel, dimension)
@@ -165,17 +157,4 @@ def _pairs(
         backend.pair_values(weight, neighbors, fields, weights)
     row_start = backend.to_host(neighbors.row_start).astype(np.int64)
     row = np.repeat(np.arange(filling.count), np.diff(row_start))
-    host = backend.to_host(weights)
-    pulls = face_pulls(
-        held, filling, host, row, backend.to_host(neighbors.neighbor), layers.bounds,
-        float(layers.thickness.sum()),
-    )  # fmt: skip
-    total = np.bincount(row, host, minlength=filling.count)
-    pull = sum(pulls.values(), np.zeros(filling.count))
-    operator = PairOperator(
-        neighbors=neighbors.folded(backend, backend.asarray(filling.source, "index")),
-        weights=backend.asarray(host),
-        pull=backend.asarray(pull),
-        total=backend.asarray(total),
-    )
-    return operator, pulls
+    return neighbors, row, np.array(backend.to_host(weights))

@@ -82,7 +82,7 @@ class ExplicitStep:
         fields = {
             "T": self.T, "k": self.k, "E": body.irradiation.energy, "q": self.exchange.power,
             "m": body.mass, "a": body.pairs.pull, "b": body.wall_heat,
-            "g_ij": body.pairs.weights,
+            "w": body.wall_power, "g_ij": body.pairs.weights,
         }  # fmt: skip
         (walls,) = backend.pair_sum(
             harmonic_flow, body.pairs.neighbors, fields, (self.rate, None),

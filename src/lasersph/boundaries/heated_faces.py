@@ -1,0 +1,46 @@
+"""Faces through which a given heat flux enters: power of each particle, from the mirrored pairs.
+
+A dummy j beyond the face stands for its mirror image and is hotter by what the flux q asks for,
+P_j = P_image + 2 q n_j, n_j being its distance from the face. So particle i takes up
+
+    b_i = sum over the dummies j beyond the face of g_ij 2 q n_j
+
+scaled so that all of them together take up q times the area of the face. A linear temperature
+profile is then at rest to the last row.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.boundaries.held_faces import ENDS, Extents, plane_of
+from lasersph.particles.filling import Filling
+
+Array = NDArray[np.float64]
+
+
+def face_power(
+    face: str,
+    flux: float,
+    filling: Filling,
+    weights: Array,
+    row: NDArray[np.int64],
+    neighbor: NDArray[np.uint32],
+    extents: Extents,
+) -> Array:
+    """(count,) power that enters each particle through a face [W per (3 - d) lengths].
+
+    Args:
+        flux: into the body [W/m^2]. weights: (pairs,) g_ij, 0 where j is held at a temperature.
+        row, neighbor: (pairs,) i and j. extents: bounds of the block along each axis [m].
+    """
+    axis, plane = plane_of(face, extents)
+    outward = 1.0 if ENDS[face][1] else -1.0
+    distance = outward * (filling.position[axis, neighbor] - plane)
+    beyond = np.flatnonzero((distance > 0.0) & (weights > 0.0))
+    share = np.bincount(row[beyond], weights[beyond] * distance[beyond], minlength=filling.count)
+    area = float(np.prod([upper - lower for lower, upper in extents])) / (
+        extents[axis][1] - extents[axis][0]
+    )
+    return flux * area * share / share.sum()

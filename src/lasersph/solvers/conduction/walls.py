@@ -1,0 +1,79 @@
+"""Heat that the faces of the body bring to each particle: held temperatures and given fluxes.
+
+    q_i = B_i - A_i P_i,    B_i = sum g_ij c_ij P_w + b_i,    A_i = sum g_ij c_ij
+
+with the pulls of `boundaries.held_faces` and the powers b of `boundaries.heated_faces`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.boundaries import Boundaries
+from lasersph.boundaries.heated_faces import face_power
+from lasersph.boundaries.held_faces import HeldFace, face_pulls
+from lasersph.boundaries.settings import FLUX, HELD
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.particles.filling import LATERAL, Filling
+from lasersph.particles.layers import Layers
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Walls:
+    """Host arrays (n,): pull A [m^(d-2)], flow: sum of A P_w and b [W per (3 - d) lengths],
+    heat: sum of A T_w [K m^(d-2)], power: b."""
+
+    pull: Array
+    flow: Array
+    heat: Array
+    power: Array
+
+
+def walls_of(
+    boundaries: Boundaries,
+    curve: CaloricCurve,
+    layers: Layers,
+    filling: Filling,
+    weights: Array,
+    row: NDArray[np.int64],
+    neighbor: NDArray[np.uint32],
+) -> Walls:
+    """What the faces bring; weights of the pairs with held faces are set to zero.
+
+    Args:
+        weights: (pairs,) g_ij, changed in place. row, neighbor: (pairs,) i and j.
+    """
+    faces = ["surface", "bottom"]
+    faces += [face for ends in LATERAL[: layers.dimension - 1] for face in ends]
+    kinds = {face: boundaries.kind_of(face) for face in faces}
+    held = [HeldFace(face, kind == "wall") for face, kind in kinds.items() if kind in HELD]
+    pulls = face_pulls(held, filling, weights, row, neighbor, layers.extents)
+    count = filling.count
+    pull, flow, heat, power = (np.zeros(count) for _ in range(4))
+    for face, found in pulls.items():
+        T = boundaries.temperature_along(face, found.place[0], curve.initial_temperature)
+        pull += found.total(count)
+        heat += found.total(count, T)
+        flow += found.total(count, wall_potential(curve, T))
+    for face in (face for face, kind in kinds.items() if kind == FLUX):
+        flux = boundaries.flux_of(face)
+        power += face_power(face, flux, filling, weights, row, neighbor, layers.extents)
+    return Walls(pull, flow + power, heat, power)
+
+
+def wall_potential(curve: CaloricCurve, temperature: Array) -> Array:
+    """Heat potential of walls [W/m]; the end segments continue, flat where T is held."""
+    rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
+    T, P = curve.temperature[rising], curve.potential[rising]
+    found = np.interp(temperature, T, P)
+    below = P[0] + (P[1] - P[0]) / (T[1] - T[0]) * (temperature - T[0])
+    found = np.where(temperature < T[0], below, found)
+    if rising[-1]:
+        above = P[-1] + (P[-1] - P[-2]) / (T[-1] - T[-2]) * (temperature - T[-1])
+        found = np.where(temperature > T[-1], above, found)
+    return found
