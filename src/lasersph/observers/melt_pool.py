@@ -20,8 +20,8 @@ import numpy as np
 from lasersph.observers.peak import Peak, Span
 from lasersph.observers.view import View, deepest, hottest_surface_cell, lower_faces
 
-FULL = 1.0 - 1e-9
-LEVELS = {"": FULL, "half_": 0.5, "any_": 0.0}
+FULL, HALF = 1.0 - 1e-9, 0.5
+LEVELS = {"": FULL, "half_": HALF, "any_": 0.0}
 """Part of a column's name and the melt fraction that a fluid cell has at least (any: above 0)."""
 
 
@@ -116,6 +116,8 @@ def pool_width(view: View, least: float) -> float:
     last = int(solid[after]) - 1 if after < solid.size else row.size - 1
     edge = cell_edges(view, row)
     total = float(edge[last + 1] - edge[first])
+    if least == HALF:
+        total += _beyond_edge(view, row, first, first - 1) + _beyond_edge(view, row, last, last + 1)
     on_symmetry_plane = first == 0 or last == row.size - 1
     return total * (view.symmetry_factor if on_symmetry_plane else 1)
 
@@ -129,6 +131,18 @@ def cell_edges(view: View, row: np.ndarray) -> np.ndarray:
     between = 0.5 * ((x[:-1] + half[:-1]) + (x[1:] - half[1:]))
     first = 0.0 if view.symmetry_factor == 2 else x[0] - half[0]
     return np.concatenate([[first], between, [x[-1] + half[-1]]])
+
+
+def _beyond_edge(view: View, row: np.ndarray, last: int, beyond: int) -> float:
+    """How far half fluid material reaches beyond the edge of the last fluid cell of a row [m].
+
+    Less than half a cell in or out; 0 at the end of the row.
+    """
+    if not 0 <= beyond < row.size:
+        return 0.0
+    inner, outer = view.melt_fraction[row[last]], view.melt_fraction[row[beyond]]
+    distance = abs(view.position[0, row[beyond]] - view.position[0, row[last]])
+    return float(((inner - HALF) / (inner - outer) - 0.5) * distance)
 
 
 def surface_row(view: View) -> np.ndarray:

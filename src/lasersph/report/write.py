@@ -83,7 +83,8 @@ def results(summary: dict[str, Any]) -> list[str]:
         body.append(
             paragraph(
                 "Depth: lower face of the deepest such cell below the original surface. Width:"
-                " full width of one pool at the surface. Sizes are whole cells."
+                " full width of one pool at the surface. Sizes are whole cells, but for the"
+                " width at f_m = 0.5, which is interpolated."
             )
         )
     if rows := tables.vaporization(summary):

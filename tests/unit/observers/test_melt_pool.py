@@ -38,7 +38,10 @@ def view_of(fraction, *, cell=10e-9, time=0.0, symmetry=2, dimension=2):
 
 
 def test_sizes_at_the_three_levels():
-    """Lower face of the deepest cell, and twice the half width, at f_m = 1, 0.5 and above 0."""
+    """Lower face of the deepest cell, and twice the half width, at f_m = 1, 0.5 and above 0.
+
+    At 0.5 the surface is fluid to 25 nm + (0.6 - 0.5) / (0.6 - 0.1) 10 nm = 27 nm.
+    """
     view = view_of(
         [[1.0, 1.0, 0.6, 0.1, 0.0], [1.0, 0.6, 0.2, 0.0, 0.0], [0.4, 0.0, 0.0, 0.0, 0.0]]
     )
@@ -48,7 +51,7 @@ def test_sizes_at_the_three_levels():
             "melt_depth_m": 20e-9,
             "melt_width_m": 40e-9,
             "melt_depth_half_m": 20e-9,
-            "melt_width_half_m": 60e-9,
+            "melt_width_half_m": 54e-9,
             "melt_depth_any_m": 30e-9,
             "melt_width_any_m": 80e-9,
         }
@@ -59,6 +62,17 @@ def test_full_period_is_not_doubled():
     """Over a full period the width is the sum of the cells."""
     view = view_of([[0.0, 1.0, 1.0, 1.0, 0.0]], symmetry=1)
     assert pool_width(view, 1.0) == pytest.approx(30e-9)
+
+
+def test_half_fluid_width_between_cells():
+    """From 5 + 5 = 10 nm (0 to 1) to 25 + 10 (0.75 - 0.5) / 0.75 = 28.33 nm (0.75 to 0)."""
+    view = view_of([[0.0, 1.0, 0.75, 0.0]], symmetry=1)
+    assert pool_width(view, 0.5) == pytest.approx(28.333333e-9 - 10e-9)
+
+
+def test_half_fluid_width_ends_with_the_row():
+    """Where everything is fluid the width is that of the row."""
+    assert pool_width(view_of([[0.8, 0.9]], symmetry=1), 0.5) == pytest.approx(20e-9)
 
 
 def test_only_one_pool_counts():
