@@ -71,17 +71,50 @@ def test_surface_temperature_by_a_parabola():
     np.testing.assert_allclose(dlip_thermal.at_times(One()), 1000.0)
 
 
-def test_runs_are_computed_anew(tmp_path):
-    """An older run is replaced; a folder that is no run is refused and kept."""
-    settings = ["particles.spacing=2 um", "time.end=4 ns", "time.step=2 ns"]
-    first = runs.computed("stefan", settings, tmp_path, "short")
-    assert runs.computed("stefan", settings[:2], tmp_path, "short").path == first.path
+SHORT = ["particles.spacing=2 um", "time.end=4 ns", "time.step=2 ns"]
+
+
+def test_runs_are_kept(tmp_path):
+    """A finished run is taken as it is, an interrupted one is finished."""
+    first = runs.computed("stefan", SHORT, tmp_path, "short")
+    summary = first.path / "summary.json"
+    before = summary.stat().st_mtime_ns
+    runs.computed("stefan", SHORT, tmp_path, "short")
+    assert summary.stat().st_mtime_ns == before
+    kept = summary.read_text()
+    summary.unlink()
+    again = runs.computed("stefan", SHORT, tmp_path, "short")
+    assert again.is_complete
+    assert "temperature_max_K" in kept
+
+
+@pytest.mark.parametrize("why", ["other case", "other sources"])
+def test_runs_of_other_sources_or_cases_are_computed_anew(tmp_path, monkeypatch, why):
+    """What another case or another version of the program computed is never judged."""
+    first = runs.computed("stefan", SHORT, tmp_path, "short")
+    (first.path / "old.txt").write_text("of the first run")
+    settings = SHORT[:2] if why == "other case" else SHORT
+    if why == "other sources":
+        monkeypatch.setattr(runs, "_sources", lambda: "edited")
+    second = runs.computed("stefan", settings, tmp_path, "short")
+    assert second.path == first.path
+    assert not (first.path / "old.txt").exists()
+
+
+def test_a_folder_that_is_no_run_is_kept(tmp_path):
+    """Somebody's files are not removed."""
     other = tmp_path / "runs" / "notes"
-    other.mkdir()
+    other.mkdir(parents=True)
     (other / "notes.txt").write_text("mine")
     with pytest.raises(CaseError, match="not a run folder"):
-        runs.computed("stefan", settings, tmp_path, "notes")
+        runs.computed("stefan", SHORT, tmp_path, "notes")
     assert (other / "notes.txt").exists()
+
+
+def test_threads_of_a_validation(tmp_path):
+    """Runs use as many threads as asked for."""
+    with runs.threads(1):
+        assert runs.computed("stefan", SHORT, tmp_path, "one").summary["threads"] == 1
 
 
 @pytest.mark.validate

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from lasersph.cli.arguments import Out
+from lasersph.cli.arguments import Out, Threads
 from lasersph.cli.failures import FAILED
 
 SCHEMA_VERSION = 1
@@ -28,8 +28,12 @@ def validate(
     out: Out = None,
     quick: Short = False,
     only_list: OnlyList = False,
+    threads: Threads = None,
 ) -> None:
-    """Compute published cases; print published, reference and computed numbers with verdicts."""
+    """Compute published cases; print published, reference and computed numbers with verdicts.
+
+    Runs are kept in the output folder: the same command goes on where it was interrupted.
+    """
     from lasersph import validation
     from lasersph.cli.tables import aligned
 
@@ -41,7 +45,7 @@ def validate(
         _write(json_file, {})
     reports: dict[str, dict[str, Any]] = {}
     for name in wanted:
-        report = validation.validate(name, (out or RUNS) / name, quick=quick)
+        report = validation.validate(name, (out or RUNS) / name, quick=quick, threads=threads)
         print(report.table(), end="\n\n", flush=True)
         reports[name] = report.as_dict()
         if json_file is not None:
