@@ -1,0 +1,128 @@
+"""A closed box of liquid: center lines, stream function and Nusselt numbers of known fields."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from synthetic_flow import box_view
+
+from lasersph.observers import flow_observers
+from lasersph.observers.box_flow import EVERY, BoxFlow
+from lasersph.observers.box_sections import Box, center_lines, extremum, wall_temperature
+
+SIZE, SPEED = 1e-3, 1.0
+
+
+def moved(view, share=0.15):
+    """The same fields with particles moved by up to a share of the spacing."""
+    exact = box_view()
+    shift = np.random.default_rng(2).uniform(-share, share, view.position.shape) * view.width
+    x, z = view.position + shift
+    a, b = np.pi * x / SIZE, np.pi * (z + SIZE) / SIZE
+    velocity = np.array(
+        [
+            -np.pi * SPEED * np.sin(a) ** 2 * np.sin(2 * b),
+            np.pi * SPEED * np.sin(2 * a) * np.sin(b) ** 2,
+        ]
+    )
+    temperature = exact.temperature + (-20.0 / SIZE) * shift[0]
+    flow = replace(view.flow, velocity=velocity)
+    return replace(view, position=np.array([x, z]), temperature=temperature, flow=flow)
+
+
+def test_eddy_on_its_center_lines():
+    """u of psi = -V L sin^2 sin^2: extrema pi V at a quarter and three quarters of the height."""
+    observer = BoxFlow()
+    observer.observe(box_view())
+    observer.observe(moved(replace(box_view(), step=EVERY)))
+    box = observer.summary()["box"]
+    assert (box["width_m"], box["height_m"]) == pytest.approx((SIZE, SIZE))
+    center = box["center"]
+    for name in ("u_max", "w_max"):
+        assert center[f"{name}_m_s"] == pytest.approx(np.pi * SPEED, rel=5e-3)
+    for name in ("u_min", "w_min"):
+        assert center[f"{name}_m_s"] == pytest.approx(-np.pi * SPEED, rel=5e-3)
+    assert center["u_max_at_z_m"] == pytest.approx(-0.25 * SIZE, abs=0.01 * SIZE)
+    assert center["w_max_at_x_m"] == pytest.approx(0.25 * SIZE, abs=0.01 * SIZE)
+    assert len(box["lines"]["z_m"]) == len(box["lines"]["u_m_s"]) == 33
+    assert box["lines"]["z_m"][0] == pytest.approx(-SIZE)
+
+
+def test_stream_function_of_a_clockwise_eddy():
+    """Its extremum is -V L in the middle; the walls have 0."""
+    observer = BoxFlow()
+    observer.observe(box_view())
+    psi = observer.summary()["box"]["stream_function"]
+    assert psi["min_m2_s"] == pytest.approx(-SPEED * SIZE, rel=5e-3)
+    assert (psi["min_x_m"], psi["min_z_m"]) == pytest.approx((0.5 * SIZE, -0.5 * SIZE))
+    assert psi["max_m2_s"] == pytest.approx(0.0, abs=5e-3 * SPEED * SIZE)
+
+
+def test_conduction_has_the_nusselt_number_one():
+    """A linear temperature between two held sides: Nu = 1, flux k dT / L, in and out."""
+    observer = BoxFlow()
+    for view in (box_view(), moved(replace(box_view(), step=EVERY))):
+        row = observer.observe(view)
+        assert row["box_nusselt_left"] == pytest.approx(1.0, rel=1e-6)
+        heat = observer.summary()["box"]["heat"]
+        assert heat["between"] == "left and right"
+        assert heat["flux_left_W_m2"] == pytest.approx(2.0 * 20.0 / SIZE, rel=1e-6)
+        assert heat["flux_right_W_m2"] == pytest.approx(-2.0 * 20.0 / SIZE, rel=1e-6)
+        assert heat["flux_bottom_W_m2"] == pytest.approx(0.0, abs=1.0)
+        assert "nusselt_bottom" not in heat
+
+
+def test_slope_at_a_held_wall_of_a_boundary_layer():
+    """exp(-x/d) with five particles in d: within 2 %, better than without the wall's value."""
+    view = box_view(count=50)
+    box = Box.around(view.position, view.width)
+    layer = 0.1 * SIZE
+    temperature = 300.0 + 10.0 * np.exp(-view.position[0] / layer)
+    known = wall_temperature(view.position, temperature, box, "left", count=20, held=310.0)
+    guessed = wall_temperature(view.position, temperature, box, "left", count=20)
+    slope = -10.0 / layer
+    assert known[0] == pytest.approx(310.0, abs=0.05)
+    assert known[1] == pytest.approx(slope, rel=0.02)
+    assert abs(known[1] - slope) < abs(guessed[1] - slope)
+
+
+def test_without_temperature_difference_there_is_no_heat():
+    """An isothermal box: no Nusselt numbers, zeros in the history."""
+    view = replace(box_view(), temperature=np.full(1600, 300.0))
+    observer = BoxFlow()
+    assert observer.observe(view)["box_nusselt_left"] == 0.0
+    assert observer.summary()["box"]["heat"] == {}
+
+
+def test_lines_at_given_shares():
+    """Both lines run through the middle."""
+    view = box_view()
+    box = Box.around(view.position, view.width)
+    lines = center_lines(view.position, view.flow.velocity, box, np.array([0.25, 0.5]))
+    assert lines.x == pytest.approx([0.25 * SIZE, 0.5 * SIZE])
+    assert lines.w == pytest.approx([np.pi * SPEED, 0.0], abs=0.01)
+
+
+def test_extremum_of_a_parabola():
+    """Exact between the samples; at an end the end."""
+    places = np.linspace(0.0, 1.0, 11)
+    place, value = extremum(places, 2.0 - (places - 0.43) ** 2, 1.0)
+    assert (place, value) == pytest.approx((0.43, 2.0))
+    assert extremum(places, places, -1.0) == (0.0, 0.0)
+
+
+def test_history_between_and_state():
+    """Evaluated in every 25th step and at the end, also of a run resumed at its end."""
+    observers = flow_observers(2, box=True, iterations=("pressure",))
+    first = observers.observe(box_view(step=0))
+    later = observers.observe(box_view(time=1e-5, step=1, speed=2.0))
+    assert later["box_u_max_m_s"] == first["box_u_max_m_s"]
+    assert later["flow_speed_max_m_s"] == pytest.approx(2 * first["flow_speed_max_m_s"])
+    resumed = flow_observers(2, box=True, iterations=("pressure",))
+    resumed.restore(json.loads(json.dumps(observers.state())))
+    summary = observers.summary()
+    assert summary["box"]["center"]["u_max_m_s"] == pytest.approx(2 * np.pi, rel=5e-3)
+    assert resumed.summary() == summary
+    assert "melt" not in summary
+    assert "surface_speed_max_m_s" not in summary["flow"]
