@@ -21,6 +21,7 @@ from lasersph.case import Case, load_case
 from lasersph.output import Run, open_run
 from lasersph.reading import CaseError
 from lasersph.simulation import run
+from lasersph.solvers.conduction.state import NotConverged
 
 LOOK_ONLY = ("cli", "plots", "report", "studies", "validation")
 """Rooms whose sources no run depends on."""
@@ -56,6 +57,16 @@ def computed(case_name: str, overrides: Sequence[str], out_dir: Path, label: str
         made_by.write_text(maker, encoding="utf-8")
     run(case, folder, resume=True, threads=_threads.get())
     return open_run(folder)
+
+
+def to_failure(
+    case_name: str, overrides: Sequence[str], out_dir: Path, label: str
+) -> tuple[Run, str]:
+    """As `computed`, for a case that may fail; the reason is "" where it reached its end."""
+    try:
+        return computed(case_name, overrides, out_dir, label), ""
+    except NotConverged as error:
+        return open_run(out_dir / "runs" / label), str(error)
 
 
 def fingerprint(case: Case) -> str:
