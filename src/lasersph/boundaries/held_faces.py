@@ -43,7 +43,7 @@ class Pull:
 
     def total(self, count: int, value: Array | float = 1.0) -> Array:
         """(count,) sums of the weights of each row, times the pairs' values."""
-        return np.bincount(self.row, self.weight * np.asarray(value, float), minlength=count)
+        return np.asarray(np.bincount(self.row, self.weight * value, minlength=count), float)
 
 
 def plane_of(face: str, extents: Extents) -> tuple[int, float]:

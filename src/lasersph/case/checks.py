@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from lasersph.boundaries.settings import HELD
+from lasersph.case.flow_checks import flow_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
@@ -30,7 +32,14 @@ def problems_of(case: Case) -> list[tuple[str, str]]:
     found = list(_domain(case))
     if found:
         return found
-    return [*_material(case), *_laser(case), *_size(case), *_probes(case), *_snapshots(case)]
+    return [
+        *_material(case),
+        *_laser(case),
+        *flow_problems(case),
+        *_size(case),
+        *_probes(case),
+        *_snapshots(case),
+    ]
 
 
 def refuse_if_too_large(case: Case) -> None:
@@ -70,12 +79,36 @@ def _domain(case: Case) -> Iterator[tuple[str, str]]:
             "particles.fine_depth",
             'belongs to graded particles; leave it out or write arrangement = "graded"',
         )
-    sides = case.boundaries.sides
-    if domain.extent == "half" and sides != "adiabatic":
+    yield from _faces(case)
+
+
+def _faces(case: Case) -> Iterator[tuple[str, str]]:
+    """Whether the faces fit the domain and its dimensions."""
+    boundaries, dimensions = case.boundaries, case.solver.dimensions
+    left = boundaries.kind_of("left")
+    if case.domain.extent == "half" and left != "adiabatic":
+        key = "left" if boundaries.left else "sides"
         yield (
-            "boundaries.sides",
-            f'half a block is symmetric at x = 0, "{sides}" does not fit; write '
-            'extent = "full" in [domain] or sides = "adiabatic"',
+            f"boundaries.{key}",
+            f'half a block is symmetric at x = 0, "{left}" does not fit; write '
+            f'extent = "full" in [domain] or {key} = "adiabatic"',
+        )
+    for face in ("left", "right"):
+        if dimensions == 1 and getattr(boundaries, face) is not None:
+            yield (
+                f"boundaries.{face}",
+                "a 1-D column has no sides along x; leave it out or write dimensions = 2 in "
+                "[solver]",
+            )
+    if dimensions == 1 and boundaries.surface_temperature_wave is not None:
+        yield (
+            "boundaries.surface_temperature_wave",
+            "varies along x, which a 1-D run does not have; write dimensions = 2 in [solver]",
+        )
+    if boundaries.surface == "periodic" and case.particles.arrangement == "graded":
+        yield (
+            "boundaries.surface",
+            'graded particles do not repeat in z; write arrangement = "uniform" in [particles]',
         )
 
 
@@ -110,11 +143,12 @@ def _laser(case: Case) -> Iterator[tuple[str, str]]:
     laser = case.laser
     if laser is None:
         return
-    if case.boundaries.surface not in ("adiabatic", "free"):
+    surface = case.boundaries.surface
+    if surface in HELD or surface == "periodic":
+        what = "holds its temperature" if surface in HELD else "has none"
         yield (
             "boundaries.surface",
-            f'a laser heats the surface, "{case.boundaries.surface}" holds its temperature; '
-            "remove one of the two",
+            f'a laser heats the surface, "{surface}" {what}; remove one of the two',
         )
     try:
         laser.absorption_coefficient(case.material)
@@ -142,15 +176,16 @@ def _beam(case: Case, laser: Laser) -> Iterator[tuple[str, str]]:
             "domain.extent",
             'this beam is not symmetric about x = 0; write extent = "full"',
         )
-    if isinstance(laser.beam, InterferenceBeam) and case.boundaries.sides in (
-        "adiabatic",
-        "periodic",
-    ):
+    if not isinstance(laser.beam, InterferenceBeam):
+        return
+    repeating = ("adiabatic", "periodic")
+    ends = {case.boundaries.kind_of("left"), case.boundaries.kind_of("right")}
+    if ends & set(repeating):
         yield from _whole_periods("width", domain.width, laser.beam.lateral_period)
-        if dimensions == 3:
-            yield from _whole_periods(
-                "breadth", domain.breadth or domain.width, laser.beam.lateral_period_y
-            )
+    if dimensions == 3 and case.boundaries.sides in repeating:
+        yield from _whole_periods(
+            "breadth", domain.breadth or domain.width, laser.beam.lateral_period_y
+        )
 
 
 def _whole_periods(

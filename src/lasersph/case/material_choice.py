@@ -3,10 +3,13 @@
     material = "steel-304"                     a shipped material or one of the user's folder
     material = "my-alloy.toml"                 a file, relative to the case file
     material = { base = "steel-304", conductivity = "20 W/(m K)" }
-    [material] without base                    a whole material written into the case
+    [material] without base                    a whole material written into the case, e.g.
+        density = "1 kg/m^3", heat_capacity = "1 J/(kg K)", diffusivity = "0.01 m^2/s",
+        kinematic_viscosity = "0.01 m^2/s"
 
 In a changed material a property replaces the base's whole law, a section (melting, vaporization,
-optics) keeps the base's other numbers; the source of changed numbers is "set in the case".
+optics) keeps the base's other numbers. Numbers without a source have "set in the case". A whole
+material may have a constant diffusivity instead of its conductivity k = D rho c_p.
 """
 
 from __future__ import annotations
@@ -17,9 +20,10 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
 
 from lasersph.materials import Material, load_material, material_file
-from lasersph.reading import read_toml
+from lasersph.reading import QuantityError, parse_quantity, read_toml
 
 SET_HERE = "set in the case"
+UNNAMED = "of the case"
 SECTIONS = ("melting", "vaporization", "optics")
 PLAIN = ("name", "title", "composition", "note", "reference_temperature")
 
@@ -29,8 +33,8 @@ def _choose(value: Any, info: ValidationInfo) -> Any:
     folder = (info.context or {}).get("folder")
     if isinstance(value, str | Path):
         return load_material(_located(value, folder))
-    if isinstance(value, dict) and "base" in value:
-        return _changed(value, folder)
+    if isinstance(value, dict):
+        return _changed(value, folder) if "base" in value else _whole(value)
     return value
 
 
@@ -38,6 +42,40 @@ def _located(name: str | Path, folder: Path | None) -> str | Path:
     """A path relative to the case's folder, or the name as it is."""
     is_path = str(name).endswith(".toml") or "/" in str(name) or isinstance(name, Path)
     return Path(folder) / Path(name).expanduser() if is_path and folder else name
+
+
+def _whole(table: dict[str, Any]) -> dict[str, Any]:
+    """The data of a material written into the case."""
+    data: dict[str, Any] = {"name": UNNAMED}
+    for key, value in table.items():
+        if value is None or key in PLAIN:
+            data[key] = value
+        elif key in SECTIONS:
+            data[key] = _changed_section({}, value) if isinstance(value, dict) else value
+        else:
+            data[key] = _sourced(value)
+    if "conductivity" not in data and "diffusivity" in data:
+        conductivity = _conductivity(data)
+        if conductivity is not None:
+            data["conductivity"] = conductivity
+            data.pop("diffusivity")
+    return data
+
+
+def _conductivity(data: dict[str, Any]) -> dict[str, Any] | None:
+    """D rho c_p where all three are constants; None where one is not or cannot be read."""
+    product = 1.0
+    for name, kind in (
+        ("diffusivity", "diffusivity"), ("density", "density"), ("heat_capacity", "specific_heat"),
+    ):  # fmt: skip
+        value = data.get(name, {}).get("value")
+        if not isinstance(value, str):
+            return None
+        try:
+            product *= parse_quantity(value, kind)
+        except QuantityError:
+            return None
+    return {"value": f"{product!r} W/(m K)", "source": f"D rho c_p, D {SET_HERE}"}
 
 
 def _changed(table: dict[str, Any], folder: Path | None) -> dict[str, Any]:
@@ -67,6 +105,8 @@ def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[s
     sources = source if isinstance(source, dict) else dict.fromkeys(merged, source)
     sources = {key: sources[key] for key in sources if key not in ("source", "note")}
     for key, value in changes.items():
+        if value is None:
+            continue
         if key == "reflectivity":
             merged[key] = _sourced(value)
             sources.pop(key, None)
@@ -84,9 +124,8 @@ def _sourced(value: Any) -> Any:
     """A property given in short ("20 W/(m K)") or without source as a table with one."""
     if not isinstance(value, dict):
         return {"value": value, "source": SET_HERE}
-    if "solid" in value or "liquid" in value:
-        return {key: _sourced(law) for key, law in value.items()}
-    return {"source": SET_HERE} | value
+    laws = {key: _sourced(value[key]) for key in ("solid", "liquid") if value.get(key) is not None}
+    return value | laws if laws else {"source": SET_HERE} | value
 
 
 MaterialChoice = Annotated[

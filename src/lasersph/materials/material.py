@@ -116,19 +116,37 @@ class Material(Model):
         return float(self.density_at(self.reference_temperature))
 
     @property
+    def is_liquid(self) -> bool:
+        """Whether the material is liquid at any temperature: it flows and never melts."""
+        has_viscosity = self.viscosity is not None or self.kinematic_viscosity is not None
+        return self.melting is None and has_viscosity
+
+    @property
+    def flow_temperature(self) -> float:
+        """Temperature at which constant numbers of the liquid are taken [K].
+
+        The liquidus; the reference temperature where the material is liquid everywhere.
+        Raises ValueError where there is no liquid.
+        """
+        if self.liquidus is not None:
+            return self.liquidus
+        if self.is_liquid:
+            return self.reference_temperature
+        raise ValueError(f"material {self.name!r} has no melting point")
+
+    @property
     def density_liquid(self) -> float:
         """Density that the flow of the melt goes with [kg/m^3]: eta / nu at the liquidus.
 
         The liquid's density there; where a paper gives eta and nu but only an average density
-        over solid and liquid, the density that relates eta and nu.
-        Raises ValueError without melting data.
+        over solid and liquid, the density that relates eta and nu. Where the material is liquid
+        everywhere, that at the reference temperature.
+        Raises ValueError where there is no liquid.
         """
-        if self.liquidus is None:
-            raise ValueError(f"material {self.name!r} has no melting point")
+        T = self.flow_temperature
         if self.kinematic_viscosity is not None and self.viscosity is not None:
-            T = self.liquidus
-            return float(self.viscosity_at(T) / self.kinematic_viscosity_at(T))
-        return float(self.density.liquid_law.at(self.liquidus))
+            return float(self.at("viscosity", T) / self.at("kinematic_viscosity", T))
+        return float(self.density.liquid_law.at(T))
 
     @property
     def diffusivity_reference(self) -> float:
@@ -160,8 +178,17 @@ class Material(Model):
         return self.at("conductivity", temperature)
 
     def viscosity_at(self, temperature: ArrayLike) -> Array:
-        """Dynamic viscosity of the liquid [Pa s] at temperature [K], any shape."""
+        """Dynamic viscosity [Pa s] at temperature [K]: as given, else the liquid's nu rho."""
+        if self.viscosity is None and self.kinematic_viscosity is not None:
+            nu = self.at("kinematic_viscosity", temperature)
+            return nu * self.density.liquid_law.at(temperature)
         return self.at("viscosity", temperature)
+
+    def expansion_at(self, temperature: ArrayLike) -> Array:
+        """Volumetric expansion [1/K] of the liquid at temperature [K]; 0 where it is not given."""
+        if self.expansion is None:
+            return np.zeros(np.shape(temperature))
+        return self.at("expansion", temperature)
 
     def reflectivity_at(self, temperature: ArrayLike) -> Array:
         """Reflectivity (0 to 1) at surface temperature [K], any shape."""

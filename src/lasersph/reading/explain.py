@@ -93,13 +93,21 @@ def _placed_elsewhere(problems: list[Problem], model: type[BaseModel]) -> list[P
         return problems
     keys = _all_keys(model.model_json_schema())
     return [
-        replace(problem, hint=f'do you mean "{place}"?')
+        replace(problem, hint=hint)
         if problem.problem == "unknown key"
         and not problem.hint.startswith("do you mean")
-        and (place := _place_of(problem.key.rpartition(".")[2], keys))
+        and (hint := _hint_at_place(problem.key, keys))
         else problem
         for problem in problems
     ]
+
+
+def _hint_at_place(key: str, keys: dict[str, list[str]]) -> str:
+    """Where a key belongs: into another table, or to another kind of its own table."""
+    if keys.get(key):
+        return "belongs to " + " or ".join(f'kind = "{kind}"' for kind in keys[key])
+    place = _place_of(key.rpartition(".")[2], list(keys))
+    return f'do you mean "{place}"?' if place else ""
 
 
 def _place_of(key: str, keys: list[str]) -> str | None:
@@ -109,9 +117,10 @@ def _place_of(key: str, keys: list[str]) -> str | None:
     return last[near] if near else None
 
 
-def _all_keys(schema: dict[str, Any]) -> list[str]:
-    """Every dotted key of a JSON Schema, the outer ones first."""
-    definitions, found = schema.get("$defs", {}), []
+def _all_keys(schema: dict[str, Any]) -> dict[str, list[str]]:
+    """Every dotted key of a JSON Schema, the outer ones first, with the kinds that have it."""
+    definitions: dict[str, Any] = schema.get("$defs", {})
+    found: dict[str, list[str]] = {}
     waiting = [("", schema)]
     while waiting:
         path, part = waiting.pop(0)
@@ -119,10 +128,13 @@ def _all_keys(schema: dict[str, Any]) -> list[str]:
             part = definitions[part["$ref"].rpartition("/")[2]]
         branches = [*part.get("anyOf", ()), *part.get("oneOf", ()), *part.get("allOf", ())]
         waiting += [(path, branch) for branch in branches]
-        for name, value in part.get("properties", {}).items():
+        properties = part.get("properties", {})
+        kind = properties.get("kind", {}).get("const")
+        for name, value in properties.items():
             where = f"{path}.{name}" if path else name
             if where.count(".") < 5:
-                found.append(where)
+                found.setdefault(where, [])
+                found[where] += [kind] if kind else []
                 waiting.append((where, value))
     return found
 

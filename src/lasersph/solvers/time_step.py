@@ -34,7 +34,7 @@ class TimeSettings(Model):
     steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
         None,
         description="stop before the end once the flow is steady: largest change of velocity per "
-        "step, over the largest velocity and over the step's share of spacing/velocity",
+        "step, over the largest velocity and over the step's share of width/velocity",
     )
 
 

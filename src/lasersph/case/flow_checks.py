@@ -1,0 +1,194 @@
+"""Checks of cases that flow: melt pools in a block, and closed boxes that are all fluid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lasersph.boundaries.flow_sides import SIDES, FlowSides
+from lasersph.boundaries.initial_flow import TaylorGreenFlow
+from lasersph.boundaries.settings import FLUX, HELD
+from lasersph.case.size import LARGEST_STEPS
+from lasersph.reading import show_quantity
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+
+if TYPE_CHECKING:
+    from lasersph.case.case import Case
+
+LARGEST_COURANT = 0.25
+"""Share of a spacing that nothing may pass in a step, for the number of steps."""
+LARGEST_DIFFUSION = 0.125
+"""Share of spacing^2 over viscosity that an explicit step may take, for the number of steps."""
+
+
+def flow_problems(case: Case) -> Iterator[tuple[str, str]]:
+    """(key, "what is wrong; what would be right") of all that concerns flow."""
+    if not isinstance(case.solver, MeltPoolSettings):
+        yield from _without_flow(case)
+        return
+    yield from _liquid(case, case.solver)
+    yield from _heat_faces(case)
+    if case.flow is None:
+        yield from _pool(case, case.solver)
+    else:
+        yield from _box(case, case.flow)
+    yield from _steps(case, case.solver)
+
+
+def _without_flow(case: Case) -> Iterator[tuple[str, str]]:
+    if case.flow is not None:
+        yield (
+            "flow",
+            f'nothing flows where kind = "{case.solver.kind}"; write kind = "melt-pool" in '
+            "[solver], or leave [flow] out",
+        )
+    if case.time.steady is not None:
+        yield (
+            "time.steady",
+            f'is about flow, which kind = "{case.solver.kind}" does not compute; leave it out or '
+            'write kind = "melt-pool" in [solver]',
+        )
+
+
+def _liquid(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
+    """What the liquid must know."""
+    material = case.material
+    given = material.properties()
+    if "viscosity" not in given and "kinematic_viscosity" not in given:
+        yield (
+            "material",
+            f'"{material.name}" has no viscosity, which flow needs; add it with '
+            '{ base = ..., viscosity = "5 mPa s" }, or write kind = "conduction" in [solver]',
+        )
+    has_slope = "surface_tension" in given or "surface_tension_slope" in given
+    pulls = case.flow is None or case.flow.surface.kind == "free-surface"
+    if solver.marangoni and pulls and not has_slope:
+        yield (
+            "material",
+            f'"{material.name}" has no surface_tension_slope, which drives the surface; add it '
+            'with { base = ..., surface_tension_slope = "-0.4 mN/(m K)" }, or write '
+            "marangoni = false in [solver]",
+        )
+
+
+def _heat_faces(case: Case) -> Iterator[tuple[str, str]]:
+    for face in ("surface", "bottom", "left", "right"):
+        if case.boundaries.kind_of(face) == "free":
+            own = getattr(case.boundaries, face) is not None
+            yield (
+                f"boundaries.{face if own else 'sides'}",
+                '"free" cuts supports off, which flow needs whole; write "adiabatic", through '
+                "which no heat passes either",
+            )
+
+
+def _pool(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
+    """A pool in a block that is solid at first."""
+    if not solver.phase_change:
+        yield (
+            "solver.phase_change",
+            "nothing melts, so nothing flows; leave it out, or say in [flow] what holds at the "
+            "sides of a box that is all fluid",
+        )
+    elif case.material.melting is None:
+        yield (
+            "material",
+            f'"{case.material.name}" has no melting data, so it is fluid everywhere; say in '
+            "[flow] what holds at the sides of the box, or add melting",
+        )
+    is_heated = case.laser is not None or any(
+        case.boundaries.kind_of(face) in (*HELD, FLUX)
+        for face in ("surface", "bottom", "left", "right")
+    )
+    if not is_heated:
+        yield (
+            "laser",
+            "missing: nothing would melt; give [laser] or a heated face in [boundaries], or "
+            "[flow] for a box that is all fluid",
+        )
+    if case.boundaries.surface == "periodic":
+        yield "boundaries.surface", 'a pool lies below a surface; write surface = "adiabatic"'
+
+
+def _box(case: Case, flow: FlowSides) -> Iterator[tuple[str, str]]:
+    """A closed box that is all fluid."""
+    if case.material.melting is not None and case.solver.phase_change:
+        yield (
+            "solver.phase_change",
+            f'a box of [flow] is all fluid, but "{case.material.name}" melts; write '
+            "phase_change = false",
+        )
+    if case.particles.arrangement != "uniform":
+        yield (
+            "particles.arrangement",
+            'particles that flow through the whole box need one size; write "uniform"',
+        )
+    for side in SIDES:
+        heat, kind = case.boundaries.kind_of(side), flow.sides[side].kind
+        if (heat == "periodic") == (kind == "periodic"):
+            continue
+        own = getattr(case.boundaries, side) is not None
+        key = f"flow.{side}" if heat == "periodic" else f"boundaries.{side if own else 'sides'}"
+        given, other = (kind, "boundaries") if heat == "periodic" else (heat, "flow")
+        yield (
+            key,
+            f'"{given}", but {side} is periodic in [{other}]; write "periodic" in both or in '
+            "neither",
+        )
+    if case.domain.extent == "half" and flow.left.kind not in ("symmetry", "free-slip"):
+        yield (
+            "flow.left",
+            f'half a box is symmetric at x = 0, "{flow.left.kind}" does not fit; write '
+            'left = "symmetry", or extent = "full" in [domain]',
+        )
+    if isinstance(flow.initial, TaylorGreenFlow):
+        yield from _vortices(case, flow.initial)
+
+
+def _vortices(case: Case, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]:
+    """Vortices must fill the box: the walls lie between them."""
+    (x,) = case.domain.lateral(2)
+    period = initial.period or x[1] - x[0]
+    for key, length in (("width", x[1] - x[0]), ("depth", case.domain.depth)):
+        count = length / (0.5 * period)
+        if not math.isclose(count, max(1, round(count)), rel_tol=1e-6):
+            yield (
+                f"domain.{key}",
+                f"{show_quantity(length, 'm')} is no whole number of vortices of "
+                f"{show_quantity(0.5 * period, 'm')}; write e.g. {key} = "
+                f'"{show_quantity(0.5 * period * max(1, round(count)), "m", 10)}", or another '
+                "period in flow.initial",
+            )
+
+
+def _steps(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
+    """Speeds and viscosities that no number of steps follows."""
+    spacing, end = case.particles.spacing, case.time.end
+    speeds = {}
+    if case.flow is not None:
+        speeds = {
+            f"flow.{name}.velocity": abs(side.velocity) for name, side in case.flow.sides.items()
+        }
+        if isinstance(case.flow.initial, TaylorGreenFlow):
+            speeds["flow.initial.speed"] = case.flow.initial.speed
+    for key, speed in speeds.items():
+        steps = end * speed / (LARGEST_COURANT * spacing)
+        if steps > LARGEST_STEPS:
+            yield (
+                key,
+                f"{speed:.3g} m/s needs {steps:.2g} steps to the end, more than "
+                f"{LARGEST_STEPS:.0g}; take a lower speed, a coarser spacing or an earlier end",
+            )
+    if solver.viscosity == "explicit" and (case.material.melting or case.material.is_liquid):
+        try:
+            viscosity = float(case.material.kinematic_viscosity_at(case.material.flow_temperature))
+        except ValueError:
+            return
+        steps = end * viscosity / (LARGEST_DIFFUSION * spacing**2)
+        if steps > LARGEST_STEPS:
+            yield (
+                "solver.viscosity",
+                f"{viscosity:.3g} m^2/s needs {steps:.2g} explicit steps to the end, more than "
+                f'{LARGEST_STEPS:.0g}; write viscosity = "implicit" or take a coarser spacing',
+            )
