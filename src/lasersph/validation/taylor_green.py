@@ -1,8 +1,8 @@
 """Decaying Taylor-Green vortices: decay, velocities and order of convergence, against exact ones.
 
-The case `taylor-green` with 25, 50 and 100 particles a side, with particle shifting and without. The
-flow stretches the lattice along the lines where it diverges: without shifting particles line up and
-leave gaps, and a run may end early; then is reported when.
+The case `taylor-green` with 25, 50 and 100 particles a side, with particle shifting and without.
+The flow stretches the lattice along the lines where it diverges: without shifting particles line
+up and leave gaps, and a run may end early; then is reported when.
 
 Compared: the rate at which the kinetic energy decays, fitted over the run, and the root of the mean
 square of the velocities' error over the largest exact speed of that time.
