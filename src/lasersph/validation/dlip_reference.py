@@ -20,8 +20,8 @@ class Metal:
     """One substrate: its case, the published study, and the reference at one fluence.
 
     Attributes:
-        fluences: mean [J/cm2]. fine_zones: Table 5 [nm]. laser_numbers: Table 5 [1].
-        table_4: L [m], then La, Ph_sl, Ph_lv, Pr, Ra, |Ma| at 0.6 J/cm2.
+        fluences: mean [J/cm2]. fine_zones: Table 5 [nm]. laser_numbers: Table 5 [1],
+            with its digits. table_4: L [m], then La, Ph_sl, Ph_lv, Pr, Ra, |Ma| at 0.6 J/cm2.
         reference_fluence: [J/cm2] of temperature [K] at TIMES, events [ns] and sizes [nm].
         events: melt f_m > 0, f_m = 1, T_v from, T_v to, last liquid, last mush.
         widths, depths: largest at f_m > 0, 0.5, 1.
@@ -34,8 +34,8 @@ class Metal:
     case: str
     fluences: tuple[float, ...]
     fine_zones: tuple[float, ...]
-    laser_numbers: tuple[float, ...]
-    table_4: tuple[float, ...]
+    laser_numbers: tuple[str, ...]
+    table_4: tuple[str, ...]
     reference_fluence: float
     temperature: tuple[float, ...]
     events: tuple[float, ...]
@@ -55,8 +55,8 @@ METALS = {
         case="dlip-steel",
         fluences=(0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0),
         fine_zones=(270, 270, 320, 320, 320, 370, 370),
-        laser_numbers=(25.1434, 31.4292, 37.7151, 44.0009, 50.2868, 56.5726, 62.8585),
-        table_4=(457.8e-9, 37.7151, 0.119849, 3.10367, 0.1947, 2.31448e-8, 8.29744),
+        laser_numbers=("25.1434", "31.4292", "37.7151", "44.0009", "50.2868", "56.5726", "62.8585"),
+        table_4=("457.8e-9", "37.7151", "0.119849", "3.10367", "0.1947", "2.31448e-8", "8.29744"),
         reference_fluence=0.6,
         temperature=(1314, 3273, 3273, 3273, 3273, 1920, 1725, 1321, 896, 732),
         events=(45.94, 46.26, 49.96, 61.04, 78.0, 87.6),
@@ -74,8 +74,8 @@ METALS = {
         case="dlip-aluminium",
         fluences=(0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2),
         fine_zones=(770, 770, 1020, 1020, 1270, 1270, 1520),
-        laser_numbers=(152.657, 178.100, 203.543, 228.986, 254.429, 279.871, 305.314),
-        table_4=(1.517e-6, 152.657, 0.147849, 4.04443, 0.0101, 1.86969e-7, 9.76488),
+        laser_numbers=("152.657", "178.100", "203.543", "228.986", "254.429", "279.871", "305.314"),
+        table_4=("1.517e-6", "152.657", "0.147849", "4.04443", "0.0101", "1.86969e-7", "9.76488"),
         reference_fluence=1.0,
         temperature=(746, 2540, 2792, 2403, 1786, 1033, 935, 797, 607, 548),
         events=(45.46, 45.48, 51.09, 56.30, 95.5, 95.7),

@@ -19,6 +19,12 @@ MODULES = {
     "pulsed-heating": "pulsed_heating",
     "gaussian-pulse": "gaussian_pulse",
     "dlip-thermal": "dlip_thermal",
+    "lid-driven-cavity": "lid_driven_cavity",
+    "taylor-green": "taylor_green",
+    "marangoni-layer": "marangoni_layer",
+    "natural-convection": "natural_convection",
+    "dlip-steel": "dlip_steel",
+    "dlip-aluminium": "dlip_aluminium",
 }
 
 
