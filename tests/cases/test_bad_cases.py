@@ -4,42 +4,50 @@ from pathlib import Path
 
 import pytest
 from bad_cases import BAD_CASES
+from bad_flow_cases import BAD_FLOW_CASES
 
 from lasersph.case import load_case
 from lasersph.reading import CaseError
 
-GOOD = (Path(__file__).parent / "good.toml").read_text(encoding="utf-8")
+FOLDER = Path(__file__).parent
+GOOD = (FOLDER / "good.toml").read_text(encoding="utf-8")
+GOOD_FLOW = (FOLDER / "good-flow.toml").read_text(encoding="utf-8")
+ALL = BAD_CASES | BAD_FLOW_CASES
 
 
 def spoiled(name: str) -> bytes:
     """The bytes of a bad case file."""
-    old, new, _ = BAD_CASES[name]
+    old, new, _ = ALL[name]
+    good = GOOD_FLOW if name in BAD_FLOW_CASES else GOOD
     if isinstance(new, bytes):
         return new
     if not old:
-        return (GOOD + new).encode()
-    assert GOOD.count(old) >= 1, f"good.toml no longer holds {old!r}"
-    return GOOD.replace(old, new, 1).encode()
+        return (good + new).encode()
+    assert good.count(old) >= 1, f"the good case no longer holds {old!r}"
+    return good.replace(old, new, 1).encode()
 
 
 def test_there_are_enough_and_the_good_one_is_good(tmp_path):
     """The table is as long as promised, and its starting point is accepted."""
-    assert len(BAD_CASES) >= 40
+    assert len(BAD_CASES) >= 40 and len(ALL) == len(BAD_CASES) + len(BAD_FLOW_CASES)
     file = tmp_path / "case.toml"
     file.write_text(GOOD, encoding="utf-8")
     case = load_case(str(file))
     assert case.initial_temperature == 293.15
     assert case.name == "case"
+    file.write_text(GOOD_FLOW, encoding="utf-8")
+    flow = load_case(str(file))
+    assert flow.flow is not None and flow.material.is_liquid
 
 
-@pytest.mark.parametrize("name", BAD_CASES)
+@pytest.mark.parametrize("name", ALL)
 def test_message(name, tmp_path):
     """One line of the refusal is the one in the table."""
     file = tmp_path / "case.toml"
     file.write_bytes(spoiled(name))
     with pytest.raises(CaseError) as error:
         load_case(str(file))
-    expected = BAD_CASES[name][2].replace("{folder}", str(tmp_path))
+    expected = ALL[name][2].replace("{folder}", str(tmp_path))
     expected = expected if expected.startswith("/") else f"{file}{expected}"
     assert expected in str(error.value).splitlines()
 

@@ -4,10 +4,9 @@ import random
 from pathlib import Path
 
 import pytest
-from bad_cases import BAD_CASES
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from test_bad_cases import GOOD, spoiled
+from test_bad_cases import ALL, GOOD, spoiled
 
 from lasersph.cli import main
 
@@ -18,7 +17,7 @@ def written(folder: Path) -> set[str]:
 
 
 @pytest.mark.parametrize("verb", ["check", "run"])
-@pytest.mark.parametrize("name", BAD_CASES)
+@pytest.mark.parametrize("name", ALL)
 def test_bad_file(verb, name, tmp_path, monkeypatch, capsys):
     """The message of the table, exit code 2, nothing beside the file."""
     monkeypatch.chdir(tmp_path)
@@ -27,7 +26,7 @@ def test_bad_file(verb, name, tmp_path, monkeypatch, capsys):
     said = capsys.readouterr()
     assert said.out == ""
     assert "Traceback" not in said.err
-    expected = BAD_CASES[name][2].replace("{folder}/", "")
+    expected = ALL[name][2].replace("{folder}/", "")
     assert f"lasersph: case.toml{expected}" in said.err.splitlines()
     assert written(tmp_path) == {"case.toml"}
 

@@ -70,6 +70,8 @@ class FlowSide(Model):
 
 
 def _from_word(value: Any) -> Any:
+    if not isinstance(value, str | dict | FlowSide):
+        raise ValueError('must be a word or a table; write e.g. "no-slip"')
     return {"kind": value} if isinstance(value, str) else value
 
 

@@ -113,9 +113,10 @@ def _faces(case: Case) -> Iterator[tuple[str, str]]:
 
 
 def _material(case: Case) -> Iterator[tuple[str, str]]:
+    changes = case.solver.phase_change and case.flow is None
     try:
         case.material.caloric_curve(
-            case.initial_temperature, case.solver.plateau, phase_change=case.solver.phase_change
+            case.initial_temperature, case.solver.plateau, phase_change=changes
         )
     except ValueError as error:
         text = str(error)

@@ -10,6 +10,7 @@ from lasersph.boundaries.flow_sides import SIDES, FlowSides
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import FLUX, HELD
 from lasersph.case.size import LARGEST_STEPS
+from lasersph.materials import available_materials
 from lasersph.reading import show_quantity
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
@@ -55,20 +56,21 @@ def _liquid(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
     """What the liquid must know."""
     material = case.material
     given = material.properties()
+    base = f'beside base = "{material.name}" ' if material.name in available_materials() else ""
     if "viscosity" not in given and "kinematic_viscosity" not in given:
         yield (
             "material",
-            f'"{material.name}" has no viscosity, which flow needs; add it with '
-            '{ base = ..., viscosity = "5 mPa s" }, or write kind = "conduction" in [solver]',
+            f'"{material.name}" has no viscosity, which flow needs; write e.g. viscosity = '
+            f'"5 mPa s" {base}in [material], or kind = "conduction" in [solver]',
         )
     has_slope = "surface_tension" in given or "surface_tension_slope" in given
     pulls = case.flow is None or case.flow.surface.kind == "free-surface"
     if solver.marangoni and pulls and not has_slope:
         yield (
             "material",
-            f'"{material.name}" has no surface_tension_slope, which drives the surface; add it '
-            'with { base = ..., surface_tension_slope = "-0.4 mN/(m K)" }, or write '
-            "marangoni = false in [solver]",
+            f'"{material.name}" has no surface_tension_slope, which drives the surface; write '
+            f'e.g. surface_tension_slope = "-0.4 mN/(m K)" {base}in [material], or marangoni = '
+            "false in [solver]",
         )
 
 

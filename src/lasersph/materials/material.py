@@ -248,11 +248,14 @@ class Material(Model):
 
         plateau: "hold" keeps T at the boiling point for any h above; "clip" is the same curve for
         a solver that limits h to ``enthalpy_vaporized``; "evaporate" lets the liquid go on.
-        phase_change = False leaves melting and boiling out (the solid's laws for every T).
+        phase_change = False leaves melting and boiling out (the solid's laws for every T), and so
+        does a material that is liquid everywhere and has no boiling point.
 
         Raises ValueError where the initial temperature is not below the solidus, or the plateau
         needs a boiling point that the material does not have.
         """
+        if self.is_liquid and self.vaporization is None:
+            phase_change = False
         return build_curve(
             heat_capacity=self.heat_capacity,
             conductivity=self.conductivity,

@@ -2,10 +2,15 @@
 
 import pytest
 
+from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.case import available_cases, estimate, load_case
 from lasersph.lasers import GaussianPulse, InterferenceBeam, SquarePulse
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
-NAMES = ("dlip-aluminium", "dlip-steel", "pulsed-heating", "stefan")
+NAMES = (
+    "dlip-aluminium", "dlip-steel", "lid-driven-cavity", "marangoni-layer", "natural-convection",
+    "pulsed-heating", "stefan", "taylor-green",
+)  # fmt: skip
 
 
 def test_names():
@@ -51,6 +56,45 @@ def test_pulsed_heating():
     assert round(estimate(case.domain, case.particles, 1).particles) == 800
     solid = load_case("pulsed-heating", ["solver.dimensions=3", "domain.width=2um"])
     assert round(estimate(solid.domain, solid.particles, 3).particles) == 800 * 8 * 8
+
+
+def test_boxes_of_one():
+    """Re = U L / nu = 100 in the cavity and the vortices; both fill 50 x 50 particles."""
+    cavity, vortices = load_case("lid-driven-cavity"), load_case("taylor-green")
+    for case in (cavity, vortices):
+        assert case.material.is_liquid and case.material.density_liquid == 1.0
+        assert float(case.material.kinematic_viscosity_at(300.0)) == 0.01
+        assert case.domain.width == case.domain.depth == 1.0
+        assert round(estimate(case.domain, case.particles, 2).particles) == 2500
+    assert cavity.flow is not None and cavity.flow.surface.velocity == 1.0
+    assert vortices.flow is not None
+    assert {side.kind for side in vortices.flow.sides.values()} == {"periodic"}
+
+
+def test_marangoni_layer_has_the_speed_that_it_states():
+    """B = 1 and 0.01439 m/s; Re = 0.014, so that inertia does nothing."""
+    case = load_case("marangoni-layer")
+    wave, material = case.boundaries.surface_temperature_wave, case.material
+    assert wave is not None
+    slope = float(material.surface_tension_slope_at(1727.0))
+    viscosity = float(material.viscosity_at(1727.0))
+    exact = ThermocapillaryLayer(case.domain.depth, wave.period, wave.amplitude, slope, viscosity)
+    assert exact.wave_number * case.domain.depth == pytest.approx(1.0, rel=1e-9)
+    assert exact.surface_speed == pytest.approx(0.01439, rel=1e-3)
+    assert exact.surface_speed * 1e-6 / float(material.kinematic_viscosity_at(1727.0)) < 0.02
+    assert case.domain.width == wave.period
+
+
+def test_natural_convection():
+    """Ra = g beta dT L^3 / (nu D) = 1e4 and Pr = 0.71."""
+    case = load_case("natural-convection")
+    material, faces = case.material, case.boundaries
+    nu, a = float(material.kinematic_viscosity_at(300.0)), material.diffusivity_reference
+    difference = faces.temperature_of("left", 300.0) - faces.temperature_of("right", 300.0)
+    assert isinstance(case.solver, MeltPoolSettings)
+    lift = case.solver.gravity * float(material.expansion_at(300.0)) * difference
+    assert lift / (nu * a) == pytest.approx(1e4, rel=1e-6)
+    assert nu / a == pytest.approx(0.71, rel=1e-6)
 
 
 def test_stefan_number():

@@ -1,0 +1,64 @@
+# ruff: noqa: E501
+"""Bad case files about flow: as in `bad_cases`, replaced in good-flow.toml."""
+
+SIDE = 'bottom = "no-slip"'
+LID = 'surface = "no-slip"'
+RIGHT = 'right = "fixed-temperature"\nright_temperature = "299.5 K"'
+SIDES = 'left = "fixed-temperature"\nleft_temperature = "300.5 K"\n' + RIGHT
+KIND = 'kind = "melt-pool"'
+GRAVITY = 'gravity = "10 m/s^2"'
+VISCOSITY = 'kinematic_viscosity = "0.0071 m^2/s"'
+SPACING = 'spacing = "25 mm"'
+STEADY = "steady = 1e-3"
+
+BAD_FLOW_CASES = {
+    # solver
+    "flow under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':21: flow: nothing flows where kind = "conduction"; write kind = "melt-pool" in [solver], or leave [flow] out'),
+    "steady under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':39: time.steady: is about flow, which kind = "conduction" does not compute; leave it out or write kind = "melt-pool" in [solver]'),
+    "flow in 3-D": (KIND, KIND + "\ndimensions = 3", ':35: solver.dimensions: must be "2", got 3'),
+    "flow in 1-D": (KIND, KIND + "\ndimensions = 1", ':35: solver.dimensions: must be "2", got 1'),
+    "key of the other solver": (KIND, KIND + '\nscheme = "explicit"', ':35: solver.scheme: unknown key; belongs to kind = "conduction"'),
+    "key of this solver under conduction": (KIND, 'kind = "conduction"', ':35: solver.gravity: unknown key; belongs to kind = "melt-pool"'),
+    "gravity as a velocity": (GRAVITY, 'gravity = "10 m/s"', ':35: solver.gravity: "10 m/s" is a velocity, not an acceleration; write e.g. "9.81 m/s^2"'),
+    "gravity upward": (GRAVITY, 'gravity = "-10 m/s^2"', ':35: solver.gravity: must be at least 0, got "-10 m/s^2"'),
+    "unknown pressure solver": (KIND, KIND + '\npressure = "publishd"', ':35: solver.pressure: must be "multigrid" or "published", got "publishd"; do you mean "published"?'),
+    "pressure solved to nothing": (KIND, KIND + "\npressure_tolerance = 0", ":35: solver.pressure_tolerance: must be greater than 0, got 0"),
+    "too much shifting": (KIND, KIND + "\nshifting = 3", ":35: solver.shifting: must be at most 0.5, got 3"),
+    "a box that melts": ("[material]\n", '[material]\nbase = "steel-304-demuth"\n', ':34: solver.phase_change: a box of [flow] is all fluid, but "steel-304-demuth" melts; write phase_change = false'),
+    # sides
+    "unknown side": (SIDE, 'top = "no-slip"', ":24: flow.top: unknown key; known here: left, right, bottom, surface, initial"),
+    "unknown kind of side": (SIDE, 'bottom = "noslip"', ':24: flow.bottom: must be "no-slip" or "moving-wall" or "free-slip" or "symmetry" or "periodic" or "free-surface", got "noslip"; do you mean "no-slip"?'),
+    "side as a number": (SIDE, "bottom = 0", ':24: flow.bottom: must be a word or a table; write e.g. "no-slip"'),
+    "periodic on one side": (SIDE, 'bottom = "periodic"', ':24: flow.bottom: periodic on one side only; write surface = "periodic" too, or another kind here'),
+    "heat periodic on one side": (RIGHT, 'right = "periodic"', ':30: boundaries.right: periodic on one side only; write left = "periodic" too, or another kind here'),
+    "periodic for heat only": (SIDES, 'sides = "periodic"', ':22: flow.left: "no-slip", but left is periodic in [boundaries]; write "periodic" in both or in neither'),
+    "periodic for flow only": ('left = "no-slip"\nright = "no-slip"', 'left = "periodic"\nright = "periodic"', ':28: boundaries.left: "fixed-temperature", but left is periodic in [flow]; write "periodic" in both or in neither'),
+    "moving wall at rest": (LID, 'surface = "moving-wall"', ':25: flow.surface.velocity: a moving wall needs its velocity; write velocity = "1 m/s"'),
+    "resting wall that moves": (LID, 'surface = { kind = "no-slip", velocity = "1 m/s" }', ':25: flow.surface.velocity: says nothing where kind = "no-slip"; leave it out or write kind = "moving-wall"'),
+    "velocity in m": (LID, 'surface = { kind = "moving-wall", velocity = "1 m" }', ':25: flow.surface.velocity: "1 m" is a length, not a velocity; write e.g. "10 m/s"'),
+    "absurd velocity": (LID, 'surface = { kind = "moving-wall", velocity = "1e12 m/s" }', ":25: flow.surface.velocity: 1e+12 m/s needs 4.8e+15 steps to the end, more than 1e+09; take a lower speed, a coarser spacing or an earlier end"),
+    "free surface below": (SIDE, 'bottom = "free-surface"', ':24: flow.bottom: a free surface lies at the top; write surface = "free-surface"'),
+    "support cut off": (RIGHT, 'right = "free"', ':30: boundaries.right: "free" cuts supports off, which flow needs whole; write "adiabatic", through which no heat passes either'),
+    "half a box with walls": ('depth = "1 m"', 'depth = "1 m"\nextent = "half"', ':29: boundaries.left: half a block is symmetric at x = 0, "fixed-temperature" does not fit; write extent = "full" in [domain] or left = "adiabatic"'),
+    "graded box": (SPACING, 'spacing = "25 mm"\ncoarsest = "1 m"\narrangement = "graded"', ':21: particles.arrangement: particles that flow through the whole box need one size; write "uniform"'),
+    # heat
+    "flux missing": (RIGHT, 'right = "prescribed-flux"', ':27: boundaries.right_flux: is missing; write e.g. "1e6 W/m^2", positive into the body'),
+    "flux in K": (RIGHT, 'right = "prescribed-flux"\nright_flux = "3 K"', ':31: boundaries.right_flux: "3 K" is a temperature, not a heat flux; write e.g. "1e6 W/m^2"'),
+    "flux through a held face": ('right_temperature = "299.5 K"', 'right_flux = "3 W/m^2"', ':31: boundaries.right_flux: says nothing where right = "fixed-temperature"; leave it out, or set right to "prescribed-flux"'),
+    "wave of an adiabatic surface": (RIGHT, RIGHT + '\nsurface_temperature_wave = { amplitude = "1 K", period = "1 m" }', ':32: boundaries.surface_temperature_wave: says nothing where surface = "adiabatic"; write surface = "fixed-temperature"'),
+    # start and end
+    "unknown start": (LID, LID + '\ninitial = { kind = "vortex" }', ':26: flow.initial.kind: must be "rest" or "taylor-green" or "table", got "vortex"'),
+    "start without a file": (LID, LID + '\ninitial = { kind = "table" }', ":26: flow.initial.path: missing; name a CSV file with columns x, z, u, w"),
+    "start from a missing file": (LID, LID + '\ninitial = { kind = "table", path = "none.csv" }', ":26: flow.initial: {folder}/none.csv: cannot be read: No such file or directory"),
+    "vortices that do not fit": (LID, LID + '\ninitial = { kind = "taylor-green", speed = "1 m/s", period = "0.7 m" }', ':15: domain.width: 1 m is no whole number of vortices of 350 mm; write e.g. width = "1.05 m", or another period in flow.initial'),
+    "vortices without speed": (LID, LID + '\ninitial = { kind = "taylor-green" }', ":26: flow.initial.speed: missing"),
+    "steady as a time": (STEADY, 'steady = "1 s"', ':39: time.steady: must be a number, got "1 s"'),
+    "steady at once": (STEADY, "steady = 2", ":39: time.steady: must be less than 1, got 2"),
+    # material
+    "no viscosity": (VISCOSITY + "\n", "", ':7: material: "of the case" has no viscosity, which flow needs; write e.g. viscosity = "5 mPa s" in [material], or kind = "conduction" in [solver]'),
+    "no surface tension": (LID, 'surface = "free-surface"', ':7: material: "of the case" has no surface_tension_slope, which drives the surface; write e.g. surface_tension_slope = "-0.4 mN/(m K)" in [material], or marangoni = false in [solver]'),
+    "viscosity of another kind": (VISCOSITY, 'viscosity = "0.0071 m^2/s"', ':11: material.viscosity: "0.0071 m^2/s" is a diffusivity, not a viscosity; write e.g. "1.3 mPa s"'),
+    "no viscosity at all": (VISCOSITY, 'kinematic_viscosity = "0 m^2/s"', ":7: material: kinematic_viscosity must be positive everywhere in its range"),
+    "no conductivity": ('diffusivity = "0.01 m^2/s"\n', "", ":7: material.conductivity: missing"),
+}  # fmt: skip
+"""Name -> (replaced, replacement, message after the file name)."""
