@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cavity_differences import Cavity, extrapolated
 
 from lasersph.validation.lid_driven_cavity_reference import (
     REYNOLDS_NUMBERS,
@@ -49,3 +50,15 @@ def test_natural_convection_table():
     assert np.isnan(table["psi_max"]).tolist() == [True, True, False, False]
     assert table["Nu_half"] == pytest.approx(table["Nu"], rel=1e-3)
     assert table["Nu_0"] == pytest.approx(table["Nu"], rel=3e-3)
+
+
+def test_center_lines_by_another_program():
+    """Differences on 32 and 64 cells, extrapolated, give the stored center lines at Re 100."""
+    coarse, fine = (Cavity(n, 100.0).solve().velocity() for n in (32, 64))
+    u, w = extrapolated(fine, coarse)
+    for component, along in (("u", u[16]), ("v", w[:, 16])):
+        line = center_line(component, 100)
+        k = np.round(32 * line.share).astype(int)
+        shared = np.isclose(32 * line.share, k)
+        assert np.count_nonzero(shared) > 4
+        assert along[k[shared]] == pytest.approx(line.value[shared], abs=1e-3)
