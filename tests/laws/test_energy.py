@@ -59,6 +59,23 @@ def test_losses_and_held_walls():
     assert solver.state.energy["lost"] > 0.0
 
 
+@pytest.mark.parametrize("scheme", ["implicit", "explicit"])
+def test_fluxes_and_ends_of_their_own(scheme):
+    """Fluxes count as lost where they leave and as negative losses where they enter, but for what
+    enters at the wall's corner and leaves through it at once."""
+    found, solver = imbalance(
+        "dlip-steel", "boundaries.right=prescribed-flux", "boundaries.right_flux=-1e9 W/m^2",
+        "boundaries.left=wall", "boundaries.bottom=prescribed-flux",
+        "boundaries.bottom_flux=1e8 W/m^2", "domain.extent=full", f"solver.scheme={scheme}",
+        "laser=", "probes=", "time.step=0.5 ns", end=2e-8,
+    )  # fmt: skip
+    assert found <= ALLOWED
+    depth, width, time = 4.6e-6, 5e-6, solver.state.time
+    assert solver.state.energy["lost"] == pytest.approx(
+        (1e9 * depth - 1e8 * width) * time, rel=5e-3
+    )
+
+
 def test_constant_field_stays_exactly_constant():
     """Without light nothing moves, to the last bit, in both schemes."""
     for scheme in ("implicit", "explicit"):

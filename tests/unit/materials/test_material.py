@@ -253,3 +253,38 @@ def test_check_warns_of_implausible_numbers() -> None:
     data["melting"]["latent_heat"] = 2.51e6
     subjects = {f.subject for f in check_material(Material(**data)) if f.level == "warning"}
     assert subjects == {"diffusivity", "melting.latent_heat"}
+
+
+def box_liquid(**more):
+    """A liquid without melting point, as written into the case of a box."""
+    numbers = {"density": 2.0, "heat_capacity": 1.0, "conductivity": 1.0} | more
+    laws = {name: {"value": value, "source": "here"} for name, value in numbers.items()}
+    return Material.model_validate({"name": "liquid"} | laws)
+
+
+def test_liquid_everywhere():
+    """Without melting data the reference temperature stands for the liquidus; nu = eta / rho."""
+    thick = box_liquid(viscosity=3.0)
+    assert thick.is_liquid and thick.flow_temperature == 298.15
+    assert thick.density_liquid == 2.0
+    assert float(thick.kinematic_viscosity_at(400.0)) == 1.5
+    thin = box_liquid(kinematic_viscosity=0.5)
+    assert thin.is_liquid and thin.density_liquid == 2.0
+    assert float(thin.viscosity_at(400.0)) == 1.0
+    assert thin.expansion_at(np.array([300.0, 400.0])).tolist() == [0.0, 0.0]
+    assert float(box_liquid(viscosity=3.0, expansion=0.1).expansion_at(300.0)) == 0.1
+
+
+def test_a_liquid_without_boiling_point_changes_no_phase():
+    """Its curve is a straight line under every plateau rule."""
+    curve = box_liquid(viscosity=3.0).caloric_curve(300.0, "hold")
+    assert curve.temperature_at(5.0) == 305.0
+    assert not curve.melt_fraction.any() and not curve.vapor_fraction.any()
+
+
+def test_a_solid_without_melting_point_does_not_flow():
+    """Neither melting point nor viscosity: there is no liquid."""
+    solid = box_liquid()
+    assert not solid.is_liquid
+    with pytest.raises(ValueError, match="has no melting point"):
+        _ = solid.density_liquid

@@ -94,6 +94,29 @@ def test_corners_belong_to_the_bottom_where_both_hold():
     assert not filling.held[: filling.count].any()
 
 
+def test_ends_of_different_kind():
+    """The left end holds, the right one mirrors; each marks its own dummies only."""
+    filling = fill(block(), surface=FREE, bottom=FREE, sides=IMAGE, left=HELD)
+    x = filling.position[0]
+    assert np.all(filling.held[x < -3e-7] == FACES.index("left"))
+    assert not filling.held[x > -3e-7].any()
+    assert np.sum(x < -3e-7) == np.sum(x > 3e-7) == GHOSTS * 8
+    cut = fill(block(), surface=FREE, bottom=FREE, sides=IMAGE, right=FREE)
+    assert cut.position[0].max() < 3e-7
+
+
+def test_periodic_in_depth():
+    """Beyond surface and bottom lie the same columns shifted by the depth."""
+    filling = fill(block(), surface=PERIODIC, bottom=PERIODIC, sides=PERIODIC)
+    dummies = slice(filling.count, None)
+    shift = filling.position[:, dummies] - filling.position[:, filling.source[dummies]]
+    steps = shift / np.array([[6e-7], [8e-7]])
+    assert steps == pytest.approx(np.rint(steps), abs=1e-9)
+    assert set(np.rint(steps[1]).astype(int)) == {-1, 0, 1}
+    assert np.sum(filling.position[-1] > 0.0) == GHOSTS * (6 + 2 * GHOSTS)
+    assert not filling.held.any()
+
+
 def test_above_is_the_surface_cell_over_a_particle():
     """Layers of fewer columns lie under the surface cell that holds their center."""
     layers = Layers(np.array([1e-7, 2e-7, 3e-7]), np.array([[6, 3, 2]]), ((-3e-7, 3e-7),))

@@ -1,0 +1,43 @@
+"""What holds for the flow at the sides of a box."""
+
+import pytest
+from pydantic import ValidationError
+
+from lasersph.boundaries import FlowSide, FlowSides
+
+
+def test_a_word_or_a_table():
+    """A word is the kind; a table adds the velocity; sides not named are walls at rest."""
+    flow = FlowSides.model_validate(
+        {"left": "free-slip", "surface": {"kind": "moving-wall", "velocity": "2 mm/s"}}
+    )
+    assert flow.left == FlowSide(kind="free-slip")
+    assert (flow.surface.kind, flow.surface.velocity) == ("moving-wall", 2e-3)
+    assert flow.bottom == flow.right == FlowSide(kind="no-slip", velocity=0.0)
+    assert list(flow.sides) == ["left", "right", "bottom", "surface"]
+    assert [name for name, side in flow.sides.items() if side.is_wall] == [
+        "right", "bottom", "surface",
+    ]  # fmt: skip
+
+
+def test_round_trip():
+    """Plain data of the sides read back is the same."""
+    flow = FlowSides.model_validate({"left": "periodic", "right": "periodic"})
+    assert FlowSides.model_validate(flow.model_dump()) == flow
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        ({"bottom": "periodic"}, 'write surface = "periodic" too'),
+        ({"right": "periodic"}, 'write left = "periodic" too'),
+        ({"left": "free-surface"}, 'write surface = "free-surface"'),
+        ({"left": "moving-wall"}, "a moving wall needs its velocity"),
+        ({"left": {"kind": "free-slip", "velocity": 1.0}}, "says nothing"),
+        ({"left": 3}, "must be a word or a table"),
+    ],
+)
+def test_refusals(data, message):
+    """What contradicts itself is refused in words."""
+    with pytest.raises(ValidationError, match=message):
+        FlowSides.model_validate(data)
