@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from lasersph.case import load_case
 from lasersph.reading import CaseError
 from lasersph.validation import (
     Report,
-    dlip_thermal,
     gaussian_pulse,
     names,
     pulsed_heating,
@@ -14,6 +14,7 @@ from lasersph.validation import (
     stefan,
     validate,
 )
+from lasersph.validation.dlip_columns import Columns
 from lasersph.validation.dlip_numbers import table_rows
 from lasersph.validation.dlip_reference import METALS
 
@@ -57,18 +58,12 @@ def test_tables_of_the_paper(label):
     assert Report(label, "", tuple(rows)).passed, Report(label, "", tuple(rows)).table()
 
 
-def test_surface_temperature_by_a_parabola():
-    """T = 1000 - 8 z^2 / dx^2 is 998 and 982 at the first two rows and 1000 at the surface."""
-
-    class One:
-        history = {  # noqa: RUF012
-            "time_s": np.array([0.0, 1e-6]),
-            "temperature_at_maximum_K": np.array([998.0, 998.0]),
-            "probe_second_K": np.array([982.0, 982.0]),
-        }
-        summary = {"material": {"vaporization_K": 3000.0}}  # noqa: RUF012
-
-    np.testing.assert_allclose(dlip_thermal.at_times(One()), 1000.0)
+def test_columns_of_25_nm_give_the_widths_of_the_reference():
+    """The spread between f_m > 0 and f_m = 1 in the reference is that of its columns."""
+    metal = METALS["steel"]
+    found = 1e9 * np.array(Columns(load_case(metal.case), 25e-9).widest())
+    np.testing.assert_allclose(found, (2975, 2909, 2875), atol=1.0)
+    np.testing.assert_allclose(found, metal.widths, atol=12.5)
 
 
 SHORT = ["particles.spacing=2 um", "time.end=4 ns", "time.step=2 ns"]

@@ -80,9 +80,7 @@ class Table3:
     def laser_number(self, fluence: float) -> float:
         """La of a mean fluence [J/m2]."""
         rise = self.vaporization - self.initial
-        return number.laser_number(
-            fluence, self.absorption, self.density, self.heat_capacity, rise
-        )
+        return number.laser_number(fluence, self.absorption, self.density, self.heat_capacity, rise)
 
     def table_4(self) -> tuple[float, ...]:
         """The numbers of `NAMES`."""

@@ -24,11 +24,14 @@ class Metal:
             with its digits. table_4: L [m], then La, Ph_sl, Ph_lv, Pr, Ra, |Ma| at 0.6 J/cm2.
         reference_fluence: [J/cm2] of temperature [K] at TIMES, events [ns] and sizes [nm].
         events: melt f_m > 0, f_m = 1, T_v from, T_v to, last liquid, last mush.
-        widths, depths: largest at f_m > 0, 0.5, 1.
+        widths, depths: largest at f_m > 0, 0.5, 1. fine_widths: by `dlip_columns` in whole cells
+            of columns of 4 nm (steel) and 8 nm. column_limited: level whose width in `widths`
+            is farther from them than the tolerance.
         width_tolerance, depth_tolerance: [nm], the latter for f_m = 0.5.
         published_width, published_depth: texts, largest at reference_fluence.
         vaporizes_from, filled_from: fluence from which T_v is reached and L_v fully inserted.
-        aspect: depth over width as published.
+        distinct_up_to: fluence up to which the paper calls the growth of the pool distinct.
+        aspect, aspect_range: depth over width as published, and as we read it.
     """
 
     case: str
@@ -40,6 +43,8 @@ class Metal:
     temperature: tuple[float, ...]
     events: tuple[float, ...]
     widths: tuple[float, float, float]
+    fine_widths: tuple[float, float, float]
+    column_limited: str
     depths: tuple[float, float, float]
     width_tolerance: float
     depth_tolerance: float
@@ -47,7 +52,9 @@ class Metal:
     published_depth: str
     vaporizes_from: float | None
     filled_from: float
+    distinct_up_to: float | None
     aspect: str
+    aspect_range: tuple[float, float]
 
 
 METALS = {
@@ -61,6 +68,8 @@ METALS = {
         temperature=(1314, 3273, 3273, 3273, 3273, 1920, 1725, 1321, 896, 732),
         events=(45.94, 46.26, 49.96, 61.04, 78.0, 87.6),
         widths=(2965, 2911, 2876),
+        fine_widths=(2944, 2912, 2880),
+        column_limited="f_m > 0",
         depths=(296, 285, 277),
         width_tolerance=14.0,
         depth_tolerance=10.0,
@@ -68,7 +77,9 @@ METALS = {
         published_depth="270",
         vaporizes_from=0.5,
         filled_from=0.6,
-        aspect="order of 0.1",
+        distinct_up_to=0.7,
+        aspect="of the order of 0.1",
+        aspect_range=(0.05, 0.2),
     ),
     "aluminium": Metal(
         case="dlip-aluminium",
@@ -80,6 +91,8 @@ METALS = {
         temperature=(746, 2540, 2792, 2403, 1786, 1033, 935, 797, 607, 548),
         events=(45.46, 45.48, 51.09, 56.30, 95.5, 95.7),
         widths=(3625, 3601, 3577),
+        fine_widths=(3622, 3622, 3622),
+        column_limited="f_m = 1",
         depths=(1090, 1066, 1033),
         width_tolerance=25.0,
         depth_tolerance=30.0,
@@ -87,6 +100,8 @@ METALS = {
         published_depth="1100",
         vaporizes_from=None,
         filled_from=1.0,
+        distinct_up_to=None,
         aspect="0.2-0.3",
+        aspect_range=(0.195, 0.305),
     ),
 }
