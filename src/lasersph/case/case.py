@@ -29,7 +29,7 @@ class Case(Model):
     title: str = Field("", max_length=200, description="one line for reports")
     material: MaterialChoice = Field(
         description="name of a material, path of a material file (relative to the case file), or "
-        "a table with base and what differs from it"
+        "a table with base and what differs from it, or a whole material as a table"
     )
     initial_temperature: Annotated[Temperature, Field(gt=0)] = Field(
         298.15, description="of all particles; enthalpies count from it"

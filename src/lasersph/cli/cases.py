@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -90,10 +91,14 @@ def _rows(case: Case, expected: Forecast, threads: int) -> list[tuple[str, str]]
     ]
     for name, limit in sorted(expected.limits.items(), key=lambda item: item[1]):
         binds = "  <- binding" if name == expected.binding else ""
-        rows.append((f"step limit: {name}", show_quantity(limit, "s") + binds))
+        shown = show_quantity(limit, "s") if isfinite(limit) else "none"
+        rows.append((f"step limit: {name}", shown + binds))
     rows.append(("steps", f"about {expected.steps} to {show_quantity(case.time.end, 's')}"))
     rows.append(("time", f"roughly {duration(expected.wall_time)} on {threads} threads"))
+    if expected.flow is not None:
+        rows.append(("expected speed", f"about {expected.flow.speed:.2g} m/s"))
     for name, length in (
+        ("moving layer", expected.flow.layer if expected.flow else None),
         ("absorption length", expected.absorption_length),
         ("thermal penetration", expected.penetration),
     ):

@@ -11,13 +11,15 @@ from lasersph.case import Case
 from lasersph.case.size import BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
 from lasersph.particles.layers import Layers
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
+from lasersph.simulation.flow_forecast import FlowForecast, flow_forecast
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import next_light
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.time_step import binding
 
 PAIRS_PER_SECOND = 2.0e8
 """Of one thread; for the expected time only."""
-PRODUCTS_PER_STEP = {"implicit": 30.0, "explicit": 2.0}
+PRODUCTS_PER_STEP = {"implicit": 30.0, "explicit": 2.0, "flow": 100.0}
 EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
 """Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx; 2-D interpolated."""
 
@@ -32,7 +34,7 @@ class Forecast:
         limits: time-step limits [s] while the light is on. binding: name of the smallest.
         steps: estimate. wall_time: rough estimate [s] on `threads` threads.
         absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
-        warnings: what a user should think about.
+        warnings: what a user should think about. flow: of what flows, if anything does.
     """
 
     particles: int
@@ -48,6 +50,7 @@ class Forecast:
     absorption_length: float | None
     penetration: float | None
     warnings: tuple[str, ...] = field(default=())
+    flow: FlowForecast | None = None
 
 
 def forecast(case: Case, *, threads: int = 1) -> Forecast:
@@ -55,7 +58,10 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
     layers = lay_out(case)
     pairs = layers.particle_count * _neighbors(case)
     memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * BYTES_PER_NEIGHBOR
-    limits, steps = _steps(case, layers)
+    flow = None
+    if isinstance(case.solver, MeltPoolSettings):
+        flow = flow_forecast(case, layers.spacing, support_ratio(case) * layers.spacing)
+    limits, steps = _steps(case, layers, flow)
     products = PRODUCTS_PER_STEP[_scheme(case)]
     length, penetration = _lengths(case)
     spacing = layers.spacing
@@ -73,13 +79,17 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         wall_time=steps * products * pairs / PAIRS_PER_SECOND / max(1, threads),
         absorption_length=length,
         penetration=penetration,
-        warnings=tuple(_warnings(case, layers, length, penetration)),
+        warnings=(
+            *_warnings(case, layers, length, penetration),
+            *(flow.warnings if flow else ()),
+        ),
+        flow=flow,
     )
 
 
 def _scheme(case: Case) -> str:
-    """Of the heat: the melt pool's is implicit."""
-    return case.solver.scheme if isinstance(case.solver, ConductionSettings) else "implicit"
+    """Key of PRODUCTS_PER_STEP."""
+    return case.solver.scheme if isinstance(case.solver, ConductionSettings) else "flow"
 
 
 def _neighbors(case: Case) -> float:
@@ -87,8 +97,23 @@ def _neighbors(case: Case) -> float:
     return {1: 2.0 * reach, 2: pi * reach**2, 3: 4.0 / 3.0 * pi * reach**3}[case.solver.dimensions]
 
 
-def _steps(case: Case, layers: Layers) -> tuple[dict[str, float], int]:
-    """Limits [s] while the light is on, and the number of steps."""
+def _steps(case: Case, layers: Layers, flow: FlowForecast | None) -> tuple[dict[str, float], int]:
+    """Limits [s] while the light is on and while something flows, and the number of steps."""
+    if flow is None or (case.time.is_fixed and case.time.step is not None):
+        return _heat_steps(case, layers)
+    if case.flow is not None:
+        limits = {"end": case.time.end} | flow.limits
+        if case.time.step is not None:
+            limits["light"] = case.time.step
+        return limits, int(np.ceil(case.time.end / min(limits.values())))
+    limits, steps = _heat_steps(case, layers)
+    limits |= flow.limits
+    smallest = min(limits.values())
+    return limits, steps + int(np.ceil(flow.duration / smallest))
+
+
+def _heat_steps(case: Case, layers: Layers) -> tuple[dict[str, float], int]:
+    """Limits [s] while the light is on, and the number of steps, of heat alone."""
     time, pulse = case.time, case.laser.pulse if case.laser is not None else None
     if time.is_fixed and time.step is not None:
         return {"fixed step": time.step}, int(np.ceil(time.end / time.step))

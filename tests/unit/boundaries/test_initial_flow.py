@@ -22,7 +22,7 @@ def test_rest():
 
 
 def test_taylor_green_by_hand():
-    """u = sin(kx) cos(kz), w = -cos(kx) sin(kz), k = 2 pi: at (1/4, -1/2) u = -1, at (0, -1/4) w = 1."""
+    """sin(kx) cos(kz), -cos(kx) sin(kz), k = 2 pi: u = -1 at (1/4, -1/2), w = 1 at (0, -1/4)."""
     flow = initial(kind="taylor-green", speed=1.0)
     assert isinstance(flow, TaylorGreenFlow)
     velocity = flow.velocity(PLACES, BOX)

@@ -35,3 +35,31 @@ def test_explicit_runs_are_bound_by_conduction() -> None:
     """0.846 dx^2 / D = 0.77 ns for aluminium at 0.25 um (1-D)."""
     found = forecast(load_case("pulsed-heating"))
     assert found.limits["conduction"] == pytest.approx(0.846 * 0.25e-6**2 / 6.89e-5, rel=1e-3)
+
+
+def test_flow_of_a_cavity() -> None:
+    """The lid's speed and 0.25 of the support radius per step: 75 mm / 4 at 1 m/s."""
+    found = forecast(load_case("lid-driven-cavity", ["time.end=10 s"]))
+    assert found.flow is not None and found.flow.speed == 1.0 and found.flow.layer is None
+    assert found.limits["advection"] == pytest.approx(0.01875)
+    assert found.limits["capillary"] == found.limits["recoil"] == float("inf")
+    assert (found.binding, found.steps) == ("advection", 534)
+
+
+def test_flow_of_a_driven_layer_and_of_a_warm_wall() -> None:
+    """The exact speed of slow flow; a fifth of sqrt(g beta dT L) = 1 m/s."""
+    layer = forecast(load_case("marangoni-layer")).flow
+    warm = forecast(load_case("natural-convection")).flow
+    assert layer is not None and layer.speed == pytest.approx(0.01439, rel=1e-3)
+    assert warm is not None and warm.speed == pytest.approx(0.2, rel=1e-3)
+
+
+def test_flow_of_a_pool() -> None:
+    """sqrt(nu t) = 101 nm of steel is dragged along at some m/s; coarse spacings are warned of."""
+    settings = ["solver.kind=melt-pool", "particles.spacing=16nm"]
+    found = forecast(load_case("dlip-steel", settings))
+    assert found.flow is not None and found.flow.layer == pytest.approx(101e-9, rel=0.1)
+    assert 3.0 < found.flow.speed < 15.0
+    assert any("drags along" in text for text in found.warnings)
+    at_rest = forecast(load_case("dlip-steel", [*settings, "solver.marangoni=false"])).flow
+    assert at_rest is not None and at_rest.speed == 0.0

@@ -1,0 +1,151 @@
+"""What flow adds to the forecast of a case: expected speed, step limits, and how well it resolves.
+
+Speeds are estimates: a wall's or a start's own; a surface of imposed temperature that of slow flow
+(`analytic.thermocapillary_layer`); a box heated at its sides a fifth of g beta dT L under the root
+(natural convection at Ra 1e3 to 1e5 has 0.14 to 0.26 of it); a melt pool the estimate
+delta/eta |dgamma/dT dT/dx| [Demuth2020, eq. (79)] with delta = sqrt(nu t) of the pulse and the
+liquid's range of temperatures over a quarter of the pattern.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
+from lasersph.boundaries.initial_flow import TaylorGreenFlow
+from lasersph.boundaries.settings import HELD
+from lasersph.case import Case
+from lasersph.lasers import GaussianBeam, InterferenceBeam
+from lasersph.physics.flow_limits import flow_limits
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+
+BUOYANT_SHARE = 0.2
+MOLTEN_PULSES = 8.0
+"""How long a pool lasts, in durations of the pulse."""
+FEWEST_ROWS = 8
+
+
+@dataclass(frozen=True)
+class FlowForecast:
+    """Expected speed [m/s], thickness of the layer that moves [m] (None in boxes without one), time
+    over which something flows [s], limits [s] and warnings."""
+
+    speed: float
+    layer: float | None
+    duration: float
+    limits: dict[str, float]
+    warnings: tuple[str, ...]
+
+
+def flow_forecast(case: Case, spacing: float, support: float) -> FlowForecast:
+    """Forecast of the flow of a melt-pool case; spacing and support radius as used [m]."""
+    solver, material = case.solver, case.material
+    assert isinstance(solver, MeltPoolSettings)
+    T = material.flow_temperature
+    nu, density = float(material.kinematic_viscosity_at(T)), material.density_liquid
+    slope = abs(_slope(case, T)) if solver.marangoni else 0.0
+    if case.flow is None:
+        layer, gradient, duration = _pool(case, nu)
+        speed = layer / (nu * density) * slope * gradient
+    else:
+        layer, gradient, duration = None, _imposed_gradient(case), case.time.end
+        speed = _box_speed(case, nu, density, slope)
+        if case.flow.surface.kind != "free-surface":
+            gradient = 0.0
+    lift = solver.gravity * float(material.expansion_at(T)) * _temperature_range(case)
+    acceleration = max(slope * gradient / (density * spacing), lift)
+    has_gamma = material.surface_tension is not None
+    limits = flow_limits(
+        solver.step_limits,
+        support=support,
+        speed=speed,
+        acceleration=acceleration,
+        viscosity=nu,
+        diffusivity=material.diffusivity_reference,
+        density=density,
+        surface_tension=float(material.surface_tension_at(T)) if has_gamma else 0.0,
+        is_implicit=solver.viscosity == "implicit",
+    )
+    return FlowForecast(speed, layer, duration, limits, tuple(_warnings(layer, spacing)))
+
+
+def _slope(case: Case, temperature: float) -> float:
+    """d gamma/dT [N/(m K)], 0 where the material has none."""
+    try:
+        return float(case.material.surface_tension_slope_at(temperature))
+    except ValueError:
+        return 0.0
+
+
+def _pool(case: Case, viscosity: float) -> tuple[float, float, float]:
+    """Layer [m], gradient of temperature [K/m] and duration [s] of a pool."""
+    pulse_time, first, length = case.time.end, 0.0, case.domain.width or case.domain.depth
+    if case.laser is not None:
+        pulse = case.laser.pulse
+        pulse_time = pulse.on_time or 100.0 * pulse.resolution
+        beam = case.laser.beam
+        if isinstance(beam, InterferenceBeam) and beam.lateral_period:
+            length = beam.lateral_period
+        elif isinstance(beam, GaussianBeam):
+            length = 2.0 * beam.radius
+        marks = pulse.breakpoints(0.0, case.time.end)
+        first = min((float(mark) for mark in marks if mark > 0.0), default=0.0)
+    layer = min(sqrt(viscosity * pulse_time), case.domain.depth)
+    duration = min(MOLTEN_PULSES * pulse_time, max(case.time.end - first, 0.0))
+    return layer, _temperature_range(case) / (0.25 * length), duration
+
+
+def _temperature_range(case: Case) -> float:
+    """How much temperatures of the liquid may differ [K]."""
+    material, faces = case.material, case.boundaries
+    if case.flow is None:
+        boiling = material.vaporization.temperature if material.vaporization else None
+        return (boiling or 1.5 * material.flow_temperature) - material.flow_temperature
+    held = [
+        faces.temperature_of(face, case.initial_temperature)
+        for face in ("surface", "bottom", "left", "right")
+        if faces.kind_of(face) in HELD
+    ]
+    return max([*held, case.initial_temperature]) - min([*held, case.initial_temperature])
+
+
+def _imposed_gradient(case: Case) -> float:
+    """Largest gradient of the temperature imposed on the surface of a box [K/m]."""
+    wave = case.boundaries.surface_temperature_wave
+    if wave is not None:
+        return 2.0 * pi * abs(wave.amplitude) / wave.period
+    (x,) = case.domain.lateral(2)
+    return _temperature_range(case) / (x[1] - x[0])
+
+
+def _box_speed(case: Case, viscosity: float, density: float, slope: float) -> float:
+    """Largest speed to expect in a box [m/s]."""
+    assert case.flow is not None and isinstance(case.solver, MeltPoolSettings)
+    speeds = [abs(side.velocity) for side in case.flow.sides.values()]
+    if isinstance(case.flow.initial, TaylorGreenFlow):
+        speeds.append(case.flow.initial.speed)
+    difference = _temperature_range(case)
+    T = case.material.flow_temperature
+    lift = case.solver.gravity * float(case.material.expansion_at(T)) * difference
+    speeds.append(BUOYANT_SHARE * sqrt(lift * case.domain.depth))
+    wave = case.boundaries.surface_temperature_wave
+    if case.flow.surface.kind == "free-surface" and slope:
+        eta = viscosity * density
+        if wave is not None:
+            layer = ThermocapillaryLayer(
+                case.domain.depth, wave.period, wave.amplitude, -slope, eta
+            )
+            speeds.append(abs(layer.surface_speed))
+        else:
+            speeds.append(0.25 * case.domain.depth / eta * slope * _imposed_gradient(case))
+    return max(speeds)
+
+
+def _warnings(layer: float | None, spacing: float) -> list[str]:
+    if layer is None or layer >= FEWEST_ROWS * spacing:
+        return []
+    return [
+        f"the layer that the surface drags along is about {layer:.2g} m thick, less than "
+        f"{FEWEST_ROWS} spacings of {spacing:.3g} m: take a finer spacing"
+    ]

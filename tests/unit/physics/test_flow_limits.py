@@ -1,0 +1,39 @@
+"""Limits of the time step of a flow, against numbers worked out for liquid steel at 3.97 nm."""
+
+from math import inf
+
+import pytest
+
+from lasersph.physics.flow_limits import flow_limits
+
+SUPPORT = 3.75 * 3.97e-9
+STEEL = {
+    "support": SUPPORT, "speed": 4.0, "acceleration": 4.3e-4 * 1e9 / (6863.0 * 3.97e-9),
+    "viscosity": 1.02e-6, "diffusivity": 5.24e-6, "density": 6863.0, "surface_tension": 1.8,
+}  # fmt: skip
+
+
+def test_published():
+    """931, 243, 27.2, 5.29 and 11.2 ps for the terms of eq. (59); recoil moves no flat lid."""
+    found = flow_limits("published", **STEEL)
+    expected = {
+        "advection": 931e-12, "force": 242.8e-12, "viscosity": 27.2e-12, "heat": 5.29e-12,
+        "capillary": 11.16e-12,
+    }  # fmt: skip
+    assert {name: found[name] for name in expected} == pytest.approx(expected, rel=2e-3)
+    assert found["recoil"] == inf
+
+
+def test_corrected():
+    """Explicit viscosity 0.05 l^2/nu = 10.9 ps, implicit none; no heat and no capillary limit."""
+    found = flow_limits("corrected", **STEEL, is_implicit=False)
+    assert found["viscosity"] == pytest.approx(10.87e-12, rel=2e-3)
+    assert "heat" not in found
+    assert found["capillary"] == found["recoil"] == inf
+    assert flow_limits("corrected", **STEEL)["viscosity"] == inf
+
+
+def test_at_rest():
+    """Without speed and force neither limits."""
+    found = flow_limits("corrected", **STEEL | {"speed": 0.0, "acceleration": 0.0})
+    assert set(found.values()) == {inf}
