@@ -11,8 +11,10 @@ from __future__ import annotations
 
 import ast
 import inspect
+import linecache
 import textwrap
 import types
+from functools import cache
 from typing import Any as AnyObject
 
 from lasersph.compute.translate import FunctionWriter
@@ -103,7 +105,8 @@ def parsed(function: AnyObject) -> tuple[ast.FunctionDef, str, int]:
     """Syntax tree, file and first line of a plain function.
 
     Raises:
-        LoopSourceError: it is no plain `def`, reads enclosing variables, or has no source text.
+        LoopSourceError: it is no plain `def`, reads enclosing variables, has no source text, or
+            its file was edited since it was imported.
     """
     name = getattr(function, "__qualname__", repr(function))
     if not isinstance(function, types.FunctionType):
@@ -116,12 +119,47 @@ def parsed(function: AnyObject) -> tuple[ast.FunctionDef, str, int]:
     except (OSError, TypeError) as error:
         raise LoopSourceError(f"{name}() has no source text: {error}") from error
     try:
-        tree = ast.parse(textwrap.dedent("".join(lines))).body[0]
+        tree = next(iter(ast.parse(textwrap.dedent("".join(lines))).body), None)
     except SyntaxError as error:
         raise LoopSourceError(f"{name}(): {error}") from error
-    if not isinstance(tree, ast.FunctionDef) or tree.name != function.__name__:
+    if function.__name__ == "<lambda>":
         raise LoopSourceError(f"{name} is not written as a plain `def`")
+    if not isinstance(tree, ast.FunctionDef) or not _is_up_to_date(function):
+        raise LoopSourceError(
+            f"{name}() is not what its file says now: {function.__code__.co_filename} was edited "
+            "while the program runs; start it again"
+        )
     return tree, function.__code__.co_filename, first
+
+
+def _is_up_to_date(function: types.FunctionType) -> bool:
+    """Whether the text of the function's file still gives the function that was imported.
+
+    A text that is no Python as a whole, such as a notebook cell with magics, counts as unchanged.
+    """
+    file = function.__code__.co_filename
+    try:
+        found = _compiled("".join(linecache.getlines(file, function.__globals__)), file)
+    except SyntaxError:
+        return True
+    return _content(function.__code__) in found
+
+
+@cache
+def _compiled(text: str, file: str) -> frozenset[tuple]:
+    """Content of every function in a text."""
+    codes, found = [compile(text, file, "exec", 0, True)], set()
+    while codes:
+        code = codes.pop()
+        found.add(_content(code))
+        codes += [value for value in code.co_consts if isinstance(value, types.CodeType)]
+    return frozenset(found)
+
+
+def _content(code: types.CodeType) -> tuple:
+    """What a function does, whatever its line numbers."""
+    constants = [repr(value) for value in code.co_consts if not isinstance(value, types.CodeType)]
+    return code.co_qualname, code.co_code, code.co_names, code.co_varnames, tuple(constants)
 
 
 def _builtins_of(function: types.FunctionType) -> dict:

@@ -82,6 +82,35 @@ def test_reloaded_module_is_seen(folder):
     assert run(folder, text) == ["9.0", "41.25"]
 
 
+EDITS = {
+    "other body": "def heated(T):\n    return T - 1\n",
+    "other arguments": "def heated(T, q):\n    return T + q\n",
+    "other number": "def heated(T):\n    return T + 2\n",
+    "moved": "LIMIT = 3\n\n\ndef heated(T):\n    return T + 1\n",
+    "cut off": "# nothing\n",
+}
+
+
+@pytest.mark.parametrize("edit", EDITS)
+def test_file_edited_while_the_program_runs(folder, edit):
+    """One line says so, instead of a loop of the old function with the new text."""
+    (folder / "terms.py").write_text("def heated(T):\n    return T + 1\n")
+    text = f"""
+        import pathlib
+        from lasersph import compute
+        import terms
+        pathlib.Path("terms.py").write_text({EDITS[edit]!r})
+        backend = compute.cpu(threads=1)
+        try:
+            backend.pointwise(terms.heated, {{"T": backend.zeros(1)}}, backend.zeros(1))
+        except Exception as error:
+            print(type(error).__name__, str(error).replace(" ", "_"))
+    """
+    kind, message = run(folder, text)
+    assert kind == "LoopSourceError"
+    assert message.startswith("heated()_is_not_what_its_file_says_now")
+
+
 def test_processes_at_once(folder):
     """Processes that start together on an empty cache all get the right result."""
     environment = {**os.environ, "LASERSPH_CACHE": str(folder / "loops")}
