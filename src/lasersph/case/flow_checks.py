@@ -87,17 +87,17 @@ def _heat_faces(case: Case) -> Iterator[tuple[str, str]]:
 
 def _pool(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
     """A pool in a block that is solid at first."""
-    if not solver.phase_change:
-        yield (
-            "solver.phase_change",
-            "nothing melts, so nothing flows; leave it out, or say in [flow] what holds at the "
-            "sides of a box that is all fluid",
-        )
-    elif case.material.melting is None:
+    if case.material.melting is None:
         yield (
             "material",
             f'"{case.material.name}" has no melting data, so it is fluid everywhere; say in '
             "[flow] what holds at the sides of the box, or add melting",
+        )
+    elif not solver.phase_change:
+        yield (
+            "solver.phase_change",
+            "nothing melts, so nothing flows; leave it out, or say in [flow] what holds at the "
+            "sides of a box that is all fluid",
         )
     is_heated = case.laser is not None or any(
         case.boundaries.kind_of(face) in (*HELD, FLUX)

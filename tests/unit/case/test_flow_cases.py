@@ -1,0 +1,119 @@
+"""Cases of pools that contradict themselves, and materials written into a case."""
+
+import pytest
+
+from lasersph.case import Case, load_case
+from lasersph.reading import CaseError
+from lasersph.solvers.conduction.settings import ConductionSettings
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+
+POOL = "solver.kind=melt-pool"
+BARE = ("laser=", "probes=")
+
+
+def refused(*settings, case="dlip-steel"):
+    """What a case with settings is refused with."""
+    with pytest.raises(CaseError) as error:
+        load_case(case, [POOL, *settings])
+    return str(error.value)
+
+
+def test_a_pool_takes_the_case_of_heat():
+    """The shipped cases of interference become pools by one setting."""
+    for name in ("dlip-steel", "dlip-aluminium"):
+        solver = load_case(name, [POOL, "solver.shifting=0"]).solver
+        assert isinstance(solver, MeltPoolSettings)
+        assert (solver.plateau, solver.pressure, solver.shifting) == ("hold", "multigrid", 0.0)
+
+
+def test_kind_may_be_left_out():
+    """Without kind it is conduction."""
+    case = load_case("stefan", ["solver.kind="])
+    assert isinstance(case.solver, ConductionSettings) and case.solver.dimensions == 1
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        (BARE, "laser: missing: nothing would melt; give [laser] or a heated face"),
+        (("solver.phase_change=false",), "solver.phase_change: nothing melts, so nothing flows"),
+        (("material=aluminium-aa6014",), '"aluminium-aa6014" has no viscosity, which flow needs'),
+        (
+            ("material=aluminium-aa6014",),
+            'write e.g. surface_tension_slope = "-0.4 mN/(m K)" beside base = "aluminium-aa6014"',
+        ),
+        (("boundaries.bottom=free",), 'boundaries.bottom: "free" cuts supports off'),
+        (("boundaries.surface=wall", "boundaries.surface_temperature=3000 K"), "a laser heats"),
+        (("solver.dimensions=3",), 'solver.dimensions: must be "2", got 3'),
+        (("solver.viscosity=explicit", "time.end=1 s"), "solver.viscosity: 1.02e-06 m^2/s needs"),
+        (("solver.viscosities=explicit",), 'solver.viscosities: unknown key; do you mean "visc'),
+        (("time.steady=0",), "time.steady: must be greater than 0"),
+        (
+            ('flow={bottom="no-slip"}',),
+            'a box of [flow] is all fluid, but "steel-304-demuth" melts',
+        ),
+    ],
+)
+def test_refused(settings, message):
+    """Each contradiction has its line."""
+    assert message in refused(*settings)
+
+
+def test_a_liquid_needs_a_box():
+    """What is liquid everywhere says what holds at its sides."""
+    assert "fluid everywhere; say in [flow]" in refused("flow=", case="natural-convection")
+
+
+def test_a_heated_face_melts_as_well():
+    """A pool under a face that is hot or takes up a flux needs no laser."""
+    for face in (
+        ["boundaries.surface=fixed-temperature", "boundaries.surface_temperature=2000 K"],
+        ["boundaries.surface=prescribed-flux", "boundaries.surface_flux=1e11 W/m^2"],
+    ):
+        assert load_case("dlip-steel", [POOL, *BARE, *face]).laser is None
+
+
+def test_marangoni_needs_its_slope_only_where_it_pulls():
+    """A box under a lid, or without Marangoni stress, does not ask for surface tension."""
+    surface = 'flow.surface="free-surface"'
+    assert "has no surface_tension_slope" in refused(surface, case="natural-convection")
+    assert load_case("natural-convection", [surface, "solver.marangoni=false"]).flow is not None
+
+
+def test_half_a_box():
+    """Symmetric at x = 0 for heat and for flow."""
+    settings = ["domain.extent=half"]
+    assert "flow.left: half a box is symmetric" in refused(*settings, case="lid-driven-cavity")
+    assert load_case("marangoni-layer").domain.extent == "half"
+
+
+def test_material_written_into_a_case():
+    """Constant numbers in short, a diffusivity instead of the conductivity, sources of sections."""
+    case = load_case("natural-convection")
+    data = case.resolved()
+    data["material"] = {
+        "density": "2 kg/m^3", "heat_capacity": "3 J/(kg K)", "diffusivity": "5 m^2/s",
+        "kinematic_viscosity": "7 m^2/s", "optics": {"emissivity": 0.3},
+    }  # fmt: skip
+    material = Case.model_validate(data).material
+    assert float(material.conductivity_at(300.0)) == 30.0
+    assert material.conductivity.source == "D rho c_p, D set in the case"
+    assert float(material.viscosity_at(300.0)) == 14.0
+    assert material.optics is not None
+    assert material.optics.source_of("emissivity") == "set in the case"
+    assert material.name == "of the case"
+    assert case.material.name == "unit-gas"
+
+
+def test_a_start_from_a_file_is_kept_with_the_case(tmp_path):
+    """The table's numbers are part of the resolved case and of its hash."""
+    (tmp_path / "field.csv").write_text("x,z,u,w\n0,0,1,2\n", encoding="utf-8")
+    text = load_case("natural-convection").text.replace(
+        "[flow]\n", '[flow]\ninitial = { kind = "table", path = "field.csv" }\n'
+    )
+    (tmp_path / "case.toml").write_text(text, encoding="utf-8")
+    case = load_case(tmp_path / "case.toml")
+    assert case.resolved()["flow"]["initial"]["rows"] == [[0.0, 0.0, 1.0, 2.0]]
+    assert Case.model_validate(case.resolved()).hash() == case.hash()
+    (tmp_path / "field.csv").write_text("x,z,u,w\n0,0,1,3\n", encoding="utf-8")
+    assert load_case(tmp_path / "case.toml").hash() != case.hash()
