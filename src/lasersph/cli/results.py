@@ -16,6 +16,12 @@ if TYPE_CHECKING:
 
 Kind = Annotated[Literal["png", "svg", "pdf"], typer.Option("--kind", help="Of the files.")]
 
+Animate = Annotated[
+    bool,
+    typer.Option("--animate", help="Write an animation of temperature and speed instead."),
+]
+Format = Annotated[Literal["gif", "mp4"], typer.Option(help="Of the animation; mp4 needs ffmpeg.")]
+
 
 def info(folder: RunFolder) -> None:
     """Show what a run folder holds: the case, how far it is, the main numbers."""
@@ -33,11 +39,16 @@ def info(folder: RunFolder) -> None:
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
 
 
-def plot(folder: RunFolder, kind: Kind = "png") -> None:
-    """Draw the figures of a run into DIR/figures."""
-    from lasersph.plots import draw_run
+def plot(
+    folder: RunFolder, kind: Kind = "png", animate: Animate = False, format: Format = "gif"
+) -> None:
+    """Draw the figures of a run into DIR/figures, or an animation of it."""
+    from lasersph.plots import animate_run, draw_run
 
     _opened(folder)
+    if animate:
+        print(animate_run(folder, format=format))
+        return
     for file in draw_run(folder, kind=kind):
         print(file)
 
@@ -83,6 +94,11 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
                 rows.append(
                     (f"melt {word}", f"{size} at {show_quantity(melt[f'{word}_max_at_s'], 's')}")
                 )
+    flow = summary.get("flow") or {}
+    for key, text in (("surface_speed_max", "at the surface"), ("speed_max", "of any particle")):
+        if flow.get(f"{key}_m_s"):
+            at = show_quantity(flow[f"{key}_at_s"], "s")
+            rows.append((f"speed {text}", f"{flow[f'{key}_m_s']:.4g} m/s at {at}"))
     unit = energy.get("unit", "J")
     rows.append(("absorbed energy", f"{energy['absorbed_J']:.5g} {unit}"))
     rows.append(("energy imbalance", f"{energy['imbalance_relative']:.1e} of the absorbed"))

@@ -23,6 +23,10 @@ TERMS: tuple[str, ...] = (
     "removed",
     "discarded",
 )
+IMBALANCE_ALLOWED = 1e-6
+"""Relative imbalance up to which a run is sound."""
+IMBALANCE_ALLOWED_WITH_FLOW = 1e-4
+"""The same for a run whose particles move and are shifted."""
 
 
 class EnergyBudget:

@@ -1,7 +1,7 @@
 """Figures of several runs together, as the papers draw them.
 
 `surface_temperatures` and `melt_pools` are Figs. 3 and 4 (steel) and 8 and 9 (aluminium) of
-[Demuth2020].
+[Demuth2020], `surface_speeds` Figs. 5 and 10, `speed_extrema` Fig. 7.
 """
 
 from __future__ import annotations
@@ -13,9 +13,11 @@ import numpy as np
 
 from lasersph.output import Run
 from lasersph.plots import style
+from lasersph.plots.flow_history import where_above_zero
 from lasersph.plots.history import draw_corner_temperatures, draw_pulse, material_of, time_axis
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -84,6 +86,74 @@ def melt_pools(
         figure.suptitle(title, fontsize=10)
     style.legend_above(figure, all_axes[0], columns=5)
     return figure
+
+
+def surface_speeds(
+    runs: Sequence[Run],
+    labels: Sequence[str] | None = None,
+    *,
+    title: str = "",
+    column: str = "flow_surface_speed_max_m_s",
+) -> Figure:
+    """Largest speed along the surface over time, one curve a run, pulse shaded.
+
+    Args:
+        runs, labels, title: as for `surface_temperatures`.
+        column: `flow_below_speed_m_s` for the speed one spacing below, as the paper draws it.
+    """
+    figure, (axes,) = style.new_figure(height=4.2)
+    names = fluence_labels(runs) if labels is None else list(labels)
+    draw_pulse(axes, runs[0].history, time_axis(runs[0].history)[0])
+    for color, run, text in zip(style.color_scale("plasma", len(runs)), runs, names, strict=True):
+        time, _ = time_axis(run.history)
+        values = where_above_zero(run.history[column])
+        axes.plot(time, values, color=color, label=text)
+    show_all_flowing(axes, runs)
+    axes.set_ylim(bottom=0.0)
+    where = "one spacing below the surface" if "below" in column else "at the surface"
+    name = time_axis(runs[0].history)[1]
+    style.label(axes, name, f"largest speed {where} [m/s]", title=title)
+    style.legend_above(figure, axes, columns=5)
+    return figure
+
+
+def speed_extrema(
+    runs: Sequence[Run], labels: Sequence[str] | None = None, *, title: str = ""
+) -> Figure:
+    """Inner (full lines) and outer extrema (dashed) of the surface speed, one color a run.
+
+    Args:
+        runs, labels, title: as for `surface_temperatures`.
+    """
+    figure, (axes,) = style.new_figure(height=4.2)
+    names = fluence_labels(runs) if labels is None else list(labels)
+    for color, run, text in zip(style.color_scale("plasma", len(runs)), runs, names, strict=True):
+        time, _ = time_axis(run.history)
+        inner = where_above_zero(run.history["flow_inner_speed_m_s"])
+        outer = where_above_zero(run.history["flow_outer_speed_m_s"])
+        axes.plot(time, outer, "--", color=color, linewidth=1.1)
+        axes.plot(time, inner, color=color, linewidth=1.8, label=text)
+    show_all_flowing(axes, runs)
+    axes.set_ylim(bottom=0.0)
+    text = "surface speed [m/s]; full: inner extremum, dashed: outer"
+    style.label(axes, time_axis(runs[0].history)[1], text, title=title)
+    axes.yaxis.label.set_fontsize(9)
+    style.legend_above(figure, axes, columns=5)
+    return figure
+
+
+def show_all_flowing(axes: Axes, runs: Sequence[Run]) -> None:
+    """Limit the time axis to when any of the runs flowed."""
+    spans = []
+    for run in runs:
+        time, _ = time_axis(run.history)
+        moving = np.flatnonzero(run.history["flow_speed_max_m_s"] > 0.0)
+        if moving.size:
+            spans.append((time[moving[0]], time[moving[-1]]))
+    if spans:
+        first, last = min(s[0] for s in spans), max(s[1] for s in spans)
+        margin = 0.06 * (last - first)
+        axes.set_xlim(max(first - margin, 0.0), last + margin)
 
 
 def fluence_labels(runs: Sequence[Run]) -> list[str]:

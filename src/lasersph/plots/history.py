@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lasersph.observers.energy_budget import IMBALANCE_ALLOWED, IMBALANCE_ALLOWED_WITH_FLOW
 from lasersph.output import Run
 from lasersph.plots import style
 
@@ -83,8 +84,12 @@ def energy_history(run: Run) -> Figure:
     imbalance = history["energy_imbalance_relative"]
     shown = np.maximum(imbalance, 1e-17)
     below.semilogy(time, shown, color=style.COLORS[6], linewidth=1.0)
-    below.axhline(1e-6, color=style.COLORS[1], linewidth=0.8, linestyle="--", label="allowed: 1e-6")
-    below.set_ylim(max(1e-17, 0.3 * float(np.min(shown))), max(1e-5, 3.0 * float(np.max(shown))))
+    with_flow = "flow_speed_max_m_s" in history
+    allowed = IMBALANCE_ALLOWED_WITH_FLOW if with_flow else IMBALANCE_ALLOWED
+    text = f"allowed: {allowed:.0e}".replace("e-0", "e-")
+    below.axhline(allowed, color=style.COLORS[1], linewidth=0.8, linestyle="--", label=text)
+    top = max(10.0 * allowed, 3.0 * float(np.max(shown)))
+    below.set_ylim(max(1e-17, 0.3 * float(np.min(shown))), top)
     style.label(below, name, "imbalance / absorbed [1]")
     style.legend(below)
     below.set_xlim(time[0], time[-1])

@@ -51,23 +51,31 @@ class Cells:
         high = np.max(self.center + 0.5 * self.size, axis=1)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
-    def picture(self) -> np.ndarray:
-        """Number of the particle that each pixel of the frame shows: that of the closest cell.
+    def picture(
+        self,
+        frame: tuple[float, float, float, float] | None = None,
+        pixels: tuple[int, int] = PIXELS,
+    ) -> np.ndarray:
+        """Number of the particle that each pixel of a frame shows: that of the closest cell.
+
+        Args:
+            frame: left, right, bottom and top edge [m]; that of the cells if not given.
+            pixels: rows and columns.
 
         Returns:
-            Array of `PIXELS` rows and columns, -1 outside all cells.
+            Array of `pixels` rows and columns, -1 outside all cells.
         """
         from scipy.spatial import KDTree
 
-        left, right, bottom, top = self.frame
-        rows, columns = PIXELS
+        left, right, bottom, top = self.frame if frame is None else frame
+        rows, columns = pixels
         across = left + (np.arange(columns) + 0.5) * (right - left) / columns
         up = bottom + (np.arange(rows) + 0.5) * (top - bottom) / rows
-        pixels = np.array([grid.ravel() for grid in np.meshgrid(across, up)])
+        points = np.array([grid.ravel() for grid in np.meshgrid(across, up)])
         square = np.array([[np.median(self.size[1] / self.size[0])], [1.0]])
-        _, cell = KDTree((self.center * square).T).query((pixels * square).T)
-        far = np.abs(pixels - self.center[:, cell]) > OUTSIDE * self.size[:, cell]
-        return np.where(far.any(axis=0), -1, self.number[cell]).reshape(PIXELS)
+        _, cell = KDTree((self.center * square).T).query((points * square).T)
+        far = np.abs(points - self.center[:, cell]) > OUTSIDE * self.size[:, cell]
+        return np.where(far.any(axis=0), -1, self.number[cell]).reshape(pixels)
 
 
 def particle_map(run: Run, time: float | None = None) -> Figure | None:

@@ -8,9 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.errors import clear_errors
-from lasersph.plots import history, style
+from lasersph.plots import flow_history, history, style
 from lasersph.plots.arrangement import arrangement
+from lasersph.plots.box_lines import center_line_figure, heat_history
+from lasersph.plots.flow_fields import is_box
+from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
 from lasersph.plots.particle_map import particle_map
+from lasersph.plots.surface_flow import surface_flow_profiles
 from lasersph.plots.surface_profiles import surface_profiles
 
 if TYPE_CHECKING:
@@ -30,12 +34,29 @@ def draw_arrangement(run: Run) -> Figure | None:
     return arrangement(run.snapshots[0]) if len(run.snapshots) else None
 
 
+def where_warm(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:
+    """A drawing that is left out where the temperature is the same everywhere and always."""
+
+    def draw_or_not(run: Run) -> Figure | None:
+        history = run.history
+        coldest = float(history["temperature_surface_min_K"].min())
+        hottest = float(history["temperature_max_K"].max())
+        return draw(run) if hottest - coldest > LEAST_SPREAD * hottest else None
+
+    return draw_or_not
+
+
+def without_box(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:
+    """A drawing that says nothing about a closed box of liquid."""
+    return lambda run: None if is_box(run) else draw(run)
+
+
 DRAWINGS = (
     Drawing(
         "temperature",
         "Temperature over time. The shade at the foot is the power of the incident light; dashed"
         " lines mark the melting range and the vaporization temperature.",
-        history.temperature_history,
+        where_warm(history.temperature_history),
     ),
     Drawing(
         "melt-pool",
@@ -47,24 +68,82 @@ DRAWINGS = (
     Drawing(
         "surface-profiles",
         "Temperature along the surface at several times.",
-        surface_profiles,
+        without_box(surface_profiles),
     ),
     Drawing(
         "particles",
         "Temperature and melt fraction of the particles near the surface, at the snapshot closest"
         " to the deepest melt (without melt: to the largest temperature).",
-        particle_map,
+        without_box(particle_map),
+    ),
+    Drawing(
+        "flow",
+        "The melt pool when its surface was fastest: temperature; speed, with arrows whose length"
+        " grows with the root of the speed; phase, with streamlines of the liquid.",
+        pool_flow_map,
+    ),
+    Drawing(
+        "flow-speed",
+        "Largest speeds over time: of the surface, extrapolated with the stress there; one spacing"
+        " below it; of any particle; and against the outward flow.",
+        flow_history.speed_history,
+    ),
+    Drawing(
+        "flow-extrema",
+        "Extrema of the surface speed over time, told apart: the outer one, there from the onset"
+        " of the flow, and the inner one, closer to the maximum of the light, where it exists.",
+        flow_history.extrema_history,
+    ),
+    Drawing(
+        "surface-flow",
+        "Along the surface at several times: (a) temperature, (b) its gradient, (c) velocity.",
+        surface_flow_profiles,
+    ),
+    Drawing(
+        "flow-layer",
+        "Thickness of the layer that flows outward, below the fastest place of the surface"
+        " (above), and mean gradient of the temperature along the liquid surface (below).",
+        flow_history.layer_history,
+    ),
+    Drawing(
+        "lid-pressure",
+        "Pressure with which the flat surface holds the liquid, whose mean over the liquid is"
+        " zero, beside the recoil pressure that a free surface would feel.",
+        flow_history.lid_history,
+    ),
+    Drawing(
+        "box-flow",
+        "The box at the end: speed, with arrows whose length grows with the root of the speed, and"
+        " streamlines, over the temperature where it varies.",
+        box_flow_map,
+    ),
+    Drawing(
+        "center-lines",
+        "Velocity along the lines through the middle of the box, at the end.",
+        center_line_figure,
+    ),
+    Drawing(
+        "nusselt",
+        "Nusselt numbers of the sides of the box over time.",
+        heat_history,
     ),
     Drawing(
         "energy",
         "Where the absorbed energy is (above), and the relative error of the energy balance"
         " (below).",
-        history.energy_history,
+        where_warm(history.energy_history),
     ),
     Drawing(
         "time-step",
         "Time step, colored by what limited it, and iterations of each step.",
         history.time_step_history,
+    ),
+    Drawing(
+        "flow-soundness",
+        "How sound the computed flow is: kinetic energy; root mean square of the divergence that"
+        " the projection leaves, relative to the largest speed over the spacing; smallest distance"
+        " of two particles, relative to the first.",
+        flow_history.soundness_history,
     ),
     Drawing(
         "arrangement",

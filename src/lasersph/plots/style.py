@@ -20,6 +20,7 @@ COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#33
 LINES = ("-", "--", "-.", ":")
 TEMPERATURE_COLORS = "inferno"
 FRACTION_COLORS = "cividis"
+SPEED_COLORS = "viridis"
 GRAY = "0.45"
 WIDTH = 7.4
 DPI = 150
@@ -33,6 +34,8 @@ class Unit(NamedTuple):
 
 
 TIMES = (Unit(1e12, "ps"), Unit(1e9, "ns"), Unit(1e6, "µs"), Unit(1e3, "ms"), Unit(1.0, "s"))
+SPEEDS = (Unit(1e6, "µm/s"), Unit(1e3, "mm/s"), Unit(1.0, "m/s"))
+PRESSURES = (Unit(1.0, "Pa"), Unit(1e-3, "kPa"), Unit(1e-6, "MPa"), Unit(1e-9, "GPa"))
 LENGTHS = (Unit(1e9, "nm"), Unit(1e6, "µm"), Unit(1e3, "mm"), Unit(1.0, "m"))
 
 
@@ -42,6 +45,12 @@ def unit_for(largest: float, units: Sequence[Unit]) -> Unit:
         if abs(largest) * unit.factor < 2000.0:
             return unit
     return units[-1]
+
+
+def speed_unit(largest: float) -> Unit:
+    """The largest unit in which a speed shows as at least 0.05."""
+    fitting = [unit for unit in SPEEDS if abs(largest) * unit.factor >= 0.05]
+    return fitting[-1] if fitting else SPEEDS[-1]
 
 
 def new_figure(

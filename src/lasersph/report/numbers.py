@@ -9,8 +9,15 @@ PREFIXES = ((1e-12, "p"), (1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""))
 WITH_PREFIX = ("s", "m")
 SMALLEST = 1e-17
 """Lengths [m] and times [s] below this are rounding errors."""
+MOST_LISTED = 8
+"""Longer lists are not written out."""
 SUFFIXES = (
     ("_K_s", "K/s"),
+    ("_K_m", "K/m"),
+    ("_m2_s", "m²/s"),
+    ("_1_s", "1/s"),
+    ("_W_m2", "W/m²"),
+    ("_Pa", "Pa"),
     ("_m_s", "m/s"),
     ("_m3", "m³"),
     ("_m", "m"),
@@ -81,6 +88,8 @@ def entry(key: str, value: Any, energy_unit: str = "J") -> str:
         return "yes" if value else "no"
     if isinstance(value, str):
         return value
+    if isinstance(value, list) and len(value) > MOST_LISTED:
+        return f"{len(value)} numbers"
     if isinstance(value, list):
         return ", ".join(entry(key, item, energy_unit) for item in value) or "–"
     unit = next((unit for suffix, unit in SUFFIXES if key.endswith(suffix)), "")

@@ -68,11 +68,14 @@ def table(rows: Sequence[Sequence[str]], head: Sequence[str] = ()) -> str:
 
 
 def figure(image: Path, caption: str, number: int) -> str:
-    """An image inside the page, with its caption. Raises OSError where it cannot be read."""
+    """An image (png or gif) inside the page, with its caption.
+
+    Raises OSError where it cannot be read.
+    """
     data = base64.b64encode(image.read_bytes()).decode()
     return (
         f'<figure id="{escape(image.stem)}"><img alt="{escape(caption)}"'
-        f' src="data:image/png;base64,{data}">'
+        f' src="data:image/{image.suffix[1:]};base64,{data}">'
         f"<figcaption><b>Figure {number}.</b> {escape(caption)}</figcaption></figure>"
     )
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+from lasersph.observers.energy_budget import IMBALANCE_ALLOWED, IMBALANCE_ALLOWED_WITH_FLOW
+from lasersph.report.flow_words import box_flow, pool_flow
 from lasersph.report.numbers import quantity, shown
-
-RELATIVE_IMBALANCE_ALLOWED = 1e-6
 
 
 def verdict(summary: dict[str, Any]) -> str:
-    """What happened, in two to five sentences."""
+    """What happened, in two to six sentences."""
+    if "box" in summary:
+        return " ".join([*box_flow(summary), *balance(summary)])
     parts = [hottest(summary)]
     melt = summary.get("melt")
     if melt is None:
@@ -26,8 +28,7 @@ def verdict(summary: dict[str, Any]) -> str:
     vapor = summary.get("vaporization")
     if vapor is not None and vapor["start_s"] is not None:
         parts.append(boiling(vapor))
-    parts.append(balance(summary["energy"]))
-    return " ".join(parts)
+    return " ".join([*parts, *pool_flow(summary), *balance(summary)])
 
 
 def hottest(summary: dict[str, Any]) -> str:
@@ -72,21 +73,32 @@ def boiling(vapor: dict[str, Any]) -> str:
     return f"{text}; no cell took up more than {share} % of its heat of vaporization."
 
 
-def balance(energy: dict[str, Any]) -> str:
-    """How well the energy budget closes."""
+def balance(summary: dict[str, Any]) -> list[str]:
+    """How well the energy budget closes; nothing where no energy went anywhere."""
+    energy = summary["energy"]
+    if not any(energy[f"{name}_J"] for name in ("absorbed", "stored", "lost")):
+        return []
     error = energy["imbalance_relative"]
-    good = error <= RELATIVE_IMBALANCE_ALLOWED
     if error < 1e-14:
-        return "The energy balance closes to rounding."
+        return ["The energy balance closes to rounding."]
     text = f"The energy balance closes to {shown(error, 2)} of the absorbed energy"
-    return f"{text}." if good else f"{text}, which is too much: do not trust this run."
+    if error <= allowed_imbalance(summary):
+        return [f"{text}."]
+    return [f"{text}, which is too much: do not trust this run."]
+
+
+def allowed_imbalance(summary: dict[str, Any]) -> float:
+    """Largest relative error of the energy balance of a sound run."""
+    return IMBALANCE_ALLOWED_WITH_FLOW if "flow" in summary else IMBALANCE_ALLOWED
 
 
 def warnings_of(summary: dict[str, Any], events: list[dict[str, Any]]) -> list[str]:
     """What the reader must know before using the numbers."""
     found = [str(e["message"]) for e in events if e["event"] == "warning" and "message" in e]
-    if summary["energy"]["imbalance_relative"] > RELATIVE_IMBALANCE_ALLOWED:
-        found.append("The energy balance does not close within a millionth of the absorbed energy.")
+    allowed = allowed_imbalance(summary)
+    if summary["energy"]["imbalance_relative"] > allowed:
+        share = "a ten-thousandth" if "flow" in summary else "a millionth"
+        found.append(f"The energy balance does not close within {share} of the absorbed energy.")
     if summary["energy"].get("discarded_J"):
         share = summary["energy"]["discarded_J"] / max(summary["energy"]["absorbed_J"], 1e-300)
         found.append(

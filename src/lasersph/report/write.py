@@ -10,8 +10,10 @@ from typing import Any
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.atomic import replace_text
 from lasersph.output.errors import clear_errors
+from lasersph.plots.animation import LEAST_FRAMES, animate_run
+from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.run_figures import DRAWINGS, draw_run
-from lasersph.report import tables
+from lasersph.report import flow_tables, tables
 from lasersph.report.page import (
     contents,
     figure,
@@ -24,6 +26,7 @@ from lasersph.report.page import (
 )
 from lasersph.report.words import notes_of, verdict, warnings_of
 
+ANIMATION = "Temperature, and speed with arrows, in time."
 SECTIONS = ("Results", "Figures", "Energy", "What was asked", "Computation", "Reproduce")
 
 
@@ -45,6 +48,8 @@ def write_report(folder: str | Path) -> Path:
             " go on with --resume"
         )
     images = draw_run(folder)
+    if has_flow(run) and len(run.snapshots) >= LEAST_FRAMES:
+        images.append(animate_run(folder))
     path = run.path / "report.html"
     with clear_errors("read", run.path):
         text = report_page(run, images)
@@ -67,7 +72,7 @@ def report_page(run: Run, images: list[Path]) -> str:
         figures(images),
         [table(tables.energy(summary), tables.ENERGY_HEAD)],
         asked(run),
-        [table(tables.computation(summary)), table(tables.time_steps(summary))],
+        computation(summary),
         reproduce(run, versions),
     )
     for title, part in zip(SECTIONS, parts, strict=True):
@@ -89,16 +94,31 @@ def results(summary: dict[str, Any]) -> list[str]:
         )
     if rows := tables.vaporization(summary):
         body.append(table(rows))
-    if rows := tables.probes(summary):
-        body.append(table(rows, tables.PROBE_HEAD))
+    for rows, head in (
+        (flow_tables.speeds(summary), flow_tables.SPEED_HEAD),
+        (flow_tables.layer(summary), ()),
+        (flow_tables.extrema(summary), flow_tables.EXTREMA_HEAD),
+        (flow_tables.lid(summary), flow_tables.LID_HEAD),
+        (flow_tables.box(summary), flow_tables.BOX_HEAD),
+        (flow_tables.walls(summary), flow_tables.WALLS_HEAD),
+        (tables.probes(summary), tables.PROBE_HEAD),
+    ):
+        if rows:
+            body.append(table(rows, head))
     body.append(folded("All numbers of summary.json", table(tables.flat(summary))))
     return body
 
 
 def figures(images: list[Path]) -> list[str]:
     """All figures that were drawn, numbered."""
-    captions = {drawing.name: drawing.caption for drawing in DRAWINGS}
+    captions = {drawing.name: drawing.caption for drawing in DRAWINGS} | {"animation": ANIMATION}
     return [figure(image, captions[image.stem], k) for k, image in enumerate(images, start=1)]
+
+
+def computation(summary: dict[str, Any]) -> list[str]:
+    """How the run was computed, its steps and, with flow, how sound that is."""
+    parts = (tables.computation(summary), tables.time_steps(summary))
+    return [table(rows) for rows in (*parts, flow_tables.soundness(summary)) if rows]
 
 
 def asked(run: Run) -> list[str]:

@@ -1,0 +1,167 @@
+"""The flow of one snapshot in the plane, mirrored to a whole period, and on a grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lasersph.observers.box_sections import Box
+from lasersph.observers.interpolation import interpolate
+from lasersph.output import Run
+from lasersph.plots.history import summary_of, symmetry_of
+from lasersph.plots.particle_map import PIXELS, Cells, Snapshot
+
+MARGIN = 1.12
+"""Width that a picture of a pool shows, over the width of the pool."""
+DEPTH = 1.2
+"""Depth that it shows, over the depth of the pool."""
+VAPOR = 1e-6
+"""A cell that took up more than this part of its heat of vaporization is drawn as boiling."""
+
+
+@dataclass(frozen=True)
+class PlaneFlow:
+    """Particles of a plane snapshot: cells (their numbers count the particles of the snapshot) and
+    velocity (2, m) [m/s], mirrored like the cells; time [s].
+    """
+
+    time: float
+    step: Snapshot
+    cells: Cells
+    velocity: np.ndarray
+
+    @property
+    def flows(self) -> np.ndarray:
+        """Whether each cell flows, (m,)."""
+        return self.step["flows"][self.cells.number] > 0
+
+    @property
+    def fastest(self) -> float:
+        """Largest speed [m/s]."""
+        return float(np.max(self.step["speed"]))
+
+    def inside(self, frame: Box, margin: float = 0.0) -> PlaneFlow:
+        """The part within a frame, widened by a margin [m] on each side."""
+        x, z = self.cells.center
+        half = 0.5 * self.cells.size + margin
+        chosen = (x + half[0] > frame.left) & (x - half[0] < frame.right)
+        chosen &= (z + half[1] > frame.bottom) & (z - half[1] < frame.top)
+        cells = Cells(
+            self.cells.center[:, chosen], self.cells.size[:, chosen], self.cells.number[chosen]
+        )
+        return PlaneFlow(self.time, self.step, cells, self.velocity[:, chosen])
+
+    def on_grid(
+        self, frame: Box, columns: int, rows: int
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Velocity on an even grid of a frame, half a step from its edges.
+
+        Returns:
+            x (columns,), z (rows,) [m] and velocity (2, rows, columns) [m/s], NaN where the closest
+            particle does not flow.
+        """
+        from scipy.spatial import KDTree
+
+        x = frame.across((np.arange(columns) + 0.5) / columns)
+        z = frame.up((np.arange(rows) + 0.5) / rows)
+        nodes = np.array([grid.ravel() for grid in np.meshgrid(x, z)])
+        near = self.inside(frame, 4.0 * float(np.max(self.cells.size[:, self.flows], initial=0.0)))
+        velocity = interpolate(near.cells.center, near.velocity, nodes)
+        _, closest = KDTree(near.cells.center.T).query(nodes.T)
+        velocity[:, ~near.flows[closest]] = np.nan
+        return x, z, velocity.reshape(2, rows, columns)
+
+
+@dataclass(frozen=True)
+class Raster:
+    """A frame in pixels, (rows, columns): `number` is the particle that each shows, -1 for none."""
+
+    step: Snapshot
+    frame: Box
+    number: np.ndarray
+
+    @property
+    def edges(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom and top edge [m]."""
+        return self.frame.left, self.frame.right, self.frame.bottom, self.frame.top
+
+    def of(self, values: np.ndarray, shown: np.ndarray | None = None) -> np.ndarray:
+        """Values (n,) of the particles as a picture, NaN where there is none, or none `shown`."""
+        seen = self.number >= 0
+        if shown is not None:
+            seen &= shown[self.number]
+        return np.where(seen, values[self.number], np.nan)
+
+    def temperature(self) -> np.ndarray:
+        """[K]."""
+        return self.of(self.step["temperature"])
+
+    def speed(self) -> np.ndarray:
+        """[m/s], NaN where nothing flows."""
+        return self.of(self.step["speed"], self.step["flows"] > 0)
+
+    def phase(self) -> np.ndarray:
+        """0 solid, 1 mush, 2 liquid, 3 liquid that took up heat of vaporization."""
+        melt, vapor = self.step["melt_fraction"], self.step["vapor_fraction"]
+        liquid = melt >= 1.0
+        return self.of((melt > 0.0).astype(float) + liquid + (liquid & (vapor > VAPOR)))
+
+
+def raster(flow: PlaneFlow, frame: Box, pixels: tuple[int, int] = PIXELS) -> Raster:
+    """A frame of a state in pixels, rows and columns."""
+    edges = (frame.left, frame.right, frame.bottom, frame.top)
+    return Raster(flow.step, frame, flow.inside(frame).cells.picture(edges, pixels))
+
+
+def plane_flow(run: Run, time: float) -> PlaneFlow:
+    """The state at the snapshot closest to a time [s], over the whole period; at rest in a run
+    without flow."""
+    step = run.snapshots.nearest(time)
+    count = step["position"].shape[1]
+    cells = Cells(step["position"], step["width"], np.arange(count))
+    velocity = step.get("velocity", np.zeros(step["position"].shape))
+    if symmetry_of(run) == 2:
+        cells = cells.mirrored()
+        velocity = np.concatenate([velocity * np.array([[-1.0], [1.0]]), velocity], axis=1)
+    return PlaneFlow(float(step["time"]), step, cells, velocity)
+
+
+def pool_frame(run: Run, flow: PlaneFlow) -> Box:
+    """What a picture of the melt pool shows: the largest pool of the run and a margin."""
+    melt = summary_of(run).get("melt", {})
+    wet = flow.step["melt_fraction"][flow.cells.number] > 0.0
+    x, z = flow.cells.center
+    size = float(np.min(flow.cells.size))
+    wide = melt.get("width_any_max_m") or (2.0 * np.max(np.abs(x), where=wet, initial=0.0))
+    deep = melt.get("depth_any_max_m") or np.max(-z, where=wet, initial=0.0)
+    reach = max(0.5 * MARGIN * float(wide), 8.0 * size)
+    left, right, bottom, _ = flow.cells.frame
+    depth = max(DEPTH * float(deep), 6.0 * size)
+    return Box(max(-reach, left), min(reach, right), max(-depth, bottom), 0.0)
+
+
+def body_frame(flow: PlaneFlow) -> Box:
+    """The whole body."""
+    return Box(*flow.cells.frame)
+
+
+def has_flow(run: Run) -> bool:
+    """Whether the run was computed with flow in the plane and has snapshots of it."""
+    with_flow = "flow_speed_max_m_s" in run.history
+    return with_flow and len(run.snapshots) > 0 and run.snapshots.dimension == 2
+
+
+def is_box(run: Run) -> bool:
+    """Whether the run was a closed box of liquid."""
+    return "box_u_max_m_s" in run.history
+
+
+def fastest_time(run: Run) -> float:
+    """When the surface was fastest; where none moved, when anything was; a box at the end [s]."""
+    history = run.history
+    if is_box(run):
+        return float(history["time_s"][-1])
+    column = history["flow_surface_speed_max_m_s"]
+    column = column if np.any(column > 0.0) else history["flow_speed_max_m_s"]
+    return float(history["time_s"][np.argmax(column)])

@@ -1,0 +1,245 @@
+"""Pictures of a flow from particles.vtkhdf: temperature, phase, speed with arrows, streamlines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lasersph.observers.box_sections import Box
+from lasersph.output import Run
+from lasersph.plots import style
+from lasersph.plots.flow_fields import (
+    PlaneFlow,
+    Raster,
+    body_frame,
+    fastest_time,
+    has_flow,
+    is_box,
+    plane_flow,
+    pool_frame,
+    raster,
+)
+from lasersph.plots.particle_map import LARGEST_STRETCH, MAP_WIDTH, paint
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+ARROWS = 34
+BOX_ARROWS = 22
+"""Arrows along the longer edge of a picture."""
+LONGEST = 1.1
+"""Length of the longest arrow over the distance of arrows."""
+STREAM_COLUMNS = 160
+PHASES = ("solid", "mush", "liquid", "at $T_v$")
+PHASE_COLORS = ("#a3adb8", "#c5dff0", "#fff0b0", "#f2a07b")
+LEAST_SPREAD = 1e-6
+
+
+def pool_flow_map(run: Run, time: float | None = None) -> Figure | None:
+    """Temperature, speed with arrows, and phase with streamlines of the melt pool at one time.
+
+    Args:
+        run: the run.
+        time: seconds; if not given, when the surface was fastest.
+
+    Returns:
+        The figure; None where nothing flowed or the run is a box.
+    """
+    if not has_flow(run) or is_box(run):
+        return None
+    flow = plane_flow(run, fastest_time(run) if time is None else time)
+    if flow.fastest == 0.0:
+        return None
+    frame = pool_frame(run, flow)
+    figure, all_axes, stretch = stacked(frame, 3)
+    unit, picture = frame_unit(frame), raster(flow, frame)
+    draw_temperature(all_axes[0], picture, unit)
+    draw_speed(all_axes[1], picture, unit, flow.fastest)
+    draw_arrows(all_axes[1], flow, frame, unit, flow.fastest, ARROWS)
+    draw_phase(all_axes[2], picture, unit)
+    draw_streamlines(all_axes[2], flow, frame, unit, color="black", density=1.8)
+    finish(figure, all_axes, flow, frame, unit, stretch)
+    return figure
+
+
+def box_flow_map(run: Run, time: float | None = None) -> Figure | None:
+    """Speed with arrows, and streamlines over the temperature where it varies.
+
+    Args:
+        run: the run.
+        time: seconds; the end if not given.
+
+    Returns:
+        The figure; None where the run is no box or nothing moved.
+    """
+    if not has_flow(run) or not is_box(run):
+        return None
+    flow = plane_flow(run, fastest_time(run) if time is None else time)
+    if flow.fastest == 0.0:
+        return None
+    frame = body_frame(flow)
+    unit, picture = frame_unit(frame), raster(flow, frame)
+    figure, all_axes = style.new_figure(1, 2, height=0.355 * style.WIDTH * shape_of(frame) + 0.75)
+    draw_speed(all_axes[0], picture, unit, flow.fastest)
+    draw_arrows(all_axes[0], flow, frame, unit, flow.fastest, BOX_ARROWS)
+    warm = varies(flow)
+    if warm:
+        draw_temperature(all_axes[1], picture, unit)
+    color = "white" if warm else "black"
+    draw_streamlines(all_axes[1], flow, frame, unit, color=color, density=1.1)
+    style.label(all_axes[1], f"x [{unit.name}]", f"z [{unit.name}]")
+    finish(figure, all_axes, flow, frame, unit, 1.0)
+    return figure
+
+
+def varies(flow: PlaneFlow) -> bool:
+    """Whether the temperature differs from place to place."""
+    temperature = flow.step["temperature"]
+    return float(np.ptp(temperature)) > LEAST_SPREAD * float(np.max(temperature))
+
+
+def draw_temperature(
+    axes: Axes, picture: Raster, unit: style.Unit, limits: tuple[float, float] | None = None
+) -> None:
+    """Temperature of the particles."""
+    name, colors = "temperature [K]", style.TEMPERATURE_COLORS
+    values = picture.temperature()
+    paint(axes, values, picture.edges, unit, colors=colors, limits=limits, name=name)
+
+
+def draw_phase(axes: Axes, picture: Raster, unit: style.Unit) -> None:
+    """Phase of the particles: solid, mush, liquid, boiling."""
+    from matplotlib.colors import ListedColormap
+
+    left, right, bottom, top = (edge * unit.factor for edge in picture.edges)
+    image = axes.imshow(
+        picture.phase(),
+        extent=(left, right, bottom, top),
+        origin="lower",
+        cmap=ListedColormap(list(PHASE_COLORS)),
+        vmin=-0.5,
+        vmax=3.5,
+        interpolation="nearest",
+    )
+    axes.grid(False)
+    bar = axes.figure.colorbar(image, ax=axes, pad=0.015, aspect=14)
+    bar.set_label("phase", fontsize=10)
+    bar.set_ticks(range(4), labels=PHASES)
+    style.label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
+
+
+def draw_speed(axes: Axes, picture: Raster, unit: style.Unit, largest: float) -> None:
+    """Speed of the liquid in color; `largest` is the end of the color scale [m/s]."""
+    speed = style.speed_unit(largest)
+    limits = (0.0, max(largest * speed.factor, 1e-12))
+    name, colors = f"speed [{speed.name}]", style.SPEED_COLORS
+    values = picture.speed() * speed.factor
+    axes.set_facecolor("0.85")
+    paint(axes, values, picture.edges, unit, colors=colors, limits=limits, name=name)
+
+
+def draw_arrows(
+    axes: Axes, flow: PlaneFlow, frame: Box, unit: style.Unit, largest: float, count: int
+) -> None:
+    """Arrows of the direction, longer with the root of the speed.
+
+    Args:
+        largest: speed of the longest arrow [m/s].
+        count: arrows along the longer edge of the picture.
+    """
+    columns, rows = grid_of(frame, count)
+    x, z, velocity = flow.on_grid(frame, columns, rows)
+    speed = np.hypot(*velocity)
+    length = 1.0 / np.sqrt(np.maximum(speed, 1e-12 * largest) * largest)
+    step = unit.factor * min(frame.width / columns, frame.height / rows * stretch_of(frame))
+    axes.quiver(
+        x * unit.factor,
+        z * unit.factor,
+        *(velocity * length * step * LONGEST),
+        angles="xy",
+        scale_units="x",
+        scale=1.0,
+        color="white",
+        width=0.0022,
+        headwidth=4.0,
+        headlength=4.5,
+        headaxislength=4.0,
+        minlength=0.4,
+        pivot="mid",
+    )
+
+
+def draw_streamlines(
+    axes: Axes, flow: PlaneFlow, frame: Box, unit: style.Unit, *, color: str, density: float
+) -> None:
+    """Streamlines of the liquid."""
+    columns, rows = grid_of(frame, STREAM_COLUMNS)
+    x, z, velocity = flow.on_grid(frame, columns, rows)
+    shape = shape_of(frame) * stretch_of(frame)
+    axes.streamplot(
+        x * unit.factor,
+        z * unit.factor,
+        *velocity,
+        color=color,
+        density=(density, density * max(min(shape, 1.0), 0.35)),
+        linewidth=0.8,
+        arrowsize=0.8,
+    )
+    axes.grid(False)
+
+
+def stacked(frame: Box, panels: int) -> tuple[Figure, list[Axes], float]:
+    """A figure of panels above each other, and how much larger than to scale depth is drawn."""
+    stretch = stretch_of(frame)
+    height = MAP_WIDTH * shape_of(frame) * stretch
+    figure, all_axes = style.new_figure(panels, height=panels * (height + 0.55) + 0.4)
+    return figure, all_axes, stretch
+
+
+def finish(
+    figure: Figure,
+    all_axes: list[Axes],
+    flow: PlaneFlow,
+    frame: Box,
+    unit: style.Unit,
+    stretch: float,
+) -> None:
+    """Limits, proportions and the line above that says the time."""
+    for axes in all_axes:
+        axes.set_xlim(frame.left * unit.factor, frame.right * unit.factor)
+        axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
+        axes.set_aspect(stretch)
+    note = f"; the depth is drawn {stretch:.3g} times larger" if stretch > 1.0 else ""
+    figure.suptitle(time_text(flow.time) + note, fontsize=10)
+
+
+def time_text(time: float) -> str:
+    """t = 57 ns."""
+    clock = style.unit_for(time, style.TIMES)
+    return f"t = {time * clock.factor:.4g} {clock.name}"
+
+
+def frame_unit(frame: Box) -> style.Unit:
+    """Unit of length for a frame."""
+    return style.unit_for(max(abs(frame.left), abs(frame.right)), style.LENGTHS)
+
+
+def shape_of(frame: Box) -> float:
+    """Height over width."""
+    return frame.height / frame.width
+
+
+def stretch_of(frame: Box) -> float:
+    """How much larger than to scale the depth of a flat frame is drawn; 1 for others."""
+    stretch = max(1.0, 1.0 / (shape_of(frame) * LARGEST_STRETCH))
+    return 1.0 if stretch < 1.25 else float(stretch)
+
+
+def grid_of(frame: Box, longer: int) -> tuple[int, int]:
+    """Columns and rows of a grid that looks even in the picture."""
+    shape = shape_of(frame) * stretch_of(frame)
+    if shape <= 1.0:
+        return longer, max(round(longer * shape), 3)
+    return max(round(longer / shape), 3), longer
