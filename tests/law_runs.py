@@ -9,8 +9,8 @@ from lasersph.solvers.time_step import binding
 
 
 def solver_of(name, *settings, threads=2, backend=None):
-    """Case with settings, and its solver at rest."""
-    case = load_case(name, settings)
+    """Case with settings, of heat alone unless they say otherwise, and its solver at rest."""
+    case = load_case(name, ("solver.kind=conduction", *settings))
     return case, build(case, backend or compute.cpu(threads=threads))[1]
 
 

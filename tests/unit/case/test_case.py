@@ -22,6 +22,7 @@ def test_overrides_are_toml_or_text():
             "laser.fluence=0.8 J/cm^2",
             "particles.spacing=16nm",
             'particles.spacing="32 nm"',
+            "solver.kind=conduction",
             "solver.phase_change=false",
             "laser.pulse.count=1",
             "probes[2].x=1um",

@@ -10,7 +10,7 @@ from lasersph.simulation.build import build
 
 def operator_of(*settings):
     """Dense matrix of the folded weights, and their sums."""
-    case = load_case("dlip-steel", ["particles.spacing=125nm", *settings])
+    case = load_case("dlip-steel", ["solver.kind=conduction", "particles.spacing=125nm", *settings])
     body = build(case, compute.cpu(threads=2))[1].body
     pairs, to_host = body.pairs, body.backend.to_host
     start = to_host(pairs.neighbors.row_start).astype(np.int64)
