@@ -109,10 +109,21 @@ class Backend:
 
     def sort_by_key(self, keys: Any, key_count: int) -> Any:
         """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
+        host = self._keys(keys, key_count)
+        if key_count <= 1 << 16:
+            host = host.astype(np.uint16)  # sorted by digits, in linear time
+        return self.wrap(np.argsort(host, kind="stable").astype(np.uint32))
+
+    def count_by_key(self, keys: Any, key_count: int) -> Any:
+        """How often each key 0 ... key_count - 1 occurs among index keys, kind "index"."""
+        host = self._keys(keys, key_count)
+        return self.wrap(np.bincount(host, minlength=key_count).astype(np.uint32))
+
+    def _keys(self, keys: Any, key_count: int) -> np.ndarray:
         host = self.unwrap(keys)
         if host.size and int(host.max()) >= key_count:
             raise ValueError(f"key {int(host.max())} is not below {key_count}")
-        return self.wrap(np.argsort(host, kind="stable").astype(np.uint32))
+        return host
 
     # --- loop shapes ----------------------------------------------------------------------------
 

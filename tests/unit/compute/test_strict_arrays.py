@@ -84,5 +84,9 @@ def test_scan_and_sort(backend):
     assert backend.to_host(out).tolist() == [0, 2, 2, 5]
     keys = backend.asarray([1, 0, 1, 0], "index")
     assert backend.to_host(backend.sort_by_key(keys, 2)).tolist() == [1, 3, 0, 2]
+    assert backend.to_host(backend.sort_by_key(keys, 1 << 17)).tolist() == [1, 3, 0, 2]
+    assert backend.to_host(backend.count_by_key(keys, 3)).tolist() == [2, 2, 0]
     with pytest.raises(ValueError, match="key 1 is not below 1"):
         backend.sort_by_key(keys, 1)
+    with pytest.raises(ValueError, match="key 1 is not below 1"):
+        backend.count_by_key(keys, 1)

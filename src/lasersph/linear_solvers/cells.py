@@ -1,0 +1,149 @@
+"""Square cells around a set of particles, and the members of numbered bins such as cells.
+
+The smallest box of cells around the particles with mask 1, made anew from their positions, so that
+nothing of it needs to survive a step. On a periodic axis whole cells fill the period.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, floor
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.backend import Backend
+
+FAR = 1e30
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Cells along one axis, and the nodes between them.
+
+    Attributes:
+        cells: their number. spacing: their width [m]. wraps: whether the axis is periodic.
+    """
+
+    cells: int
+    spacing: float
+    wraps: bool
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes."""
+        return self.cells if self.wraps else self.cells + 1
+
+    @property
+    def step(self) -> int:
+        """2 where the next coarser axis has every other node, 0 where one, 1 where the same."""
+        if self.nodes <= 2:
+            return 0 if self.nodes == 2 else 1
+        return 1 if self.wraps and self.cells % 2 else 2
+
+    def coarser(self) -> Axis:
+        """The next coarser axis."""
+        if self.step == 0:
+            return Axis(0, self.spacing, False)
+        if self.step == 1:
+            return self
+        return Axis(ceil(self.cells / 2), 2.0 * self.spacing, self.wraps)
+
+
+def box(x, mask):
+    """Coordinates of a particle with mask 1, for the smallest box around all of them."""
+    if mask > 0.0:
+        return x[0], x[0], x[1], x[1]
+    return FAR, -FAR, FAR, -FAR
+
+
+def placed(x, mask, lower, inverse, cells, cell_lines, x_wraps, z_wraps):
+    """Place (u, w) in units of the spacing, and number of the cell; the last where mask is 0."""
+    u = (x[0] - lower[0]) * inverse[0]
+    w = (x[1] - lower[1]) * inverse[1]
+    if x_wraps > 0:
+        u = u - cells * floor(u / cells)
+    if z_wraps > 0:
+        w = w - cell_lines * floor(w / cell_lines)
+    c = min(max(int(u), 0), cells - 1)
+    m = min(max(int(w), 0), cell_lines - 1)
+    if mask <= 0.0:
+        return u, w, cells * cell_lines
+    return u, w, c * cell_lines + m
+
+
+class Cells:
+    """Cells for `count` particles.
+
+    Args:
+        width: wanted width of a cell [m]. period: per axis [m], 0.0 where there is none.
+
+    Attributes:
+        x, z: axes. u, w: (n,) place of each particle, in cells from the lower corner.
+        number: (n,) kind "index", cell of each particle, line after line within a column; the
+            number of cells where the mask is 0.
+    """
+
+    def __init__(self, backend: Backend, count: int, width: float, period: Sequence[float]) -> None:
+        self.backend, self.width, self.period = backend, width, tuple(period)
+        self.u, self.w = backend.zeros(count), backend.zeros(count)
+        self.number = backend.zeros(count, "index")
+        self.x = self.z = Axis(1, width, False)
+
+    @property
+    def count(self) -> int:
+        """Number of cells."""
+        return self.x.cells * self.z.cells
+
+    @property
+    def shape(self) -> dict[str, int]:
+        """Numbers of cells by the names of `placed`."""
+        x, z = self.x, self.z
+        return {
+            "cells": x.cells, "cell_lines": z.cells,
+            "x_wraps": int(x.wraps), "z_wraps": int(z.wraps),
+        }  # fmt: skip
+
+    def place(self, position: Any, mask: Any) -> None:
+        """Make the cells around the particles with mask 1; position (2, n) [m], mask (n,)."""
+        fields = {"x": position, "mask": mask}
+        bounds = self.backend.pointwise(
+            box, fields, (None,) * 4, reduce=("min", "max", "min", "max")
+        )
+        x_low, self.x = _axis(self.width, self.period[0], *bounds[:2])
+        z_low, self.z = _axis(self.width, self.period[1], *bounds[2:])
+        self.backend.pointwise(
+            placed, fields, (self.u, self.w, self.number), lower=(x_low, z_low),
+            inverse=(1.0 / self.x.spacing, 1.0 / self.z.spacing), **self.shape,
+        )  # fmt: skip
+
+
+def _axis(width: float, period: float, low: float, high: float) -> tuple[float, Axis]:
+    """Lower end [m] and cells of an axis; those of a period can be joined by twos down to eight."""
+    if period:
+        cells = max(period / width, 2.0)
+        pairs = 2 ** max(int(np.log2(cells)) - 2, 0)
+        cells = round(cells / pairs) * pairs
+        return 0.0, Axis(cells, period / cells, True)
+    if high < low:
+        return 0.0, Axis(1, width, False)
+    first = floor(low / width)
+    return first * width, Axis(floor(high / width) - first + 1, width, False)
+
+
+class Bins:
+    """Members of numbered bins, for sums over bins in a fixed order.
+
+    Args:
+        keys: (n,) kind "index", bin of each member, below `count`.
+
+    Attributes:
+        order: (n,) members, bin after bin, each in the order of its numbers.
+        start: (count + 1,) first place of each bin in it.
+    """
+
+    def __init__(self, backend: Backend, keys: Any, count: int) -> None:
+        self.order = backend.sort_by_key(keys, count)
+        self.start = backend.zeros(count + 1, "offset")
+        backend.exclusive_scan(backend.count_by_key(keys, count), self.start)

@@ -1,0 +1,241 @@
+"""Preconditioner for pair operators of scattered particles: the diagonal plus a grid's correction.
+
+    M^-1 r = D^-1 r + P B P^T r
+
+for A = G + a with (G p)_i = sum_j g_ij (p_i - p_j), which discretizes V_i times the Laplacian, on
+the particles whose mask is 1. P interpolates bilinearly from the nodes of a grid of squares two
+thirds of a support radius wide (some 2.5 particles); B is a V cycle for the Laplacian of bilinear
+elements on that grid, with the particles' own volume as the share of each node that is filled
+(`grid_nodes`), on grids of twice the width and so on, one damped Jacobi sweep before and after,
+and an exact inverse where few nodes are left.
+
+The wide stencils of particles make D^-1 a good smoother for all that is shorter than a support
+radius, and the grid carries the rest; so the number of iterations does not grow with the number of
+particles, and an iteration costs one pair sum over particles. Grid and volumes follow from the
+positions, the volumes and the mask alone and are made anew whenever these change, by one sort:
+nothing of them needs to survive a step. An axis of two nodes is dropped, so that thin bodies keep
+squares as long as they are two-dimensional.
+
+Singular operators are welcome: pivots of the exact inverse that vanish are left out. All parts are
+symmetric and not negative, and so is M^-1. Left out: one and three dimensions; particles of very
+different sizes. References: [Xu1996], [Bramble1990] for the additive form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.backend import Backend
+from lasersph.linear_solvers import grid_nodes, grid_transfer
+from lasersph.linear_solvers.cells import Axis, Bins, Cells
+
+WIDTH = 2.0 / 3.0
+"""Spacing of the finest grid over the support radius."""
+COARSEST = 80
+"""Grids are coarsened until there are at most as many nodes."""
+DAMPING = 8.0 / 9.0
+"""Of the Jacobi sweeps: it reduces all that the next grid does not resolve to a third."""
+
+
+class Level:
+    """One grid with its work arrays, which are one longer than its nodes and end with 0."""
+
+    def __init__(self, backend: Backend, x: Axis, z: Axis) -> None:
+        self.backend, self.x, self.z = backend, x, z
+        self.count = x.nodes * z.nodes
+        names = ("C", "s", "a", "d", "v", "r", "x", "y", "rest")
+        self.all = {name: backend.zeros(self.count + 1) for name in names}
+        self.at = {name: backend.head(array, self.count) for name, array in self.all.items()}
+        self.at |= _places(backend, x.nodes, z.nodes)
+        across, along = x.spacing**-2, z.spacing**-2
+        is_flat = x.nodes == 1 or z.nodes == 1
+        self.shape: dict[str, Any] = {
+            "columns": x.nodes, "lines": z.nodes, "x_wraps": int(x.wraps), "z_wraps": int(z.wraps),
+        }  # fmt: skip
+        self.stencil = self.shape | {
+            "across": across if is_flat else max(0.0, (2.0 * across - along) / 3.0),
+            "along": along if is_flat else max(0.0, (2.0 * along - across) / 3.0),
+            "aslant": (across + along) / 6.0,
+        }
+
+    def outputs(self, *names: str) -> tuple:
+        """Arrays to be written."""
+        return tuple(self.at[name] for name in names)
+
+    def prepare(self) -> None:
+        """Diagonal of K from the volumes C and the pulls a."""
+        run, at = self.backend.pointwise, self.at
+        run(grid_nodes.root, at, at["s"])
+        run(
+            grid_nodes.diagonal, at, self.outputs("d", "v"),
+            all_s=self.all["s"], damping=DAMPING, **self.stencil,
+        )  # fmt: skip
+
+    def smooth(self, function: Any, out: Any) -> None:
+        """`rest` or `sweep` of the present x and y = s x."""
+        self.backend.pointwise(function, self.at, out, all_y=self.all["y"], **self.stencil)
+
+    def collect(self, above: Level, name: str, out: tuple) -> None:
+        """P^T of an array of this level into those of the next, as `grid_nodes.started`."""
+        self.backend.pointwise(
+            grid_nodes.collected, above.at, out, all_r=self.all[name],
+            x_step=self.x.step, z_step=self.z.step, **self.shape,
+        )  # fmt: skip
+
+    def add(self, above: Level) -> None:
+        """x + P e with the x of the next level for e."""
+        self.backend.pointwise(
+            grid_nodes.added, self.at, self.outputs("x", "y"), coarse_x=above.all["x"],
+            x_step=self.x.step, z_step=self.z.step,
+            coarse_columns=above.x.nodes, coarse_lines=above.z.nodes,
+            x_wraps=above.shape["x_wraps"], z_wraps=above.shape["z_wraps"],
+        )  # fmt: skip
+
+
+def _places(backend: Backend, columns: int, lines: int) -> dict[str, Any]:
+    """Number k, column c and line m of each node or cell."""
+    k = np.arange(columns * lines)
+    arrays = {"k": k, "c": k // lines, "m": k % lines}
+    return {name: backend.asarray(array, "index") for name, array in arrays.items()}
+
+
+class GridCorrection:
+    """Diagonal and grids for one set of particles.
+
+    Args:
+        count: number of particles. support: radius [m]. period: per axis [m], 0.0 where there is
+            none.
+
+    Attributes:
+        levels: grids, the finest first.
+    """
+
+    def __init__(
+        self, backend: Backend, count: int, support: float, period: Sequence[float] = (0.0, 0.0)
+    ) -> None:
+        self.backend, self.levels = backend, list[Level]()
+        self._cells = Cells(backend, count, WIDTH * support, period)
+        self._sorted_u, self._sorted_w = backend.zeros(count), backend.zeros(count)
+
+    def prepare(self, position: Any, mask: Any, volume: Any, pull: Any) -> None:
+        """Make the grids for the particles with mask 1.
+
+        Args:
+            position: (2, n) [m]. mask: (n,). volume: (n,) V_i [m^2]. pull: (n,) a_i.
+        """
+        backend, cells = self.backend, self._cells
+        cells.place(position, mask)
+        if not self.levels or (self.levels[0].x, self.levels[0].z) != (cells.x, cells.z):
+            self._make_levels(cells.x, cells.z)
+        self._bins = Bins(backend, cells.number, cells.count + 1)
+        backend.gather(cells.u, self._bins.order, self._sorted_u)
+        backend.gather(cells.w, self._bins.order, self._sorted_w)
+        for values, name in ((volume, "C"), (pull, "a")):
+            self._collect(values, (self.levels[0].at[name], None, None))
+        for level, above in zip(self.levels, [*self.levels[1:], None], strict=True):
+            level.prepare()
+            if above:
+                for name in ("C", "a"):
+                    level.collect(above, name, (above.at[name], None, None))
+        self._inverse = backend.asarray(_inverse(backend, self.levels[-1]))
+
+    def correct(self, r: Any, diagonal: Any, mask: Any, z: Any) -> float:
+        """Write M^-1 r into z, 0 where the mask is 0; returns r z.
+
+        Args:
+            diagonal: (n,) D, not 0.
+        """
+        finest, cells = self.levels[0], self._cells
+        self._collect(r, finest.outputs("r", "x", "y"))
+        self._cycle(0)
+        fields = {"r": r, "d": diagonal, "mask": mask, "u": cells.u, "w": cells.w}
+        shape = {"columns": finest.x.nodes, "lines": finest.z.nodes}
+        (rz,) = self.backend.pointwise(
+            grid_transfer.corrected, fields, (z, None), reduce=(None, "sum"),
+            nodes=finest.all["x"], **shape, **cells.shape,
+        )  # fmt: skip
+        return rz
+
+    def _make_levels(self, x: Axis, z: Axis) -> None:
+        backend = self.backend
+        cells = x.cells * z.cells
+        self._places = _places(backend, x.cells, z.cells)
+        self._sums = [backend.zeros(cells + 1) for _ in range(4)]
+        self._sum_heads = tuple(backend.head(array, cells) for array in self._sums)
+        self.levels = [Level(backend, x, z)]
+        while self.levels[-1].count > COARSEST:
+            x, z = x.coarser(), z.coarser()
+            self.levels.append(Level(backend, x, z))
+
+    def _collect(self, values: Any, out: tuple) -> None:
+        """P^T of the particles' values into the finest grid, as `grid_nodes.started`."""
+        backend = self.backend
+        backend.pointwise(
+            grid_transfer.corner_sums, self._places, self._sum_heads, values=values,
+            order=self._bins.order, start=self._bins.start, u=self._sorted_u, w=self._sorted_w,
+        )  # fmt: skip
+        sum_00, sum_01, sum_10, sum_11 = self._sums
+        backend.pointwise(
+            grid_transfer.from_cells, self.levels[0].at, out,
+            sum_00=sum_00, sum_01=sum_01, sum_10=sum_10, sum_11=sum_11, **self._cells.shape,
+        )  # fmt: skip
+
+    def _cycle(self, k: int) -> None:
+        """V cycle from level k upward: turn x = v r into its solution."""
+        level = self.levels[k]
+        if level is self.levels[-1]:
+            self.backend.pointwise(
+                grid_nodes.product, level.at, level.at["x"],
+                inverse=self._inverse, all_r=level.all["r"], count=level.count,
+            )  # fmt: skip
+            return
+        above = self.levels[k + 1]
+        level.smooth(grid_nodes.rest, level.at["rest"])
+        level.collect(above, "rest", above.outputs("r", "x", "y"))
+        self._cycle(k + 1)
+        level.add(above)
+        level.smooth(grid_nodes.sweep, level.at["x"])
+
+
+def _inverse(backend: Backend, level: Level) -> np.ndarray:
+    """(n n,) inverse of K on the coarsest grid, with 0 in rows and columns of vanishing pivots.
+
+    Gauss and Jordan's elimination, stable without exchange for matrices that are not negative, in
+    elementwise operations: a library's may depend on its number of threads.
+    """
+    n, stencil = level.count, level.stencil
+    s, a = (backend.to_host(level.at[name]).astype(np.float64) for name in ("s", "a"))
+    columns, lines = level.x.nodes, level.z.nodes
+    K = np.zeros((n, n))
+    for k in range(n):
+        c, m = divmod(k, lines)
+        for i in (-1, 0, 1):
+            for j in (-1, 0, 1):
+                column = grid_nodes.inside(c + i, columns, level.x.wraps)
+                line = grid_nodes.inside(m + j, lines, level.z.wraps)
+                other = grid_nodes.node(column, line, columns, lines)
+                if other != k and other < n:
+                    name = "aslant" if i and j else "across" if i else "along"
+                    g = stencil[name] * s[k] * s[other]
+                    K[k, other] -= g
+                    K[k, k] += g
+        K[k, k] += a[k]
+    diagonal = np.diag(K).copy()
+    is_kept = np.ones(n, bool)
+    for k in range(n):
+        pivot = K[k, k]
+        if pivot <= 1e-10 * diagonal[k] or pivot == 0.0:
+            is_kept[k] = False
+            continue
+        K[k, k] = 1.0
+        K[k] /= pivot
+        factor = K[:, k].copy()
+        factor[k] = 0.0
+        K[:, k] *= np.arange(n) == k
+        K -= factor[:, None] * K[k]
+    K[~is_kept] = 0.0
+    K[:, ~is_kept] = 0.0
+    return K.ravel()

@@ -1,0 +1,196 @@
+"""Pressure equation of the projection, solved by conjugate gradients with a grid's correction.
+
+    sum_j g_ij (p_j - p_i) + a_i (p_b_i - p_i) + f_i = b_i
+
+for the particles with mask 1, with weights g_ij = g_ji >= 0 [m^(d-2)] that discretize V_i times
+the Laplacian, and
+
+    a_i = cross-section / distance of a boundary with the given pressure p_b_i,
+    f_i = sum of cross-section * dp/dn over boundaries with a given flux (n outward),
+    b_i = rho / dt V_i (D_i - d_i),
+
+D_i the divergence of the predicted velocity and d_i the prescribed one [Demuth2020, eq. (77) times
+V_i]. A pair with a particle whose mask is 0 contributes nothing: dp/dn = 0 there.
+
+Pools and remnants that do not touch are components of their own (`linear_solvers.components`);
+pairs between them contribute nothing. Where no boundary gives a component its pressure the operator
+is singular: there the mean of the right-hand side is removed, which makes it solvable, and the
+pressure has mean 0. Other components are left alone. Too few particles for a component have p = 0.
+
+The preconditioner (`linear_solvers.grid_correction`) is made from the present particles in every
+step and has no memory, so that only the pressure itself, the first guess, survives a step. The
+published matrix is in `published_pressure`. Left out: one and three dimensions.
+Reference: [Saad2003], Algorithm 9.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from lasersph.compute.backend import Backend
+from lasersph.linear_solvers.components import Components
+from lasersph.linear_solvers.grid_correction import GridCorrection
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a solution went.
+
+    Attributes:
+        iterations: of the solver. residual: its 2-norm over that of the right-hand side.
+        components: number of pools that were solved for.
+    """
+
+    iterations: int
+    residual: float
+    components: int
+
+
+def inner(g_ij, component_i, component_j):
+    """Weight of a pair within a component, 0 of others."""
+    if component_i == component_j:
+        return g_ij
+    return 0.0 * g_ij
+
+
+def total_weight(total, component, a):
+    """Diagonal of A; 1 where there is no equation."""
+    if component > 0:
+        return total + a
+    return 1.0 + 0.0 * a
+
+
+def right_side(mask, a, p_b, f, b):
+    """a p_b + f - b, so that A is positive."""
+    return mask * (a * p_b + f - b)
+
+
+def neighbor_value(g_ij, p_j):
+    """Term of A p beside the diagonal; p = 0 where the mask is 0."""
+    return g_ij * p_j
+
+
+def rest(total, d, mask, p, b):
+    """b - A p, and its square."""
+    r = b - mask * (d * p - total)
+    return r, r * r
+
+
+def multiply(total, d, mask, s):
+    """A s, and s A s."""
+    q = mask * (d * s - total)
+    return q, s * q
+
+
+def advance(p, r, s, q, alpha):
+    """p += alpha s, r -= alpha q; reduces r r."""
+    new = r - alpha * q
+    return p + alpha * s, new, new * new
+
+
+def turn(z, s, beta):
+    """New direction z + beta s."""
+    return z + beta * s
+
+
+def kept(p, mask):
+    """First guess, where there is an equation."""
+    return mask * p
+
+
+class PressureEquation:
+    """Operator of the present particles, and the solver with its work vectors.
+
+    Args:
+        count: particles of the block, n. support: support radius [m].
+        tolerance: residual over right-hand side that ends the iteration (2-norms).
+        max_iterations: where it ends anyhow. period: per axis [m], 0.0 where there is none.
+
+    Attributes:
+        components: what floats and what does not, see `linear_solvers.components`.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        count: int,
+        support: float,
+        *,
+        tolerance: float = 1e-4,
+        max_iterations: int = 200,
+        period: Sequence[float] = (0.0, 0.0),
+    ) -> None:
+        self.backend, self.tolerance, self.max_iterations = backend, tolerance, max_iterations
+        self.components = Components(backend, count, support, period)
+        self._correction = GridCorrection(backend, count, support, period)
+        self._nothing, self._inner = backend.zeros(count), backend.zeros(0)
+        self._d, self._b, self._r, self._z, self._s, self._q = (
+            backend.zeros(count) for _ in range(6)
+        )
+
+    def set_operator(
+        self, neighbors: Any, weights: Any, mask: Any, volume: Any, pull: Any = None
+    ) -> None:
+        """Take the operator of the present particles; call it whenever one of these has changed.
+
+        Args:
+            neighbors: folded list of pairs with position (2, n) [m]. weights: (pairs,) g_ij.
+            mask: (n,) 1 for unknown pressures, else 0. volume: (n,) V_i [m^2].
+            pull: (n,) a_i >= 0; None for no boundary with a given pressure.
+        """
+        backend, components = self.backend, self.components
+        self._neighbors, self._weights = neighbors, weights
+        self._pull = self._nothing if pull is None else pull
+        components.find(neighbors.position, mask, self._pull)
+        fields = {"g_ij": weights, "component": components.number, "a": self._pull}
+        backend.pair_sum(inner, neighbors, fields, self._d, finish=total_weight)
+        if components.count > 1:
+            if self._inner.shape[0] < weights.shape[0]:
+                self._inner = backend.zeros(weights.shape[0])
+            self._weights = self._inner
+            backend.pair_values(inner, neighbors, fields, self._inner)
+        self._correction.prepare(neighbors.position, components.mask, volume, self._pull)
+
+    def solve(self, b: Any, pressure: Any, *, value: Any = None, flux: Any = None) -> Outcome:
+        """Solve for the pressure, from what it holds as the first guess.
+
+        Args:
+            b: (n,) right-hand side b_i. pressure: (n,) p [Pa], read and written; 0 where the mask
+                is. value: (n,) p_b [Pa], None for 0. flux: (n,) f_i, None for 0.
+
+        Returns:
+            The outcome; with a residual above the tolerance where the iteration ended without.
+        """
+        backend, components, nothing = self.backend, self.components, self._nothing
+        mask, p, r, s, q = components.mask, pressure, self._r, self._s, self._q
+        fields = {
+            "p": p, "r": r, "z": self._z, "s": s, "q": q, "d": self._d, "mask": mask, "b": b,
+            "a": self._pull, "f": nothing if flux is None else flux,
+            "p_b": nothing if value is None else value, "g_ij": self._weights,
+        }  # fmt: skip
+        backend.pointwise(kept, fields, p)
+        backend.pointwise(right_side, fields, self._b)
+        scale = components.remove_means(self._b) ** 0.5
+        (r_r,) = backend.pair_sum(
+            neighbor_value, self._neighbors, fields | {"b": self._b}, (r, None),
+            finish=rest, reduce=(None, "sum"),
+        )  # fmt: skip
+        wanted, iterations, r_z = self.tolerance * scale, 0, 0.0
+        while r_r**0.5 > wanted and iterations < self.max_iterations:
+            before, r_z = r_z, self._correction.correct(r, self._d, mask, self._z)
+            beta = r_z / before if iterations else 0.0
+            backend.pointwise(turn, fields, s, beta=beta)
+            (s_q,) = backend.pair_sum(
+                neighbor_value, self._neighbors, fields | {"p": s}, (q, None),
+                finish=multiply, reduce=(None, "sum"),
+            )  # fmt: skip
+            if not s_q > 0.0:
+                break
+            (r_r,) = backend.pointwise(
+                advance, fields, (p, r, None), reduce=(None, None, "sum"), alpha=r_z / s_q
+            )
+            iterations += 1
+        components.remove_means(p)
+        return Outcome(iterations, r_r**0.5 / scale if scale > 0.0 else 0.0, components.count)
