@@ -9,7 +9,7 @@ from lasersph import compute
 from lasersph.reading import CaseError
 from lasersph.sph import gradient
 from lasersph.sph.kernels import kernel
-from lasersph.validation import Report, kernels, names, titles, validate
+from lasersph.validation import Report, kernel_correction, kernels, names, titles, validate
 from lasersph.validation.verdict import at_most, judged, shown
 
 
@@ -21,6 +21,27 @@ def test_operators(tmp_path, name):
     assert report.figures
     assert all(path.stat().st_size > 1000 for path in report.figures)
     assert json.loads(json.dumps(report.as_dict(), allow_nan=False))["passed"] is True
+
+
+def test_reductions_by_plain_sums():
+    """Schwaiger without Gamma in NumPy alone: the errors fall by 26.94 (1/x) to 50.63 % (x)."""
+    x, dx, h = kernel_correction.LINE, 0.25, 0.375
+    r = x[:, None] - x
+    q = np.abs(r) / h
+    slope = np.where(q < 1.0, -3.0 * q + 2.25 * q**2, np.where(q < 2.0, -0.75 * (2 - q) ** 2, 0.0))
+    gradient = slope * (2.0 / 3.0) / h**2 * np.sign(r)
+    over_r = np.divide(gradient, r, out=np.zeros_like(r), where=r != 0.0)
+    found = {}
+    for function in kernel_correction.FUNCTIONS:
+        f, exact = function.value(x), function.second(x)
+        plain = np.sum(2.0 * dx * (f[:, None] - f) * over_r, axis=1)
+        first = np.sum(dx * (f - f[:, None]) * gradient, axis=1)
+        better = plain - 2.0 * first * np.sum(dx * gradient, axis=1)
+        found[function.name] = 100.0 * (
+            1.0 - np.linalg.norm(better - exact) / np.linalg.norm(plain - exact)
+        )
+    assert min(found.values()) == found["1/x"] == pytest.approx(26.9428, abs=1e-4)
+    assert max(found.values()) == found["x"] == pytest.approx(50.6309, abs=1e-4)
 
 
 def test_a_wrong_pair_of_operators_is_noticed(monkeypatch):
