@@ -40,12 +40,10 @@ class Outcome:
 
     Attributes:
         iterations: of the solver. residual: its 2-norm over that of the right-hand side.
-        components: number of pools that were solved for.
     """
 
     iterations: int
     residual: float
-    components: int
 
 
 def inner(g_ij, component_i, component_j):
@@ -109,7 +107,7 @@ class PressureEquation:
         max_iterations: where it ends anyhow. period: per axis [m], 0.0 where there is none.
 
     Attributes:
-        components: what floats and what does not, see `linear_solvers.components`.
+        components: pools, `components.count` of them, see `linear_solvers.components`.
     """
 
     def __init__(
@@ -193,4 +191,4 @@ class PressureEquation:
             )
             iterations += 1
         components.remove_means(p)
-        return Outcome(iterations, r_r**0.5 / scale if scale > 0.0 else 0.0, components.count)
+        return Outcome(iterations, r_r**0.5 / scale if scale > 0.0 else 0.0)

@@ -1,0 +1,186 @@
+"""The published pressure equation: Table 1's matrix, regularized, with BiCGStab.
+
+    sum_j e_ij (p_i - p_j) = b_i / V_i,    e_ij = 2 V_j W'(r_ij) / r_ij = -g_ij / V_i
+                                                             [Demuth2020, eq. (77) and Table 1]
+
+for fluid particles and the edge particles around them. dp/dn = 0 at the edge is imposed by dummy
+particles beyond it, each of which has the pressure of the edge particle nearest to it (the one of
+the lowest number where several are); so an edge particle does not feel its own dummies, and columns
+of edge particles collect those of their dummies, which makes the matrix non-symmetric. Its rows sum
+to zero; it is regularized by the factor 1 + `REINFORCEMENT` on the diagonal and by removing the
+mean of the right-hand side, from all pools together.
+
+Pairs with particles that are neither, and with dummies without an edge particle within their
+support, are left out, as are boundary data: use `pressure_equation` for these, and for speed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.backend import Backend
+from lasersph.linear_solvers.bicgstab import BiCGStab
+from lasersph.linear_solvers.matrix import PairMatrix
+from lasersph.solvers.melt_pool.pressure_equation import Outcome
+
+FLUID, EDGE, DUMMY = 1, 2, 3
+"""Roles of particles; others take no part."""
+REINFORCEMENT = 1e-6
+FAR = 1e30
+
+
+def edge_distance(role_j, r_ij):
+    """Distance of an edge particle."""
+    if role_j == EDGE:
+        return r_ij
+    return FAR + 0.0 * r_ij
+
+
+def edge_number(role_j, source_j, r_ij, nearest_i):
+    """Number of an edge particle as near as the nearest."""
+    if role_j == EDGE and r_ij <= nearest_i * (1.0 + 1e-6):
+        return 1.0 * source_j
+    return FAR + 0.0 * r_ij
+
+
+def assigned(total, k):
+    """Number found, or the particle's own."""
+    if total < FAR:
+        return int(total)
+    return k
+
+
+def is_known(role, column, k):
+    """1 for particles whose pressure is an unknown or that of one."""
+    if FLUID <= role <= EDGE or (role == DUMMY and column != k):
+        return 1.0
+    return 0.0
+
+
+def entry(g_ij, V_i, role_i, known_j, column_j, k_i):
+    """Element beside the diagonal, with the sign that makes the diagonal positive."""
+    if FLUID <= role_i <= EDGE and column_j != k_i:
+        return -g_ij * known_j / V_i
+    return 0.0 * g_ij
+
+
+def opposite(a_ij):
+    """Share of an element in the diagonal."""
+    return -a_ij
+
+
+def diagonal(total, reinforcement):
+    """Regularized diagonal; 1 in rows without elements."""
+    if total > 0.0:
+        return total * (1.0 + reinforcement)
+    return 1.0 + 0.0 * total
+
+
+def right_side(b, V, role):
+    """-b / V, for the positive matrix, and 1 to count rows."""
+    if FLUID <= role <= EDGE:
+        return -b / V, 1.0
+    return 0.0 * b, 0.0
+
+
+def less(p, role, mean):
+    """Value less the mean in rows that count, else 0; and its square."""
+    rest = 0.0 * p
+    if FLUID <= role <= EDGE:
+        rest = p - mean
+    return rest, rest * rest
+
+
+class PublishedPressure:
+    """Matrix of the present particles and its solver.
+
+    Args:
+        count: particles of the block, n.
+        tolerance: residual over right-hand side that ends the iteration (2-norms).
+        max_iterations: where it ends anyhow.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        count: int,
+        *,
+        tolerance: float = 1e-4,
+        max_iterations: int = 5000,
+    ) -> None:
+        self.backend, self.tolerance, self.max_iterations = backend, tolerance, max_iterations
+        self._number = backend.asarray(np.arange(count), "index")
+        self._column, self._nearest = backend.zeros(count, "index"), backend.zeros(count)
+        self._known, self._b, self._d = (backend.zeros(count) for _ in range(3))
+
+    def set_operator(
+        self, neighbors: Any, source: Any, weights: Any, role: Any, volume: Any
+    ) -> None:
+        """Take the matrix of the present particles.
+
+        Args:
+            neighbors: list of pairs with images, of fluid, edge and dummy particles.
+            source: (N,) kind "index", the particle that each is, or is an image of.
+            weights: (pairs,) g_ij of all pairs. role: (n,) kind "flag". volume: (n,) V_i [m^2].
+        """
+        backend, total = self.backend, source.shape[0]
+        folded = neighbors.folded(backend, source)
+        role_all = backend.zeros(total, "flag")
+        backend.gather(role, source, role_all)
+        near = {"role": role_all, "source": source, "nearest": self._nearest}
+        dummies = backend.rows_where(role, DUMMY)
+        backend.pair_sum(edge_distance, neighbors, near, self._nearest, rows=dummies, combine="min")
+        backend.copy(self._number, self._column)
+        backend.pair_sum(
+            edge_number, neighbors, near | {"k": self._number}, self._column,
+            rows=dummies, combine="min", finish=assigned,
+        )  # fmt: skip
+        fields = {"role": role, "column": self._column, "k": self._number}
+        backend.pointwise(is_known, fields, self._known)
+        entries = backend.zeros(weights.shape[0])
+        fields |= {"g_ij": weights, "V": volume, "known": self._known}
+        backend.pair_values(entry, folded, fields, entries)
+        backend.pair_sum(
+            opposite, folded, {"a_ij": entries}, self._d,
+            finish=diagonal, reinforcement=REINFORCEMENT,
+        )  # fmt: skip
+        columns = folded.folded(backend, self._column)
+        self._role, self._volume = role, volume
+        self._solver = BiCGStab(backend, PairMatrix(columns, entries, self._d))
+
+    def solve(self, b: Any, pressure: Any) -> Outcome:
+        """Solve for the pressure, from what it holds as the first guess.
+
+        Args:
+            b: (n,) right-hand side b_i as of `PressureEquation`. pressure: (n,) p [Pa], read and
+                written, 0 where there is no unknown. Its mean is removed: b minus its mean is not
+                in the range of the singular matrix, and the regularized one answers with a large
+                constant, which a later first guess then lacks.
+        """
+        backend, solver = self.backend, self._solver
+        fields = {"b": b, "V": self._volume, "role": self._role}
+        total, rows = backend.pointwise(right_side, fields, (self._b, None), reduce=("sum", "sum"))
+        mean = total / rows if rows else 0.0
+        scale = self._less(self._b, mean) ** 0.5
+        self._less(pressure, 0.0)
+        backend.copy(pressure, solver.solution)
+        outcome = solver.solve(
+            self._b, residual=self.tolerance * scale, max_iterations=self.max_iterations
+        )
+        backend.copy(solver.solution, pressure)
+        (total,) = backend.pointwise(same, {"p": pressure}, None, reduce="sum")
+        self._less(pressure, total / rows if rows else 0.0)
+        return Outcome(outcome.iterations, outcome.residual / scale if scale > 0.0 else 0.0)
+
+    def _less(self, values: Any, mean: float) -> float:
+        fields = {"p": values, "role": self._role}
+        return self.backend.pointwise(
+            less, fields, (values, None), reduce=(None, "sum"), mean=mean
+        )[0]
+
+
+def same(p):
+    """The value itself, for its sum."""
+    return p

@@ -1,0 +1,165 @@
+"""Table 1's matrix against one written out by hand, and its solution beside the symmetric one's."""
+
+import numpy as np
+import pytest
+from scattered_pairs import RATIO
+
+from lasersph import compute
+from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.support import arithmetic
+from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
+from lasersph.solvers.melt_pool.published_pressure import (
+    DUMMY,
+    EDGE,
+    FLUID,
+    REINFORCEMENT,
+    PublishedPressure,
+)
+from lasersph.sph.kernels import kernel
+from lasersph.sph.laplacian import weight
+
+SHAPE = kernel("quintic-spline", 2)
+SPACING = 0.5
+
+
+class Pool:
+    """A pool under a mirrored surface: fluid, one or two layers of edge, dummies, some at rest."""
+
+    def __init__(self, backend, radius, *, jitter=0.2):
+        side = int(radius) + 6
+        x, z = np.meshgrid(np.arange(-side, side + 1) * 1.0, -(np.arange(side) + 0.5))
+        r = np.hypot(x, z).ravel()
+        step = np.random.default_rng(3).uniform(-jitter, jitter, (2, r.size))
+        self.role = np.select([r < radius, r < radius + 1.5, r < radius + 4.5], [1, 2, 3], 0)
+        self.position = SPACING * (
+            np.array([x.ravel(), z.ravel()]) + np.where(self.role == FLUID, step, 0.0)
+        )
+        self.count = r.size
+        self.volume = SPACING**2 * (1.0 + 0.1 * np.cos(np.arange(self.count)))
+        near = np.flatnonzero(self.position[1] > -RATIO * SPACING)
+        self.source = np.concatenate([np.arange(self.count), near])
+        image = self.position[:, near] * np.array([[1.0], [-1.0]])
+        self.all = np.hstack([self.position, image])
+        self.backend = backend
+        self.neighbors = find_neighbors(
+            backend, backend.asarray(self.all),
+            backend.asarray(np.full(self.source.size, RATIO * SPACING)), self.count,
+            kernel=SHAPE, mean=arithmetic,
+        )  # fmt: skip
+        pairs = backend.to_host(self.neighbors.neighbor).size
+        self.weights = backend.zeros(pairs)
+        volume_all = backend.asarray(self.volume[self.source])
+        backend.pair_values(weight, self.neighbors, {"V": volume_all}, self.weights)
+
+    def solver(self, **options):
+        backend = self.backend
+        solver = PublishedPressure(backend, self.count, **options)
+        solver.set_operator(
+            self.neighbors, backend.asarray(self.source, "index"), self.weights,
+            backend.asarray(self.role, "flag"), backend.asarray(self.volume),
+        )  # fmt: skip
+        return solver
+
+    def table_1(self):
+        """A as printed, before it is regularized: rows and columns of fluid and edge particles."""
+        edges = np.flatnonzero(self.role == EDGE)
+        A = np.zeros((self.count, self.count))
+        for i in np.flatnonzero((self.role == FLUID) | (self.role == EDGE)):
+            for k in range(self.source.size):
+                j = self.source[k]
+                r = np.hypot(*(self.position[:, i] - self.all[:, k]))
+                if r < 1e-9 or r >= RATIO * SPACING or self.role[j] == 0:
+                    continue
+                e = 2.0 * self.volume[j] * SHAPE.derivative(r, RATIO * SPACING) / r
+                if self.role[j] == DUMMY:
+                    offset = self.position[:, edges] - self.position[:, [j]]
+                    distance = np.round(np.hypot(*offset), 9)
+                    j = edges[np.argmin(distance)]
+                    if j == i:
+                        continue
+                if j != i:
+                    A[i, i] += e
+                    A[i, j] -= e
+        return A
+
+
+def dense_of(solver, count):
+    """The matrix that the solver holds."""
+    matrix, backend = solver._solver.matrix, solver.backend
+    A = np.diag(backend.to_host(matrix.diagonal))
+    start = backend.to_host(matrix.neighbors.row_start).astype(np.int64)
+    row = np.repeat(np.arange(count), np.diff(start))
+    np.add.at(A, (row, backend.to_host(matrix.neighbors.neighbor)), backend.to_host(matrix.entries))
+    return A
+
+
+@pytest.mark.parametrize("make", [compute.cpu, compute.strict])
+def test_matrix_is_that_of_table_1(make):
+    """Elements of fluid and edge rows, dummies' columns with their edge particles, row sums 0."""
+    pool = Pool(make(threads=2), 3.0)
+    expected = -pool.table_1()
+    is_row = (pool.role == FLUID) | (pool.role == EDGE)
+    A = dense_of(pool.solver(), pool.count)
+    diagonal = np.diag(A)
+    assert np.array_equal(A[~is_row], np.eye(pool.count)[~is_row])
+    bare = A - np.diag(diagonal * REINFORCEMENT / (1.0 + REINFORCEMENT))
+    assert np.abs((bare - expected)[is_row]).max() <= 1e-10 * diagonal.max()
+    assert np.abs(bare[is_row].sum(axis=1)).max() <= 1e-10 * diagonal.max()
+    assert np.abs(expected - expected.T).max() > 0.05 * diagonal.max()
+
+
+def test_dummies_have_the_pressure_of_the_nearest_edge_particle():
+    """Of two at the same distance the first; without one within the support, nobody's."""
+    backend = compute.cpu(threads=1)
+    position = np.array([[0.0, 2.0, 1.0, 3.0, 5.5], [0.0, 0.0, 0.0, 0.0, 0.0]])
+    role = backend.asarray([EDGE, EDGE, DUMMY, DUMMY, DUMMY], "flag")
+    neighbors = find_neighbors(
+        backend, backend.asarray(position), backend.asarray(np.full(5, 3.0)), 5,
+        kernel=SHAPE, mean=arithmetic,
+    )  # fmt: skip
+    weights = backend.asarray(np.ones(backend.to_host(neighbors.neighbor).size))
+    solver = PublishedPressure(backend, 5)
+    numbers = backend.asarray(np.arange(5), "index")
+    solver.set_operator(neighbors, numbers, weights, role, backend.asarray(np.ones(5)))
+    assert backend.to_host(solver._column).tolist() == [0, 1, 0, 1, 4]
+    # row 0 drops its own dummy 2 and does not reach 3; row 1 has 0 twice, itself and through 2
+    expected = np.array([[1.0, -1.0], [-2.0, 2.0]])
+    A = dense_of(solver, 5)[:2, :2] - REINFORCEMENT * np.diag([1.0, 2.0])
+    np.testing.assert_allclose(A, expected, atol=1e-12)
+
+
+def test_solution():
+    """That of the regularized matrix for the right-hand side without its mean; p has mean 0."""
+    backend = compute.cpu(threads=2)
+    pool = Pool(backend, 5.0)
+    is_row = (pool.role == FLUID) | (pool.role == EDGE)
+    b = pool.volume * np.cos(pool.position[0])
+    solver = pool.solver(tolerance=1e-10)
+    pressure = backend.zeros(pool.count)
+    outcome = solver.solve(backend.asarray(b), pressure)
+    right = np.where(is_row, -b / pool.volume, 0.0)
+    right -= is_row * right[is_row].mean()
+    expected = np.linalg.solve(dense_of(solver, pool.count), right)
+    expected -= is_row * expected[is_row].mean()
+    p = backend.to_host(pressure)
+    assert outcome.residual <= 1e-10
+    assert np.abs(p - expected).max() <= 1e-6 * np.abs(expected).max()
+
+
+def test_gradients_inside_are_close_to_the_symmetric_ones():
+    """Both equations discretize the same problem: they agree in 10 % (RMS)."""
+    backend = compute.cpu(threads=2)
+    pool = Pool(backend, 12.0, jitter=0.0)
+    is_row = (pool.role == FLUID) | (pool.role == EDGE)
+    x, z = pool.position
+    b = SPACING**2 * (x * np.exp(-0.2 * (x**2 + z**2)))
+    published = backend.zeros(pool.count)
+    pool.solver(tolerance=1e-6).solve(backend.asarray(b), published)
+    symmetric = PressureEquation(backend, pool.count, RATIO * SPACING, tolerance=1e-6)
+    mask, volume = backend.asarray(is_row.astype(float)), backend.asarray(pool.volume)
+    folded = pool.neighbors.folded(backend, backend.asarray(pool.source, "index"))
+    symmetric.set_operator(folded, pool.weights, mask, volume)
+    pressure = backend.zeros(pool.count)
+    symmetric.solve(backend.asarray(b), pressure)
+    p, q = backend.to_host(published), backend.to_host(pressure)
+    assert np.linalg.norm(p - q) <= 0.1 * np.linalg.norm(q)
