@@ -85,13 +85,13 @@ def make_pool_run(folder: Path, *, complete=True) -> Path:
     return write_run(folder, pool_views(), box=False, end=200 * NS, complete=complete, times=FINE)
 
 
-FINE = tuple(float(t) * NS for t in range(48, 76))
+FINE = tuple(float(t) * NS for t in range(48, 76, 4))
 
 
 def pool_views():
     """The views of a made-up melt pool."""
     position, width = synthetic_run.lattice(2)
-    for step, time in enumerate(synthetic_run.times()):
+    for step, time in enumerate(synthetic_run.times()[::4]):
         yield pool_flow(synthetic_run.view_at(float(time), step, position, width))
 
 
@@ -144,8 +144,8 @@ def box_view(time=0.0, step=0, *, count=40, size=1e-3, speed=1.0, wall=(310.0, 2
 def make_box_run(folder: Path) -> Path:
     """Write the run folder of a box and return its path."""
     views = (
-        box_view(step * 1e-5, step, speed=1.0 - np.exp(-step / 30), wall=(310.0, 290.0))
-        for step in range(101)
+        box_view(step * 2e-5, step, count=24, speed=1.0 - np.exp(-step / 15))
+        for step in range(51)
     )
     return write_run(folder, views, box=True, end=1e-3, complete=True)
 

@@ -7,7 +7,7 @@ At a place x the polynomial sum_k c_k p_k(x_j - x) is fitted to the closest part
 so that c_0 is the value and c_1, c_2 are the slopes there. Fields of the polynomial's degree are
 reproduced exactly, however disordered the particles, also at a wall or a surface half a spacing
 beyond the last row, where the fit extrapolates (moving least squares: Lancaster and Salkauskas,
-Math. Comp. 37 (1981) 141). R is a little larger than the distance of the farthest particle taken.
+Math. Comp. 37 (1981) 141).
 """
 
 from __future__ import annotations
@@ -17,8 +17,9 @@ import numpy as np
 NEIGHBORS = {1: 12, 2: 21}
 """Particles taken for a fit in the plane, by degree: twice or more the unknowns, in all
 directions also beside a wall."""
-REACH = 1.1
-"""Radius R over the distance of the farthest particle taken."""
+REACH = 1.01
+"""Radius R over the distance of the farthest particle taken, whose weight thereby almost vanishes:
+which of several equally far ones is taken does not matter."""
 CONDITION = 1e-10
 """Directions in which the particles do not spread more than this part are left out of a fit."""
 

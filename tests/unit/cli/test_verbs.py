@@ -122,6 +122,8 @@ def test_run_and_what_follows(capsys):
     assert "complete" in said(capsys, "info", "out")
     assert "report.html" in said(capsys, "report", "out")
     assert ".svg" in said(capsys, "plot", "out", "--kind", "svg")
+    assert main(["plot", "out", "--animate"]) == 1
+    assert "no plane run" in capsys.readouterr().err
     again = ["run", "stefan", "--out", "out", "--no-figures", *SMALL]
     said(capsys, *again, "--resume")
     assert main(again) == 2

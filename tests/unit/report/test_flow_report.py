@@ -1,0 +1,99 @@
+"""The report of a flow: plain words, tables with units, figures and an animation."""
+
+import re
+
+import pytest
+import synthetic_flow
+
+from lasersph.observers import flow_observers
+from lasersph.output import open_run
+from lasersph.plots import animation, run_figures
+from lasersph.report import flow_tables, write_report
+from lasersph.report.numbers import entry
+from lasersph.report.words import verdict, warnings_of
+
+ENERGY = {"unit": "J/m", "imbalance_relative": 5e-5} | dict.fromkeys(
+    (f"{name}_J" for name in ("incident", "reflected", "absorbed", "stored", "lost", "removed")),
+    1.0,
+)
+
+
+@pytest.fixture(scope="module")
+def pool():
+    """Summary of a made-up pool."""
+    observers = flow_observers(2)
+    for view in synthetic_flow.pool_views():
+        observers.observe(view)
+    return observers.summary()
+
+
+@pytest.fixture(scope="module")
+def box():
+    """Summary of a made-up box, held at two temperatures."""
+    observers = flow_observers(2, box=True)
+    observers.observe(synthetic_flow.box_view())
+    return observers.summary()
+
+
+def test_words_about_a_pool(pool):
+    """Speed, place, layer, return flow, and the inner extremum."""
+    text = verdict(pool)
+    assert re.search(r"flowed along the surface at up to [\d.]+ m/s \(at [\d.]+ ns, 425 nm", text)
+    assert re.search(r"in a layer \d+ nm thick, and back below it at up to 0\.\d+ m/s", text)
+    assert "inner extremum" in text
+    assert re.search(r"it was the faster one for \d", text)
+
+
+def test_words_about_a_box(box):
+    """The eddy, the center lines, Nusselt numbers; no energy balance where none was moved."""
+    text = verdict(box)
+    assert "1 mm wide and 1 mm high" in text
+    assert "turned clockwise around x = 500 µm, z = -500 µm" in text
+    assert "Nusselt numbers: 1 (left) and 1 (right)." in text
+    assert "balance" not in text
+
+
+def test_flow_may_close_less_well(pool):
+    """A ten-thousandth is allowed with flow, a millionth without."""
+    flowing = {**pool, "energy": ENERGY}
+    assert not warnings_of(flowing, [])
+    still = {key: value for key, value in flowing.items() if key != "flow"}
+    assert warnings_of(still, []) == [
+        "The energy balance does not close within a millionth of the absorbed energy."
+    ]
+
+
+def test_tables_have_units(pool, box):
+    """Every number in every table of the flow carries its unit."""
+    cells = [
+        cell
+        for summary in (pool, box)
+        for part in ("speeds", "layer", "extrema", "lid", "box", "walls")
+        for row in getattr(flow_tables, part)(summary)
+        for cell in row[1:]
+        if re.match(r"-?\d", cell)
+    ]
+    bare = [cell for cell in cells if re.fullmatch(r"-?[\d .]+", cell)]
+    assert len(cells) > 50
+    assert len(bare) == 3  # surface speed over estimate, two Nusselt numbers
+
+
+def test_units_of_flow_keys():
+    """The end of a key says its unit; long lists are counted, not written."""
+    assert entry("stream_function_max_m2_s", -1.5e-3) == "-0.0015 m²/s"
+    assert entry("gradient_mean_K_m", 9e8) == "9·10⁸ K/m"
+    assert entry("divergence_max_1_s", 250.0) == "250 1/s"
+    assert entry("flux_left_W_m2", 40.0) == "40 W/m²"
+    assert entry("u_m_s", [1.0] * 33) == "33 numbers"
+
+
+def test_page_with_an_animation(tmp_path, monkeypatch):
+    """Tables, figures and a moving picture on one page."""
+    monkeypatch.setattr(animation, "MOST_FRAMES", 3)
+    monkeypatch.setattr(run_figures, "DRAWINGS", run_figures.DRAWINGS[:1])
+    folder = synthetic_flow.make_box_run(tmp_path / "run")
+    page = write_report(folder).read_text(encoding="utf-8")
+    assert page.count("data:image/gif;base64,") == 1
+    assert "Nusselt number" in page
+    assert "largest divergence of the velocity" in page
+    assert str(open_run(folder).summary["flow"]["particles_max"]) == "576"
