@@ -25,7 +25,7 @@ SPACING = 0.5
 class Pool:
     """A pool under a mirrored surface: fluid, one or two layers of edge, dummies, some at rest."""
 
-    def __init__(self, backend, radius, *, jitter=0.2):
+    def __init__(self, backend, radius, *, jitter=0.2, unevenness=0.1):
         side = int(radius) + 6
         x, z = np.meshgrid(np.arange(-side, side + 1) * 1.0, -(np.arange(side) + 0.5))
         r = np.hypot(x, z).ravel()
@@ -35,7 +35,7 @@ class Pool:
             np.array([x.ravel(), z.ravel()]) + np.where(self.role == FLUID, step, 0.0)
         )
         self.count = r.size
-        self.volume = SPACING**2 * (1.0 + 0.1 * np.cos(np.arange(self.count)))
+        self.volume = SPACING**2 * (1.0 + unevenness * np.cos(np.arange(self.count)))
         near = np.flatnonzero(self.position[1] > -RATIO * SPACING)
         self.source = np.concatenate([np.arange(self.count), near])
         image = self.position[:, near] * np.array([[1.0], [-1.0]])
@@ -146,20 +146,36 @@ def test_solution():
     assert np.abs(p - expected).max() <= 1e-6 * np.abs(expected).max()
 
 
-def test_gradients_inside_are_close_to_the_symmetric_ones():
-    """Both equations discretize the same problem: they agree in 10 % (RMS)."""
-    backend = compute.cpu(threads=2)
-    pool = Pool(backend, 12.0, jitter=0.0)
-    is_row = (pool.role == FLUID) | (pool.role == EDGE)
+def amplitudes(backend, radius):
+    """Share of p = x / R - x r^2 / (3 R^3) found in a half disc, published and symmetric.
+
+    Its slope vanishes at r = R and its Laplacian is -8 x / (3 R^3).
+    """
+    pool = Pool(backend, radius, jitter=0.0, unevenness=0.0)
     x, z = pool.position
-    b = SPACING**2 * (x * np.exp(-0.2 * (x**2 + z**2)))
-    published = backend.zeros(pool.count)
-    pool.solver(tolerance=1e-6).solve(backend.asarray(b), published)
+    edge = (radius + 1.5) * SPACING
+    exact = x / edge - x * (x**2 + z**2) / (3.0 * edge**3)
+    b = backend.asarray(-pool.volume * 8.0 * x / (3.0 * edge**3))
+    published, pressure = backend.zeros(pool.count), backend.zeros(pool.count)
+    pool.solver(tolerance=1e-6).solve(b, published)
+    is_row = (pool.role == FLUID) | (pool.role == EDGE)
     symmetric = PressureEquation(backend, pool.count, RATIO * SPACING, tolerance=1e-6)
     mask, volume = backend.asarray(is_row.astype(float)), backend.asarray(pool.volume)
     folded = pool.neighbors.folded(backend, backend.asarray(pool.source, "index"))
     symmetric.set_operator(folded, pool.weights, mask, volume)
-    pressure = backend.zeros(pool.count)
-    symmetric.solve(backend.asarray(b), pressure)
-    p, q = backend.to_host(published), backend.to_host(pressure)
-    assert np.linalg.norm(p - q) <= 0.1 * np.linalg.norm(q)
+    symmetric.solve(b, pressure)
+    inside = np.where(pool.role == FLUID, exact, 0.0)
+    return [float(inside @ backend.to_host(p) / (inside @ inside)) for p in (published, pressure)]
+
+
+def test_half_disc():
+    """The symmetric equation finds the exact pressure, the published matrix a fifth more.
+
+    Its rows sum to zero but its columns do not: at a round edge what flows out of fluid rows does
+    not all arrive in edge rows.
+    """
+    backend = compute.cpu(threads=2)
+    published, symmetric = amplitudes(backend, 12.0)
+    assert symmetric == pytest.approx(1.0, abs=0.05)
+    assert 1.1 < published < 1.3
+    assert abs(amplitudes(backend, 24.0)[1] - 1.0) < 0.6 * abs(symmetric - 1.0)
