@@ -41,6 +41,11 @@ def laser_number(
     return mean_fluence * absorption_coefficient / (density * heat_capacity * temperature_rise)
 
 
+def reynolds_number(speed: float, length: float, kinematic_viscosity: float) -> float:
+    """Re = U L / nu; speed U [m/s] of a wall."""
+    return speed * length / kinematic_viscosity
+
+
 def prandtl_number(kinematic_viscosity: float, diffusivity: float) -> float:
     """Pr = nu / a, eq. (23)."""
     return kinematic_viscosity / diffusivity

@@ -145,6 +145,24 @@ def walls(summary: dict[str, Any]) -> Rows:
 WALLS_HEAD = ("side", "mean temperature", "mean heat flux into the box", "Nusselt number")
 
 
+def dimensionless(summary: dict[str, Any]) -> Rows:
+    """The dimensionless numbers of the case."""
+    numbers = summary.get("dimensionless", {}).get("numbers", {})
+    return [(NAMES.get(name, name), shown(value)) for name, value in numbers.items()]
+
+
+NAMES = {
+    "Fo": "Fourier number Fo",
+    "La": "laser number La",
+    "Ph_solid_liquid": "phase change number of melting",
+    "Ph_liquid_vapor": "phase change number of vaporization",
+    "Pr": "Prandtl number Pr",
+    "Ra": "Rayleigh number Ra",
+    "Ma": "Marangoni number Ma",
+    "Re": "Reynolds number Re",
+}
+
+
 def pressure(value: float | None) -> str:
     """A pressure in kPa."""
     return "–" if value is None else f"{shown(value * 1e-3)} kPa"

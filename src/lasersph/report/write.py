@@ -118,7 +118,8 @@ def figures(images: list[Path]) -> list[str]:
 def computation(summary: dict[str, Any]) -> list[str]:
     """How the run was computed, its steps and, with flow, how sound that is."""
     parts = (tables.computation(summary), tables.time_steps(summary))
-    return [table(rows) for rows in (*parts, flow_tables.soundness(summary)) if rows]
+    parts += (flow_tables.soundness(summary), flow_tables.dimensionless(summary))
+    return [table(rows) for rows in parts if rows]
 
 
 def asked(run: Run) -> list[str]:

@@ -2,22 +2,34 @@
 
 A number of the run divided by its scale is the paper's starred quantity: x* = x / length,
 t* = t / time, T* = (T - T_0) / temperature, h* = h / enthalpy, v* = v / velocity.
+
+Boxes have the numbers of their walls instead: with the speed U of the fastest one and the width,
+or the difference dT of two opposite held ones and their distance,
+
+    Re = U width / nu,    Ra = g beta dT L^3 / (nu a),    Pr = nu / a.
 """
 
 from __future__ import annotations
 
+from lasersph.boundaries.settings import HELD
 from lasersph.case import Case
 from lasersph.physics.dimensionless import (
     fourier_number,
     laser_number,
+    marangoni_number,
     phase_change_number,
+    prandtl_number,
+    rayleigh_number,
+    reynolds_number,
     thermal_diffusion_length,
 )
 
 
 def dimensionless(case: Case) -> dict[str, dict[str, float]]:
-    """Scales [SI] and numbers of a case; empty without pulse or boiling point."""
+    """Scales [SI] and numbers of a case; empty without pulse or boiling point, but for boxes."""
     material, laser = case.material, case.laser
+    if case.flow is not None:
+        return {"numbers": box_numbers(case)}
     if laser is None or material.vaporization is None:
         return {}
     duration = laser.pulse.on_time or 100.0 * laser.pulse.resolution
@@ -37,6 +49,8 @@ def dimensionless(case: Case) -> dict[str, dict[str, float]]:
         numbers["Ph_solid_liquid"] = phase_change_number(
             material.melting.latent_heat, capacity, rise
         )
+    if case.solver.kind == "melt-pool":
+        numbers |= melt_numbers(case, length, diffusivity)
     scales = {
         "length_m": length,
         "time_s": 4.0 * duration,
@@ -45,3 +59,59 @@ def dimensionless(case: Case) -> dict[str, dict[str, float]]:
         "velocity_m_s": diffusivity / length,
     }
     return {"scales": scales, "numbers": numbers}
+
+
+def melt_numbers(case: Case, length: float, diffusivity: float) -> dict[str, float]:
+    """Pr, Ra and Ma of a melt [Demuth2020, eq. (23)], with the properties of its liquidus.
+
+    Args:
+        length: thermal diffusion length [m].
+        diffusivity: at the reference temperature [m^2/s].
+    """
+    material, settings = case.material, case.solver
+    if material.vaporization is None or settings.kind != "melt-pool":
+        return {}
+    T = material.flow_temperature
+    hot = material.vaporization.temperature - T
+    nu = float(material.kinematic_viscosity_at(T))
+    expansion = float(material.expansion_at(T))
+    slope = float(material.surface_tension_slope_at(T)) if settings.marangoni else 0.0
+    viscosity = float(material.viscosity_at(T))
+    return {
+        "Pr": prandtl_number(nu, diffusivity),
+        "Ra": rayleigh_number(expansion, hot, settings.gravity, length, nu, diffusivity),
+        "Ma": marangoni_number(slope, hot, length, viscosity, diffusivity),
+    }
+
+
+def box_numbers(case: Case) -> dict[str, float]:
+    """Pr, and Re and Ra where a wall moves or two opposite ones are held apart."""
+    material, flow, settings = case.material, case.flow, case.solver
+    if flow is None or settings.kind != "melt-pool" or case.domain.width is None:
+        return {}
+    T = material.flow_temperature
+    nu, a = float(material.kinematic_viscosity_at(T)), material.diffusivity_reference
+    numbers = {"Pr": prandtl_number(nu, a)}
+    fastest = max(abs(side.velocity) for side in flow.sides.values())
+    if fastest > 0.0:
+        numbers["Re"] = reynolds_number(fastest, case.domain.width, nu)
+    difference, length = held_apart(case)
+    expansion = float(material.expansion_at(T))
+    if difference > 0.0 and expansion > 0.0:
+        gravity = settings.gravity
+        numbers["Ra"] = rayleigh_number(expansion, difference, gravity, length, nu, a)
+    return numbers
+
+
+def held_apart(case: Case) -> tuple[float, float]:
+    """Largest difference of two opposite sides of given temperature [K], and their distance [m]."""
+    boundaries, initial = case.boundaries, case.initial_temperature
+    found = [(0.0, 0.0)]
+    for one, other, length in (
+        ("left", "right", case.domain.width or 0.0),
+        ("bottom", "surface", case.domain.depth),
+    ):
+        if all(boundaries.kind_of(side) in HELD for side in (one, other)):
+            pair = [boundaries.temperature_of(side, initial) for side in (one, other)]
+            found.append((abs(pair[0] - pair[1]), length))
+    return max(found)
