@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from law_runs import go, host, solver_of
 
+from lasersph.simulation.build import lay_out
+
 SETTINGS = ("particles.spacing=125nm", "particles.arrangement=uniform", "domain.depth=4.5um",
             "time.step=0.5ns")  # fmt: skip
 END = 7e-8
@@ -50,3 +52,28 @@ def test_periodic_sides_equal_mirrors(full):
                             "boundaries.sides=periodic")  # fmt: skip
     go(periodic, END)
     assert host(periodic, "temperature") == pytest.approx(host(full, "temperature"), abs=1e-3)
+
+
+@pytest.mark.parametrize("spacing", ["62.5nm", "64.9nm"])
+def test_odd_columns_are_harmless(spacing):
+    """Where the full width holds an odd number of columns, half of it holds half a column more or
+    less: only in deeper layers (62.5 nm: 80 columns at the surface) or at the surface too (77, 38).
+    """
+    ends, widths = [], []
+    for extent in ("full", "half"):
+        case, solver = solver_of(
+            "dlip-steel", f"particles.spacing={spacing}", f"domain.extent={extent}",
+            "time.step=0.5ns",
+        )  # fmt: skip
+        columns = lay_out(case).columns[0]
+        if extent == "full":
+            assert np.any(columns % 2 == 1)
+            assert columns[0] % 2 == (0 if spacing == "62.5nm" else 1)
+        go(solver, END)
+        surface = solver.body.filling.surface
+        ends.append(host(solver, "temperature")[surface].max())
+        cells = host(solver, "melt_fraction")[surface] * solver.body.filling.width[0, surface]
+        widths.append(case.domain.symmetry_factor * cells.sum())
+    tolerance = 1e-5 if spacing == "62.5nm" else 5e-3
+    assert ends[1] == pytest.approx(ends[0], rel=tolerance)
+    assert widths[1] == pytest.approx(widths[0], rel=tolerance)

@@ -81,7 +81,7 @@ class Probes:
             particles, weights = self._weights(k, probe, view)
             self.last[k] = combined(view.temperature[particles], weights, view.vaporization)
             self.peak[k].update(self.last[k], view.time)
-            self.where[k] = [float(value) for value in view.position[:, particles] @ weights]
+            self.where[k] = represented(view.position[:, particles], weights, probe.method)
         return dict(zip(self.columns, self.last, strict=True))
 
     def _weights(self, k: int, probe: Probe, view: View) -> tuple[np.ndarray, np.ndarray]:
@@ -129,6 +129,17 @@ class Probes:
         self.peak = [Peak(**values) for values in state["peak"]]
         self.last = list(state["last"])
         self.where = [list(place) for place in state["where"]]
+
+
+def represented(position: np.ndarray, weights: np.ndarray, method: str) -> list[float]:
+    """Place that a probe stands for, from particles at `position` (dim, k), (dim,) [m].
+
+    `even` combines z^2, not z.
+    """
+    place = position @ weights
+    if method == "even" and weights.size > 1:
+        place[-1] = -np.sqrt(max(float(position[-1] ** 2 @ weights), 0.0))
+    return [float(value) for value in place]
 
 
 def combined(temperature: np.ndarray, weights: np.ndarray, vaporization: float | None) -> float:

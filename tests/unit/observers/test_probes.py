@@ -6,7 +6,7 @@ import synthetic_run
 from pydantic import ValidationError
 
 from lasersph.observers import Probe, Probes
-from lasersph.observers.probes import weights_at
+from lasersph.observers.probes import represented, weights_at
 
 
 @pytest.fixture(scope="module")
@@ -74,3 +74,16 @@ def test_even_reproduces_fields_without_slope_at_the_surface() -> None:
     field = 300.0 + 2.0 * position[0] - 5.0 * position[1] ** 2
     particles, weights = weights_at(position, np.array([2.0, 0.0]), "even")
     assert weights @ field[particles] == pytest.approx(304.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(("method", "depth"), [("even", 0.0), ("even", 1.2), ("linear", 0.3)])
+def test_place_that_a_probe_stands_for(method, depth) -> None:
+    """Interpolated values belong to the place asked for; that of the nearest cell to its center."""
+    x, z = np.meshgrid((np.arange(6) + 0.5), -(np.arange(6) + 0.5))
+    position = np.vstack([x.ravel(), z.ravel()])
+    particles, weights = weights_at(position, np.array([2.0, -depth]), method)
+    place = represented(position[:, particles], weights, method)
+    assert place == pytest.approx([2.0, -depth], abs=1e-6)
+    particles, weights = weights_at(position, np.array([2.2, -depth]), "nearest")
+    nearest = represented(position[:, particles], weights, "nearest")
+    assert nearest == pytest.approx([2.5, -np.floor(depth) - 0.5])
