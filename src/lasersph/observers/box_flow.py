@@ -27,7 +27,7 @@ from lasersph.observers.box_sections import (
 from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.view import View
 
-EVERY = 25
+EVERY = 50
 LINE = 129
 """Points of a center line, from wall to wall."""
 KEPT = 4

@@ -113,7 +113,7 @@ def test_extremum_of_a_parabola():
 
 
 def test_history_between_and_state():
-    """Evaluated in every 25th step and at the end, also of a run resumed at its end."""
+    """Evaluated in every 50th step and at the end, also of a run resumed at its end."""
     observers = flow_observers(2, box=True, iterations=("pressure",))
     first = observers.observe(box_view(step=0))
     later = observers.observe(box_view(time=1e-5, step=1, speed=2.0))
