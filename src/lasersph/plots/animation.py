@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Format = Literal["gif", "mp4"]
-MOST_FRAMES = 60
+MOST_FRAMES = 40
 LEAST_FRAMES = 3
 FRAMES_PER_SECOND = 8
 DPI = 100
