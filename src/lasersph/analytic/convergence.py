@@ -21,6 +21,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 SAFETY_FACTOR = 1.25
+ROUNDING = 1e-12
+"""Relative changes below this are rounding."""
 
 
 @dataclass(frozen=True)
@@ -28,8 +30,9 @@ class Convergence:
     """What three or more spacings say about one number.
 
     kind: "converging" (the changes shrink, same sign), "oscillating" (their sign alternates),
-    "diverging" (they grow), "exact" (the two finest agree to the last digit). `order`,
-    `extrapolated` and `gci` are nan unless the number converges (0 change: order nan, gci 0).
+    "diverging" (they grow), "stepped" (two neighbors agree to rounding and the third differs, as
+    sizes in whole cells do), "exact" (all agree to rounding). `order`, `extrapolated` and `gci` are
+    nan unless the number converges (exact: order nan, gci 0).
     """
 
     kind: str
@@ -105,17 +108,22 @@ def assess(values: Sequence[float], spacings: Sequence[float]) -> Convergence:
     spacing, value = [d for d, _ in pairs], [v for _, v in pairs]
     order = observed_order(value, spacing)
     fine, coarse = value[1] - value[0], value[2] - value[1]
-    if fine == 0.0:
+    smallest = ROUNDING * max(abs(v) for v in value)
+    is_level = [abs(change) <= smallest for change in (fine, coarse)]
+    if all(is_level):
         return Convergence("exact", math.nan, value[0], 0.0)
+    if any(is_level):
+        return Convergence("stepped", math.nan, math.nan, math.nan)
     if fine * coarse < 0.0:
         return Convergence("oscillating", math.nan, math.nan, math.nan)
     if math.isnan(order) or order <= 0.0:
         return Convergence("diverging", math.nan, math.nan, math.nan)
     ratio = spacing[1] / spacing[0]
     change = fine / value[0] if value[0] != 0.0 else math.nan
+    limit = richardson(value[0], value[1], ratio, order)
     return Convergence(
         "converging",
         order,
-        richardson(value[0], value[1], ratio, order),
+        limit if abs(limit) > smallest else 0.0,
         grid_convergence_index(change, ratio, order),
     )

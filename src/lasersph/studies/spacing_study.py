@@ -2,25 +2,33 @@
 
 For each number: observed order p, Richardson's value at vanishing spacing and the grid convergence
 index of the finest run (see `analytic.convergence`; Roache). Three spacings are needed; of more,
-the three finest count.
+the three finest count. What the case sets and what counts the computation's work is left out.
+
+Sizes of a pool are counted in whole cells. Their uncertainty is at least one cell of the finest run
+(two for a width of which half is computed), however well the runs agree.
 """
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from lasersph.analytic.convergence import Convergence, assess
 from lasersph.studies.variation import Run, changed, simulate
 
-NOT_PHYSICS = (
-    "dimensions", "particles", "schema_version", "spacing_m", "spacing_requested_m", "steps",
-    "threads", "time_step", "wall_time_s",
-)  # fmt: skip
-"""Numbers of the summary that belong to the computation, not to the answer."""
+NOT_ANSWERS = re.compile(
+    r"(dimensions|particles|schema_version|spacing_m|spacing_requested_m|steps|threads|time_s"
+    r"|wall_time_s|time_step\..*|iterations\..*|material\..*|dimensionless\..*|energy\.imbalance_relative"
+    r"|surface\.(symmetry_factor|depth_of_particle_m)"
+    r"|probes\..*\.(depth_m|x_m|y_m|depth_used_m))"
+)
+"""Numbers of the summary that the case sets or that belong to the computation."""
+WHOLE_CELLS = re.compile(r"(melt|vaporization)\.(depth|width)(_any|_half)?_max_m")
+INTERPOLATED = "melt.width_half_max_m"
 
 
 @dataclass(frozen=True)
@@ -96,7 +104,7 @@ def converge(
         raise ValueError(
             f"an order needs three different spacings, got {len(wanted)}; give e.g. 32nm,16nm,8nm"
         )
-    used, numbers = [], []
+    used, numbers, cells = [], [], 1
     for number, spacing in enumerate(reversed(wanted), start=1):
         if report:
             report(f"run {number} of {len(wanted)}: spacing {1e9 * spacing:.4g} nm")
@@ -104,33 +112,40 @@ def converge(
         summary = run(changed(case, "particles.spacing", spacing), folder).summary
         used.insert(0, float(summary.get("spacing_m", spacing)))
         numbers.insert(0, dict(_numbers(summary)))
+        cells = summary.get("surface", {}).get("symmetry_factor", 1)
     if len(set(used)) < len(used):
         raise ValueError(
             "two of the spacings were rounded to the same; choose spacings farther apart"
         )
     names = dict.fromkeys(name for each in numbers for name in each)
-    rows = (_row(name, [each.get(name, math.nan) for each in numbers], used) for name in names)
+    rows = (
+        _row(name, [each.get(name, math.nan) for each in numbers], used, cells) for name in names
+    )
     return SpacingStudy(tuple(used), tuple(rows))
 
 
-def _row(name: str, values: list[float], spacings: list[float]) -> StudyRow:
+def _row(name: str, values: list[float], spacings: list[float], cells: int) -> StudyRow:
+    """`cells`: how many cells a width grows by at once."""
     if any(math.isnan(value) for value in values[:3]):
         nothing = Convergence("incomplete", math.nan, math.nan, math.nan)
         return StudyRow(name, tuple(values), nothing)
-    return StudyRow(name, tuple(values), assess(values, spacings))
+    found = assess(values, spacings)
+    if WHOLE_CELLS.fullmatch(name) and name != INTERPOLATED and values[0] > 0.0:
+        step = spacings[0] * (cells if "width" in name else 1) / values[0]
+        found = replace(found, gci=step if math.isnan(found.gci) else max(found.gci, step))
+    return StudyRow(name, tuple(values), found)
 
 
 def _numbers(summary: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, float]]:
     """Every number of the summary with its dotted key."""
     for key, value in summary.items():
-        if not prefix and key in NOT_PHYSICS:
-            continue
+        name = prefix + key
         if isinstance(value, dict):
-            yield from _numbers(value, f"{prefix}{key}.")
+            yield from _numbers(value, f"{name}.")
         elif isinstance(value, bool) or not isinstance(value, int | float):
             continue
-        else:
-            yield prefix + key, float(value)
+        elif not NOT_ANSWERS.fullmatch(name):
+            yield name, float(value)
 
 
 def _plain(value: Any) -> Any:

@@ -48,8 +48,10 @@ def test_order_of_spacings_does_not_matter():
     [
         ([1.0, 1.1, 1.05], "oscillating"),
         ([1.0, 2.0, 2.5], "diverging"),
-        ([1.0, 1.0, 2.0], "exact"),
-        ([1.0, 2.0, 2.0], "diverging"),
+        ([1.0, 1.0, 2.0], "stepped"),
+        ([1.0, 2.0, 2.0], "stepped"),
+        ([0.1 + 0.2, 0.3, 0.3], "exact"),
+        ([0.0, 0.0, 0.0], "exact"),
     ],
 )
 def test_what_does_not_converge_is_called_so(values, kind):

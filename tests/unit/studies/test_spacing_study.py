@@ -33,6 +33,7 @@ def run(case, folder):
     melt = {"depth_max_m": 1e-6 + d} if d < 30e-9 else {"depth_max_m": None}
     summary = {
         "schema_version": 1, "particles": 100, "steps": 9, "wall_time_s": 0.1, "case": "small",
+        "time_step": {"min_s": 1e-12},
         "temperature_max_K": 1000.0 + 1e18 * d**2, "melt": melt, "folder": str(folder),
     }  # fmt: skip
     return SimpleNamespace(summary=summary)
@@ -51,7 +52,9 @@ def test_order_and_limit_of_every_number(tmp_path):
     assert [row.name for row in study.rows] == ["temperature_max_K", "melt.depth_max_m"]
     hot = study["temperature_max_K"].convergence
     assert (hot.order, hot.extrapolated) == (pytest.approx(2.0), pytest.approx(1000.0))
-    assert study["melt.depth_max_m"].convergence.order == pytest.approx(1.0)
+    depth = study["melt.depth_max_m"].convergence
+    assert depth.order == pytest.approx(1.0)
+    assert depth.gci == pytest.approx(1.25 * 4e-9 / 1.004e-6)
     assert folders == ["spacing-16nm", "spacing-8nm", "spacing-4nm"]
     assert lines[0] == "run 1 of 3: spacing 16 nm"
 
@@ -69,6 +72,23 @@ def test_number_missing_in_one_run_is_called_incomplete(tmp_path):
     assert plain["numbers"]["melt.depth_max_m"]["values"][2] is None
     with pytest.raises(KeyError):
         study["flow"]
+
+
+def test_sizes_in_whole_cells_are_never_surer_than_a_cell(tmp_path):
+    """288 nm at 12, 24 and 48 nm: exact by coincidence, and uncertain by 12 (depth), 24 (width)."""
+
+    def stairs(case, folder):
+        melt = {"depth_max_m": 288e-9, "width_max_m": 288e-9, "width_half_max_m": 288e-9}
+        summary = {"melt": melt, "surface": {"symmetry_factor": 2}, "material": {"solidus_K": 1.0}}
+        return SimpleNamespace(summary=summary)
+
+    study = converge(CASE, [12e-9, 24e-9, 48e-9], tmp_path, run=stairs)
+    assert [row.name for row in study.rows] == [
+        "melt.depth_max_m", "melt.width_max_m", "melt.width_half_max_m",
+    ]  # fmt: skip
+    assert [row.convergence.kind for row in study.rows] == ["exact"] * 3
+    gci = [row.convergence.gci for row in study.rows]
+    assert gci == pytest.approx([12 / 288, 24 / 288, 0.0])
 
 
 def test_rounded_spacings_count(tmp_path):
