@@ -182,5 +182,13 @@ def spacing_at(view: View, flow: FlowView) -> float:
 
 
 def period(view: View) -> float:
-    """Full lateral width of the run [m], both halves of a period where one is computed."""
-    return float(np.sum(view.width[0, view.surface])) * view.symmetry_factor
+    """Full lateral width of the run [m], both halves of a period where one is computed.
+
+    The edges are those of the lowest particles, which rest.
+    """
+    x, half = view.position[0], 0.5 * view.width[0]
+    lowest = view.position[-1] <= np.min(view.position[-1]) + 0.5 * np.min(view.width[-1])
+    right = float(np.max((x + half)[lowest]))
+    if view.symmetry_factor == 2:
+        return 2.0 * right
+    return right - float(np.min((x - half)[lowest]))
