@@ -23,7 +23,8 @@ class View:
         volume: (n,) [m^dim].
         temperature, enthalpy: (n,) [K], [J/kg].
         melt_fraction, vapor_fraction: (n,) [1].
-        surface: indices of the particles of the surface layer.
+        surface: indices of the particles of the surface layer; where particles move, of those
+            that lie at the surface now.
         symmetry_factor: 2 where half a period is computed, else 1; multiplies widths.
         energy: incident, absorbed, reflected, stored, lost, removed, discarded since the start,
             in `ENERGY_UNITS`; lost and removed leave, stored stays.
