@@ -196,3 +196,14 @@ class Backend:
         """
         call = Call("pointwise", function, None, fields, out, rows, None, reduce, constants)
         return self._loops.run(call)
+
+    def recorded(self, run: Callable[[], None]) -> Callable[[], None]:
+        """Run loops, and return a function that runs them again: same arrays, same constants.
+
+        For sequences of many small loops, which take longer to bind than to run. Only loops are
+        repeated, not copies or sorts between them.
+
+        Raises:
+            ValueError: a loop reduces, since nobody would receive the number.
+        """
+        return self._loops.recorded(run)

@@ -192,6 +192,7 @@ class Loops:
         self.precision, self.threads, self.unwrap = precision, threads, unwrap
         self.real = np.dtype(precision)
         self._compiled: dict[Any, Compiled] = {}
+        self._record: list[tuple] | None = None
         self._roles: dict[Any, tuple] = {}
 
     def run(self, call: Call) -> tuple[float, ...]:
@@ -202,6 +203,25 @@ class Loops:
         if compiled is None or not source.is_current(compiled.watched):
             compiled = self._compiled[key] = self.compiled(bound)
         return self._launch(compiled, bound)
+
+    def recorded(self, run: Callable[[], None]) -> Callable[[], None]:
+        """Run `run`; returns a function that launches the same loops once more."""
+        if self._record is not None:
+            raise ValueError("a recording is under way")
+        launches = self._record = []
+        try:
+            run()
+        finally:
+            self._record = None
+        is_parallel = any(blocks > 1 for _, blocks, *_ in launches)
+
+        def replay() -> None:
+            if is_parallel:
+                _set_threads(self.threads)
+            for loop, _, first, count, arguments in launches:
+                loop(first, count, *arguments)
+
+        return replay
 
     def roles(self, shape: str, function: Callable) -> tuple:
         """(name, role, symbol) of a function's arguments; "bare" is a field or a constant."""
@@ -282,13 +302,15 @@ class Loops:
         partial = np.empty((len(reductions), blocks), self.real)
         if reductions:
             arguments.append(partial)
-        if blocks == 1:
-            compiled.block(np.uint64(0), np.uint64(count), *arguments)
-        else:
-            from numba import set_num_threads
-
-            set_num_threads(self.threads)
-            compiled.loop(blocks, np.uint64(count), *arguments)
+        first, rows = (np.uint64(0) if blocks == 1 else blocks), np.uint64(count)
+        loop = compiled.block if blocks == 1 else compiled.loop
+        if self._record is not None:
+            if reductions:
+                raise ValueError(f"{bound.call.function.__name__}(): no reduction is recorded")
+            self._record.append((loop, blocks, first, rows, arguments))
+        if blocks > 1:
+            _set_threads(self.threads)
+        loop(first, rows, *arguments)
         return tuple(
             float(_TOTAL[how](partial[k], dtype=np.float64)) for k, how in enumerate(reductions)
         )
@@ -296,6 +318,12 @@ class Loops:
     def _number(self, bound: Bound, name: str, component: int) -> Any:
         value = bound.call.neighbors.period if name == "period" else bound.constants[name]
         return value[component] if isinstance(value, tuple | list) else value
+
+
+def _set_threads(threads: int) -> None:
+    from numba import set_num_threads
+
+    set_num_threads(threads)
 
 
 def _listed(value: Any) -> tuple | list:

@@ -127,6 +127,7 @@ class GridCorrection:
             position: (2, n) [m]. mask: (n,). volume: (n,) V_i [m^2]. pull: (n,) a_i.
         """
         backend, cells = self.backend, self._cells
+        self._recorded_for = None
         cells.place(position, mask)
         if not self.levels or (self.levels[0].x, self.levels[0].z) != (cells.x, cells.z):
             self._make_levels(cells.x, cells.z)
@@ -149,8 +150,10 @@ class GridCorrection:
             diagonal: (n,) D, not 0.
         """
         finest, cells = self.levels[0], self._cells
-        self._collect(r, finest.outputs("r", "x", "y"))
-        self._cycle(0)
+        if self._recorded_for is r:
+            self._replay()
+        else:
+            self._replay, self._recorded_for = self.backend.recorded(lambda: self._solve(r)), r
         fields = {"r": r, "d": diagonal, "mask": mask, "u": cells.u, "w": cells.w}
         shape = {"columns": finest.x.nodes, "lines": finest.z.nodes}
         (rz,) = self.backend.pointwise(
@@ -182,6 +185,11 @@ class GridCorrection:
             grid_transfer.from_cells, self.levels[0].at, out,
             sum_00=sum_00, sum_01=sum_01, sum_10=sum_10, sum_11=sum_11, **self._cells.shape,
         )  # fmt: skip
+
+    def _solve(self, r: Any) -> None:
+        """B P^T r on the finest grid."""
+        self._collect(r, self.levels[0].outputs("r", "x", "y"))
+        self._cycle(0)
 
     def _cycle(self, k: int) -> None:
         """V cycle from level k upward: turn x = v r into its solution."""

@@ -213,6 +213,25 @@ def test_pointwise_rows(backend):
     ) == (-np.inf, 0.0)
 
 
+def test_recorded_loops_run_again(backend):
+    """T <- 2 T, then v <- T + 2 T: once while recorded, once more for the present T."""
+    T, v = backend.asarray([1.0, 2, 5]), backend.zeros(3)
+
+    def run():
+        backend.pointwise(doubled, {"v": T}, T)
+        backend.pointwise(euler, {"T": T, "total": T}, v, dt=2.0)
+
+    again = backend.recorded(run)
+    assert backend.to_host(v).tolist() == [6.0, 12.0, 30.0]
+    backend.copy(backend.asarray([10.0, 20, 50]), T)
+    again()
+    assert backend.to_host(T).tolist() == [20.0, 40.0, 100.0]
+    assert backend.to_host(v).tolist() == [60.0, 120.0, 300.0]
+    with pytest.raises(ValueError, match="no reduction is recorded"):
+        backend.recorded(lambda: backend.pointwise(doubled, {"v": T}, None, reduce="sum") and None)
+    run()
+
+
 def test_dummy_particles_and_kinds(backend):
     """Two rows, three particles; integer fields are compared with integers."""
     neighbors = three(backend, rows=2)
