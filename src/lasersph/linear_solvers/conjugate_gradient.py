@@ -22,9 +22,11 @@ STIFF = 20.0
 """Stiffness above which setting up and applying multigrid costs less than it saves."""
 
 
-@dataclass(frozen=True)
+@dataclass
 class PairOperator:
     """Weights g_ij on a list of pairs, and the pull a_i toward a fixed value.
+
+    Whoever moves the particles replaces what has changed.
 
     Attributes:
         neighbors: list of pairs. weights: (pairs,) g_ij. pull: (n,) a_i. total: (n,) sum_j g_ij.

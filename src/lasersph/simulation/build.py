@@ -13,7 +13,13 @@ from lasersph.observers.view import View
 from lasersph.particles.layers import Layers, stack
 from lasersph.physics.heating import COLDEST, HOTTEST
 from lasersph.solvers.conduction.body import SUPPORT, assemble
+from lasersph.simulation.build_flow import with_flow
+from lasersph.simulation.flow_view import flow_view_of
+from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import Conduction
+from lasersph.solvers.heat_settings import HeatSettings
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+from lasersph.solvers.melt_pool.solver import MeltPool
 
 ESTIMATE_COLUMNS = 8
 LEAST_FINE_LAYERS = 8
@@ -84,7 +90,10 @@ def fine_depth(case: Case) -> float:
     return max(least, estimate.safe_depth + 2.0 * support_ratio(case) * spacing)
 
 
-def build(case: Case, backend: Backend) -> tuple[Layers, Conduction]:
+Solver = Conduction | MeltPool
+
+
+def build(case: Case, backend: Backend) -> tuple[Layers, Solver]:
     """Particles and solver of a case."""
     layers = lay_out(case)
     body = assemble(
@@ -97,13 +106,33 @@ def build(case: Case, backend: Backend) -> tuple[Layers, Conduction]:
         curve=caloric_curve(case),
         use_second_moment=case.solver.weights == "second-moment",
     )
-    return layers, Conduction(body, case.solver, case.time, case.laser)
+    heat = Conduction(body, _heat_settings(case), case.time, case.laser)
+    if isinstance(case.solver, MeltPoolSettings):
+        return layers, with_flow(case, layers, heat)
+    return layers, heat
 
 
-def view_of(case: Case, solver: Conduction, step: int, limit: str) -> View:
+def _heat_settings(case: Case) -> ConductionSettings:
+    """How heat is computed: as the case says, or implicitly below a flow."""
+    if isinstance(case.solver, ConductionSettings):
+        return case.solver
+    names = set(HeatSettings.model_fields) - {"kind"}
+    common = {name: getattr(case.solver, name) for name in names}
+    return ConductionSettings(**common)
+
+
+def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
     """Host copies of the state for observers."""
     body, state, backend = solver.body, solver.state, solver.body.backend
     count, surface = body.count, body.filling.surface
+    position, flow = body.filling.position[:, :count], None
+    melt_fraction = backend.to_host(state.melt_fraction)
+    if isinstance(solver, MeltPool):
+        position, flow = backend.to_host(solver.position), flow_view_of(case, solver)
+        if flow.surface.size:
+            surface = flow.surface
+        if flow.box:
+            melt_fraction = np.ones(count)
     evaporated = None
     if case.solver.plateau == "evaporate":
         mass = backend.to_host(state.evaporated)[surface]
@@ -112,12 +141,12 @@ def view_of(case: Case, solver: Conduction, step: int, limit: str) -> View:
         time=state.time,
         step=step,
         time_step=state.time_step,
-        position=body.filling.position[:, :count],
+        position=position,
         width=body.filling.width[:, :count],
         volume=body.filling.volume[:count],
         temperature=backend.to_host(state.temperature),
         enthalpy=backend.to_host(state.enthalpy),
-        melt_fraction=backend.to_host(state.melt_fraction),
+        melt_fraction=melt_fraction,
         vapor_fraction=backend.to_host(state.vapor_fraction),
         surface=surface,
         symmetry_factor=case.domain.symmetry_factor,
@@ -128,4 +157,5 @@ def view_of(case: Case, solver: Conduction, step: int, limit: str) -> View:
         liquidus=body.curve.liquidus,
         vaporization=body.curve.vaporization,
         evaporated=evaporated,
+        flow=flow,
     )

@@ -17,14 +17,18 @@ from typing import Any
 from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
-from lasersph.observers import Observers, SnapshotSchedule, heat_observers
+from lasersph.compute.search import EscapedParticle
+from lasersph.observers import Observers, SnapshotSchedule, flow_observers, heat_observers
 from lasersph.observers.snapshots import UNITS, snapshot_fields
+from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.particles.layers import Layers
-from lasersph.simulation.build import build, view_of
+from lasersph.simulation.build import Solver, build, view_of
 from lasersph.simulation.scales import dimensionless
-from lasersph.solvers.conduction.solver import Conduction
+from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.melt_pool.domain import PoolTooDeep
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.time_step import choose
 
 PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
@@ -99,14 +103,22 @@ def _open(
     return RunFolder.create(out, **arguments), None
 
 
+def _observers(case: Case, iterations: tuple[str, ...]) -> Observers:
+    """What looks at a run of this case."""
+    dimensions = case.solver.dimensions
+    if isinstance(case.solver, MeltPoolSettings):
+        return flow_observers(
+            dimensions, box=case.flow is not None, probes=case.probes, iterations=iterations
+        )
+    return heat_observers(dimensions, probes=case.probes, iterations=iterations)
+
+
 class _Loop:
     """One run from its first or resumed step to its end."""
 
-    def __init__(self, case: Case, layers: Layers, solver: Conduction, folder: RunFolder) -> None:
+    def __init__(self, case: Case, layers: Layers, solver: Solver, folder: RunFolder) -> None:
         self.case, self.layers, self.solver, self.folder = case, layers, solver, folder
-        self.observers: Observers = heat_observers(
-            case.solver.dimensions, probes=case.probes, iterations=tuple(solver.iterations)
-        )
+        self.observers = _observers(case, tuple(solver.iterations))
         self.snapshots = SnapshotSchedule(case.output.snapshots, case.time.end)
         self.steps, self.limit, self.wall_before = 0, "", 0.0
         self.started = clock.monotonic()
@@ -130,11 +142,11 @@ class _Loop:
     def go(self, progress: Progress | None, should_stop: Callable[[], bool]) -> None:
         """Step until the end of the case."""
         state, end = self.solver.state, self.case.time.end
-        while state.time < end * END:
+        while state.time < end * END and not self.solver.is_steady:
             limits = self.solver.time_step_limits()
             limits["snapshot"] = max(self.snapshots.next_time - state.time, 0.0) or float("inf")
             self.limit, step, pace = choose(limits)
-            taken = self.solver.step(step, pace)
+            taken = self._step(step, pace)
             if taken == step and self.limit in ("end", "snapshot"):
                 state.time = end if self.limit == "end" else self.snapshots.next_time
             self.steps += 1
@@ -147,9 +159,27 @@ class _Loop:
                 self._save()
                 raise Stopped(f"stopped at {state.time:.4g} s after {self.steps} steps")
 
+    def _step(self, step: float, pace: float) -> float:
+        """A step of the solver; where it fails, what was reached is kept.
+
+        Raises:
+            NotConverged: with the time that was reached.
+        """
+        try:
+            return self.solver.step(step, pace)
+        except (NotConverged, PoolTooDeep, EscapedParticle) as error:
+            self._save()
+            self._snapshot(view_of(self.case, self.solver, self.steps, self.limit))
+            raise NotConverged(
+                f"{error}; stopped at {self.solver.state.time:.6g} s after {self.steps} steps, "
+                "the checkpoint and the last good snapshot are kept"
+            ) from error
+
     def finish(self) -> dict[str, Any]:
         """Write the summary; the run is complete."""
         state, body = self.solver.state, self.solver.body
+        if self.solver.is_steady:
+            self._snapshot(view_of(self.case, self.solver, self.steps, self.limit))
         summary = {
             "case": self.case.name,
             "title": self.case.title,
@@ -160,6 +190,7 @@ class _Loop:
             "spacing_requested_m": self.case.particles.spacing,
             "steps": self.steps,
             "time_s": state.time,
+            "is_steady": self.solver.is_steady,
             "wall_time_s": self._wall_time(),
             "precision": str(body.backend.real),
             "threads": body.backend.threads,
@@ -178,9 +209,10 @@ class _Loop:
         if self.steps % self.case.output.history_every == 0:
             self.folder.history.append(row)
         if self.snapshots.due(view.time):
-            self.folder.particles.append(
-                view.time, view.position, snapshot_fields(view), units=UNITS
-            )
+            self._snapshot(view)
+
+    def _snapshot(self, view: View) -> None:
+        self.folder.particles.append(view.time, view.position, snapshot_fields(view), units=UNITS)
 
     def _save(self) -> None:
         state, backend = self.solver.state, self.solver.body.backend

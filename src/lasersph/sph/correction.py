@@ -16,7 +16,19 @@ from collections.abc import Mapping
 from typing import Any
 
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import inverse, matvec, outer
+from lasersph.compute.vectors import (
+    determinant,
+    dot,
+    identity,
+    inverse,
+    matvec,
+    outer,
+    trace,
+)
+
+LEAST_DETERMINANT, MOST_DETERMINANT = 0.6, 1.6
+MOST_ANISOTROPY = 5.5
+"""Largest (tr M)^2 / det M in 2-D; 4 for M = 1."""
 
 
 def correction_term(V_j, x_ij, r_ij, dW_ij):
@@ -72,3 +84,35 @@ def corrected_gradient(
     Fields f and V, shape (N,), and C of `inverse_correction`, shape (d, d, n).
     """
     backend.pair_sum(volume_difference_term, neighbors, fields, gradient, finish=corrected)
+
+
+def corrected_divergence_term(v_i, v_j, V_j, C_i, x_ij, r_ij, dW_ij):
+    """Term of the corrected D- of a vector field: V_j (v_j - v_i) . C_i grad W_ij [unit of v / m].
+
+    Exact on linear fields. Skew-adjoint to `corrected_symmetric_term`:
+    sum_i V_i v_i . G_i{p} = - sum_i V_i p_i D_i{v}.
+    """
+    return V_j * dW_ij / r_ij * dot(v_j - v_i, matvec(C_i, x_ij))
+
+
+def corrected_symmetric_term(p_i, p_j, V_j, C_i, C_j, x_ij, r_ij, dW_ij):
+    """Term of the corrected G+: V_j (p_i C_i + p_j C_j) grad W_ij [unit of p / m].
+
+    With C = 1 the symmetric gradient of [Demuth2020, eq. (46)] for equal densities.
+    """
+    return V_j * dW_ij / r_ij * (p_i * matvec(C_i, x_ij) + p_j * matvec(C_j, x_ij))
+
+
+def vector_gradient_term(v_i, v_j, V_j, x_ij, r_ij, dW_ij):
+    """Term of the standard gradient of a vector field: V_j (v_j - v_i) (x) grad W_ij."""
+    return V_j * dW_ij / r_ij * outer(v_j - v_i, x_ij)
+
+
+def bounded_inverse(total):
+    """M^-1 where M is near the unit tensor, else 1: next to a gap a correction would amplify."""
+    size, spread = determinant(total), trace(total)
+    if size < LEAST_DETERMINANT or size > MOST_DETERMINANT:
+        return identity(len(total))
+    if spread * spread > MOST_ANISOTROPY * size:
+        return identity(len(total))
+    return inverse(total)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +22,7 @@ from lasersph.particles.neighbors import NeighborList, find_neighbors
 from lasersph.particles.support import arithmetic, graded
 from lasersph.physics.heating import Irradiation
 from lasersph.solvers.conduction.walls import walls_of
-from lasersph.sph.kernels import kernel
+from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.laplacian import layered_weight, weight
 from lasersph.sph.second_moment import layer_factors
 
@@ -81,7 +82,8 @@ def assemble(
         face: KINDS[boundaries.kind_of(face)] for face in ("surface", "bottom", "left", "right")
     }
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
-    neighbors, row, weights = _weights(backend, lattice, layers, filling, use_second_moment)
+    weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
+    neighbors, row, weights = _weights(backend, weighing, filling)
     walls = walls_of(
         boundaries, curve, layers, filling, weights, row, backend.to_host(neighbors.neighbor)
     )
@@ -122,39 +124,61 @@ def assemble(
     )
 
 
+@dataclass(frozen=True)
+class Weighing:
+    """How the pairs of a lattice of layers are weighed.
+
+    Attributes:
+        kernel, mean: of the list. ratio: support radius over thickness. function: pair function of
+            g_ij with its constants. factors: layer numbers (k,) -> factors N and a (k,).
+    """
+
+    kernel: Kernel
+    mean: Callable[[float, float], float]
+    ratio: float
+    function: Callable[..., Any]
+    constants: dict[str, Any]
+    factors: Callable[[NDArray[np.int64]], tuple[NDArray[np.float64], NDArray[np.float64]]]
+
+
+def weighing_of(lattice: Lattice, layers: Layers, *, use_second_moment: bool) -> Weighing:
+    """The rule of a lattice, corrected to conduct exactly or as printed."""
+    ratio = lattice.support_ratio or SUPPORT[lattice.kernel]
+    shape = kernel(lattice.kernel, layers.dimension)
+    mean = graded if lattice.arrangement == "graded" else arithmetic
+    if not use_second_moment:
+        return Weighing(shape, mean, ratio, weight, {}, _equal_factors)
+    up = (0.0,) * (layers.dimension - 1) + (1.0,)
+    factors = layer_factors(layers, shape, ratio, mean)
+    return Weighing(shape, mean, ratio, layered_weight, {"up": up}, factors.at)
+
+
+def _equal_factors(layer: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Factors that change nothing."""
+    return layer.astype(float), np.ones(layer.size)
+
+
 def _weights(
-    backend: Backend,
-    lattice: Lattice,
-    layers: Layers,
-    filling: Filling,
-    use_second_moment: bool,
+    backend: Backend, weighing: Weighing, filling: Filling
 ) -> tuple[NeighborList, NDArray[np.int64], NDArray[np.float64]]:
     """All pairs with dummies, and on the host the row and the weight of each pair."""
-    dimension = layers.dimension
-    ratio = lattice.support_ratio or SUPPORT[lattice.kernel]
-    shape = kernel(lattice.kernel, dimension)
-    mean = graded if lattice.arrangement == "graded" else arithmetic
-    fields = {"V": backend.asarray(filling.volume)}
+    normal, lateral = weighing.factors(filling.layer)
+    fields = {
+        "V": backend.asarray(filling.volume),
+        "layer": backend.asarray(filling.layer),
+        "normal": backend.asarray(normal),
+        "lateral": backend.asarray(lateral),
+    }
     neighbors = find_neighbors(
         backend,
         backend.asarray(filling.position),
-        backend.asarray(ratio * filling.width[-1]),
+        backend.asarray(weighing.ratio * filling.width[-1]),
         filling.count,
-        kernel=shape,
-        mean=mean,
+        kernel=weighing.kernel,
+        mean=weighing.mean,
     )
     weights = backend.zeros(backend.to_host(neighbors.neighbor).size)
-    if use_second_moment:
-        normal, lateral = layer_factors(layers, shape, ratio, mean).at(filling.layer)
-        fields |= {
-            "layer": backend.asarray(filling.layer),
-            "normal": backend.asarray(normal),
-            "lateral": backend.asarray(lateral),
-        }
-        up = (0.0,) * (dimension - 1) + (1.0,)
-        backend.pair_values(layered_weight, neighbors, fields, weights, up=up)
-    else:
-        backend.pair_values(weight, neighbors, fields, weights)
+    backend.pair_values(weighing.function, neighbors, fields, weights, **weighing.constants)
     row_start = backend.to_host(neighbors.row_start).astype(np.int64)
     row = np.repeat(np.arange(filling.count), np.diff(row_start))
     return neighbors, row, np.array(backend.to_host(weights))

@@ -80,6 +80,11 @@ class Conduction:
         """Iterations of the last step."""
         return {"newton": self.scheme.newton, "linear": self.scheme.linear}
 
+    @property
+    def is_steady(self) -> bool:
+        """A run that conducts goes on to its end."""
+        return False
+
     def carried(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
         state = self.state
@@ -91,9 +96,14 @@ class Conduction:
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
         """Continue from the arrays of `fields` and the numbers of `carried`."""
-        backend, state = self.body.backend, self.state
+        backend = self.body.backend
         for name in ARRAYS:
-            backend.copy(backend.asarray(arrays[name]), getattr(state, name))
+            backend.copy(backend.asarray(arrays[name]), getattr(self.state, name))
+        self.restore_numbers(numbers)
+
+    def restore_numbers(self, numbers: dict[str, float]) -> None:
+        """Set the numbers of `carried`."""
+        state = self.state
         state.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
         state.time, state.time_step = numbers["time"], numbers["time_step"]
         state.fastest, state.lit_until = numbers["fastest"], numbers["lit_until"]
@@ -141,25 +151,34 @@ class Conduction:
 
         `pace` [s] is the step that would be taken were no time to be hit; growth goes from it.
 
-        light of the step -> enthalpies (scheme) -> temperatures and fractions -> plateau rule ->
-        energies.
-
         Raises:
             NotConverged: not even a 256th of the step converges.
         """
-        state, body = self.state, self.body
-        backend = body.backend
-        backend.copy(state.temperature, self._before)
         for attempt in range(RETRIES + 1):
-            body.irradiation.shine(state.time, state.time + step)
             try:
-                energy = self.scheme.advance(state, step, self._exchanged())
+                self.attempt(step, pace)
                 break
             except NotConverged:
                 if attempt == RETRIES:
                     raise
                 step *= 0.5
                 pace = step
+        return step
+
+    def attempt(self, step: float, pace: float | None = None) -> None:
+        """Advance by `step` [s]:
+
+        light of the step -> enthalpies (scheme) -> temperatures and fractions -> plateau rule ->
+        energies.
+
+        Raises:
+            NotConverged: the step is too large; the state is as before.
+        """
+        state, body = self.state, self.body
+        backend = body.backend
+        backend.copy(state.temperature, self._before)
+        body.irradiation.shine(state.time, state.time + step)
+        energy = self.scheme.advance(state, step, self._exchanged())
         discarded = self._discard()
         state.refresh(body)
         if self.settings.plateau == "evaporate":
@@ -172,7 +191,6 @@ class Conduction:
             state.lit_until = state.time + step
         state.time, state.time_step = state.time + step, step
         state.pace = step if pace is None else pace
-        return step
 
     def _exchanged(self) -> float:
         """Energy that the tolerance of a step refers to [J]."""

@@ -1,0 +1,64 @@
+"""Viscous momentum exchange of the melt, explicit or at the end of the step.
+
+    V_i dv_i/dt = nu sum_j g_ij (v_j - v_i)                       [Demuth2020, eqs. (51), (68)]
+
+with the weights g_ij of conduction, which discretize V_i times the Laplacian. Implicit:
+
+    (V_i - nu dt sum_j g_ij) v_i + nu dt sum_j g_ij v_j = V_i v*_i
+
+for the fluid particles; particles of the solid have v = 0, images the velocity that the faces give.
+The published scheme is explicit.
+"""
+
+from __future__ import annotations
+
+from lasersph.compute.vectors import dot
+
+
+def momentum(g_ij, v_i, v_j):
+    """Viscous force on i over eta [m^(d-1)/s]: g_ij (v_j - v_i)."""
+    return g_ij * (v_j - v_i)
+
+
+def predict(total, v, V, nu, b, step):
+    """Velocity after viscous force and body force b [m/s], explicit.
+
+    Args:
+        total: sum of `momentum`. v: [m/s]. V: volume [m^d]. nu: [m^2/s]. b: [m/s^2]. step: [s].
+    """
+    return v + step * (nu / V * total + b)
+
+
+def forced(v, b, step):
+    """Velocity after the body force alone [m/s]."""
+    return v + step * b
+
+
+def start(total, v, V, v_star, g_sum, s):
+    """Residual r = V (v* - v) + s sum g (v_j - v_i), its scaled form z, and r . z, r . r."""
+    r = V * (v_star - v) + s * total
+    z = 1.0 / (V + s * g_sum) * r
+    return r, z, dot(r, z), dot(r, r)
+
+
+def multiply(total, d, V, s):
+    """q = A d, and d . q; `total` is the sum of g_ij (d_j - d_i)."""
+    q = V * d - s * total
+    return q, dot(d, q)
+
+
+def advance(v, r, d, q, V, g_sum, alpha, s):
+    """v += alpha d, r -= alpha q, z scaled; reduces r . z and r . r."""
+    rest = r - alpha * q
+    z = 1.0 / (V + s * g_sum) * rest
+    return v + alpha * d, rest, z, dot(rest, z), dot(rest, rest)
+
+
+def turn(z, d, beta):
+    """New direction z + beta d."""
+    return z + beta * d
+
+
+def weight_of(g_ij):
+    """Weight of a pair, for its sum over the neighbors."""
+    return g_ij

@@ -1,0 +1,100 @@
+"""From a case that flows to its solver."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lasersph.boundaries.lid import FlatLid, ImposedTemperature
+from lasersph.boundaries.settings import HELD
+from lasersph.case import Case
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.particles.layers import Layers
+from lasersph.solvers.conduction.body import weighing_of
+from lasersph.solvers.conduction.solver import Conduction
+from lasersph.solvers.conduction.walls import wall_potential
+from lasersph.solvers.melt_pool.block import Carried
+from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.flow import Flow, Liquid
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+from lasersph.solvers.melt_pool.sides import Sides
+from lasersph.solvers.melt_pool.solver import MeltPool
+
+
+def with_flow(case: Case, layers: Layers, heat: Conduction) -> MeltPool:
+    """The solver of heat, and the flow of the melt or of a box around it."""
+    settings = case.solver
+    assert isinstance(settings, MeltPoolSettings)
+    body = heat.body
+    backend, count = body.backend, body.count
+    filling, curve = body.filling, body.curve
+    weighing = weighing_of(
+        case.particles, layers, use_second_moment=settings.weights == "second-moment"
+    )
+    carried = Carried(
+        support=weighing.ratio * filling.width[-1, :count],
+        volume=filling.volume[:count],
+        layer=filling.layer[:count],
+        layers=layers.thickness.size,
+        weighing=weighing,
+    )
+    (x,) = case.domain.lateral(2)
+    box = (x, (-float(layers.thickness.sum()), 0.0))
+    sides = Sides(box, case.boundaries, case.flow, case.initial_temperature)
+    liquid = liquid_of(case, settings)
+    lid = None
+    if sides.flow_kind("surface") == "free-surface":
+        lid = FlatLid(
+            backend,
+            count,
+            plane=0.0,
+            spacing=layers.spacing,
+            support=float(carried.support.min()),
+            material=case.material,
+            viscosity=liquid.viscosity * liquid.density,
+            has_stress=settings.marangoni,
+            held=_held_surface(case),
+        )
+    domain = PoolDomain(
+        backend, layers, carried, sides, lid,
+        lambda T: wall_potential(curve, T), lambda T: wall_enthalpy(curve, T),
+    )  # fmt: skip
+    flow = Flow(backend, backend.asarray(carried.volume), liquid, lid, settings)
+    if case.flow is not None:
+        start = case.flow.initial.velocity(filling.position[:, :count], box)
+        flow.begin(start)
+    return MeltPool(heat, flow, domain, settings)
+
+
+def liquid_of(case: Case, settings: MeltPoolSettings) -> Liquid:
+    """Numbers of the melt at its liquidus; of a box at its initial temperature."""
+    material = case.material
+    T = material.flow_temperature
+    gamma = 0.0
+    if material.surface_tension is not None:
+        gamma = float(material.surface_tension_at(T))
+    return Liquid(
+        viscosity=float(material.kinematic_viscosity_at(T)),
+        density=material.density_liquid,
+        expansion=float(material.expansion_at(T)),
+        reference_temperature=T if case.flow is None else case.initial_temperature,
+        gravity=settings.gravity,
+        diffusivity=material.diffusivity_reference,
+        surface_tension=gamma,
+    )
+
+
+def wall_enthalpy(curve: CaloricCurve, temperature: np.ndarray) -> np.ndarray:
+    """Enthalpy of walls [J/kg]; the end segments continue."""
+    rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
+    T, h = curve.temperature[rising], curve.enthalpy[rising]
+    found = np.interp(temperature, T, h)
+    below = h[0] + (h[1] - h[0]) / (T[1] - T[0]) * (temperature - T[0])
+    above = h[-1] + (h[-1] - h[-2]) / (T[-1] - T[-2]) * (temperature - T[-1])
+    return np.where(temperature < T[0], below, np.where(temperature > T[-1], above, found))
+
+
+def _held_surface(case: Case) -> ImposedTemperature | None:
+    if case.boundaries.kind_of("surface") not in HELD:
+        return None
+    mean = case.boundaries.temperature_of("surface", case.initial_temperature)
+    return ImposedTemperature(mean, case.boundaries.surface_temperature_wave)

@@ -1,0 +1,80 @@
+"""What observers see of a flow: host copies from the solver."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lasersph.boundaries.settings import HELD
+from lasersph.case import Case
+from lasersph.observers.flow_view import FlowView
+from lasersph.physics.evaporation import (
+    STANDARD_ATMOSPHERE,
+    recoil_pressure,
+    saturation_pressure,
+)
+from lasersph.solvers.melt_pool.solver import MeltPool
+
+SIDES = ("left", "right", "bottom", "surface")
+
+
+def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
+    """Host copies of the flow."""
+    flow, lid, backend = solver.flow, solver.domain.lid, solver.backend
+    liquid, material = flow.liquid, case.material
+    position = backend.to_host(solver.position)
+    velocity = backend.to_host(flow.velocity)
+    pressure = backend.to_host(flow.pressure)
+    surface = np.zeros(0, np.int64)
+    temperature = gradient = speed = np.zeros(0)
+    if lid is not None:
+        lid.find_surface(solver.position)
+        found = np.flatnonzero(backend.to_host(lid.at_surface) == 1.0)
+        surface = found[np.argsort(position[0, found], kind="stable")]
+        temperature = backend.to_host(lid.temperature)[surface]
+        gradient = backend.to_host(lid.gradient)[surface]
+        flows = backend.to_host(solver.roles.fluid)[surface]
+        reach = 0.5 * backend.to_host(lid.reach)[surface]
+        speed = velocity[0, surface] + flows * reach
+    T = material.flow_temperature
+    has_slope = (
+        material.surface_tension_slope is not None or material.surface_tension is not None
+    )
+    held = {
+        side: case.boundaries.temperature_of(side, case.initial_temperature)
+        for side in SIDES
+        if case.boundaries.kind_of(side) in HELD
+    }
+    return FlowView(
+        velocity=velocity,
+        pressure=pressure,
+        flows=backend.to_host(solver.roles.fluid) > 0.0,
+        surface=surface,
+        surface_temperature=temperature,
+        surface_gradient=gradient,
+        surface_velocity=speed,
+        lid_pressure=pressure[surface],
+        divergence_rms=flow.divergence[0],
+        divergence_max=flow.divergence[1],
+        spacing_min=solver.spacing_min,
+        density=liquid.density,
+        viscosity=liquid.density * liquid.viscosity,
+        surface_tension_slope=float(material.surface_tension_slope_at(T)) if has_slope else 0.0,
+        saturation_pressure=_recoil(case, temperature),
+        box=case.flow is not None,
+        conductivity=float(material.conductivity_at(T)),
+        held=held if case.flow is not None else {},
+    )
+
+
+def _recoil(case: Case, temperature: np.ndarray) -> np.ndarray | None:
+    """0.54 p_sat(T) [Pa]."""
+    vapor = case.material.vaporization
+    if vapor is None or vapor.specific_gas_constant is None or temperature.size == 0:
+        return None
+    T_b, L_v, R_s = vapor.temperature, vapor.latent_heat, vapor.specific_gas_constant
+    return np.array(
+        [
+            recoil_pressure(saturation_pressure(float(T), STANDARD_ATMOSPHERE, T_b, L_v, R_s))
+            for T in temperature
+        ]
+    )

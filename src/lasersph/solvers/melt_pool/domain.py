@@ -1,0 +1,108 @@
+"""The domain of a flow: its sides and lid, and the block of particles that may move in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from lasersph.boundaries.lid import FlatLid
+from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import dot
+from lasersph.particles.layers import Layers
+from lasersph.solvers.melt_pool.block import Block, Carried
+from lasersph.solvers.melt_pool.roles import Roles
+from lasersph.solvers.melt_pool.sides import FACES, Sides
+
+ROOM = 16
+"""Layers by which a block grows."""
+MARGIN = 8.0
+"""Resting layers below the moving rows, in units of the finest spacing."""
+BELOW = 2.0
+"""Depth of the rows below the deepest melt, in support radii."""
+
+
+class PoolTooDeep(RuntimeError):
+    """The melt reaches layers that are too coarse for its flow."""
+
+
+def fluid_depth(x, fluid, up):
+    """Depth of a fluid particle below z = 0 [m]."""
+    return -fluid * dot(x, up)
+
+
+class PoolDomain:
+    """Sides, lid and blocks.
+
+    Attributes:
+        box: ((x0, x1), (z0, z1)) [m]. periods: width along each axis where it repeats, else 0.
+        spacing, support: of the particles that move [m]. block_layers: layers whose rows are
+            complete in the present block.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        layers: Layers,
+        lattice: Carried,
+        sides: Sides,
+        lid: FlatLid | None,
+        potential: Callable[[np.ndarray], np.ndarray],
+        enthalpy: Callable[[np.ndarray], np.ndarray],
+    ) -> None:
+        self.backend, self.layers, self.lattice = backend, layers, lattice
+        self.sides, self.lid = sides, lid
+        self.potential, self.enthalpy = potential, enthalpy
+        self.is_box = sides.flow is not None
+        self.spacing, self.support = layers.spacing, float(lattice.support.min())
+        self.box = sides.box
+        self.periods = tuple(
+            high - low if sides.flow_kind(names[0]) == "periodic" else 0.0
+            for names, (low, high) in zip(FACES, self.box, strict=True)
+        )
+        thickness = layers.thickness
+        self._bottom = np.cumsum(thickness)
+        fine = thickness <= layers.spacing * (1.0 + 1e-9)
+        self.fine_depth = float(self._bottom[fine][-1])
+        self._starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
+        self.block_layers = 0
+        self._block: Block | None = None
+
+    @property
+    def width(self) -> float:
+        """Of the domain [m]."""
+        return self.box[0][1] - self.box[0][0]
+
+    def block_for(self, position: Any, roles: Roles) -> Block:
+        """Block that holds what flows, with room below it; it grows and never shrinks.
+
+        Raises:
+            PoolTooDeep: a particle below the finest layers flows.
+        """
+        fields = {"x": position, "fluid": roles.fluid}
+        (deepest,) = self.backend.pointwise(
+            fluid_depth, fields, (None,), reduce=("max",), up=(0.0, 1.0)
+        )
+        if deepest > self.fine_depth and not self.is_box:
+            raise PoolTooDeep(
+                f"the melt is {deepest:.4g} m deep and flows into layers coarser than "
+                f"{self.spacing:.4g} m, which begin at {self.fine_depth:.4g} m; give "
+                f'particles.fine_depth = "{1.3e9 * deepest:.0f} nm" or more'
+            )
+        total = self._bottom.size
+        needed = int(np.searchsorted(self._bottom, deepest + BELOW * self.support)) + 1
+        if self.is_box:
+            needed = total
+        if needed > self.block_layers:
+            self.block_layers = min(needed + ROOM, total)
+        if self._block is None or self._block.layers != self.block_layers:
+            below = self._bottom[self.block_layers - 1] + MARGIN * self.spacing
+            last = int(np.searchsorted(self._bottom, below * (1.0 + 1e-9))) + 1
+            last = min(last, total)
+            self._block = Block(
+                self.backend, self.lattice, self.sides, layers=self.block_layers,
+                rows=int(self._starts[self.block_layers]), count=int(self._starts[last]),
+                has_bottom=last == total, potential=self.potential, enthalpy=self.enthalpy,
+            )  # fmt: skip
+        return self._block

@@ -1,0 +1,284 @@
+"""Flow of the melt in a step: the parts of the projection scheme [Demuth2020, eqs. (67)-(71)].
+
+Velocities and pressures are fields of all particles, 0 where nothing flows. Each method is one line
+of the algorithm; `solver` puts them in order. Gradient and divergence are corrected by the same
+matrix C, so that they are exact on linear fields and skew-adjoint to each other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lasersph.boundaries.lid import FlatLid
+from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import dot
+from lasersph.physics.buoyancy import buoyancy
+from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
+from lasersph.solvers.melt_pool.published_pressure import PublishedPressure
+from lasersph.solvers.melt_pool.roles import Roles
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+from lasersph.solvers.melt_pool.viscous_step import ViscousStep
+from lasersph.sph.correction import (
+    bounded_inverse,
+    corrected_divergence_term,
+    corrected_symmetric_term,
+    correction_term,
+)
+
+ACCEPTED = 10.0
+"""Residual of the pressure equation over its tolerance with which a step is still taken."""
+
+
+@dataclass(frozen=True)
+class Liquid:
+    """Numbers of the melt: nu [m^2/s], rho [kg/m^3], beta [1/K], T_l [K], g [m/s^2], thermal
+    diffusivity [m^2/s], surface tension [N/m] (0 where it is not known)."""
+
+    viscosity: float
+    density: float
+    expansion: float
+    reference_temperature: float
+    gravity: float
+    diffusivity: float
+    surface_tension: float
+
+
+def advected(x, v, step):
+    """x + v dt [m] (67)."""
+    return x + step * v
+
+
+def updated(x, v_old, v, step):
+    """x + (v^n + v^(n+1)) dt / 2 [m] (71)."""
+    return x + 0.5 * step * (v_old + v)
+
+
+def stopped(v, fluid):
+    """Velocity of what flows, 0 of all others [m/s]; and |v|^2."""
+    kept = fluid * v
+    return kept, dot(kept, kept)
+
+
+def divergence_load(total, V, fraction, d):
+    """rho / dt V (D - d) [Pa m^(d-2)], and D [1/s]."""
+    return fraction * V * (total - d), total
+
+
+def shared(p_j, unknown_j, W_ij):
+    """Terms of the mean pressure of the edge."""
+    return unknown_j * p_j * W_ij, unknown_j * W_ij
+
+
+def dummy_pressure(total_0, total_1, p, dummy):
+    """Pressure of a dummy: the mean of the edge in reach; of others their own."""
+    if dummy > 0.0:
+        return total_0 / max(total_1, 1.0e-300)
+    return p
+
+
+def correct(total, v, step, density):
+    """v - dt / rho G{p} [m/s] (70), and |dv/dt|^2 of the pressure."""
+    a = total / density
+    return v - step * a, dot(a, a)
+
+
+def kinetic(v, V, density):
+    """Kinetic energy of a particle [J per meter]."""
+    return 0.5 * density * V * dot(v, v)
+
+
+def sizes(D, fluid):
+    """Square and size of the divergence of what flows."""
+    return fluid * D * D, fluid * abs(D)
+
+
+class Flow:
+    """Velocity and pressure of the particles, and the equations that advance them.
+
+    Attributes:
+        velocity: (2, n) [m/s]. pressure: (n,) [Pa]. fastest: largest speed [m/s]. push: largest
+            acceleration [m/s^2]. iterations: of the last step. divergence: rms and largest D after
+            the projection [1/s].
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        volume: Any,
+        liquid: Liquid,
+        lid: FlatLid | None,
+        settings: MeltPoolSettings,
+    ) -> None:
+        count = volume.shape[0]
+        self.backend, self.liquid, self.lid, self.settings = backend, liquid, lid, settings
+        self.velocity, self.before = backend.zeros((2, count)), backend.zeros((2, count))
+        self.pressure, self.body_force = backend.zeros(count), backend.zeros((2, count))
+        self._nothing = backend.zeros(count)
+        self.fastest = self.push = 0.0
+        self.iterations = {"pressure": 0, "viscosity": 0}
+        self.divergence = (0.0, 0.0)
+        self.viscous = ViscousStep(backend, volume, liquid.viscosity, settings.viscosity)
+        self._block: Block | None = None
+
+    def begin(self, velocity: np.ndarray) -> None:
+        """Start from velocities, host array (2, n) [m/s]."""
+        self.backend.copy(self.backend.asarray(velocity), self.velocity)
+        self.fastest = float(np.sqrt(np.max(np.sum(velocity * velocity, axis=0))))
+
+    def enter(self, block: Block) -> None:
+        """Work on a new block."""
+        self._block, backend, count = block, self.backend, block.count
+        self._C = backend.zeros((2, 2, count))
+        self._rhs, self._mask, self._p = (backend.zeros(count) for _ in range(3))
+        self._D, self._V = backend.zeros(count), block.volume
+        tolerance = self.settings.pressure_tolerance
+        self.equation = PressureEquation(
+            backend, count, block.largest_support, tolerance=tolerance, period=(0.0, 0.0)
+        )
+        self.published = None
+        if self.settings.pressure == "published":
+            self.published = PublishedPressure(backend, count, tolerance=tolerance)
+
+    @property
+    def current_block(self) -> Block | None:
+        """The block, once something flows."""
+        return self._block
+
+    @property
+    def correction(self) -> Any:
+        """(2, 2, count) correction matrices of the block."""
+        return self._C
+
+    @property
+    def block(self) -> Block:
+        """The block of particles that may move."""
+        assert self._block is not None
+        return self._block
+
+    def reach(self) -> Any:
+        """(n,) by how much the lid makes images faster than their sources [m/s]."""
+        return self._nothing if self.lid is None else self.lid.reach
+
+    def correct_kernel(self) -> None:
+        """Correction matrices at the present positions."""
+        block = self.block
+        self.backend.pair_sum(
+            correction_term, block.pairs, {"V": block.V}, self._C, finish=bounded_inverse
+        )
+        self.correction_of_all = block.tensor(self._C)
+
+    def predict(self, T: Any, roles: Roles, step: float) -> None:
+        """Velocity after viscous and body forces (68)."""
+        backend, liquid, block = self.backend, self.liquid, self.block
+        backend.copy(self.velocity, self.before)
+        backend.pointwise(
+            buoyancy, {"T": T}, self.body_force, beta=liquid.expansion,
+            T_l=liquid.reference_temperature, g=liquid.gravity, up=(0.0, 1.0),
+        )  # fmt: skip
+        self.iterations["viscosity"] = self.viscous.advance(
+            block, self.velocity, self.body_force, self.reach(), roles, step
+        )
+        self._stop(roles)
+
+    def project(self, roles: Roles, step: float) -> None:
+        """Pressure that makes the velocity free of divergence (69).
+
+        Raises:
+            NotConverged: the pressure equation is not solved.
+        """
+        backend, block = self.backend, self.block
+        self._diverge(roles, self.liquid.density / step)
+        head, count = backend.head, block.count
+        backend.copy(head(self.pressure, count), self._p)
+        mask = head(roles.unknown, count)
+        if self.published is not None:
+            self.published.set_operator(
+                block.pairs, block.source, block.weights, head(roles.role, count), self._V
+            )
+            outcome = self.published.solve(self._rhs, self._p)
+        else:
+            self.equation.set_operator(block.folded(), block.weights, mask, self._V)
+            outcome = self.equation.solve(self._rhs, self._p)
+        if not outcome.residual <= ACCEPTED * self.settings.pressure_tolerance:
+            raise NotConverged(
+                f"the pressure equation is left with a residual of {outcome.residual:.1e} of its "
+                f"right-hand side after {outcome.iterations} iterations"
+            )
+        self.iterations["pressure"] = outcome.iterations
+        self._share(roles)
+
+    def correct(self, roles: Roles, step: float) -> None:
+        """Velocity after the pressure (70)."""
+        backend, block = self.backend, self.block
+        fields = {
+            "p": block.gather(self.pressure), "V": block.V, "C": self.correction_of_all, "v": self.velocity,
+        }  # fmt: skip
+        (push,) = backend.pair_sum(
+            corrected_symmetric_term, block.pairs, fields, (self.velocity, None),
+            rows=backend.rows_where(roles.fluid, 1.0), finish=correct, reduce=(None, "max"),
+            step=step, density=self.liquid.density,
+        )  # fmt: skip
+        self.push = max(push, 0.0) ** 0.5
+        self._stop(roles)
+
+    def measure_divergence(self, roles: Roles, count: float) -> None:
+        """Divergence that the projection left, for observers."""
+        self._diverge(roles, 1.0)
+        fields = {"D": self._D, "fluid": self.backend.head(roles.fluid, self.block.count)}
+        square, largest = self.backend.pointwise(
+            sizes, fields, (None, None), reduce=("sum", "max")
+        )
+        self.divergence = ((square / max(count, 1.0)) ** 0.5, largest)
+
+    def kinetic_energy(self, volume: Any) -> float:
+        """Of all that flows [J per meter]; volume (n,) [m^2]."""
+        fields = {"v": self.velocity, "V": volume}
+        (energy,) = self.backend.pointwise(
+            kinetic, fields, (None,), reduce=("sum",), density=self.liquid.density
+        )
+        return energy
+
+    def rest(self) -> None:
+        """Nothing flows any more."""
+        if self.fastest > 0.0:
+            self.backend.fill(self.velocity, 0.0)
+            self.backend.fill(self.pressure, 0.0)
+        self.fastest = self.push = 0.0
+        self.divergence = (0.0, 0.0)
+        self.iterations = {"pressure": 0, "viscosity": 0}
+
+    def _diverge(self, roles: Roles, fraction: float) -> None:
+        block = self.block
+        fields = {"v": block.velocity(self.velocity, self.reach()), "V": block.V, "C": self._C}
+        self.backend.pair_sum(
+            corrected_divergence_term, block.pairs, fields, (self._rhs, self._D),
+            finish=divergence_load, fraction=fraction, d=0.0,
+        )  # fmt: skip
+
+    def _share(self, roles: Roles) -> None:
+        """Give dummies the pressure of the edge."""
+        backend, block, head = self.backend, self.block, self.backend.head
+        backend.copy(self._p, head(self.pressure, block.count))
+        fields = {
+            "p": block.gather(self.pressure), "unknown": block.gather(roles.unknown),
+            "dummy": roles.dummy,
+        }  # fmt: skip
+        backend.pair_sum(
+            shared, block.pairs, fields, self._p, finish=dummy_pressure,
+            rows=backend.rows_where(head(roles.dummy, block.count), 1.0),
+        )  # fmt: skip
+        backend.copy(self._p, head(self.pressure, block.count))
+
+    def _stop(self, roles: Roles) -> None:
+        """Hold everything but the fluid; find the largest speed."""
+        fields = {"v": self.velocity, "fluid": roles.fluid}
+        (square,) = self.backend.pointwise(
+            stopped, fields, (self.velocity, None), reduce=(None, "max")
+        )
+        self.fastest = max(square, 0.0) ** 0.5
+

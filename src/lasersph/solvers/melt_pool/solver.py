@@ -1,0 +1,249 @@
+"""`MeltPool`: heat, melting and the incompressible flow of what is molten.
+
+`step()` is the algorithm of [Demuth2020, Section 4.3.1]. Predictor, pressure and correction use the
+advected positions (67), enthalpy, shift and adjustment the updated ones (71). Where nothing flows a
+step is that of `Conduction`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.search import EscapedParticle
+from lasersph.physics.flow_limits import flow_limits
+from lasersph.solvers.conduction.solver import ARRAYS, Conduction
+from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.flow import Flow, advected, updated
+from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
+from lasersph.solvers.melt_pool.rearrange import Rearrangement
+from lasersph.solvers.melt_pool.roles import Roles
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+from lasersph.solvers.melt_pool.steadiness import Steadiness
+
+RETRIES = 8
+FLOW_ARRAYS = ("position", "velocity", "pressure")
+
+
+class MeltPool:
+    """Solver of a run whose melt flows.
+
+    Attributes:
+        heat: the solver of enthalpies. flow: velocity and pressure. domain: lid, sides, blocks.
+        position: (2, n) of all particles [m]. roles: which flow. fluid_count: how many do.
+        spacing_min: smallest distance of two particles of the block [m].
+    """
+
+    def __init__(
+        self, heat: Conduction, flow: Flow, domain: PoolDomain, settings: MeltPoolSettings
+    ) -> None:
+        backend, count = heat.body.backend, heat.body.count
+        self.heat, self.flow, self.domain, self.settings = heat, flow, domain, settings
+        self.body, self.backend = heat.body, backend
+        self.position = backend.asarray(heat.body.filling.position[:, :count])
+        self._advected = backend.zeros((2, count))
+        self._volume = backend.asarray(heat.body.filling.volume[:count])
+        self.roles = Roles(backend, count, domain.spacing, is_box=domain.is_box)
+        self.rearrangement = Rearrangement(
+            backend, count, settings.shifting, domain.spacing, domain.box, domain.periods
+        )
+        self.pairs = HeatPairs(backend, heat.body)
+        self.steadiness = Steadiness(heat.time_settings.steady, domain.width)
+        self.spacing_min = domain.spacing
+        self.fluid_count = 0.0
+        self._has_moved = False
+        self._kept: dict[str, Any] = {}
+
+    @property
+    def state(self) -> Any:
+        """State of heat: time, energies, enthalpies."""
+        return self.heat.state
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Arrays of the particles by name."""
+        own = (self.position, self.flow.velocity, self.flow.pressure)
+        return self.heat.fields | dict(zip(FLOW_ARRAYS, own, strict=True))
+
+    @property
+    def iterations(self) -> dict[str, int]:
+        """Iterations of the last step."""
+        return self.heat.iterations | self.flow.iterations
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether the flow no longer changes, where the case asks to stop then."""
+        return self.steadiness.reached
+
+    def carried(self) -> dict[str, float]:
+        """Numbers beside the fields that survive a step."""
+        return self.heat.carried() | self.steadiness.carried() | {
+            "fastest_flow": self.flow.fastest,
+            "push": self.flow.push,
+            "block_layers": self.domain.block_layers,
+            "has_moved": float(self._has_moved),
+            "spacing_min": self.spacing_min,
+            "divergence_rms": self.flow.divergence[0],
+            "divergence_max": self.flow.divergence[1],
+        }  # fmt: skip
+
+    def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
+        """Continue from the arrays of `fields` and the numbers of `carried`."""
+        backend, flow = self.backend, self.flow
+        self.heat.restore({name: arrays[name] for name in ARRAYS}, numbers)
+        for name, own in zip(
+            FLOW_ARRAYS, (self.position, flow.velocity, flow.pressure), strict=True
+        ):
+            backend.copy(backend.asarray(arrays[name]), own)
+        self._restore_numbers(numbers)
+
+    def time_step_limits(self) -> dict[str, float]:
+        """Named limits of the next step [s]."""
+        limits = self.heat.time_step_limits()
+        if not self._melt():
+            return limits
+        flow, liquid = self.flow, self.flow.liquid
+        found = flow_limits(
+            self.settings.step_limits,
+            support=self.domain.support,
+            speed=max(flow.fastest, self.domain.sides.fastest_wall()),
+            acceleration=flow.push,
+            viscosity=liquid.viscosity,
+            diffusivity=liquid.diffusivity,
+            density=liquid.density,
+            surface_tension=liquid.surface_tension,
+            is_implicit=self.settings.viscosity == "implicit",
+        )
+        return limits | {name: limit for name, limit in found.items() if limit < np.inf}
+
+    def step(self, step: float, pace: float | None = None) -> float:
+        """Advance by `step` [s], or by less where that fails; returns the step taken.
+
+        Raises:
+            NotConverged: not even a 256th of the step succeeds; the state is as before.
+            PoolTooDeep: the melt reaches the graded layers.
+        """
+        self._keep()
+        for attempt in range(RETRIES + 1):
+            try:
+                self._advance(step, pace)
+                break
+            except (NotConverged, EscapedParticle):
+                self._return()
+                if attempt == RETRIES:
+                    raise
+                step *= 0.5
+                pace = step
+        return step
+
+    def _advance(self, step: float, pace: float | None) -> None:
+        if not self._melt():
+            self._settle_pairs()
+            self.heat.attempt(step, pace)
+            return
+        self._has_moved = True
+        self.advect(step)
+        self.flow.predict(self.state.temperature, self.roles, step)
+        self.flow.project(self.roles, step)
+        self.flow.correct(self.roles, step)
+        self.update_positions(step)
+        self.heat.attempt(step, pace)
+        self.shift(step)
+        self.adjust()
+        self._measure()
+
+    def advect(self, step: float) -> None:
+        """Advected positions with their pairs, walls and surface (67)."""
+        domain, flow = self.domain, self.flow
+        fields = {"x": self.position, "v": flow.velocity}
+        self.backend.pointwise(advected, fields, self._advected, step=step)
+        block = domain.block_for(self.position, self.roles)
+        if block is not flow.current_block:
+            flow.enter(block)
+        block.find_pairs(self._advected)
+        self.roles.find_walls(block.pairs, block.gather, block.count)
+        if domain.lid is not None:
+            domain.lid.find_surface(self._advected)
+            domain.lid.drive(
+                self.state.temperature, self._advected, block.pairs, block.V, block.gather
+            )
+        flow.correct_kernel()
+
+    def update_positions(self, step: float) -> None:
+        """Positions at the end of the step, and the weights of heat there (71)."""
+        block = self.flow.block
+        fields = {"x": self.position, "v_old": self.flow.before, "v": self.flow.velocity}
+        self.backend.pointwise(updated, fields, self.position, step=step)
+        block.move(self.position)
+        self.flow.correct_kernel()
+        self.pairs.renew(block)
+
+    def shift(self, step: float) -> None:
+        """Displacements that keep the particles evenly spread (73)."""
+        lid = self.domain.lid
+        at_face = self.roles.dummy if lid is None else lid.at_surface
+        speed = max(self.flow.fastest, self.domain.sides.fastest_wall())
+        self.rearrangement.shift(self.flow.block, self.roles, at_face, speed, step)
+
+    def adjust(self) -> None:
+        """Velocity and enthalpy at the shifted positions (74), (75)."""
+        flow, state, block = self.flow, self.state, self.flow.block
+        C = flow.correction
+        self.rearrangement.adjust_velocity(block, self.roles, flow.velocity, flow.reach(), C)
+        self.rearrangement.adjust_enthalpy(
+            block, self.roles, state.enthalpy, state.vapor_fraction, self.body.mass, C
+        )
+        self.rearrangement.settle(self.position, self.roles)
+        state.refresh(self.body)
+
+    def _melt(self) -> bool:
+        """Whether anything flows."""
+        self.fluid_count = self.roles.find_fluid(self.state.melt_fraction)
+        if self.fluid_count == 0.0:
+            self.flow.rest()
+        return self.fluid_count > 0.0
+
+    def _settle_pairs(self) -> None:
+        """Where the flow has ended, conduct between the final positions from now on."""
+        if not self._has_moved:
+            return
+        block = self.domain.block_for(self.position, self.roles)
+        block.find_pairs(self.position)
+        self.pairs.renew(block)
+        self._has_moved = False
+
+    def _measure(self) -> None:
+        """What observers want to know of the step."""
+        flow, block = self.flow, self.flow.block
+        flow.measure_divergence(self.roles, self.fluid_count)
+        self.spacing_min = block.smallest_distance(self.position)
+        energy = flow.kinetic_energy(self._volume)
+        self.steadiness.look(self.state.time, flow.fastest, energy)
+
+    def _keep(self) -> None:
+        """Remember the state, for a step that fails."""
+        for name, field in self.fields.items():
+            if name not in self._kept:
+                self._kept[name] = self.backend.zeros(field.shape)
+            self.backend.copy(field, self._kept[name])
+        self._numbers = self.carried()
+
+    def _return(self) -> None:
+        """Go back to the state that was kept."""
+        for name, field in self.fields.items():
+            self.backend.copy(self._kept[name], field)
+        self.heat.restore_numbers(self._numbers)
+        self.state.refresh(self.body)
+        self._restore_numbers(self._numbers)
+
+    def _restore_numbers(self, numbers: dict[str, float]) -> None:
+        flow = self.flow
+        flow.fastest, flow.push = numbers["fastest_flow"], numbers["push"]
+        flow.divergence = (numbers["divergence_rms"], numbers["divergence_max"])
+        self.domain.block_layers = int(numbers["block_layers"])
+        self._has_moved = bool(numbers["has_moved"])
+        self.spacing_min = numbers["spacing_min"]
+        self.steadiness.restore(numbers)
+        self.fluid_count = self.roles.find_fluid(self.state.melt_fraction)

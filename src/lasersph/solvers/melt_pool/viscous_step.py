@@ -1,0 +1,94 @@
+"""Viscous forces of a step: explicit as published, or those at the end of the step.
+
+Implicit: (V_i + s sum_j g_ij) v_i - s sum_j g_ij v_j = V_i (v_i + dt b_i), s = nu dt, for the fluid
+particles, both components at once, by conjugate gradients from the present velocity. Images count
+with the velocity that the sides give them, resting particles with zero; the system is symmetric and
+positive, since an image changes at most the sign of a component.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lasersph.compute.backend import Backend
+from lasersph.physics.viscosity import (
+    advance,
+    forced,
+    momentum,
+    multiply,
+    predict,
+    start,
+    turn,
+    weight_of,
+)
+from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.roles import Roles
+
+TOLERANCE = 1e-8
+"""Residual over that of the first guess, in 2-norms."""
+MOST = 200
+
+
+class ViscousStep:
+    """The prediction of velocities with its work vectors.
+
+    Args:
+        volume: (n,) V [m^2]. viscosity: nu [m^2/s]. kind: "implicit" or "explicit".
+    """
+
+    def __init__(self, backend: Backend, volume: Any, viscosity: float, kind: str) -> None:
+        count, self.volume = volume.shape[0], volume
+        self.backend, self.nu, self.is_implicit = backend, viscosity, kind == "implicit"
+        vectors = 5 if self.is_implicit else 1
+        self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
+        self._g_sum = backend.zeros(count)
+
+    def advance(
+        self, block: Block, v: Any, b: Any, reach: Any, roles: Roles, step: float
+    ) -> int:
+        """Advance v (2, n) [m/s] under viscosity and the body force b [m/s^2]; iterations."""
+        backend = self.backend
+        rows = backend.rows_where(roles.fluid, 1.0)
+        if rows.shape[0] == 0:
+            return 0
+        fields = {
+            "v": block.velocity(v, reach), "g_ij": block.weights, "V": block.V, "b": b,
+        }  # fmt: skip
+        if not self.is_implicit:
+            backend.pair_sum(
+                momentum, block.pairs, fields, self._star, rows=rows, finish=predict, nu=self.nu,
+                step=step,
+            )  # fmt: skip
+            backend.copy(self._star, v)
+            return 0
+        s = self.nu * step
+        r, z, d, q = self._work
+        for work in self._work:
+            backend.fill(work, 0.0)
+        backend.pair_sum(weight_of, block.pairs, fields, self._g_sum, rows=rows)
+        backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
+        fields |= {"v_star": self._star, "g_sum": self._g_sum}
+        r_z, r_r = backend.pair_sum(
+            momentum, block.pairs, fields, (r, z, None, None), rows=rows, finish=start,
+            reduce=(None, None, "sum", "sum"), s=s,
+        )  # fmt: skip
+        wanted, iterations = TOLERANCE**2 * r_r, 0
+        backend.copy(z, d)
+        points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume,
+                  "g_sum": self._g_sum}  # fmt: skip
+        while r_r > wanted and iterations < MOST:
+            fields = {"v": block.homogeneous(d), "d": d, "g_ij": block.weights, "V": block.V}
+            (d_q,) = backend.pair_sum(
+                momentum, block.pairs, fields, (q, None), rows=rows, finish=multiply,
+                reduce=(None, "sum"), s=s,
+            )  # fmt: skip
+            if not d_q > 0.0:
+                break
+            before = r_z
+            r_z, r_r = backend.pointwise(
+                advance, points, (v, r, z, None, None), rows=rows,
+                reduce=(None, None, None, "sum", "sum"), alpha=r_z / d_q, s=s,
+            )  # fmt: skip
+            backend.pointwise(turn, points, d, rows=rows, beta=r_z / before)
+            iterations += 1
+        return iterations
