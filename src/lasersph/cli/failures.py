@@ -57,7 +57,7 @@ def _described(error: Exception) -> tuple[str, int]:
         return str(error), WRONG
     if hasattr(error, "format_message"):  # usage errors of typer, whichever click it brings
         text = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
-        return f"{text.rstrip('.')}; see lasersph --help", WRONG
+        return f"{' '.join(text.split()).rstrip('.')}; see lasersph --help", WRONG
     if type(error).__name__ == "Abort":
         return "interrupted", INTERRUPTED
     from lasersph.reading import CaseError

@@ -84,11 +84,12 @@ def threshold(
 
 
 def _answer(found: Any) -> str:
-    units = {"fluence": ("J/cm^2", 1e-4), "intensity": ("W/cm^2", 1e-4), "pulse_energy": ("J", 1.0)}
-    unit, factor = units.get(found.key.rpartition(".")[2], ("W", 1.0))
+    from lasersph.studies import show_energy
+
+    below, above = (show_energy(found.key, value) for value in (found.below, found.above))
     return (
-        f"{found.key} = {found.value * factor:.4g} {unit} +- {100 * found.tolerance:.2g} % "
-        f"to {found.of} (between {found.below * factor:.5g} and {found.above * factor:.5g})"
+        f"{found.key} = {show_energy(found.key, found.value, 4)} +- {100 * found.tolerance:.2g} % "
+        f"to {found.of} (between {below} and {above})"
     )
 
 

@@ -4,7 +4,7 @@ spacing_study        what the numbers of a case tend to as the particles get fin
 fluence_threshold    the fluence at which melting or boiling begins
 """
 
-from lasersph.studies.fluence_threshold import Threshold, Trial, threshold
+from lasersph.studies.fluence_threshold import Threshold, Trial, show_energy, threshold
 from lasersph.studies.spacing_study import SpacingStudy, StudyRow, converge
 from lasersph.studies.variation import changed
 
@@ -15,5 +15,6 @@ __all__ = [
     "Trial",
     "changed",
     "converge",
+    "show_energy",
     "threshold",
 ]

@@ -16,6 +16,9 @@ from lasersph.lasers.laser import AMOUNTS
 from lasersph.studies.variation import Run, changed, simulate
 
 Event = Literal["melt", "vaporize"]
+UNITS = {"fluence": ("J/cm^2", 1e-4), "intensity": ("W/cm^2", 1e-4), "pulse_energy": ("J", 1.0),
+         "power": ("W", 1.0)}  # fmt: skip
+"""By the last part of the key: unit to show and its number of SI units."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,12 @@ class Threshold:
     def tolerance(self) -> float:
         """Half the width of the bracket over its middle."""
         return 0.5 * (self.above - self.below) / self.value
+
+
+def show_energy(key: str, value: float, digits: int = 5) -> str:
+    """An energy in SI with the unit in which a user thinks of it."""
+    unit, factor = UNITS[key.rpartition(".")[2]]
+    return f"{value * factor:.{digits}g} {unit}"
 
 
 def threshold(
@@ -115,7 +124,8 @@ class _Search:
         self.trials.append(Trial(value, reached, hottest))
         if self.report:
             word = "reached" if reached else "not reached"
-            self.report(f"run {number}: {self.key} = {value:.6g}: {hottest:.1f} K, {word}")
+            energy = f"{self.key} = {show_energy(self.key, value)}"
+            self.report(f"run {number}: {energy}: {hottest:.1f} K, {word}")
         return reached
 
     def expand(self, guess: float, largest_factor: float) -> tuple[float, float]:
@@ -130,8 +140,8 @@ class _Search:
             here = following
         side = "above" if factor > 1.0 else "below"
         raise ValueError(
-            f"the threshold to {self.of} lies {side} {here:g} (SI), {largest_factor:g} times away "
-            f"from the {self.key} of the case; give a bracket"
+            f"the threshold to {self.of} lies {side} {show_energy(self.key, here)}, "
+            f"{largest_factor:g} times away from the {self.key} of the case; give a bracket"
         )
 
 

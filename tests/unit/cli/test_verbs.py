@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import lasersph
+from lasersph.case import available_cases
 from lasersph.cli import main
 
 PROGRAM = "import sys; from lasersph.cli import main; sys.exit(main())"
@@ -45,13 +46,9 @@ def test_version(capsys):
 
 def test_cases(capsys):
     """The shipped cases with their titles."""
-    text = said(capsys, "cases")
-    assert [line.split()[0] for line in text.splitlines()] == [
-        "dlip-aluminium",
-        "dlip-steel",
-        "pulsed-heating",
-        "stefan",
-    ]
+    lines = [line.split(maxsplit=1) for line in said(capsys, "cases").splitlines()]
+    assert [name for name, _title in lines] == list(available_cases())
+    assert {"dlip-aluminium", "dlip-steel", "pulsed-heating", "stefan"} <= {n for n, _ in lines}
 
 
 def test_schema_is_json(capsys):
@@ -212,8 +209,8 @@ def test_validate(monkeypatch, capsys):
     """Tables and JSON of every validation; exit code 1 where one did not pass."""
     folders = []
 
-    def fake(name, folder, *, quick):
-        folders.append((str(folder), quick))
+    def fake(name, folder, *, quick, threads):
+        folders.append((str(folder), quick, threads))
         return FakeReport(name)
 
     monkeypatch.setattr("lasersph.validation.names", lambda: ("good", "bad"))
@@ -221,9 +218,10 @@ def test_validate(monkeypatch, capsys):
     monkeypatch.setattr("lasersph.validation.validate", fake)
     assert said(capsys, "validate", "--list") == "good  A?\nbad   B?\n"
     assert "1 of 1 passed" in said(capsys, "validate", "good", "good", "--quick")
-    assert folders == [("runs/validation/good", True)]
-    text = said(capsys, "validate", "--json", "all.json", "--out", "v", code=1)
+    assert folders == [("runs/validation/good", True, None)]
+    text = said(capsys, "validate", "--json", "all.json", "--out", "v", "--threads", "1", code=1)
     assert "table of bad" in text and "not passed: bad" in text
+    assert folders[1:] == [("v/good", False, 1), ("v/bad", False, 1)]
     content = json.loads(Path("all.json").read_text())
     assert content["passed"] is False and content["schema_version"] == 1
     assert list(content["validations"]) == ["good", "bad"]

@@ -62,7 +62,7 @@ def test_the_cases_own_energy_is_varied(tmp_path):
     assert found.key == "laser.intensity"
     assert found.value == pytest.approx(MELTS / 1e-8, rel=0.01)
     assert folders[:2] == ["01-intensity-1e+11", "02-intensity-5e+11"]
-    assert lines[0].startswith("run 1: laser.intensity = 1e+11: 724.7 K, not reached")
+    assert lines[0].startswith("run 1: laser.intensity = 1e+07 W/cm^2: 724.7 K, not reached")
 
 
 def test_wrong_bracket_and_no_bracket_are_said(tmp_path):
