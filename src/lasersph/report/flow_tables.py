@@ -148,10 +148,10 @@ WALLS_HEAD = ("side", "mean temperature", "mean heat flux into the box", "Nussel
 def dimensionless(summary: dict[str, Any]) -> Rows:
     """The dimensionless numbers of the case."""
     numbers = summary.get("dimensionless", {}).get("numbers", {})
-    return [(NAMES.get(name, name), shown(value)) for name, value in numbers.items()]
+    return [(str(NAMES.get(name, name)), shown(value)) for name, value in numbers.items()]
 
 
-NAMES = {
+NAMES: dict[str, str] = {
     "Fo": "Fourier number Fo",
     "La": "laser number La",
     "Ph_solid_liquid": "phase change number of melting",
