@@ -217,20 +217,18 @@ def _inverse(backend: Backend, level: Level) -> np.ndarray:
     n, stencil = level.count, level.stencil
     s, a = (backend.to_host(level.at[name]).astype(np.float64) for name in ("s", "a"))
     columns, lines = level.x.nodes, level.z.nodes
-    K = np.zeros((n, n))
-    for k in range(n):
-        c, m = divmod(k, lines)
-        for i in (-1, 0, 1):
-            for j in (-1, 0, 1):
-                column = grid_nodes.inside(c + i, columns, level.x.wraps)
-                line = grid_nodes.inside(m + j, lines, level.z.wraps)
-                other = grid_nodes.node(column, line, columns, lines)
-                if other != k and other < n:
-                    name = "aslant" if i and j else "across" if i else "along"
-                    g = stencil[name] * s[k] * s[other]
-                    K[k, other] -= g
-                    K[k, k] += g
-        K[k, k] += a[k]
+    c, m = np.divmod(np.arange(n), lines)
+    K = np.diag(a)
+    for i in (-1, 0, 1):
+        for j in (-1, 0, 1):
+            column = (c + i) % columns if level.x.wraps else c + i
+            line = (m + j) % lines if level.z.wraps else m + j
+            other = column * lines + line
+            is_inside = (column >= 0) & (column < columns) & (line >= 0) & (line < lines)
+            k = np.flatnonzero(is_inside & (other != np.arange(n)))
+            g = stencil["aslant" if i and j else "across" if i else "along"] * s[k] * s[other[k]]
+            K[k, other[k]] -= g
+            K[k, k] += g
     diagonal = np.diag(K).copy()
     is_kept = np.ones(n, bool)
     for k in range(n):
