@@ -201,6 +201,19 @@ def test_nothing_molten():
     assert outcome.iterations == 0 and solver.components.count == 0 and not p.any()
 
 
+def test_particle_without_weights():
+    """One that touches the pool but exchanges nothing gets a finite pressure of its own."""
+    backend = compute.cpu(threads=2)
+    pairs = scattered(12)
+    g = np.where((pairs.i == 50) | (pairs.j == 50), 0.0, pairs.g)
+    solver = PressureEquation(backend, pairs.count, pairs.support, tolerance=1e-8)
+    g, one, volume = pairs.arrays(backend, g, np.ones(pairs.count), pairs.volume)
+    solver.set_operator(pairs.neighbors(backend), g, one, volume)
+    b = rough(pairs.count)
+    outcome, p = solved(backend, solver, b)
+    assert outcome.residual <= 1e-8 and np.isfinite(p).all()
+
+
 def test_periodic_box():
     """Whole periods along x and mirrors along z: one component, as by a pseudo-inverse."""
     backend = compute.cpu(threads=2)

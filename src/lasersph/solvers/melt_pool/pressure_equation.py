@@ -54,10 +54,11 @@ def inner(g_ij, component_i, component_j):
 
 
 def total_weight(total, component, a):
-    """Diagonal of A; 1 where there is no equation."""
-    if component > 0:
-        return total + a
-    return 1.0 + 0.0 * a
+    """Diagonal of A; 1 where there is no equation, or none with a weight."""
+    d = total + a
+    if component > 0 and d > 0.0:
+        return d
+    return 1.0 + 0.0 * d
 
 
 def right_side(mask, a, p_b, f, b):
