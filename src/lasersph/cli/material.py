@@ -18,16 +18,6 @@ Plot = Annotated[
     Path | None,
     typer.Option("--plot", metavar="FILE", help="Draw all properties, e.g. into steel.png."),
 ]
-SHOWN = {
-    "density": "kg/m^3",
-    "heat_capacity": "J/(kg K)",
-    "conductivity": "W/(m K)",
-    "viscosity": "Pa s",
-    "surface_tension": "N/m",
-    "surface_tension_slope": "N/(m K)",
-    "expansion": "1/K",
-    "reflectivity": "",
-}
 
 
 @app.command("list")
@@ -75,9 +65,9 @@ def _draw(material: Material, file: Path) -> None:
 
 def _values(material: Material, name: str, law: Law[Any]) -> str:
     """Value, or the values at both ends of the range in which the material needs the law."""
-    from lasersph.materials.checking import LIQUID_ONLY
+    from lasersph.materials.checking import LIQUID_ONLY, UNITS
 
-    unit = SHOWN.get(name, "")
+    unit = UNITS[name]
     bottom = material.liquidus if name in LIQUID_ONLY else None
     top = material.vaporization.temperature if material.vaporization else 3000.0
     ends = max(law.lower, bottom or material.reference_temperature), min(law.upper, top)

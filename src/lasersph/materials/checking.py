@@ -29,6 +29,20 @@ LIQUID_ONLY = (
     "surface_tension_slope",
     "expansion",
 )
+UNITS = {
+    "density": "kg/m^3",
+    "heat_capacity": "J/(kg K)",
+    "conductivity": "W/(m K)",
+    "conductivity_printed": "W/(m K)",
+    "diffusivity": "m^2/s",
+    "viscosity": "Pa s",
+    "kinematic_viscosity": "m^2/s",
+    "surface_tension": "N/m",
+    "surface_tension_slope": "N/(m K)",
+    "expansion": "1/K",
+    "reflectivity": "",
+}
+"""Of every property, as shown to a user."""
 ROUNDING = 0.02
 """Relative difference that rounding of printed numbers explains."""
 
@@ -90,7 +104,7 @@ def _ranges(material: Material) -> list[Finding]:
             where = name if phase == "all" else f"{name}.{phase}"
             if needed is None:
                 continue
-            gaps = _gaps(law, *needed)
+            gaps = _gaps(law, *needed, UNITS[name])
             if gaps:
                 found.append(Finding("note", where, "; ".join(gaps)))
             else:
@@ -112,14 +126,14 @@ def _needed(material: Material, name: str, phase: str) -> tuple[float, float] | 
     return (material.reference_temperature, end) if end else None
 
 
-def _gaps(law: Law[Any], lower: float, upper: float) -> list[str]:
+def _gaps(law: Law[Any], lower: float, upper: float, unit: str) -> list[str]:
     gaps = []
     if law.lower > lower + 2.0:
-        value = float(law.at(law.lower))
-        gaps.append(f"below {law.lower:g} K the value there ({value:.4g}) is held")
+        value = f"{float(law.at(law.lower)):.4g} {unit}".strip()
+        gaps.append(f"below {law.lower:g} K the value there ({value}) is held")
     if law.upper < upper - 2.0:
-        value = float(law.at(law.upper))
-        gaps.append(f"above {law.upper:g} K the value there ({value:.4g}) is held")
+        value = f"{float(law.at(law.upper)):.4g} {unit}".strip()
+        gaps.append(f"above {law.upper:g} K the value there ({value}) is held")
     return gaps
 
 
@@ -187,7 +201,10 @@ def _liquid(material: Material) -> list[Finding]:
         eta = float(material.viscosity_at(material.liquidus))
         nu = float(material.kinematic_viscosity_at(material.liquidus))
         level = "ok" if 2e-4 <= eta <= 2e-2 else "warning"
-        text = f"eta = {eta:.3g} Pa s, nu = {nu:.3g} m^2/s at the liquidus (rho = {eta / nu:.0f})"
+        text = (
+            f"eta = {eta:.3g} Pa s, nu = {nu:.3g} m^2/s at the liquidus "
+            f"(rho = {eta / nu:.0f} kg/m^3)"
+        )
         found.append(Finding(level, "viscosity", text))
     if material.surface_tension is not None or material.surface_tension_slope is not None:
         slope = float(material.surface_tension_slope_at(material.liquidus + 1.0))

@@ -19,7 +19,7 @@ from lasersph.solvers.time_step import binding
 
 PAIRS_PER_SECOND = 2.0e8
 """Of one thread; for the expected time only."""
-PRODUCTS_PER_STEP = {"implicit": 30.0, "explicit": 2.0, "flow": 100.0}
+PRODUCTS_PER_STEP = {"implicit": 12.0, "explicit": 2.0, "flow": 100.0}
 EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
 """Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx; 2-D interpolated."""
 
@@ -130,11 +130,16 @@ def _heat_steps(case: Case, layers: Layers) -> tuple[dict[str, float], int]:
     limits["light"] = longest
     if pulse is None:
         return limits, int(np.ceil(time.end / longest))
-    steps, now = 0, 0.0
+    steps, now, lit_until = 0, 0.0, 0.0
     while now < time.end and steps < 10_000_000:
-        now += max(next_light(pulse, now, longest), longest)
+        step = next_light(pulse, now, longest)
+        if lit_until > 0.0:
+            step = min(step, max(longest, time.cooling * (now - lit_until)))
+        if pulse.active(now, now + step):
+            lit_until = now + step
+        now += step
         steps += 1
-    return limits, int(1.3 * steps)
+    return limits, steps
 
 
 def _lengths(case: Case) -> tuple[float | None, float | None]:
