@@ -94,7 +94,9 @@ def _rows(case: Case, expected: Forecast, threads: int) -> list[tuple[str, str]]
         shown = show_quantity(limit, "s") if isfinite(limit) else "none"
         rows.append((f"step limit: {name}", shown + binds))
     rows.append(("steps", f"about {expected.steps} to {show_quantity(case.time.end, 's')}"))
-    rows.append(("time", f"roughly {duration(expected.wall_time)} on {threads} threads"))
+    rows.append(
+        ("time", f"roughly {duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}")
+    )
     if expected.flow is not None:
         rows.append(("expected speed", f"about {expected.flow.speed:.2g} m/s"))
     for name, length in (

@@ -19,6 +19,8 @@ from lasersph.solvers.time_step import binding
 
 PAIRS_PER_SECOND = 2.0e8
 """Of one thread; for the expected time only."""
+SECONDS_PER_STEP = 3e-3
+"""Besides the products: calls of loops, observers, files."""
 PRODUCTS_PER_STEP = {"implicit": 12.0, "explicit": 2.0, "flow": 100.0}
 EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
 """Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx; 2-D interpolated."""
@@ -76,7 +78,8 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         limits=limits,
         binding=binding(limits)[0],
         steps=steps,
-        wall_time=steps * products * pairs / PAIRS_PER_SECOND / max(1, threads),
+        wall_time=steps
+        * (products * pairs / PAIRS_PER_SECOND / max(1, threads) + SECONDS_PER_STEP),
         absorption_length=length,
         penetration=penetration,
         warnings=(
