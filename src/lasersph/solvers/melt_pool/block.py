@@ -167,13 +167,7 @@ class Block:
         ):  # fmt: skip
             self.rules[name] = backend.asarray(_padded(values, count, 0.0))
         support = lattice.support[source]
-        layer = lattice.layer[source]
-        layer[count:] = np.where(
-            images.crossed[1] == UPPER, -1 - layer[count:],
-            np.where(images.crossed[1] == LOWER, 2 * lattice.layers - 1 - layer[count:],
-                     layer[count:]),
-        )  # fmt: skip
-        normal, lateral = lattice.weighing.factors(layer)
+        layer, normal, lateral = self._factors(source, images.crossed[1])
         self.V = backend.asarray(lattice.volume[source])
         self.support = backend.asarray(support)
         self._weighing = {
@@ -248,6 +242,22 @@ class Block:
         fields = {"x": place, "sign": self.sign, "offset": self.offset}
         self.backend.pointwise(mirrored, fields, place)
         return place
+
+    def _factors(self, source: np.ndarray, crossed: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Layer, running normal factor and lateral factor of particles and images.
+
+        Beyond surface and bottom the factors of `sph.second_moment` are mirrored, however deep the
+        layer is from which a particle came there.
+        """
+        lattice, last = self.lattice, self.lattice.layers - 1
+        layer = lattice.layer[source]
+        normal, lateral = lattice.weighing.factors(layer)
+        ends, _ = lattice.weighing.factors(np.array([-1, 0, last, last + 1]))
+        beyond = np.concatenate([np.zeros(self.count, np.uint8), crossed])
+        for end, mirror, ends_at in ((UPPER, -1, ends[:2]), (LOWER, 2 * last + 1, ends[2:])):
+            normal = np.where(beyond == end, ends_at.sum() - normal, normal)
+            layer = np.where(beyond == end, mirror - layer, layer)
+        return layer, normal, lateral
 
     def _weigh(self) -> None:
         weighing = self.lattice.weighing
