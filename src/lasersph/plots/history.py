@@ -117,7 +117,7 @@ def time_step_history(run: Run) -> Figure:
     else:
         all_axes[0].set_ylim(bottom=0.0)
     style.label(all_axes[0], "", f"time step [{unit.name}]")
-    style.legend(all_axes[0])
+    style.legend_above(figure, all_axes[0], columns=4)
     for k, column in enumerate(counts):
         text = column.removeprefix("iterations_").replace("_", " ")
         axes = all_axes[1]
