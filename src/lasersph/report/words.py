@@ -120,4 +120,9 @@ def notes_of(summary: dict[str, Any]) -> list[str]:
             f"The spacing of {quantity(requested, 'm')} was rounded to {quantity(used, 'm', 6)} so"
             " that whole cells fill the block."
         )
+    if summary.get("surface", {}).get("symmetry_factor") == 2:
+        found.append(
+            "Half a period was computed: widths are those of the whole pool, energies those of the"
+            " half."
+        )
     return found

@@ -112,6 +112,9 @@ def test_notes(folder):
     notes = notes_of(summary)
     assert any("8 nm was rounded to 8.0128 nm" in text for text in notes)
     assert any("still fluid" in text for text in notes)
+    assert any("energies those of the half" in text for text in notes)
+    whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
+    assert not any("of the half" in text for text in notes_of(whole))
 
 
 @pytest.mark.parametrize(
