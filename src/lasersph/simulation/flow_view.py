@@ -30,8 +30,11 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
         lid.find_surface(solver.position)
         found = np.flatnonzero(backend.to_host(lid.at_surface) == 1.0)
         surface = found[np.argsort(position[0, found], kind="stable")]
-        temperature = backend.to_host(lid.temperature)[surface]
-        gradient = backend.to_host(lid.gradient)[surface]
+        temperature = backend.to_host(solver.state.temperature)[surface]
+        gradient = np.zeros(surface.size)
+        if solver.fluid_count > 0.0 and flow.current_block is not None:
+            temperature = backend.to_host(lid.temperature)[surface]
+            gradient = backend.to_host(lid.gradient)[surface]
         flows = backend.to_host(solver.roles.fluid)[surface]
         reach = 0.5 * backend.to_host(lid.reach)[surface]
         speed = velocity[0, surface] + flows * reach

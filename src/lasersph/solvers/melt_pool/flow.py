@@ -130,15 +130,15 @@ class Flow:
         self.backend.copy(self.backend.asarray(velocity), self.velocity)
         self.fastest = float(np.sqrt(np.max(np.sum(velocity * velocity, axis=0))))
 
-    def enter(self, block: Block) -> None:
-        """Work on a new block."""
+    def enter(self, block: Block, periods: tuple[float, float]) -> None:
+        """Work on a new block; periods: width along each axis that repeats, else 0 [m]."""
         self._block, backend, count = block, self.backend, block.count
         self._C = backend.zeros((2, 2, count))
         self._rhs, self._mask, self._p = (backend.zeros(count) for _ in range(3))
         self._D, self._V = backend.zeros(count), block.volume
         tolerance = self.settings.pressure_tolerance
         self.equation = PressureEquation(
-            backend, count, block.largest_support, tolerance=tolerance, period=(0.0, 0.0)
+            backend, count, block.largest_support, tolerance=tolerance, period=periods
         )
         self.published = None
         if self.settings.pressure == "published":

@@ -161,7 +161,7 @@ class MeltPool:
         self.backend.pointwise(advected, fields, self._advected, step=step)
         block = domain.block_for(self.position, self.roles)
         if block is not flow.current_block:
-            flow.enter(block)
+            flow.enter(block, domain.periods)
         block.find_pairs(self._advected)
         self.roles.find_walls(block.pairs, block.gather, block.count)
         if domain.lid is not None:
