@@ -13,6 +13,7 @@ P_w is extrapolated as in `boundaries.held_faces`, beyond a heated one as in `he
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -99,31 +100,41 @@ class Sides:
     def rules(self, images: Images, position: Array) -> ImageRules:
         """Rules for images of particles at `position`, shape (2, n) [m]."""
         count = images.count
-        factor, added = np.ones((2, count)), np.zeros((2, count))
         slope, held, temperature = np.zeros(count), np.zeros(count), np.zeros(count)
         flux, normal, plane = np.zeros(count), np.zeros((2, count)), np.zeros(count)
         place = images.sign * position[:, images.source] + images.offset
+        for axis, side, chosen, at, outward in self._crossings(images):
+            if self.flow_kind(side) == "free-surface":
+                slope[chosen] = images.sign[1 - axis, chosen]
+            self._heat(side, axis, chosen & (held == 0.0), place, held, temperature, flux)
+            mine = chosen & ((np.abs(normal).sum(axis=0) == 0.0) | self._carries_heat(side))
+            normal[:, mine] = 0.0
+            normal[axis, mine], plane[mine] = outward, outward * at
+        factor, added = self._velocities(images)
+        return ImageRules(factor, added, slope, held, temperature, flux, normal, plane)
+
+    def _crossings(self, images: Images) -> Iterator[tuple[int, str, NDArray[np.bool_], float, float]]:
+        """Axis, side, images beyond it, its place [m] and -1 or 1, for all sides but periodic."""
         for axis, names in enumerate(FACES):
             for end, side, at in zip(ENDS, names, self.box[axis], strict=True):
                 chosen = images.crossed[axis] == end
-                kind = self.flow_kind(side)
-                if kind == "periodic" or not chosen.any():
-                    continue
-                other = 1 - axis
-                factor[axis, chosen] *= -1.0
-                added[axis, chosen] *= -1.0
-                if kind in ("no-slip", "moving-wall"):
-                    factor[other, chosen] *= -1.0
-                    added[other, chosen] *= -1.0
-                    added[other, chosen] += 2.0 * self.wall_velocity(side)
-                if kind == "free-surface":
-                    slope[chosen] = images.sign[other, chosen]
-                self._heat(side, axis, chosen & (held == 0.0), place, held, temperature, flux)
-                outward = 1.0 if end == UPPER else -1.0
-                mine = chosen & ((np.abs(normal).sum(axis=0) == 0.0) | self._carries_heat(side))
-                normal[:, mine] = 0.0
-                normal[axis, mine], plane[mine] = outward, outward * at
-        return ImageRules(factor, added, slope, held, temperature, flux, normal, plane)
+                if self.flow_kind(side) != "periodic" and chosen.any():
+                    yield axis, side, chosen, at, 1.0 if end == UPPER else -1.0
+
+    def _velocities(self, images: Images) -> tuple[Array, Array]:
+        """S and c. In a corner a side stops what crosses it also beyond its neighbor: the rule for
+        the tangential component comes before that for the normal one, or a moving wall would pump
+        fluid through the corner."""
+        factor, added = np.ones((2, images.count)), np.zeros((2, images.count))
+        crossings = list(self._crossings(images))
+        for axis, side, chosen, _, _ in crossings:
+            if self.flow_kind(side) in ("no-slip", "moving-wall"):
+                factor[1 - axis, chosen] = -1.0
+                added[1 - axis, chosen] = 2.0 * self.wall_velocity(side)
+        for axis, _, chosen, _, _ in crossings:
+            factor[axis, chosen] *= -1.0
+            added[axis, chosen] *= -1.0
+        return factor, added
 
     def _carries_heat(self, side: str) -> bool:
         kind = self.boundaries.kind_of(side)
