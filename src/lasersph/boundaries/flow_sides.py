@@ -35,7 +35,8 @@ class FlowSide(Model):
 
     kind: FlowKind = "no-slip"
     velocity: Velocity = Field(
-        0.0, description="of a moving wall, along it: x at surface and bottom, z at left and right"
+        default=0.0,
+        description="of a moving wall, along it: x at surface and bottom, z at left and right",
     )
 
     @model_validator(mode="after")
@@ -82,11 +83,11 @@ Side = Annotated[FlowSide, BeforeValidator(_from_word)]
 class FlowSides(Model):
     """A closed box that is all fluid: what holds for the flow at its sides, and how it starts."""
 
-    left: Side = Field(AT_REST, description="at the smaller x")
-    right: Side = Field(AT_REST, description="at the larger x")
+    left: Side = Field(default=AT_REST, description="at the smaller x")
+    right: Side = Field(default=AT_REST, description="at the larger x")
     bottom: Side = AT_REST
-    surface: Side = Field(AT_REST, description="at z = 0")
-    initial: InitialFlow = Field(RestingFlow(), description="velocity at the start")
+    surface: Side = Field(default=AT_REST, description="at z = 0")
+    initial: InitialFlow = Field(default=RestingFlow(), description="velocity at the start")
 
     @model_validator(mode="after")
     def _check_pairs(self) -> FlowSides:

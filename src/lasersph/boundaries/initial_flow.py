@@ -35,7 +35,7 @@ class TaylorGreenFlow(Model):
     kind: Literal["taylor-green"] = "taylor-green"
     speed: Annotated[Velocity, Field(gt=0)] = Field(description="the largest")
     period: Annotated[Length, Field(gt=0)] | None = Field(
-        None, description="of the vortices in x and z; default: the width of the box"
+        default=None, description="of the vortices in x and z; default: the width of the box"
     )
 
     def velocity(self, position: Array, box: Box) -> Array:
@@ -48,9 +48,11 @@ class TabulatedFlow(Model):
     """Velocities from a table: linear between its places, the nearest one's outside them."""
 
     kind: Literal["table"] = "table"
-    path: str = Field("", description="CSV file with columns x, z [m], u, w [m/s] and a headline")
+    path: str = Field(
+        default="", description="CSV file with columns x, z [m], u, w [m/s] and a headline"
+    )
     rows: tuple[tuple[float, float, float, float], ...] = Field(
-        (), description="the same as numbers, instead of a file; the file's are kept here"
+        default=(), description="the same as numbers, instead of a file; the file's are kept here"
     )
 
     @model_validator(mode="before")

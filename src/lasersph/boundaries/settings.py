@@ -52,40 +52,42 @@ class TemperatureWave(Model):
 class Boundaries(Model):
     """Conditions for heat at surface, bottom and sides."""
 
-    surface: Face = Field("adiabatic", description="at z = 0; the laser heats it in any case")
+    surface: Face = Field(
+        default="adiabatic", description="at z = 0; the laser heats it in any case"
+    )
     surface_temperature: Temperature | None = None
     surface_temperature_wave: TemperatureWave | None = Field(
-        None, description="added to surface_temperature"
+        default=None, description="added to surface_temperature"
     )
-    surface_flux: HeatFlux | None = Field(None, description="into the body")
+    surface_flux: HeatFlux | None = Field(default=None, description="into the body")
     bottom: Face = "adiabatic"
     bottom_temperature: Temperature | None = Field(
-        None, description="default: the initial temperature"
+        default=None, description="default: the initial temperature"
     )
-    bottom_flux: HeatFlux | None = Field(None, description="into the body")
-    sides: Face = Field("adiabatic", description="at both ends of x and y")
+    bottom_flux: HeatFlux | None = Field(default=None, description="into the body")
+    sides: Face = Field(default="adiabatic", description="at both ends of x and y")
     side_temperature: Temperature | None = Field(
-        None, description="default: the initial temperature"
+        default=None, description="default: the initial temperature"
     )
-    side_flux: HeatFlux | None = Field(None, description="into the body")
-    left: Face | None = Field(None, description="at the smaller x; default: as sides")
+    side_flux: HeatFlux | None = Field(default=None, description="into the body")
+    left: Face | None = Field(default=None, description="at the smaller x; default: as sides")
     left_temperature: Temperature | None = Field(
-        None, description="default: side_temperature, else the initial temperature"
+        default=None, description="default: side_temperature, else the initial temperature"
     )
-    left_flux: HeatFlux | None = Field(None, description="into the body")
-    right: Face | None = Field(None, description="at the larger x; default: as sides")
+    left_flux: HeatFlux | None = Field(default=None, description="into the body")
+    right: Face | None = Field(default=None, description="at the larger x; default: as sides")
     right_temperature: Temperature | None = Field(
-        None, description="default: side_temperature, else the initial temperature"
+        default=None, description="default: side_temperature, else the initial temperature"
     )
-    right_flux: HeatFlux | None = Field(None, description="into the body")
+    right_flux: HeatFlux | None = Field(default=None, description="into the body")
     convection: Annotated[HeatTransferCoefficient, Field(ge=0)] = Field(
-        0.0, description="heat transfer coefficient of the surface"
+        default=0.0, description="heat transfer coefficient of the surface"
     )
     emissivity: Annotated[Fraction, Field(ge=0, le=1)] = Field(
-        0.0, description="of the surface, for radiation"
+        default=0.0, description="of the surface, for radiation"
     )
     ambient_temperature: Temperature | None = Field(
-        None, description="of the surroundings; default: the initial temperature"
+        default=None, description="of the surroundings; default: the initial temperature"
     )
 
     @model_validator(mode="after")

@@ -25,21 +25,24 @@ SCHEMA_VERSION = 1
 class Case(Model):
     """One problem: metal, light, block, particles, boundaries, solver, times, what is stored."""
 
-    schema_version: Literal[1] = Field(SCHEMA_VERSION, description="of the case file's format")
-    title: str = Field("", max_length=200, description="one line for reports")
+    schema_version: Literal[1] = Field(
+        default=SCHEMA_VERSION, description="of the case file's format"
+    )
+    title: str = Field(default="", max_length=200, description="one line for reports")
     material: MaterialChoice = Field(
         description="name of a material, path of a material file (relative to the case file), or "
         "a table with base and what differs from it, or a whole material as a table"
     )
     initial_temperature: Annotated[Temperature, Field(gt=0)] = Field(
-        298.15, description="of all particles; enthalpies count from it"
+        default=298.15, description="of all particles; enthalpies count from it"
     )
     domain: Domain
     particles: Lattice
     boundaries: Boundaries = Boundaries.model_validate({})
     laser: Laser | None = None
     flow: FlowSides | None = Field(
-        None, description="only for a closed box that is all fluid; without it what is molten flows"
+        default=None,
+        description="only for a closed box that is all fluid; without it what is molten flows",
     )
     solver: SolverChoice = ConductionSettings.model_validate({})
     time: TimeSettings

@@ -12,7 +12,11 @@ class OutputSettings(Model):
     """What a run stores, and how often."""
 
     snapshots: SnapshotPlan = Field(
-        SnapshotPlan.model_validate({}), description="when all particles are stored"
+        default=SnapshotPlan.model_validate({}), description="when all particles are stored"
     )
-    history_every: Count = Field(1, description="steps from one row of history.csv to the next")
-    checkpoint_every: Count = Field(200, description="steps from one checkpoint to the next")
+    history_every: Count = Field(
+        default=1, description="steps from one row of history.csv to the next"
+    )
+    checkpoint_every: Count = Field(
+        default=200, description="steps from one checkpoint to the next"
+    )

@@ -42,7 +42,7 @@ class BeerLambertAbsorption(Model):
 
     kind: Literal["beer-lambert"] = "beer-lambert"
     absorption_coefficient: Annotated[AbsorptionCoefficient, Field(gt=0)] | None = Field(
-        None, description="instead of the material's"
+        default=None, description="instead of the material's"
     )
 
     def coefficient(self, of_material: float | None) -> float:

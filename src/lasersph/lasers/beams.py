@@ -109,9 +109,11 @@ class GaussianBeam(Model):
     """
 
     kind: Literal["gaussian"] = "gaussian"
-    radius_1e2: PositiveLength | None = Field(None, description="w, where 1/e^2 is left")
-    diameter_1e2: PositiveLength | None = Field(None, description="2 w")
-    diameter_fwhm: PositiveLength | None = Field(None, description="full width at half maximum")
+    radius_1e2: PositiveLength | None = Field(default=None, description="w, where 1/e^2 is left")
+    diameter_1e2: PositiveLength | None = Field(default=None, description="2 w")
+    diameter_fwhm: PositiveLength | None = Field(
+        default=None, description="full width at half maximum"
+    )
     peak: ClassVar[float] = 1.0
     mean: ClassVar[float] = 0.5
     names_fluence: ClassVar[bool] = False

@@ -41,10 +41,10 @@ class Wave(Model):
     polar: Annotated[Angle, Field(ge=0, lt=np.pi / 2)] = Field(
         description="angle between the wave and the surface normal"
     )
-    azimuth: Angle = Field(0.0, description="direction along the surface, from x towards y")
-    amplitude: float = Field(1.0, gt=0, description="of the electric field, relative")
+    azimuth: Angle = Field(default=0.0, description="direction along the surface, from x towards y")
+    amplitude: float = Field(default=1.0, gt=0, description="of the electric field, relative")
     phase: Angle = 0.0
-    polarization: Angle | None = Field(None, description="azimuth of the electric field")
+    polarization: Angle | None = Field(default=None, description="azimuth of the electric field")
 
     def direction(self) -> Array:
         """Unit vector of propagation, shape (3,), z upward."""
@@ -68,12 +68,12 @@ class InterferenceBeam(Model):
     """
 
     kind: Literal["interference"] = "interference"
-    period: PositiveLength | None = Field(None, description="of two waves, along x")
+    period: PositiveLength | None = Field(default=None, description="of two waves, along x")
     wavelength: PositiveLength | None = None
     angle: Annotated[Angle, Field(gt=0, lt=np.pi)] | None = Field(
-        None, description="full angle between two waves"
+        default=None, description="full angle between two waves"
     )
-    waves: tuple[Wave, ...] = Field((), max_length=64)
+    waves: tuple[Wave, ...] = Field(default=(), max_length=64)
     mean: ClassVar[float] = 1.0
     area: ClassVar[None] = None
     names_fluence: ClassVar[bool] = True

@@ -44,25 +44,31 @@ PANEL_NODES, PANEL_WEIGHTS = np.polynomial.legendre.leggauss(6)
 class Laser(Model):
     """Light that falls onto the surface, along -z."""
 
-    fluence: Annotated[Fluence, Field(gt=0)] | None = Field(None, description="of one pulse")
+    fluence: Annotated[Fluence, Field(gt=0)] | None = Field(
+        default=None, description="of one pulse"
+    )
     fluence_kind: Literal["mean", "peak"] | None = Field(
-        None,
+        default=None,
         description="what fluence or intensity means; mean for interference (its spatial mean), "
         "needed for a gaussian beam (mean = energy over the circle of radius 1/e^2)",
     )
     intensity: Annotated[Intensity, Field(gt=0)] | None = Field(
-        None, description="of square pulses, or of the value 1 of a tabulated one"
+        default=None, description="of square pulses, or of the value 1 of a tabulated one"
     )
-    pulse_energy: Annotated[Energy, Field(gt=0)] | None = Field(None, description="of one pulse")
+    pulse_energy: Annotated[Energy, Field(gt=0)] | None = Field(
+        default=None, description="of one pulse"
+    )
     power: Annotated[Power, Field(gt=0)] | None = Field(
-        None, description="of square pulses, or of the value 1 of a tabulated one"
+        default=None, description="of square pulses, or of the value 1 of a tabulated one"
     )
     beam: Beam = Field(default_factory=UniformBeam)
     pulse: Pulse
     absorption: Absorption
-    reflectivity: Reflectivity | None = Field(None, description="instead of the material's")
-    position: tuple[Length, Length] = Field((0.0, 0.0), description="x and y of the beam's axis")
-    path: Path | None = Field(None, description="of a moving spot")
+    reflectivity: Reflectivity | None = Field(default=None, description="instead of the material's")
+    position: tuple[Length, Length] = Field(
+        default=(0.0, 0.0), description="x and y of the beam's axis"
+    )
+    path: Path | None = Field(default=None, description="of a moving spot")
 
     @model_validator(mode="after")
     def _check_amount(self) -> Laser:

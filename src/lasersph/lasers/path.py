@@ -18,7 +18,7 @@ class LinearPath(Model):
 
     kind: Literal["linear"] = "linear"
     speed: Annotated[Velocity, Field(gt=0)]
-    direction: Angle = Field(0.0, description="azimuth in the surface, from x towards y")
+    direction: Angle = Field(default=0.0, description="azimuth in the surface, from x towards y")
 
     def at(self, time: ArrayLike) -> Array:
         """Displacement from the start at times [s], shape (2, ...) [m]."""

@@ -31,8 +31,10 @@ class PulseTrain(Model, ABC):
     `support` (the times outside which it delivers nothing) and `share_until`.
     """
 
-    count: Count = Field(1, description="number of pulses")
-    period: PositiveTime | None = Field(None, description="between the starts of two pulses")
+    count: Count = Field(default=1, description="number of pulses")
+    period: PositiveTime | None = Field(
+        default=None, description="between the starts of two pulses"
+    )
 
     @model_validator(mode="after")
     def _check_train(self) -> PulseTrain:

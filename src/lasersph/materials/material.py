@@ -51,11 +51,11 @@ class Material(Model):
     """
 
     name: str = Field(min_length=1, description="how cases refer to the material")
-    title: str = Field("", description="what the metal is, in words")
+    title: str = Field(default="", description="what the metal is, in words")
     composition: str = ""
     note: str = ""
     reference_temperature: Temperature = Field(
-        298.15, gt=0, description="where the density of fixed particles is taken"
+        default=298.15, gt=0, description="where the density of fixed particles is taken"
     )
     density: Property[Density]
     heat_capacity: Property[SpecificHeat]
@@ -66,7 +66,9 @@ class Material(Model):
     kinematic_viscosity: Property[KinematicViscosity] | None = None
     surface_tension: Property[SurfaceTension] | None = None
     surface_tension_slope: Property[SurfaceTensionSlope] | None = None
-    expansion: Property[Expansion] | None = Field(None, description="volumetric, of the liquid")
+    expansion: Property[Expansion] | None = Field(
+        default=None, description="volumetric, of the liquid"
+    )
     melting: Melting | None = None
     vaporization: Vaporization | None = None
     optics: Optics | None = None

@@ -24,28 +24,32 @@ Array = NDArray[np.float64]
 class Law(Model, Generic[Quantity]):
     """One property in one phase. Exactly one of value, table, polynomial, log10 is given."""
 
-    value: Quantity | None = Field(None, description="constant value")
+    value: Quantity | None = Field(default=None, description="constant value")
     table: tuple[tuple[Temperature, Quantity], ...] = Field(
-        (), description="rows of temperature and value, rising in temperature; linear between"
+        default=(),
+        description="rows of temperature and value, rising in temperature; linear between",
     )
     polynomial: tuple[float, ...] = Field(
-        (), description="coefficients c_n of scale * sum c_n (T / temperature_scale)^powers[n]"
+        default=(),
+        description="coefficients c_n of scale * sum c_n (T / temperature_scale)^powers[n]",
     )
     powers: tuple[int, ...] = Field(
-        (), description="powers of the polynomial; default 0, 1, 2, ..."
+        default=(), description="powers of the polynomial; default 0, 1, 2, ..."
     )
     log10: tuple[float, float] | None = Field(
-        None, description="a and b of scale * 10^(a + b temperature_scale / T)"
+        default=None, description="a and b of scale * 10^(a + b temperature_scale / T)"
     )
     scale: Quantity | None = Field(
-        None, description='unit of the formula, for example "1 mPa s"; needed with one'
+        default=None, description='unit of the formula, for example "1 mPa s"; needed with one'
     )
-    temperature_scale: Temperature = Field(1.0, description="T is divided by it in the formula")
+    temperature_scale: Temperature = Field(
+        default=1.0, description="T is divided by it in the formula"
+    )
     range: tuple[Temperature, Temperature] | None = Field(
-        None, description="temperatures between which the source gives the law"
+        default=None, description="temperatures between which the source gives the law"
     )
-    source: str = Field("", description="where the numbers come from")
-    note: str = Field("", description="what a reader should know about them")
+    source: str = Field(default="", description="where the numbers come from")
+    note: str = Field(default="", description="what a reader should know about them")
 
     @model_validator(mode="after")
     def _check_form(self) -> Law[Quantity]:

@@ -23,7 +23,7 @@ class Sourced(Model):
     """Numbers with their sources: one text for all, or a table with one for each number."""
 
     source: str | dict[str, str] = Field(description="source of all numbers, or one for each")
-    note: str = Field("", description="what a reader should know about the numbers")
+    note: str = Field(default="", description="what a reader should know about the numbers")
 
     @model_validator(mode="after")
     def _check_sources(self) -> Sourced:
@@ -71,8 +71,8 @@ class Vaporization(Sourced):
 
     temperature: Temperature = Field(gt=0, description="boiling temperature at 1 atm")
     latent_heat: SpecificEnergy = Field(gt=0, description="latent heat at the boiling temperature")
-    molar_mass: MolarMass | None = Field(None, gt=0, description="molar mass of the vapor")
-    critical_temperature: Temperature | None = Field(None, gt=0)
+    molar_mass: MolarMass | None = Field(default=None, gt=0, description="molar mass of the vapor")
+    critical_temperature: Temperature | None = Field(default=None, gt=0)
 
     @model_validator(mode="after")
     def _check_order(self) -> Vaporization:
@@ -92,6 +92,8 @@ class Optics(Sourced):
     """How the surface takes up light and radiates, at one wavelength and normal incidence."""
 
     reflectivity: Property[Fraction] | None = None
-    absorption_coefficient: AbsorptionCoefficient | None = Field(None, gt=0)
-    wavelength: Length | None = Field(None, gt=0, description="for which the numbers hold")
-    emissivity: Fraction | None = Field(None, ge=0, le=1, description="total, of the surface")
+    absorption_coefficient: AbsorptionCoefficient | None = Field(default=None, gt=0)
+    wavelength: Length | None = Field(default=None, gt=0, description="for which the numbers hold")
+    emissivity: Fraction | None = Field(
+        default=None, ge=0, le=1, description="total, of the surface"
+    )

@@ -39,11 +39,11 @@ class Probe(Model):
             description="letters, digits, - and _; names the history column probe_<name>_K",
         ),
     ]
-    depth: Length = Field(0.0, description="below the original surface")
-    x: Length = Field(0.0, description="not used in 1-D")
-    y: Length = Field(0.0, description="used in 3-D")
+    depth: Length = Field(default=0.0, description="below the original surface")
+    x: Length = Field(default=0.0, description="not used in 1-D")
+    y: Length = Field(default=0.0, description="used in 3-D")
     method: Literal["nearest", "linear", "even"] = Field(
-        "nearest",
+        default="nearest",
         description="nearest: the closest particle; linear: exact for linear fields; even: exact "
         "for fields of no slope at the surface, for adiabatic surfaces",
     )

@@ -39,9 +39,11 @@ class SnapshotPlan(Model):
     """
 
     interval: Annotated[Time, Field(gt=0.0)] | None = Field(
-        None, description="from one snapshot to the next; default: a fortieth of the run"
+        default=None, description="from one snapshot to the next; default: a fortieth of the run"
     )
-    times: tuple[Annotated[Time, Field(ge=0.0)], ...] = Field((), description="further snapshots")
+    times: tuple[Annotated[Time, Field(ge=0.0)], ...] = Field(
+        default=(), description="further snapshots"
+    )
 
 
 class SnapshotSchedule:

@@ -15,10 +15,12 @@ class Domain(Model):
     """Size of the block. x runs from -width/2 to width/2, or from 0 where half is computed."""
 
     depth: Size = Field(description="from the surface to the bottom")
-    width: Size | None = Field(None, description="along x; 2-D and 3-D; the period of a pattern")
-    breadth: Size | None = Field(None, description="along y; 3-D; default: the width")
+    width: Size | None = Field(
+        default=None, description="along x; 2-D and 3-D; the period of a pattern"
+    )
+    breadth: Size | None = Field(default=None, description="along y; 3-D; default: the width")
     extent: Literal["full", "half"] = Field(
-        "full", description="half: only x > 0 is computed, symmetric about x = 0"
+        default="full", description="half: only x > 0 is computed, symmetric about x = 0"
     )
 
     def lateral(self, dimensions: int) -> tuple[tuple[float, float], ...]:

@@ -24,17 +24,20 @@ class Lattice(Model):
     spacing: Size = Field(description="of the finest particles; rounded so that they fill the box")
     arrangement: Literal["uniform", "graded"] = "uniform"
     fine_depth: Size | None = Field(
-        None,
+        default=None,
         description="depth of the layers of finest spacing (graded); default: the larger of the "
         "expected melt depth plus two support radii and the laser's absorption zone",
     )
-    coarsest: Size = Field(1e-6, description="thickness at which layers stop growing (graded)")
+    coarsest: Size = Field(
+        default=1e-6, description="thickness at which layers stop growing (graded)"
+    )
     ratio: Annotated[float, Field(gt=0.5, lt=1.0)] = Field(
-        7.0 / 9.0, description="of the thickness of a layer to that of the one below (graded)"
+        default=7.0 / 9.0,
+        description="of the thickness of a layer to that of the one below (graded)",
     )
     kernel: KernelName = "quintic-spline"
     support_ratio: Annotated[float, Field(ge=1.5, le=6.0)] | None = Field(
-        None, description="support radius over spacing; default 3.75 (quintic), 3 (others)"
+        default=None, description="support radius over spacing; default 3.75 (quintic), 3 (others)"
     )
 
     @model_validator(mode="after")

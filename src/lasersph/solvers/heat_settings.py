@@ -15,15 +15,15 @@ class HeatSettings(Model):
     kind: str
     dimensions: Literal[1, 2, 3] = 2
     plateau: Literal["hold", "clip", "evaporate"] = Field(
-        "hold",
+        default="hold",
         description="at the vaporization temperature: hold it for any enthalpy; clip the enthalpy "
         "at the full latent heat; or no plateau but a surface that evaporates",
     )
-    phase_change: bool = Field(True, description="false: neither melting nor vaporization")
+    phase_change: bool = Field(default=True, description="false: neither melting nor vaporization")
     weights: Literal["second-moment", "plain"] = Field(
-        "second-moment",
+        default="second-moment",
         description="conduction weights corrected to conduct exactly on the lattice, or as printed",
     )
     tolerance: Annotated[float, Field(gt=0, lt=1e-2)] = Field(
-        1e-8, description="residual of a step over the absorbed energy"
+        default=1e-8, description="residual of a step over the absorbed energy"
     )

@@ -15,24 +15,25 @@ class TimeSettings(Model):
 
     end: Annotated[Time, Field(gt=0)] = Field(description="of the simulated time, from 0")
     step: Annotated[Time, Field(gt=0)] | None = Field(
-        None,
+        default=None,
         description="largest step while the laser is on; default: a 200th of the pulse (implicit), "
         "no limit beside stability (explicit)",
     )
     is_fixed: bool = Field(
-        False, description="take `step` always, also where it is unstable (for studies)"
+        default=False, description="take `step` always, also where it is unstable (for studies)"
     )
     temperature_change: Annotated[TemperatureDifference, Field(gt=0)] = Field(
-        50.0, description="aimed at per step, by the fastest particle (implicit)"
+        default=50.0, description="aimed at per step, by the fastest particle (implicit)"
     )
     cooling: Annotated[float, Field(gt=0, le=1)] = Field(
-        0.005, description="largest step after a pulse, over the time since its light (implicit)"
+        default=0.005,
+        description="largest step after a pulse, over the time since its light (implicit)",
     )
     growth: Annotated[float, Field(gt=1, le=10)] = Field(
-        1.25, description="of the step, at most, from one to the next"
+        default=1.25, description="of the step, at most, from one to the next"
     )
     steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
-        None,
+        default=None,
         description="stop before the end once the flow is steady: largest change of velocity per "
         "step, over the largest velocity and over the step's share of width/velocity",
     )

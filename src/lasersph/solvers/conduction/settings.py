@@ -14,12 +14,12 @@ class ConductionSettings(HeatSettings):
 
     kind: Literal["conduction"] = "conduction"
     scheme: Literal["implicit", "explicit"] = Field(
-        "implicit",
+        default="implicit",
         description="implicit enthalpy [Demuth2020, eqs. (64)-(66)] or explicit "
         "predictor-corrector [Alshaer2017, eqs. (29), (30)]",
     )
     iteration: Literal["newton", "published"] = Field(
-        "newton",
+        default="newton",
         description="of the implicit scheme: Newton, or one Jacobi-CG step between updates of the "
         "fractions [Demuth2020, Section 4.2]",
     )

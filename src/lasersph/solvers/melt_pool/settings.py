@@ -16,26 +16,27 @@ class MeltPoolSettings(HeatSettings):
     kind: Literal["melt-pool"] = "melt-pool"
     dimensions: Literal[2] = 2
     marangoni: bool = Field(
-        True, description="whether the gradient of surface tension drives the surface"
+        default=True, description="whether the gradient of surface tension drives the surface"
     )
     pressure: Literal["multigrid", "published"] = Field(
-        "multigrid",
+        default="multigrid",
         description="conjugate gradients on coarse aggregates, or the matrix of [Demuth2020, "
         "Table 1] with BiCGStab",
     )
     pressure_tolerance: Annotated[float, Field(gt=0, lt=1)] = Field(
-        1e-4, description="residual of the pressure equation over its right-hand side"
+        default=1e-4, description="residual of the pressure equation over its right-hand side"
     )
     viscosity: Literal["implicit", "explicit"] = Field(
-        "implicit", description="whether viscous forces are those at the end of a step"
+        default="implicit", description="whether viscous forces are those at the end of a step"
     )
     step_limits: Literal["corrected", "published"] = Field(
-        "corrected",
+        default="corrected",
         description="each limit by what it keeps stable, or all of [Demuth2020, eqs. (59), (76)]",
     )
     shifting: Annotated[float, Field(ge=0, le=0.5)] = Field(
-        0.04, description="factor C of the particle shifting [Demuth2020, eq. (73)]; 0 for none"
+        default=0.04,
+        description="factor C of the particle shifting [Demuth2020, eq. (73)]; 0 for none",
     )
     gravity: Annotated[Acceleration, Field(ge=0)] = Field(
-        9.81, description="along -z; it acts on differences of density only (Boussinesq)"
+        default=9.81, description="along -z; it acts on differences of density only (Boussinesq)"
     )
