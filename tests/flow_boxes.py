@@ -1,0 +1,85 @@
+"""Small boxes and pools of moving particles, for tests of the flow."""
+
+import numpy as np
+
+from lasersph import compute
+from lasersph.case import Case
+from lasersph.simulation.build import build
+from lasersph.solvers.time_step import choose
+
+MATERIAL = {
+    "density": "1 kg/m^3", "heat_capacity": "1 J/(kg K)", "conductivity": "0.01 W/(m K)",
+    "kinematic_viscosity": "0.01 m^2/s",
+}  # fmt: skip
+LID = {"surface": {"kind": "moving-wall", "velocity": 1.0}}
+PERIODIC = {side: "periodic" for side in ("left", "right", "bottom", "surface")}
+PERIODIC_HEAT = {"sides": "periodic", "bottom": "periodic", "surface": "periodic"}
+
+
+def box_case(
+    *, flow=None, heat=None, cells=10, width=1.0, depth=1.0, end=1.0, step=0.01, material=None,
+    **settings,
+):  # fmt: skip
+    """Case of a box of unit liquid: nu = a = 0.01 m^2/s, `cells` particles a meter."""
+    return Case.model_validate(
+        {
+            "material": MATERIAL | (material or {}), "initial_temperature": 300.0,
+            "domain": {"width": width, "depth": depth},
+            "particles": {"spacing": 1.0 / cells, "arrangement": "uniform"},
+            "flow": LID if flow is None else flow, "boundaries": heat or {},
+            "solver": {"kind": "melt-pool", **settings}, "time": {"end": end, "step": step},
+        }
+    )  # fmt: skip
+
+
+def box(backend=None, **settings):
+    """Solver of `box_case`."""
+    return build(box_case(**settings), backend or compute.cpu(threads=1))[1]
+
+
+def block_of(solver, position=None):
+    """Block of the solver with the pairs at `position`, shape (2, n) [m]; its own without."""
+    backend = solver.backend
+    if position is not None:
+        backend.copy(backend.asarray(position), solver.position)
+    solver.fluid_count = solver.roles.find_fluid(solver.state.melt_fraction)
+    block = solver.domain.block_for(solver.position, solver.roles)
+    solver.flow.enter(block, solver.domain.periods)
+    block.find_pairs(solver.position)
+    solver.flow.correct_kernel()
+    return block
+
+
+def place_of(solver):
+    """Positions on the host, shape (2, n) [m]."""
+    return solver.backend.to_host(solver.position)
+
+
+def jittered(solver, share=0.2, seed=1):
+    """Positions of the lattice, moved by up to a share of the spacing."""
+    place = place_of(solver)
+    shift = np.random.default_rng(seed).uniform(-share, share, place.shape)
+    return place + solver.domain.spacing * shift
+
+
+def matrix_of(backend, neighbors, weights, count):
+    """Dense sum of the weights of all pairs (i, j)."""
+    start = backend.to_host(neighbors.row_start).astype(np.int64)
+    row = np.repeat(np.arange(start.size - 1), np.diff(start))
+    matrix = np.zeros((count, count))
+    np.add.at(matrix, (row, backend.to_host(neighbors.neighbor)), backend.to_host(weights))
+    return matrix
+
+
+def go(solver, steps):
+    """Take steps by the solver's own limits; returns their lengths [s]."""
+    taken = []
+    for _ in range(steps):
+        _, step, pace = choose(solver.time_step_limits())
+        taken.append(solver.step(step, pace))
+    return taken
+
+
+def host_fields(solver):
+    """Copies of all fields of the particles."""
+    return {name: solver.backend.to_host(field) for name, field in solver.fields.items()}

@@ -1,0 +1,196 @@
+"""The block of moving particles: images that follow, symmetric weights, terms of walls."""
+
+import numpy as np
+import pytest
+from flow_boxes import (
+    PERIODIC,
+    PERIODIC_HEAT,
+    block_of,
+    box,
+    jittered,
+    matrix_of,
+    place_of,
+)
+
+from lasersph.solvers.melt_pool.block import (
+    image_velocity,
+    inner_weight,
+    mirrored_part,
+    mirrored_tensor,
+    wall_terms,
+)
+
+CHANNEL = {"left": "periodic", "right": "periodic", "bottom": "no-slip",
+           "surface": {"kind": "moving-wall", "velocity": 1.0}}  # fmt: skip
+BOXES = {
+    "walls": {},
+    "periodic": {"flow": PERIODIC, "heat": PERIODIC_HEAT},
+    "channel": {"flow": CHANNEL, "heat": {"sides": "periodic"}},
+    "plain weights": {"weights": "plain"},
+}
+
+
+def images_of(block):
+    """Positions, sources, signs and offsets of the images on the host."""
+    host = block.backend.to_host
+    parts = host(block.pairs.position), host(block.source), host(block.sign), host(block.offset)
+    return tuple(part[..., block.count :] for part in parts)
+
+
+def test_images_follow_their_sources():
+    """After a move every image lies where its source's new place puts it."""
+    solver = box()
+    block = block_of(solver)
+    moved = jittered(solver, 0.3)
+    block.move(solver.backend.asarray(moved))
+    place, source, sign, offset = images_of(block)
+    assert source.size > 100
+    assert place == pytest.approx(sign * moved[:, source] + offset)
+    beyond = np.abs(place - np.array([[0.0], [-0.5]])) > 0.4
+    assert beyond.any(axis=0).all()
+
+
+def test_supports_are_whole():
+    """Every particle of a lattice has the 44 neighbors of [Demuth2020], the corner as well."""
+    solver = box()
+    block = block_of(solver)
+    host = solver.backend.to_host
+    start, neighbor = host(block.pairs.row_start).astype(int), host(block.pairs.neighbor)
+    place = host(block.pairs.position)
+    for i in (0, 5, 55, 99):
+        to = neighbor[start[i] : start[i + 1]]
+        r = np.linalg.norm(place[:, to] - place[:, [i]], axis=0)
+        assert (r < 0.375).sum() == 44
+
+
+@pytest.mark.parametrize("name", BOXES)
+def test_weights_are_symmetric(name):
+    """Images folded on their sources: what goes from i to j arrives, wherever particles lie."""
+    solver = box(**BOXES[name])
+    block = block_of(solver, jittered(solver))
+    g = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    assert np.abs(g - g.T).max() < 1e-11 * g.max()
+
+
+@pytest.mark.parametrize("name", BOXES)
+def test_weights_are_symmetric_far_from_the_first_layer(name):
+    """The same where particles have changed places with others of quite other layers."""
+    solver = box(**BOXES[name])
+    place = jittered(solver)
+    place = place[:, np.random.default_rng(3).permutation(place.shape[1])]
+    block = block_of(solver, place)
+    g = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    assert np.abs(g - g.T).max() < 1e-11 * g.max()
+
+
+def test_weights_move_with_the_particles():
+    """`move` gives the weights that a new search gives."""
+    solver = box()
+    block = block_of(solver)
+    moved = jittered(solver, 0.05)
+    block.move(solver.backend.asarray(moved))
+    g = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    block.find_pairs(solver.backend.asarray(moved))
+    again = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    assert g == pytest.approx(again, abs=1e-12 * g.max())
+
+
+def test_velocities_of_images():
+    """As the rules of the sides say, for every image: S v + c."""
+    solver = box()
+    block = block_of(solver)
+    host, backend = solver.backend.to_host, solver.backend
+    v = np.random.default_rng(2).normal(size=(2, solver.body.count))
+    found = host(block.velocity(backend.asarray(v), backend.zeros(solver.body.count)))
+    place, source, *_ = images_of(block)
+    assert np.array_equal(found[:, : block.count], v)
+    above = (place[1] > 0.0) & (np.abs(place[0]) < 0.5)
+    below = (place[1] < -1.0) & (np.abs(place[0]) < 0.5)
+    lid = np.array([[2.0], [0.0]])
+    assert found[:, block.count :][:, above] == pytest.approx(lid - v[:, source[above]])
+    assert found[:, block.count :][:, below] == pytest.approx(-v[:, source[below]])
+    change = host(block.homogeneous(backend.asarray(v)))
+    assert change[:, block.count :][:, above] == pytest.approx(-v[:, source[above]])
+
+
+def test_smallest_distance():
+    """Of two particles, and of a particle and its own image."""
+    solver = box()
+    block_of(solver)
+    place = place_of(solver)
+    assert block_of(solver).smallest_distance(solver.position) == pytest.approx(0.1)
+    close = place.copy()
+    close[:, 45] = close[:, 44] + [0.03, 0.0]
+    block = block_of(solver, close)
+    assert block.smallest_distance(solver.position) == pytest.approx(0.03)
+    wall = place.copy()
+    wall[1, 4] = -0.01
+    block = block_of(solver, wall)
+    assert block.smallest_distance(solver.position) == pytest.approx(0.02)
+
+
+def test_mirrored_tensor():
+    """S M S: off-diagonal entries change their sign beyond one face, none beyond a corner."""
+    M = np.array([[1.0, 2.0], [3.0, 4.0]])
+    axes = {"e_x": np.array([1.0, 0.0]), "e_z": np.array([0.0, 1.0])}
+    found = mirrored_tensor(M, np.array([-1.0, 1.0]), **axes)
+    assert found.tolist() == [[1.0, -2.0], [-3.0, 4.0]]
+    assert mirrored_tensor(M, np.array([-1.0, -1.0]), **axes).tolist() == M.tolist()
+
+
+def test_image_velocity():
+    """S v + c + slope * reach * t; a change keeps only S d."""
+    v, S, c = np.array([2.0, 3.0]), np.array([1.0, -1.0]), np.array([0.5, 0.0])
+    along = np.array([1.0, 0.0])
+    assert image_velocity(v, S, c, 1.0, 0.25, along).tolist() == [2.75, -3.0]
+    assert image_velocity(v, S, c, -1.0, 0.25, along).tolist() == [2.25, -3.0]
+    assert mirrored_part(v, S).tolist() == [2.0, -3.0]
+
+
+def test_terms_of_a_held_face():
+    """Particle 1 above a floor at z = -2, image 3 below it: c = (1 + 3) / 1, no power."""
+    x_i, x_j, down = np.array([0.0, -1.0]), np.array([5.0, -5.0]), np.array([0.0, -1.0])
+    pull, flow, heat, power = wall_terms(0.5, 1.0, 7.0, 11.0, 0.0, down, 2.0, x_i, x_j)
+    assert (pull, flow, heat, power) == (2.0, 14.0, 22.0, 0.0)
+    assert inner_weight(0.5, 1.0) == 0.0
+
+
+def test_terms_of_a_heated_face():
+    """2 q n_j g with the image 3 beyond the face; the pair still conducts between particles."""
+    x_i, x_j, down = np.array([0.0, -1.0]), np.array([5.0, -5.0]), np.array([0.0, -1.0])
+    pull, _, _, power = wall_terms(0.5, 0.0, 0.0, 0.0, 10.0, down, 2.0, x_i, x_j)
+    assert (pull, power) == (0.0, 2.0 * 10.0 * 3.0 * 0.5)
+    assert inner_weight(0.5, 0.0) == 0.5
+
+
+def test_a_pair_inside_has_no_wall():
+    """A neighbor that is no image: rules of zero give nothing."""
+    x = np.array([0.0, -1.0])
+    assert wall_terms(0.5, 0.0, 0.0, 0.0, 0.0, np.zeros(2), 0.0, x, x)[0] == 0.0
+    assert wall_terms(0.5, 0.0, 0.0, 0.0, 0.0, np.zeros(2), 0.0, x, x)[3] == 0.0
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2])
+def test_power_of_a_heated_face(share):
+    """What enters through a face of 10 W/m2 over 1 m, lattice or not: 10 W per meter."""
+    heat = {"left": "prescribed-flux", "left_flux": 10.0}
+    solver = box(flow={}, heat=heat)
+    block = block_of(solver, jittered(solver, share))
+    out = [solver.backend.zeros(block.count) for _ in range(4)]
+    fields = {"g_ij": block.weights} | block.rules
+    solver.backend.pair_sum(wall_terms, block.pairs, fields, tuple(out))
+    total = solver.backend.to_host(out[3]).sum()
+    assert total == pytest.approx(10.0, rel=1e-9 if share == 0.0 else 0.05)
+
+
+def test_escaped_particle_is_told():
+    """A position beyond reach of the sides raises what a step retries on."""
+    from lasersph.compute.search import EscapedParticle
+
+    solver = box()
+    for wrong in (5.0, np.nan):
+        place = place_of(solver)
+        place[0, 7] = wrong
+        with pytest.raises(EscapedParticle):
+            block_of(solver, place)
+        block_of(solver, np.array(solver.body.filling.position[:, : solver.body.count]))
