@@ -25,15 +25,20 @@ def test_published():
 
 
 def test_corrected():
-    """Explicit viscosity 0.05 l^2/nu = 10.9 ps, implicit none; no heat and no capillary limit."""
+    """Advection 0.08 l/v = 298 ps, viscosity 0.05 l^2/nu = 10.9 ps, implicit 0.2 l^2/nu = 43.5 ps;
+    no heat and no capillary limit."""
     found = flow_limits("corrected", **STEEL, is_implicit=False)
     assert found["viscosity"] == pytest.approx(10.87e-12, rel=2e-3)
     assert "heat" not in found
     assert found["capillary"] == found["recoil"] == inf
-    assert flow_limits("corrected", **STEEL)["viscosity"] == inf
+    assert found["advection"] == pytest.approx(297.8e-12, rel=2e-3)
+    assert flow_limits("corrected", **STEEL)["viscosity"] == pytest.approx(43.5e-12, rel=2e-3)
 
 
 def test_at_rest():
-    """Without speed and force neither limits."""
-    found = flow_limits("corrected", **STEEL | {"speed": 0.0, "acceleration": 0.0})
-    assert set(found.values()) == {inf}
+    """Without speed and force neither limits, nor a surface tension that is not known."""
+    at_rest = {"speed": 0.0, "acceleration": 0.0, "surface_tension": 0.0}
+    for rule in ("corrected", "published"):
+        found = flow_limits(rule, **STEEL | at_rest)
+        limited = {name for name, limit in found.items() if limit < inf}
+        assert limited == {"viscosity"} | ({"heat"} if rule == "published" else set())

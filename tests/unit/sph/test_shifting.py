@@ -1,0 +1,79 @@
+"""Shifts: none on a lattice, apart where particles are close, never through a face."""
+
+import numpy as np
+import pytest
+from lattices import lattice, with_neighbors
+
+from lasersph.sph.shifting import repulsion_terms, shift
+
+UP = (0.0, 1.0)
+FREE = {"is_fluid": 1.0, "at_face": 0.0, "normal": np.array(UP), "scale": 0.1, "limit": 1e9}
+
+
+def shifts(backend, place, *, is_fluid=1.0, at_face=0.0, scale=0.04, limit=1e9, support=3.5):
+    """Shift of all particles at `place` [m]."""
+    count = place.shape[1]
+    neighbors = with_neighbors(backend, place, support)
+    fields = {
+        "is_fluid": backend.asarray(np.full(count, is_fluid)),
+        "at_face": backend.asarray(np.full(count, at_face)),
+    }
+    out = backend.zeros((place.shape[0], count))
+    backend.pair_sum(
+        repulsion_terms, neighbors, fields, out, finish=shift, normal=UP, scale=scale, limit=limit
+    )
+    return backend.to_host(out)
+
+
+def test_none_on_a_lattice(backend):
+    """All neighbors cancel inside a lattice."""
+    place = lattice(2, 9)
+    inside = ((place > 3.4) & (place < 4.6)).all(axis=0)
+    assert inside.any()
+    assert shifts(backend, place)[:, inside] == pytest.approx(0.0, abs=1e-15)
+
+
+def test_two_particles_by_hand():
+    """Neighbor at distance 2 along -x: R = r^2 / r^2 e_x = e_x, whatever the distance."""
+    terms = repulsion_terms(np.array([2.0, 0.0]), 2.0, 3.0)
+    assert terms[0].tolist() == [0.25, 0.0]
+    assert terms[1:] == (2.0, 1.0)
+    assert shift(*terms, **FREE).tolist() == [0.1, 0.0]
+
+
+def test_beyond_the_support():
+    """A pair of the search that is out of reach counts nothing."""
+    terms = repulsion_terms(np.array([2.0, 0.0]), 2.0, 1.9)
+    assert not terms[0].any() and terms[1:] == (0.0, 0.0)
+    assert shift(*terms, **FREE).tolist() == [0.0, 0.0]
+
+
+def test_two_close_particles(backend):
+    """A particle next to another's place: both are pushed apart, along their line."""
+    place = lattice(2, 9)
+    first, second = 40, 41  # 41 is one up
+    place[1, second] -= 0.6
+    found = shifts(backend, place)
+    assert found[1, first] < -1e-3
+    assert found[1, second] > 1e-3
+    assert found[0, [first, second]] == pytest.approx(0.0, abs=1e-15)
+
+
+def test_at_a_face(backend):
+    """No part along the normal; the part along the face is that of a free particle."""
+    place = lattice(2, 9) + np.random.default_rng(4).uniform(-0.2, 0.2, (2, 81))
+    free, bound = shifts(backend, place), shifts(backend, place, at_face=1.0)
+    assert np.all(bound[1] == 0.0)
+    assert bound[0] == pytest.approx(free[0], rel=1e-12)
+    assert np.abs(free[1]).max() > 1e-3
+
+
+def test_limit_and_rest(backend):
+    """No shift is longer than the limit, and it keeps its direction; solids do not shift."""
+    place = lattice(2, 9) + np.random.default_rng(4).uniform(-0.2, 0.2, (2, 81))
+    free, limited = shifts(backend, place, scale=1.0), shifts(backend, place, scale=1.0, limit=0.1)
+    size = np.linalg.norm(limited, axis=0)
+    assert size.max() == pytest.approx(0.1)
+    cross = free[0] * limited[1] - free[1] * limited[0]
+    assert cross == pytest.approx(0.0, abs=1e-14)
+    assert np.all(shifts(backend, place, is_fluid=0.0) == 0.0)
