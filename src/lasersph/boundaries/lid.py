@@ -46,6 +46,11 @@ def marked(x, n, plane, near, far):
     return (1.0 if depth < near else 0.0), (1.0 if depth < far else 0.0), depth
 
 
+def both(mark, active):
+    """1 where both are."""
+    return mark * active
+
+
 def tension(T, T_nodes, gamma_nodes):
     """Surface tension [N/m] up to a constant."""
     return interpolate(T, T_nodes, gamma_nodes)
@@ -77,7 +82,8 @@ class FlatLid:
     Attributes:
         at_surface, near: (n,) 1 where a particle lies at the surface, within reach of it.
         depth: (n,) below the lid [m]. temperature: (n,) of the surface above a particle at it [K].
-        gradient: (n,) dT/dx along the surface [K/m]. stress: (n,) tau [Pa]. reach: (n,)
+        gradient: (n,) dT/dx along the surface [K/m],
+            0 where nothing is active. stress: (n,) tau [Pa]. reach: (n,)
             2 d tau / eta [m/s].
     """
 
@@ -120,16 +126,23 @@ class FlatLid:
         )  # fmt: skip
 
     def drive(
-        self, T: Any, position: Any, pairs: Any, volume: Any, gather: Callable[[Any], Any]
+        self,
+        T: Any,
+        position: Any,
+        pairs: Any,
+        volume: Any,
+        gather: Callable[[Any], Any],
+        active: Any,
     ) -> None:
         """Temperature gradient, stress and `reach` from the temperatures (n,) [K].
 
         Args:
-            pairs: list with rows of the particles at the surface. volume: (M,) [m^2].
-            gather: from all particles to those of the list.
+            pairs: list with the rows of active particles. volume: (M,) [m^2].
+            gather: from all particles to those of the list. active: (n,) 1 in reach of fluid;
+                elsewhere there is no stress.
         """
         backend = self.backend
-        rows = backend.rows_where(self.at_surface, 1.0)
+        rows = self._rows(self.at_surface, active)
         backend.copy(T, self.temperature)
         if self.held is not None:
             wave = self.held.wave
@@ -145,13 +158,19 @@ class FlatLid:
             return
         backend.pointwise(tension, {"T": self.temperature}, self._gamma, **self.table)
         self._along(self._gamma, self.stress, rows, pairs, fields, gather)
-        near = backend.rows_where(self.near, 1.0)
+        near = self._rows(self.near, active)
         found = backend.zeros(self.stress.shape[0])
         fields = {"f": gather(self.stress), "s": mark}
         backend.pair_sum(spread_terms, pairs, fields, found, rows=near, finish=spread)
         backend.copy(found, self.stress)
         fields = {"tau": self.stress, "depth": self.depth}
         backend.pointwise(distance_stress, fields, self.reach, eta=self.viscosity)
+
+    def _rows(self, mark: Any, active: Any) -> Any:
+        """Index array of marked particles that are active."""
+        found = self.backend.zeros(self.stress.shape[0])
+        self.backend.pointwise(both, {"mark": mark, "active": active}, found)
+        return self.backend.rows_where(found, 1.0)
 
     def _along(
         self, f: Any, out: Any, rows: Any, pairs: Any, fields: dict[str, Any],

@@ -163,6 +163,8 @@ class LoopText:
         names = _names(a.kind, f"v_{a.name}")
         for name, array in zip(names, _names(a.kind, f"a_{a.symbol}"), strict=True):
             text = f"{array}[{index}]"
+            if a.role == "pair" and a.kind[0] == "real":
+                text = f"real({text})"
             line = f"{name} = np.int64({text})" if a.kind[0] == "int" else f"{name} = {text}"
             if line not in lines:
                 self._neighbor(lines, index)

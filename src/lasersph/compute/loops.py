@@ -22,10 +22,8 @@ from lasersph.compute.arguments import (
     pair_roles,
     parameter_names,
 )
-from lasersph.compute.generate import BLOCK, Loop, LoopText
-
-_TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
-_EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
+from lasersph.compute.generate import Loop, LoopText
+from lasersph.compute.launch import Compiled, Launch
 
 
 class Call(NamedTuple):
@@ -41,18 +39,6 @@ class Call(NamedTuple):
     reduce: Any
     constants: dict[str, Any]
     combine: Any = None
-
-
-class Compiled(NamedTuple):
-    """A loop ready to be launched, with the order of its arguments."""
-
-    block: Callable
-    loop: Callable
-    arrays: tuple[str, ...]
-    tables: tuple[str, ...]
-    reals: tuple[tuple[str, int], ...]
-    whole: tuple[tuple[str, int], ...]
-    watched: tuple
 
 
 class Bound:
@@ -192,11 +178,20 @@ class Loops:
         self.precision, self.threads, self.unwrap = precision, threads, unwrap
         self.real = np.dtype(precision)
         self._compiled: dict[Any, Compiled] = {}
-        self._record: list[tuple] | None = None
+        self._record: list[Launch] | None = None
         self._roles: dict[Any, tuple] = {}
 
     def run(self, call: Call) -> tuple[float, ...]:
         """Launch the loop of a call; returns the reductions."""
+        launch = self.prepared(call)
+        if self._record is not None:
+            if launch.reductions:
+                raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
+            self._record.append(launch)
+        return launch()
+
+    def prepared(self, call: Call) -> Launch:
+        """The loop of a call, bound to its arrays."""
         bound = Bound(call, self.unwrap, self.roles)
         key = bound.key()
         compiled = self._compiled.get(key)
@@ -213,13 +208,10 @@ class Loops:
             run()
         finally:
             self._record = None
-        is_parallel = any(blocks > 1 for _, blocks, *_ in launches)
 
         def replay() -> None:
-            if is_parallel:
-                _set_threads(self.threads)
-            for loop, _, first, count, arguments in launches:
-                loop(first, count, *arguments)
+            for launch in launches:
+                launch()
 
         return replay
 
@@ -269,8 +261,10 @@ class Loops:
             raise ValueError('combine takes "sum", "max" or "min"')
         arrays = [*bound.arrays.items(), *((f"out {k}", o) for k, o in enumerate(bound.outs))]
         for name, array in [*arrays, *bound.constants.items()]:
-            real = isinstance(array, np.ndarray) and array.dtype.kind == "f"
-            if real and array.dtype != self.real:
+            if not isinstance(array, np.ndarray) or array.dtype.kind != "f":
+                continue
+            is_pair = ("pair", name) in [(role, symbol) for _, role, symbol in bound.roles]
+            if array.dtype != self.real and not (is_pair and array.dtype == np.float32):
                 raise ValueError(f"{name} is {array.dtype}, the backend {self.precision}")
         text = self.text(bound)
         module = cache.load(text.written())
@@ -279,51 +273,25 @@ class Loops:
             tuple(text.reals.values()), tuple(text.whole.values()), text.unit.watched(),
         )  # fmt: skip
 
-    def _launch(self, compiled: Compiled, bound: Bound) -> tuple[float, ...]:
-        count = bound.count()
-        reductions = [how for how in bound.reduce if how is not None]
-        if count == 0:
-            return tuple(_EMPTY[how] for how in reductions)
-        arguments: list[Any] = [] if bound.rows is None else [bound.rows]
+    def _launch(self, compiled: Compiled, bound: Bound) -> Launch:
+        """The loop with the arrays of a call."""
+        rows = bound.count()
+        arrays = [] if bound.rows is None else [bound.rows]
+        constants = bound.constants
         neighbors = bound.call.neighbors
         if neighbors is not None:
-            arguments += [self.unwrap(neighbors.row_start), self.unwrap(neighbors.neighbor)]
+            arrays += [self.unwrap(neighbors.row_start), self.unwrap(neighbors.neighbor)]
+            constants = constants | {"period": neighbors.period}
         for symbol in compiled.arrays:
-            arguments += components(bound.arrays[symbol])
-        for name in compiled.tables:
-            arguments.append(bound.constants[name])
+            arrays += components(bound.arrays[symbol])
+        arrays += [constants[name] for name in compiled.tables]
         for out in bound.outs:
             if out is not None:
-                arguments += components(out)
-        for names, kind in ((compiled.reals, self.real), (compiled.whole, np.int64)):
-            if names:
-                arguments.append(np.array([self._number(bound, *name) for name in names], kind))
-        blocks = -(-count // BLOCK)
-        partial = np.empty((len(reductions), blocks), self.real)
-        if reductions:
-            arguments.append(partial)
-        first, rows = (np.uint64(0) if blocks == 1 else blocks), np.uint64(count)
-        loop = compiled.block if blocks == 1 else compiled.loop
-        if self._record is not None:
-            if reductions:
-                raise ValueError(f"{bound.call.function.__name__}(): no reduction is recorded")
-            self._record.append((loop, blocks, first, rows, arguments))
-        if blocks > 1:
-            _set_threads(self.threads)
-        loop(first, rows, *arguments)
-        return tuple(
-            float(_TOTAL[how](partial[k], dtype=np.float64)) for k, how in enumerate(reductions)
-        )
-
-    def _number(self, bound: Bound, name: str, component: int) -> Any:
-        value = bound.call.neighbors.period if name == "period" else bound.constants[name]
-        return value[component] if isinstance(value, tuple | list) else value
-
-
-def _set_threads(threads: int) -> None:
-    from numba import set_num_threads
-
-    set_num_threads(threads)
+                arrays += components(out)
+        return Launch(
+            compiled, arrays, constants, rows=rows, thread_count=self.threads, real=self.real,
+            reductions=tuple([how for how in bound.reduce if how is not None]),
+        )  # fmt: skip
 
 
 def _listed(value: Any) -> tuple | list:

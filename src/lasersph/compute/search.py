@@ -85,14 +85,19 @@ def neighbor_list(
     lower: Sequence[float] | None = None,
     upper: Sequence[float] | None = None,
     period: Sequence[float] = (),
+    wanted: Any = None,
 ) -> tuple[Any, Any]:
     """Neighbors of the first `count` particles among all.
+
+    Cells are counted from the corners of the box where they are given, so that the order within a
+    row follows from the positions of its own particles alone.
 
     Args:
         position: [m], shape (dim, N). support: l per particle [m], shape (N,).
         mean: plain function (l_i, l_j) -> l_ij, growing with both.
         lower, upper: box [m] that no particle may leave; None for no limit.
         period: width of the box per axis [m], 0.0 where not periodic; () for no periodic axis.
+        wanted: rows that are to be found, kind "index"; the others stay empty. None for all.
 
     Returns:
         row_start, kind "offset", shape (count + 1,), and neighbor, kind "index".
@@ -119,10 +124,12 @@ def neighbor_list(
     _refuse_short_period(host, widths, float(mean(reach.max(), reach.max())))
     periodic = tuple(bool(width) for width in widths)
     module = cache.load(scan_text(backend.precision, dimension, mean, periodic))
-    cells = _levels(cache.load(sort_text(backend.precision, dimension)).sort, host, reach, mean)
+    sort = cache.load(sort_text(backend.precision, dimension)).sort
+    cells = _levels(sort, host, reach, mean, lower, upper)
     extent = max(float(np.abs(cells.low).max()), float(np.abs(cells.high).max()), widths.max())
     slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(reach.max())))
-    arguments = (np.uint64(count), host, reach, *cells, slack, widths)
+    targets = host if wanted is None else _only(host, backend.unwrap(wanted))
+    arguments = (np.uint64(count), targets, reach, *cells, slack, widths)
     neighbor = _scanned(module, backend, arguments, count, row_start)
     return backend.wrap(row_start), backend.wrap(neighbor)
 
@@ -163,7 +170,21 @@ def _scanned(
     return neighbor
 
 
-def _levels(sort: Callable, position: np.ndarray, support: np.ndarray, mean: Callable) -> _Cells:
+def _only(position: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Positions of the wanted particles; the others lie where nothing is near."""
+    targets = np.full_like(position, np.inf)
+    targets[:, wanted] = position[:, wanted]
+    return targets
+
+
+def _levels(
+    sort: Callable,
+    position: np.ndarray,
+    support: np.ndarray,
+    mean: Callable,
+    lower: Sequence[float] | None,
+    upper: Sequence[float] | None,
+) -> _Cells:
     """Sort the particles into levels and cells."""
     dimension, total = position.shape
     smallest = support.min()
@@ -182,7 +203,8 @@ def _levels(sort: Callable, position: np.ndarray, support: np.ndarray, mean: Cal
     for k, group in enumerate(groups):
         single = group.size == total
         part = position if single else np.ascontiguousarray(position[:, group])
-        low[k], high[k] = part.min(axis=1), part.max(axis=1)
+        low[k] = part.min(axis=1) if lower is None else lower
+        high[k] = part.max(axis=1) if upper is None else upper
         largest[k] = (support if single else support[group]).max()
         size = float(mean(largest[k], largest[k])) / _CELLS_PER_REACH
         place = order[members : members + group.size]

@@ -28,3 +28,10 @@ def chosen(threads: int | None) -> int:
         raise ValueError(f"threads must be at least 1, not {threads}")
     limit = min(available(), numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
     return limit if threads is None else min(threads, limit)
+
+
+def use(count: int) -> None:
+    """Number of threads of the next loops."""
+    from numba import set_num_threads
+
+    set_num_threads(count)

@@ -6,13 +6,16 @@ on the particles whose mask is 1; the others keep 0. All vectors stay on the bac
 dot products are fused into the loops. Symmetric positive definite for g_ij = g_ji >= 0, C > 0.
 
 The preconditioner is Jacobi's, whose iterations grow with the root of the stiffness
-s max(sum_j g_ij / C_i); where that exceeds `STIFF`, `multigrid` corrects it and they do not.
+s max(sum_j g_ij / C_i); where that exceeds `STIFF`, `multigrid` corrects it and they do not. An
+iteration reads the weights once, and takes as long as that: q = A p follows from A z, so that the
+product is summed in the same loop that turns the direction, and inexact Newton iterations may read
+weights rounded to float32.
 Reference: [Saad2003], Algorithm 9.1.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from lasersph.compute.backend import Backend
@@ -20,6 +23,8 @@ from lasersph.linear_solvers.multigrid import Multigrid
 
 STIFF = 20.0
 """Stiffness above which setting up and applying multigrid costs less than it saves."""
+
+VECTORS = ("x", "r", "z", "p", "q", "d")
 
 
 @dataclass
@@ -38,102 +43,131 @@ class PairOperator:
     total: Any
 
 
-def difference(g_ij, p_i, p_j):
-    """Term of (G p)_i."""
-    return g_ij * (p_i - p_j)
-
-
-def multiply(total, C, a, mask, p, s):
-    """(A p)_i, and p_i (A p)_i for the step length."""
-    q = mask * (C * p + s * (total + a * p))
-    return q, p * q
-
-
 def start(b, C, S, a, mask, s):
-    """x = 0, r = b, z = r / diagonal, p = z; reduces r z and |r|."""
-    r = mask * b
-    z = r / (C + s * (S + a))
-    return 0.0 * b, r, z, r * z, abs(r)
+    """x = 0, r = b, z = r / d, p = q = 0 and the diagonal d, which is 0 where held.
+
+    Reduces r z, |r| and the stiffness, a particle's weights over the rest of its diagonal.
+    """
+    r, d = mask * b, mask * (C + s * (S + a))
+    z = quotient(r, d)
+    return 0.0 * b, r, z, 0.0 * b, 0.0 * b, d, r * z, abs(r), mask * s * S / C
 
 
-def advance(x, r, p, q, C, S, a, alpha, s):
-    """x += alpha p, r -= alpha q, z = r / diagonal; reduces r z and |r|."""
+def quotient(r, d):
+    """r / d, 0 where held."""
+    return r / d if d > 0.0 else 0.0 * r
+
+
+def neighbor(g_ij, z_j):
+    """Term of sum_j g_ij z_j."""
+    return g_ij * z_j
+
+
+def turn(total, z, p, q, d, beta, s):
+    """Direction p = z + beta p, q = A p = A z + beta q, and p q for the step length."""
+    product = d * z - s * total if d > 0.0 else 0.0 * z
+    new, turned = z + beta * p, product + beta * q
+    return new, turned, new * turned
+
+
+def advance(x, r, p, q, d, alpha):
+    """x += alpha p, r -= alpha q, z = r / d; reduces r z and |r|."""
     rest = r - alpha * q
-    z = rest / (C + s * (S + a))
+    z = quotient(rest, d)
     return x + alpha * p, rest, z, rest * z, abs(rest)
-
-
-def stiffness(C, S, mask):
-    """Sum of a particle's weights over its diagonal [1/s]."""
-    return mask * S / C
-
-
-def turn(z, p, beta):
-    """New direction p = z + beta p."""
-    return z + beta * p
 
 
 class ConjugateGradient:
     """Solver with its work vectors.
 
+    Args:
+        rounds: read the weights in float32. The solution is then that of weights which are off
+            by up to 6e-8 of themselves.
+
     Attributes:
         solution: (n,) x after `solve`.
     """
 
-    def __init__(self, backend: Backend, operator: PairOperator, count: int) -> None:
-        self.backend, self.operator = backend, operator
-        self.solution = backend.zeros(count)
-        self._r, self._z, self._p, self._q = (backend.zeros(count) for _ in range(4))
+    def __init__(
+        self, backend: Backend, operator: PairOperator, count: int, *, rounds: bool = False
+    ) -> None:
+        self.backend, self.operator, self.rounds = backend, operator, rounds
+        self._used = replace(operator, weights=None)
+        self._bound: tuple = ()
+        self._v = {name: backend.zeros(count) for name in VECTORS}
+        self.solution = self._v["x"]
+        v = self._v
+        self._advance = backend.prepare(
+            advance, v, (v["x"], v["r"], v["z"], None, None),
+            reduce=(None, None, None, "sum", "sum"), alpha=0.0,
+        )  # fmt: skip
         self._multigrid: Multigrid | None = None
+        self._is_set_up = False
 
     def solve(
-        self, b: Any, C: Any, mask: Any, s: float, *, residual: float, max_iterations: int
+        self,
+        b: Any,
+        C: Any,
+        mask: Any,
+        s: float,
+        *,
+        residual: float,
+        max_iterations: int,
+        renews: bool = True,
     ) -> int:
         """Solve A x = b until the sum of |r_i| is at most `residual`; returns the iterations.
 
         Stops at `max_iterations` with the best x so far: the caller judges.
+
+        Args:
+            renews: False keeps the multigrid of an earlier solve, whose C and mask were similar.
         """
-        backend, operator = self.backend, self.operator
-        x, r, z, p, q = self.solution, self._r, self._z, self._p, self._q
+        self._bind()
+        self._is_set_up = self._is_set_up and not renews
+        v, operator = self._v, self._used
         fields = {"C": C, "S": operator.total, "a": operator.pull, "mask": mask, "b": b}
-        rz, error = backend.pointwise(
-            start, fields, (x, r, z, None, None), reduce=(None, None, None, "sum", "sum"), s=s
-        )
-        multigrid = self._prepared(C, mask, s)
+        out = (*[v[name] for name in VECTORS], None, None, None)
+        reduce = (None,) * len(VECTORS) + ("sum", "sum", "max")
+        rz, error, stiffest = self.backend.pointwise(start, fields, out, reduce=reduce, s=s)
+        multigrid = self._prepared(C, mask, s) if stiffest > STIFF else None
         if multigrid:
-            rz = multigrid.correct(r, z, mask)
-        backend.copy(z, p)
-        fields |= {"x": x, "r": r, "z": z, "p": p, "q": q, "g_ij": operator.weights}
-        iterations = 0
+            rz = multigrid.correct(v["r"], v["z"], mask)
+        iterations, beta = 0, 0.0
         while error > residual and iterations < max_iterations:
-            (pq,) = backend.pair_sum(
-                difference, operator.neighbors, fields, (q, None),
-                finish=multiply, reduce=(None, "sum"), s=s,
-            )  # fmt: skip
+            (pq,) = self._turn(beta=beta, s=s)
             if pq <= 0.0:
                 break
-            rz_old = rz
-            rz, error = backend.pointwise(
-                advance, fields, (x, r, z, None, None),
-                reduce=(None, None, None, "sum", "sum"), alpha=rz / pq, s=s,
-            )  # fmt: skip
+            before = rz
+            rz, error = self._advance(alpha=rz / pq)
             iterations += 1
             if error <= residual:
                 break
             if multigrid:
-                rz = multigrid.correct(r, z, mask)
-            backend.pointwise(turn, fields, p, beta=rz / rz_old)
+                rz = multigrid.correct(v["r"], v["z"], mask)
+            beta = rz / before
         return iterations
 
+    def _bind(self) -> None:
+        """Take the pairs and weights that the operator has now."""
+        operator, used, v = self.operator, self._used, self._v
+        now = (operator.neighbors, operator.weights)
+        if self._bound and all(a is b for a, b in zip(now, self._bound, strict=True)):
+            return
+        self._bound = now
+        used.neighbors = operator.neighbors
+        used.weights = self.backend.single(operator.weights) if self.rounds else operator.weights
+        self._turn = self.backend.prepare(
+            neighbor, v | {"g_ij": used.weights}, (v["p"], v["q"], None),
+            neighbors=used.neighbors, finish=turn, reduce=(None, None, "sum"), beta=0.0, s=0.0,
+        )  # fmt: skip
+
     def _prepared(self, C: Any, mask: Any, s: float) -> Multigrid | None:
-        """Multigrid for this matrix, where it is stiff; levels are built when first needed."""
-        fields = {"C": C, "S": self.operator.total, "mask": mask}
-        (stiffest,) = self.backend.pointwise(stiffness, fields, (None,), reduce=("max",))
-        if s * stiffest <= STIFF:
-            return None
+        """Multigrid for this matrix; levels are built when first needed."""
         if self._multigrid is None:
-            self._multigrid = Multigrid(self.backend, self.operator, self.solution.shape[0])
+            self._multigrid = Multigrid(self.backend, self._used, self.solution.shape[0])
         if not self._multigrid.levels:
             return None
-        self._multigrid.prepare(C, mask, s)
+        if not self._is_set_up:
+            self._multigrid.prepare(C, mask, s)
+            self._is_set_up = True
         return self._multigrid

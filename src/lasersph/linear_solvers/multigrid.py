@@ -20,11 +20,13 @@ mask at each `prepare`. References: [Vanek1996], [Bramble1990] for the additive 
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.launch import Launch
 from lasersph.linear_solvers.aggregation import Aggregates, coarsen
 
 DAMPING = 0.9
@@ -146,31 +148,53 @@ class _Level:
         self.C, self.w, self.d, self.r, self.x, self.rest = (backend.zeros(count) for _ in range(6))
         self._padded = backend.zeros(members)  # sums want as many values as there are rows
         self.solution = backend.head(self._padded, count)
-
-    def prepare(self, C: Any, w: Any, s: float) -> None:
-        """Set the operator from the row sums C and the free shares w of the members."""
-        backend = self.backend
-        backend.pair_sum(value, self.members, {"v": C}, self.C)
-        backend.pair_sum(value, self.members, {"v": w, "size": self.size}, self.w, finish=mean)
-        fields = {"g_ij": self.weights, "w": self.w, "C": self.C}
-        backend.pair_sum(weighted, self.pairs, fields, self.d, finish=diagonal, s=s)
-
-    def restrict(self, residual: Any) -> None:
-        """Right-hand side: the members' residuals."""
-        self.backend.pair_sum(value, self.members, {"v": residual}, self.r)
-
-    def fields(self) -> dict[str, Any]:
-        """Arrays by symbol."""
-        return {
+        v = {
             "g_ij": self.weights, "r": self.r, "C": self.C, "w": self.w, "d": self.d,
             "x": self.x,
         }  # fmt: skip
-
-    def prolong(self, function: Callable, fields: dict, out: Any, reduce: Any = None) -> tuple:
-        """Give each member the `solution` of its aggregate, as `total` of `function`."""
-        return self.backend.pair_sum(
-            value, self.parents, fields | {"v": self._padded}, out, finish=function, reduce=reduce
+        self._diagonal = backend.prepare(
+            weighted, v, self.d, neighbors=self.pairs, finish=diagonal, s=0.0
         )
+        self.first_sweep = backend.prepare(first_sweep, v, self.x, damping=DAMPING)
+        self.remainder = backend.prepare(
+            coupling, v, self.rest, neighbors=self.pairs, finish=rest, s=0.0
+        )
+        self.last_sweep = backend.prepare(
+            coupling, v, self.solution, neighbors=self.pairs, finish=sweep, s=0.0, damping=DAMPING
+        )
+        self._from: tuple = ()
+
+    def prepare(self, C: Any, w: Any, s: float) -> None:
+        """Set the operator from the row sums C and the free shares w of the members."""
+        if not _are(self._from, (C, w)):
+            self._from = (C, w)
+            self._sums = self._sum(C, self.C), self._sum(w, self.w, mean)
+        for sums in self._sums:
+            sums()
+        self._diagonal(s=s)
+
+    def _sum(self, values: Any, out: Any, finish: Callable | None = None) -> Launch:
+        """Loop that sums over members."""
+        fields = {"v": values, "size": self.size}
+        return self.backend.prepare(value, fields, out, neighbors=self.members, finish=finish)
+
+    def restriction(self, residual: Any) -> Launch:
+        """Loop that sets the right-hand side from the members' residuals."""
+        return self._sum(residual, self.r)
+
+    def prolongation(
+        self, function: Callable, fields: dict, out: Any, reduce: Any = None
+    ) -> Launch:
+        """Loop that gives members their aggregate's `solution`, as `total` of `function`."""
+        return self.backend.prepare(
+            value, fields | {"v": self._padded}, out,
+            neighbors=self.parents, finish=function, reduce=reduce,
+        )  # fmt: skip
+
+
+def _are(some: tuple, others: tuple) -> bool:
+    """Whether two tuples hold the same objects."""
+    return len(some) == len(others) and all(a is b for a, b in zip(some, others, strict=True))
 
 
 class Multigrid:
@@ -195,6 +219,14 @@ class Multigrid:
             None,
         )
         self._inverse = backend.zeros(n * n)
+        last = self.levels[-1]
+        fields = {"inverse_ij": self._inverse, "r": last.r}
+        self._solve = backend.prepare(product, fields, last.solution, neighbors=self._dense)
+        self._between = [
+            (above.restriction(level.rest), above.prolongation(add, {"x": level.x}, level.x))
+            for level, above in pairwise(self.levels)
+        ]
+        self._for: tuple = ()
 
     def prepare(self, C: Any, mask: Any, s: float) -> None:
         """Set the operator of all levels for the diagonal C, the mask and the step s."""
@@ -211,29 +243,26 @@ class Multigrid:
 
     def correct(self, r: Any, z: Any, mask: Any) -> float:
         """Add P B P^T r to z on the particles whose mask is 1; returns r z."""
-        finest = self.levels[0]
-        finest.restrict(r)
-        self._cycle(0)
-        fields = {"z": z, "r": r, "mask": mask}
-        return finest.prolong(corrected, fields, (z, None), reduce=(None, "sum"))[0]
+        if not _are(self._for, (r, z, mask)):
+            self._for, finest = (r, z, mask), self.levels[0]
+            fields = {"r": r, "z": z, "mask": mask}
+            self._restrict = finest.restriction(r)
+            self._prolong = finest.prolongation(corrected, fields, (z, None), (None, "sum"))
+        self._restrict()
+        self._cycle()
+        return self._prolong()[0]
 
-    def _cycle(self, k: int) -> None:
-        """V cycle from level k upward: its `solution` for its right-hand side."""
-        backend, level, s = self.backend, self.levels[k], self._step
-        fields = level.fields()
-        if level is self.levels[-1]:
-            fields = {"inverse_ij": self._inverse, "r": level.r}
-            backend.pair_sum(product, self._dense, fields, level.solution)
-            return
-        backend.pointwise(first_sweep, fields, level.x, damping=DAMPING)
-        backend.pair_sum(coupling, level.pairs, fields, level.rest, finish=rest, s=s)
-        above = self.levels[k + 1]
-        above.restrict(level.rest)
-        self._cycle(k + 1)
-        above.prolong(add, fields, level.x)
-        backend.pair_sum(
-            coupling, level.pairs, fields, level.solution, finish=sweep, s=s, damping=DAMPING
-        )
+    def _cycle(self) -> None:
+        """V cycle: `solution` of the finest level for its right-hand side."""
+        s = self._step
+        for level, (restrict, _) in zip(self.levels[:-1], self._between, strict=True):
+            level.first_sweep()
+            level.remainder(s=s)
+            restrict()
+        self._solve()
+        for level, (_, prolong) in zip(self.levels[-2::-1], self._between[::-1], strict=True):
+            prolong()
+            level.last_sweep(s=s)
 
 
 def _inverse(backend: Backend, level: _Level, s: float) -> np.ndarray:

@@ -25,25 +25,25 @@ COLDEST, HOTTEST = 1.0, 2.0e4
 SMALLEST_SHARE = 1e-30
 
 
-def absorbed(light, T_s, R_T, R_R):
-    """Energy absorbed by a particle in the step [J]: (1 - R(T_s)) times the light it would catch.
+def admitted(F, T_s, R_T, R_R):
+    """Light that enters the column below a surface particle [J/m^(d-1)]: (1 - R(T_s)) F.
 
     Args:
-        light: F A s of the particle [J]. T_s: surface temperature [K]. R_T, R_R: table of R(T).
+        T_s: surface temperature [K]. R_T, R_R: table of R(T).
     """
-    return (1.0 - interpolate(T_s, R_T, R_R)) * light
+    return (1.0 - interpolate(T_s, R_T, R_R)) * F
 
 
-def caught(F, area_share):
-    """Light that a black particle would absorb in the step [J]."""
-    return F * area_share
+def absorbed(area_share, above, columns):
+    """Energy absorbed by a particle [J]: A_i s_i times the light that enters its column."""
+    return area_share * columns[above]
 
 
 class Irradiation:
     """The laser on the particles of a filling.
 
     Attributes:
-        rows: particles that light reaches (index array), all others absorb nothing.
+        energy: (n,) absorbed in the step [J]. incident: what falls on the surface [J].
     """
 
     def __init__(
@@ -63,10 +63,9 @@ class Irradiation:
             np.maximum(depth - half, 0.0), depth + half, alpha if np.isfinite(alpha) else None
         )
         area = np.prod(width[:-1], axis=0)
-        lit = np.flatnonzero(share > SMALLEST_SHARE)
-        self.rows = backend.asarray(lit, "index")
-        self.above = backend.asarray(filling.above[lit], "index")
-        self.area_share = backend.asarray(area[lit] * share[lit])
+        lit = share > SMALLEST_SHARE
+        self.above = backend.asarray(filling.above, "index")
+        self.area_share = backend.asarray(np.where(lit, area * share, 0.0))
         surface = filling.surface
         position, size = filling.position[:-1, surface], width[:-1, surface]
         self.lower, self.upper = position - 0.5 * size, position + 0.5 * size
@@ -74,8 +73,7 @@ class Irradiation:
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self.R_T, self.R_R = (backend.asarray(values) for values in table)
         self.fluence = backend.zeros(surface.size)
-        self.column_fluence, self.light = backend.zeros(lit.size), backend.zeros(lit.size)
-        self.surface_temperature, self.caught = backend.zeros(lit.size), backend.zeros(lit.size)
+        self.columns = backend.zeros(surface.size)
 
     def shine(self, start: float, end: float) -> None:
         """Fix the light of the step from `start` to `end` [s]; `incident` is its energy [J]."""
@@ -84,22 +82,22 @@ class Irradiation:
             return
         density = self.laser.energy_density(self.lower, self.upper, start, end)
         self.incident = float(np.sum(density * self.surface_area))
-        backend = self.backend
-        backend.copy(backend.asarray(density), self.fluence)
-        backend.gather(self.fluence, self.above, self.column_fluence)
-        fields = {"F": self.column_fluence, "area_share": self.area_share}
-        backend.pointwise(caught, fields, self.light)
+        self.backend.copy(self.backend.asarray(density), self.fluence)
 
     def absorb(self, temperature: Any) -> float:
-        """Set `energy` [J] from the temperatures of the surface [K]; returns their sum [J]."""
-        if self.incident == 0.0:
-            self.backend.fill(self.energy, 0.0)
-            return 0.0
+        """Set `energy` [J] from the temperatures of the surface [K]; returns their sum [J].
+
+        Args:
+            temperature: (n,); the first ones are those of the surface, the others are not read.
+        """
         backend = self.backend
-        backend.gather(temperature, self.above, self.surface_temperature)
-        fields = {"light": self.light, "T_s": self.surface_temperature}
-        (total,) = backend.pointwise(
-            absorbed, fields, self.caught, reduce=("sum",), R_T=self.R_T, R_R=self.R_R
-        )
-        backend.scatter(self.caught, self.rows, self.energy)
-        return total
+        if self.incident == 0.0:
+            backend.fill(self.energy, 0.0)
+            return 0.0
+        T_s = backend.head(temperature, self.columns.shape[0])
+        fields = {"F": self.fluence, "T_s": T_s}
+        backend.pointwise(admitted, fields, self.columns, R_T=self.R_T, R_R=self.R_R)
+        fields = {"area_share": self.area_share, "above": self.above}
+        return backend.pointwise(
+            absorbed, fields, self.energy, reduce=("sum",), columns=self.columns
+        )[0]

@@ -12,11 +12,20 @@ from lasersph.compute.vectors import interpolate, interpolation_slope
 
 def state(h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes):
     """Temperature [K], heat potential [W/m], melt and vapor fraction at enthalpy h [J/kg]."""
+    low = 0
+    high = len(h_nodes) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if h < h_nodes[middle]:
+            high = middle
+        else:
+            low = middle
+    share = (h - h_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
     return (
-        interpolate(h, h_nodes, T_nodes),
-        interpolate(h, h_nodes, P_nodes),
-        min(max(interpolate(h, h_nodes, m_nodes), 0.0), 1.0),
-        min(max(interpolate(h, h_nodes, v_nodes), 0.0), 1.0),
+        T_nodes[low] + share * (T_nodes[low + 1] - T_nodes[low]),
+        P_nodes[low] + share * (P_nodes[low + 1] - P_nodes[low]),
+        min(max(m_nodes[low] + share * (m_nodes[low + 1] - m_nodes[low]), 0.0), 1.0),
+        min(max(v_nodes[low] + share * (v_nodes[low + 1] - v_nodes[low]), 0.0), 1.0),
     )
 
 
@@ -50,3 +59,52 @@ def balanced_enthalpy(energy, m, S, h_nodes, P_nodes):
 def potential_slope(h, h_nodes, P_nodes):
     """dP/dh [kg W/(m J)]: zero on plateaus."""
     return interpolation_slope(h, h_nodes, P_nodes)
+
+
+def followed(h, dP, dh, h_nodes, P_nodes):
+    """Enthalpy h [J/kg], heat potential P [W/m] and slope dP/dh after P has changed by dP.
+
+    From node to node the change is followed up to a plateau. There what is left of it turns into
+    latent heat, as much as it would have been of sensible heat and at most all there is. A
+    particle that is on a plateau takes dh instead, up to its ends.
+
+    Args:
+        h: enthalpy before. dP: change of the potential. dh: change of h on a plateau.
+    """
+    low = 0
+    high = len(h_nodes) - 1
+    last = high - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if h < h_nodes[middle]:
+            high = middle
+        else:
+            low = middle
+    slope = (P_nodes[low + 1] - P_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
+    P = P_nodes[low] + slope * (h - h_nodes[low])
+    new = h + dh
+    if slope <= 0.0:
+        new = max(new, h_nodes[low])
+        if low < last and new >= h_nodes[low + 1]:
+            new = h_nodes[low + 1]
+            low = low + 1
+    else:
+        P = P + dP
+        while low < last and P_nodes[low + 1] <= P and P_nodes[low + 2] > P_nodes[low + 1]:
+            low = low + 1
+        while low > 0 and P_nodes[low] > P and P_nodes[low] > P_nodes[low - 1]:
+            low = low - 1
+        slope = (P_nodes[low + 1] - P_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
+        new = h_nodes[low] + (P - P_nodes[low]) / slope
+        if low < last and P_nodes[low + 1] <= P:
+            P = P_nodes[low + 1]
+            low = low + 1
+            if low < last and new >= h_nodes[low + 1]:
+                new = h_nodes[low + 1]
+                low = low + 1
+        elif low > 0 and P_nodes[low] > P:
+            P = P_nodes[low]
+            low = low - 1
+            new = max(new, h_nodes[low])
+    slope = (P_nodes[low + 1] - P_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
+    return new, P, slope

@@ -31,17 +31,17 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
         found = np.flatnonzero(backend.to_host(lid.at_surface) == 1.0)
         surface = found[np.argsort(position[0, found], kind="stable")]
         temperature = backend.to_host(solver.state.temperature)[surface]
-        gradient = np.zeros(surface.size)
         if solver.fluid_count > 0.0 and flow.current_block is not None:
             temperature = backend.to_host(lid.temperature)[surface]
-            gradient = backend.to_host(lid.gradient)[surface]
+        gradient = np.gradient(temperature, position[0, surface])
+        if solver.fluid_count > 0.0 and flow.current_block is not None:
+            flowing = backend.to_host(solver.roles.active)[surface] > 0.0
+            gradient = np.where(flowing, backend.to_host(lid.gradient)[surface], gradient)
         flows = backend.to_host(solver.roles.fluid)[surface]
         reach = 0.5 * backend.to_host(lid.reach)[surface]
         speed = velocity[0, surface] + flows * reach
     T = material.flow_temperature
-    has_slope = (
-        material.surface_tension_slope is not None or material.surface_tension is not None
-    )
+    has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
     held = {
         side: case.boundaries.temperature_of(side, case.initial_temperature)
         for side in SIDES

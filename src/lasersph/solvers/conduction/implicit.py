@@ -6,13 +6,16 @@ s is the time step, q the loss of the surface, E the absorbed light at the new s
 The paper eliminates T through h and freezes the fractions (66); its equation multiplied by V_i is
 this one. One iteration is
 
-    1  Newton: (C + s G) dP = r on the particles off the plateaus, C = m dh/dP + s dq/dP
-    2  these take dh = dP dh/dP, so that one that reaches a plateau stores the rest as latent heat
+    1  Newton: (C + s G) dP = r on the particles off the plateaus, C = m dh/dP + s dq/dP, by
+       conjugate gradients, as exactly as the last iteration has made it worth
+    2  these take the enthalpy that dP leads to; one that reaches a plateau stores the rest as
+       latent heat
     3  those on a plateau are balanced with their neighbors held (65), which lets them leave it
     4  residual r; the Newton step is halved until the sum of |r| falls
 
 and ends at sum |r| <= tolerance times the absorbed energy. Whatever is left of r is added to the
-enthalpies, so that energy balances to rounding.
+enthalpies, so that energy balances to rounding. The first guess extrapolates the potential, which
+stays smooth in time where a particle begins to melt and its enthalpy does not.
 """
 
 from __future__ import annotations
@@ -21,16 +24,21 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.compute.vectors import interpolation_slope
+from lasersph.compute.vectors import interpolate, interpolation_slope
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
-from lasersph.physics.phase_change import balanced_enthalpy, potential_slope, thermal_state
+from lasersph.physics.phase_change import balanced_enthalpy, followed, potential_slope
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.conduction.state import HeatState, NotConverged
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
 from lasersph.sph.laplacian import flow
 
-FORCING = 0.02
-"""Residual of the linear solver over that of the Newton iteration."""
+FIRST_FORCING = 0.05
+"""Residual of the linear solver over that of the Newton iteration, in the first of a step; after
+that, what the last iteration has left of its own."""
+FORCING = (0.02, 0.2)
+"""Range of that [Eisenstat1996]."""
+SMOOTH_RATIO = 2.0
+"""Steps that differ by less than this are followed by a parabola, others by a straight line."""
 HALVINGS = 4
 MAX_NEWTON = 60
 ROUNDING = 4.0
@@ -38,15 +46,21 @@ ROUNDING = 4.0
 MAX_LINEAR = 400
 
 
-def foresee(h, h_old, ratio, h_nodes, T_nodes, P_nodes):
-    """Enthalpy extrapolated from the last step, and T and P there."""
-    guess = h + ratio * (h - h_old)
-    T, P = thermal_state(guess, h_nodes, T_nodes, P_nodes)
-    return guess, T, P
+def foresee(h, excess, h_old, h_older, ratio, near, far, h_nodes, P_nodes):
+    """Enthalpy, P and dP/dh extrapolated from three steps of P; on plateaus from two of h.
+
+    Args:
+        ratio: step over the last one. near, far: weights of the last changes of the potential.
+    """
+    start = h - excess
+    P_old = interpolate(h_old, h_nodes, P_nodes)
+    change = interpolate(start, h_nodes, P_nodes) - P_old
+    before = P_old - interpolate(h_older, h_nodes, P_nodes)
+    return followed(start, near * change + far * before, ratio * (start - h_old), h_nodes, P_nodes)
 
 
-def balance(total, h0, P, E, q, m, S, a, B, s, h_nodes, T_nodes, P_nodes):
-    """Enthalpy, T and P of a particle that balances with its neighbors held.
+def balance(total, h0, P, E, q, m, S, a, B, s, h_nodes, P_nodes):
+    """Enthalpy, P and dP/dh of a particle that balances with its neighbors held.
 
     Args:
         total: sum of g_ij (P_j - P_i). h0: enthalpy before the step. S, a: sums of weights.
@@ -54,8 +68,7 @@ def balance(total, h0, P, E, q, m, S, a, B, s, h_nodes, T_nodes, P_nodes):
     """
     energy = m * h0 + E + s * (total + S * P + B - q)
     h = balanced_enthalpy(energy, m, s * (S + a), h_nodes, P_nodes)
-    T, P_new = thermal_state(h, h_nodes, T_nodes, P_nodes)
-    return h, T, P_new
+    return h, interpolate(h, h_nodes, P_nodes), potential_slope(h, h_nodes, P_nodes)
 
 
 def residual(total, h, h0, P, E, q, m, S, a, B, s):
@@ -66,35 +79,39 @@ def residual(total, h, h0, P, E, q, m, S, a, B, s):
     return r, abs(r), walls, m * abs(h) + s * (S + a) * abs(P)
 
 
-def linearize(h, m, dq, s, h_nodes, T_nodes, P_nodes):
+def linearize(h, slope, m, dq, s, h_nodes, T_nodes):
     """Diagonal C [J m/W] and mask: 0 on plateaus, where P does not answer to h."""
-    slope = potential_slope(h, h_nodes, P_nodes)
     if slope <= 0.0:
         return 1.0 + 0.0 * h, 0.0 * h
-    return (m + s * dq * interpolation_slope(h, h_nodes, T_nodes)) / slope, 1.0 + 0.0 * h
+    C = m
+    if dq != 0.0:
+        C = m + s * dq * interpolation_slope(h, h_nodes, T_nodes)
+    return C / slope, 1.0 + 0.0 * h
 
 
-def move(h, dP, damping, h_nodes, T_nodes, P_nodes):
-    """Enthalpy, T and P after a damped Newton step; on plateaus dP = 0 and nothing moves."""
-    slope = potential_slope(h, h_nodes, P_nodes)
-    new = h
-    if slope > 0.0:
-        new = h + damping * dP / slope
-    T, P = thermal_state(new, h_nodes, T_nodes, P_nodes)
-    return new, T, P
+def move(h, dP, damping, h_nodes, P_nodes):
+    """Enthalpy, P and dP/dh after a damped Newton step; on plateaus nothing moves."""
+    return followed(h, damping * dP, 0.0, h_nodes, P_nodes)
 
 
-def settle(h, r, m, h0):
-    """Enthalpy with the last residual added, and the energy stored by the particle [J]."""
-    new = h + r / m
-    return new, m * (new - h0)
+def same(new):
+    """Argument."""
+    return new
+
+
+def settle(h, r, m, h0, excess, previous):
+    """Enthalpy with the last residual added, what was added, the enthalpies of one and two steps
+    ago without that, and the energy stored by the particle [J]."""
+    more = r / m
+    return h + more, more, h0 - excess, previous, m * (h + more - h0)
 
 
 class ImplicitStep:
     """Newton iteration with its work vectors.
 
     Attributes:
-        newton, linear: iterations of the last step.
+        newton, linear: iterations of the last step. forcing: residual of the next linear solve
+            over that of Newton's iteration.
     """
 
     max_iterations = MAX_NEWTON
@@ -102,15 +119,15 @@ class ImplicitStep:
     def __init__(self, body: Body, exchange: SurfaceExchange, tolerance: float) -> None:
         backend, count = body.backend, body.count
         self.body, self.exchange, self.tolerance = body, exchange, tolerance
-        self.solver = ConjugateGradient(backend, body.pairs, count)
-        self.h, self.T, self.P, self.spare, self.start, self.r, self.C, self.mask = (
-            backend.zeros(count) for _ in range(8)
+        self.solver = ConjugateGradient(backend, body.pairs, count, rounds=True)
+        self.h, self.T, self.P, self.slope, self.spare, self.start, self.r, self.C, self.mask = (
+            backend.zeros(count) for _ in range(9)
         )
-        tables = body.tables
-        self.curve = {key: tables[key] for key in ("h_nodes", "T_nodes", "P_nodes")}
+        self.curve = {key: body.tables[key] for key in ("h_nodes", "P_nodes")}
         self.rounding = ROUNDING * float(np.finfo(backend.real).eps)
         self.size = 0.0
         self.newton = self.linear = 0
+        self.forcing = FIRST_FORCING
 
     def advance(self, state: HeatState, step: float, exchanged: float) -> dict[str, float]:
         """Enthalpies after `step` [s] into `state.enthalpy`; returns the energies of the step.
@@ -123,9 +140,8 @@ class ImplicitStep:
         """
         backend = self.body.backend
         self.newton = self.linear = 0
-        ratio = step / state.time_step if state.time_step > 0.0 else 0.0
-        fields = {"h": state.enthalpy, "h_old": state.previous}
-        backend.pointwise(foresee, fields, (self.h, self.T, self.P), ratio=ratio, **self.curve)
+        self.forcing = FIRST_FORCING
+        self._foresee(state, step)
         error, energy = self._residual(state, step)
         allowed = self.tolerance * max(exchanged, energy["absorbed"] + abs(energy["lost"]), error)
         allowed = max(allowed, self.rounding * self.size)
@@ -135,30 +151,66 @@ class ImplicitStep:
                     f"the heat balance is off by {error:.2e} J after {self.newton} iterations, "
                     f"allowed are {allowed:.2e} J"
                 )
-            error, energy = self._improve(state, step, error, max(FORCING * error, 0.3 * allowed))
+            wanted = max(self.forcing * error, 0.3 * allowed)
+            found, energy = self._improve(state, step, error, wanted)
+            self.forcing = min(max(found / error, FORCING[0]), FORCING[1])
+            error = found
             self.newton += 1
-        fields = {"h": self.h, "r": self.r, "m": self.body.mass, "h0": state.enthalpy}
-        backend.copy(state.enthalpy, state.previous)
-        (stored,) = backend.pointwise(settle, fields, (state.enthalpy, None), reduce=(None, "sum"))
+        fields = {
+            "h": self.h, "r": self.r, "m": self.body.mass, "h0": state.enthalpy,
+            "excess": state.excess, "previous": state.previous,
+        }  # fmt: skip
+        out = (state.enthalpy, state.excess, state.previous, state.older, None)
+        (stored,) = backend.pointwise(settle, fields, out, reduce=(None,) * 4 + ("sum",))
         return energy | {"stored": stored}
+
+    def _foresee(self, state: HeatState, step: float) -> None:
+        """Set the first guess of enthalpy and potential."""
+        last, before = state.time_step, state.time_step_before
+        ratio = near = step / last if last > 0.0 else 0.0
+        far = 0.0
+        if 0.0 < step <= SMOOTH_RATIO * last and last <= SMOOTH_RATIO * before:
+            bend = step * (step + last) / (last + before)
+            near, far = ratio + bend / last, -bend / before
+        fields = {
+            "h": state.enthalpy, "excess": state.excess, "h_old": state.previous,
+            "h_older": state.older,
+        }  # fmt: skip
+        self.body.backend.pointwise(
+            foresee,
+            fields,
+            (self.h, self.P, self.slope),
+            ratio=ratio,
+            near=near,
+            far=far,
+            **self.curve,
+        )
 
     def _improve(
         self, state: HeatState, step: float, error: float, linear_residual: float
     ) -> tuple[float, dict[str, float]]:
         """One Newton step, halved until the residual falls; then whatever the last one gives."""
         body, backend = self.body, self.body.backend
-        fields = {"h": self.h, "m": body.mass, "dq": self.exchange.slope}
-        backend.pointwise(linearize, fields, (self.C, self.mask), s=step, **self.curve)
-        plateau = backend.rows_where(self.mask, 0.0)
+        fields = {
+            "h": self.h, "slope": self.slope, "m": body.mass, "dq": self.exchange.slope,
+        }  # fmt: skip
+        (freest,) = backend.pointwise(
+            linearize, fields, (self.C, self.mask), reduce=(None, "min"), s=step,
+            h_nodes=body.tables["h_nodes"], T_nodes=body.tables["T_nodes"],
+        )  # fmt: skip
+        plateau = backend.rows_where(self.mask, 0.0) if freest == 0.0 else None
         self.linear += self.solver.solve(
-            self.r, self.C, self.mask, step, residual=linear_residual, max_iterations=MAX_LINEAR
-        )
+            self.r, self.C, self.mask, step, residual=linear_residual, max_iterations=MAX_LINEAR,
+            renews=self.newton == 0,
+        )  # fmt: skip
         backend.copy(self.h, self.start)
         damping = 1.0
         for _ in range(HALVINGS):
             fields = {"h": self.start, "dP": self.solver.solution}
-            backend.pointwise(move, fields, (self.h, self.T, self.P), damping=damping, **self.curve)
-            self._balance(state, step, plateau)
+            out = (self.h, self.P, self.slope)
+            backend.pointwise(move, fields, out, damping=damping, **self.curve)
+            if plateau is not None:
+                self._balance(state, step, plateau)
             found, energy = self._residual(state, step)
             if found < error:
                 return found, energy
@@ -176,16 +228,20 @@ class ImplicitStep:
     def _balance(self, state: HeatState, step: float, rows: Any) -> None:
         """Balance the particles `rows` with their neighbors held."""
         backend = self.body.backend
-        backend.copy(self.P, self.spare)
         backend.pair_sum(
-            flow, self.body.pairs.neighbors, self._fields(state), (self.h, self.T, self.spare),
+            flow, self.body.pairs.neighbors, self._fields(state), (self.h, self.spare, self.slope),
             rows=rows, finish=balance, s=step, **self.curve,
         )  # fmt: skip
-        self.P, self.spare = self.spare, self.P
+        backend.pointwise(same, {"new": self.spare}, self.P, rows=rows)
 
     def _residual(self, state: HeatState, step: float) -> tuple[float, dict[str, float]]:
         """Residual into `r`; returns the sum of |r| and the energies of the step [J]."""
         body, backend = self.body, self.body.backend
+        if body.irradiation.incident > 0.0 or not self.exchange.is_idle:
+            backend.pointwise(
+                interpolate, {"x": self.h}, self.T, rows=self.exchange.rows,
+                nodes=body.tables["h_nodes"], values=body.tables["T_nodes"],
+            )  # fmt: skip
         absorbed = body.irradiation.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
         error, walls, self.size = backend.pair_sum(

@@ -13,11 +13,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from lasersph.linear_solvers.conjugate_gradient import difference
-from lasersph.physics.phase_change import thermal_state
+from lasersph.compute.vectors import interpolate
 from lasersph.solvers.conduction.implicit import ImplicitStep
 
 MAX_ITERATIONS = 20_000
+
+
+def difference(g_ij, p_i, p_j):
+    """Term of (G p)_i."""
+    return g_ij * (p_i - p_j)
 
 
 def descend(r, m, S, a, s, slope):
@@ -31,11 +35,10 @@ def curvature(total, z, m, a, s, slope):
     return z * (m * z + s * slope * (total + a * z))
 
 
-def take(h, z, alpha, h_nodes, T_nodes, P_nodes):
-    """New enthalpy with its temperature and potential."""
+def take(h, z, alpha, h_nodes, P_nodes):
+    """New enthalpy with its potential."""
     new = h + alpha * z
-    T, P = thermal_state(new, h_nodes, T_nodes, P_nodes)
-    return new, T, P
+    return new, interpolate(new, h_nodes, P_nodes)
 
 
 class PublishedStep(ImplicitStep):
@@ -58,6 +61,6 @@ class PublishedStep(ImplicitStep):
             difference, body.pairs.neighbors, fields, (None,),
             finish=curvature, reduce=("sum",), s=step, slope=slope,
         )  # fmt: skip
-        backend.pointwise(take, fields, (self.h, self.T, self.P), alpha=rz / zAz, **self.curve)
+        backend.pointwise(take, fields, (self.h, self.P), alpha=rz / zAz, **self.curve)
         self.linear += 1
         return self._residual(state, step)

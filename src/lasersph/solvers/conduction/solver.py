@@ -17,8 +17,8 @@ from lasersph.solvers.conduction.state import ENERGIES, HeatState, NotConverged
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
 from lasersph.solvers.time_step import TimeSettings
 
-ARRAYS = ("enthalpy", "temperature", "potential", "melt_fraction", "vapor_fraction", "previous",
-          "evaporated")  # fmt: skip
+ARRAYS = ("enthalpy", "temperature", "potential", "melt_fraction", "vapor_fraction", "excess",
+          "previous", "older", "evaporated")  # fmt: skip
 EXPECTED_SHARE = 1e-3
 RETRIES = 8
 
@@ -90,7 +90,8 @@ class Conduction:
         state = self.state
         numbers = {f"energy.{name}": state.energy[name] for name in ENERGIES}
         return numbers | {
-            "time": state.time, "time_step": state.time_step, "fastest": state.fastest,
+            "time": state.time, "time_step": state.time_step,
+            "time_step_before": state.time_step_before, "fastest": state.fastest,
             "lit_until": state.lit_until, "pace": state.pace,
         }  # fmt: skip
 
@@ -106,6 +107,7 @@ class Conduction:
         state = self.state
         state.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
         state.time, state.time_step = numbers["time"], numbers["time_step"]
+        state.time_step_before = numbers["time_step_before"]
         state.fastest, state.lit_until = numbers["fastest"], numbers["lit_until"]
         state.pace = numbers["pace"]
 
@@ -189,6 +191,7 @@ class Conduction:
         (state.fastest,) = backend.pointwise(change, fields, (None,), reduce=("max",))
         if self.laser is not None and self.laser.pulse.active(state.time, state.time + step):
             state.lit_until = state.time + step
+        state.time_step_before = state.time_step
         state.time, state.time_step = state.time + step, step
         state.pace = step if pace is None else pace
 

@@ -22,10 +22,12 @@ class HeatState:
 
     Attributes:
         enthalpy [J/kg], temperature [K], potential [W/m], melt_fraction, vapor_fraction [1].
-        previous: enthalpy one step ago [J/kg], from which the next is foreseen.
+        excess: what the last step has added to each enthalpy beside the iteration's result, to
+            close its balance [J/kg]. previous, older: enthalpy without it one and two steps ago,
+            from which the next is foreseen.
         evaporated: mass per area that has left, (n,), 0 below the surface [kg/m^2].
         energy: exchanged since the start [J], by ENERGIES.
-        time, time_step: [s]; time_step is that of the last step, 0 before the first.
+        time, time_step, time_step_before: [s]; the last steps, 0 before the first and second.
     """
 
     enthalpy: Any
@@ -33,11 +35,14 @@ class HeatState:
     potential: Any
     melt_fraction: Any
     vapor_fraction: Any
+    excess: Any
     previous: Any
+    older: Any
     evaporated: Any
     energy: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
     time: float = 0.0
     time_step: float = 0.0
+    time_step_before: float = 0.0
     fastest: float = 0.0
     """Largest change of temperature in the last step [K]."""
     lit_until: float = 0.0
@@ -49,7 +54,7 @@ class HeatState:
     def at_rest(cls, backend: Backend, body: Body) -> HeatState:
         """The body at its initial temperature: h = 0."""
         count = body.count
-        state = cls(*(backend.zeros(count) for _ in range(7)))
+        state = cls(*(backend.zeros(count) for _ in range(9)))
         state.refresh(body)
         return state
 

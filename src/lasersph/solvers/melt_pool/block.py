@@ -104,7 +104,8 @@ class Block:
     Args:
         lattice: what stays of the particles while they move. sides: of the domain.
         layers, rows: layers and particles whose rows are complete. count: particles with the
-            margin below them. has_bottom: whether the block ends at the bottom of the domain.
+            margin below them. bottom: z of its lowest face [m]. has_bottom: whether that is the
+            bottom of the domain.
         potential, enthalpy: heat potential [W/m] and enthalpy [J/kg] of a wall's temperature [K].
 
     Attributes:
@@ -121,12 +122,14 @@ class Block:
         layers: int,
         rows: int,
         count: int,
+        bottom: float,
         has_bottom: bool,
         potential: Callable[[np.ndarray], np.ndarray],
         enthalpy: Callable[[np.ndarray], np.ndarray],
     ) -> None:
         self.backend, self.lattice, self.sides = backend, lattice, sides
-        self.layers, self.rows, self.count, self.has_bottom = layers, rows, count, has_bottom
+        self.layers, self.rows, self.count = layers, rows, count
+        self.bottom, self.has_bottom = bottom, has_bottom
         self.potential, self.enthalpy = potential, enthalpy
         self.volume = backend.asarray(lattice.volume[:count])
         self.largest_support = float(lattice.support[:count].max())
@@ -138,13 +141,17 @@ class Block:
         self.backend.gather(field, self.source, out)
         return out
 
-    def find_pairs(self, position: Any) -> None:
-        """Images and pairs of the particles at `position`, shape (2, n) [m].
+    def find_pairs(self, position: Any, wanted: np.ndarray) -> None:
+        """Images of the particles at `position`, shape (2, n) [m], and pairs of the wanted ones.
+
+        Args:
+            wanted: host array (count,), whether the row of a particle is to be found.
 
         Raises:
             EscapedParticle: a position is not finite or beyond the sides.
         """
         backend, lattice, count = self.backend, self.lattice, self.count
+        self.wanted = backend.asarray(np.flatnonzero(wanted), "index")
         host = backend.to_host(position)[:, :count]
         images = images_of(host, self.reach, self.sides.face_pairs(has_bottom=self.has_bottom))
         rules = self.sides.rules(images, host)
@@ -177,7 +184,7 @@ class Block:
         place = self._place(position)
         row_start, neighbor = search.neighbor_list(
             backend, place, backend.asarray(SKIN * support), count, mean=lattice.weighing.mean,
-            lower=self._corner(0), upper=self._corner(1),
+            lower=self._corner(0), upper=self._corner(1), wanted=self.wanted,
         )  # fmt: skip
         self.pairs = NeighborList(
             row_start, neighbor, place, self.support, lattice.weighing.kernel,
@@ -229,11 +236,41 @@ class Block:
         )  # fmt: skip
         return turned
 
-    def smallest_distance(self, position: Any) -> float:
-        """Smallest distance of two particles or images at `position`, shape (2, n) [m]."""
+    def touched(self, position: Any, fluid: Any) -> np.ndarray:
+        """Host array (count,): whether a particle is in reach of a fluid one, or nearly so.
+
+        Particles and their neighbors lie in cells as wide as the reach that touch each other.
+
+        Args:
+            position: (2, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
+
+        Raises:
+            EscapedParticle: a position is not finite.
+        """
+        host = self.backend.to_host(position)[:, : self.count]
+        if not np.isfinite(host).all():
+            raise search.EscapedParticle("a particle's position is not finite")
+        flows = self.backend.to_host(fluid)[: self.count] > 0.0
+        (x0, x1), _ = self.sides.box
+        corner = np.array([[x0 - 2.0 * self.reach], [self.bottom - 2.0 * self.reach]])
+        cell = ((host - corner) / self.reach).astype(np.int64)
+        shape = cell.max(axis=1) + 2
+        marks = np.zeros(shape, bool)
+        marks[cell[0, flows], cell[1, flows]] = True
+        for axis in (0, 1):
+            marks |= np.roll(marks, 1, axis) | np.roll(marks, -1, axis)
+        if self.sides.flow_kind("left") == "periodic":
+            width = round((x1 - x0) / self.reach) + 3
+            ends = [*range(5), *range(max(width - 4, 0), shape[0])]
+            near = marks[ends].any(axis=0)
+            marks[ends] |= near
+        return marks[cell[0], cell[1]]
+
+    def smallest_distance(self, position: Any, rows: Any) -> float:
+        """Smallest distance from one of `rows` to another particle or image [m]."""
         pairs = replace(self.pairs, position=self._place(position))
         (least,) = self.backend.pair_sum(
-            distance, pairs, {}, (None,), combine=("min",), reduce=("min",)
+            distance, pairs, {}, (None,), rows=rows, combine=("min",), reduce=("min",)
         )
         return least
 
@@ -268,7 +305,9 @@ class Block:
     def _corner(self, end: int) -> tuple[float, ...]:
         """Box that no particle and no image may leave [m]."""
         outward = -1.0 if end == 0 else 1.0
-        return tuple(pair[end] + outward * self.reach for pair in self.sides.box)
+        (x, z) = self.sides.box
+        bottom = max(z[0], self.bottom)
+        return tuple(pair[end] + outward * self.reach for pair in (x, (bottom, z[1])))
 
 
 def _padded(values: np.ndarray, count: int, rest: float) -> np.ndarray:

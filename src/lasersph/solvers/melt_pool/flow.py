@@ -164,13 +164,13 @@ class Flow:
         """(n,) by how much the lid makes images faster than their sources [m/s]."""
         return self._nothing if self.lid is None else self.lid.reach
 
-    def correct_kernel(self) -> None:
-        """Correction matrices at the present positions."""
+    def correct_kernel(self, rows: Any) -> None:
+        """Correction matrices of some rows at the present positions."""
         block = self.block
         self.backend.pair_sum(
-            correction_term, block.pairs, {"V": block.V}, self._C, finish=bounded_inverse
-        )
-        self.correction_of_all = block.tensor(self._C)
+            correction_term, block.pairs, {"V": block.V}, self._C, finish=bounded_inverse,
+            rows=rows,
+        )  # fmt: skip
 
     def predict(self, T: Any, roles: Roles, step: float) -> None:
         """Velocity after viscous and body forces (68)."""
@@ -192,7 +192,7 @@ class Flow:
             NotConverged: the pressure equation is not solved.
         """
         backend, block = self.backend, self.block
-        self._diverge(roles, self.liquid.density / step)
+        self._diverge(roles.unknown_rows, self.liquid.density / step)
         head, count = backend.head, block.count
         backend.copy(head(self.pressure, count), self._p)
         mask = head(roles.unknown, count)
@@ -216,11 +216,11 @@ class Flow:
         """Velocity after the pressure (70)."""
         backend, block = self.backend, self.block
         fields = {
-            "p": block.gather(self.pressure), "V": block.V, "C": self.correction_of_all, "v": self.velocity,
+            "p": block.gather(self.pressure), "V": block.V, "C": block.tensor(self._C), "v": self.velocity,
         }  # fmt: skip
         (push,) = backend.pair_sum(
             corrected_symmetric_term, block.pairs, fields, (self.velocity, None),
-            rows=backend.rows_where(roles.fluid, 1.0), finish=correct, reduce=(None, "max"),
+            rows=roles.fluid_rows, finish=correct, reduce=(None, "max"),
             step=step, density=self.liquid.density,
         )  # fmt: skip
         self.push = max(push, 0.0) ** 0.5
@@ -228,10 +228,10 @@ class Flow:
 
     def measure_divergence(self, roles: Roles, count: float) -> None:
         """Divergence that the projection left, for observers."""
-        self._diverge(roles, 1.0)
+        self._diverge(roles.fluid_rows, 1.0)
         fields = {"D": self._D, "fluid": self.backend.head(roles.fluid, self.block.count)}
         square, largest = self.backend.pointwise(
-            sizes, fields, (None, None), reduce=("sum", "max")
+            sizes, fields, (None, None), rows=roles.fluid_rows, reduce=("sum", "max")
         )
         self.divergence = ((square / max(count, 1.0)) ** 0.5, largest)
 
@@ -252,12 +252,12 @@ class Flow:
         self.divergence = (0.0, 0.0)
         self.iterations = {"pressure": 0, "viscosity": 0}
 
-    def _diverge(self, roles: Roles, fraction: float) -> None:
+    def _diverge(self, rows: Any, fraction: float) -> None:
         block = self.block
         fields = {"v": block.velocity(self.velocity, self.reach()), "V": block.V, "C": self._C}
         self.backend.pair_sum(
             corrected_divergence_term, block.pairs, fields, (self._rhs, self._D),
-            finish=divergence_load, fraction=fraction, d=0.0,
+            finish=divergence_load, rows=rows, fraction=fraction, d=0.0,
         )  # fmt: skip
 
     def _share(self, roles: Roles) -> None:
@@ -270,7 +270,7 @@ class Flow:
         }  # fmt: skip
         backend.pair_sum(
             shared, block.pairs, fields, self._p, finish=dummy_pressure,
-            rows=backend.rows_where(head(roles.dummy, block.count), 1.0),
+            rows=roles.dummy_rows,
         )  # fmt: skip
         backend.copy(self._p, head(self.pressure, block.count))
 
@@ -281,4 +281,3 @@ class Flow:
             stopped, fields, (self.velocity, None), reduce=(None, "max")
         )
         self.fastest = max(square, 0.0) ** 0.5
-

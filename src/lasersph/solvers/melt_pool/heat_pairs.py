@@ -18,18 +18,31 @@ def walls(total_0, total_1, total_2, total_3):
     return total_0, total_1 + total_3, total_2
 
 
+def marked(touched):
+    """1 for every row."""
+    return 1.0 + 0.0 * touched
+
+
 class HeatPairs:
-    """The pair operator of a body, which follows the particles."""
+    """The pair operator of a body, which follows the particles.
+
+    Attributes:
+        touched: (n,) 1 where the row of a particle was ever renewed, else 0.
+    """
 
     def __init__(self, backend: Backend, body: Body) -> None:
         self.backend, self.body = backend, body
-        pairs = body.pairs
-        self._still = PairRows(pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights)
+        self.touched = backend.zeros(body.count)
 
     def renew(self, block: Block) -> None:
-        """Take the block's pairs and weights at its present positions."""
+        """Take the rows that the block has found, with the weights of its present positions.
+
+        Rows of the margin below the block lack neighbors; nothing that moves touches them.
+        """
         backend, body, pairs = self.backend, self.body, self.body.pairs
-        rows = backend.asarray(np.arange(block.rows), "index")
+        found = backend.to_host(block.wanted)
+        found = found[found < block.rows]
+        rows = backend.asarray(found, "index")
         weights: Any = block.weights
         fields = {"g_ij": block.weights} | block.rules
         if block.has_walls:
@@ -38,8 +51,12 @@ class HeatPairs:
             weights = backend.zeros(block.weights.shape[0])
             backend.pair_values(inner_weight, block.pairs, fields, weights)
         backend.pair_sum(weight_of, block.pairs, {"g_ij": weights}, pairs.total, rows=rows)
+        chosen = np.zeros(body.count, np.uint8)
+        chosen[found] = 1
+        backend.pointwise(marked, {"touched": self.touched}, self.touched, rows=rows)
         first = PairRows(block.pairs.row_start, block.folded().neighbor, weights)
-        joined = splice(backend, first, block.rows, self._still)
+        rest = PairRows(pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights)
+        joined = splice(backend, first, backend.asarray(chosen, "flag"), rest)
         pairs.neighbors = replace(
             pairs.neighbors, row_start=joined.row_start, neighbor=joined.neighbor
         )

@@ -33,9 +33,10 @@ def velocity_terms(v_i, v_j, V_j, x_ij, r_ij, dW_ij):
 def adjusted_velocity(total_0, total_1, total_2, v, C, shifted, e_x, e_z):
     """v + grad v . shift, within the range of the neighbors [m/s] (74)."""
     new = v + matvec(total_0, matvec(C, shifted))
-    return bounded(dot(new, e_x), dot(v, e_x), dot(total_1, e_x), dot(total_2, e_x)) * e_x + bounded(
-        dot(new, e_z), dot(v, e_z), dot(total_1, e_z), dot(total_2, e_z)
-    ) * e_z
+    return (
+        bounded(dot(new, e_x), dot(v, e_x), dot(total_1, e_x), dot(total_2, e_x)) * e_x
+        + bounded(dot(new, e_z), dot(v, e_z), dot(total_1, e_z), dot(total_2, e_z)) * e_z
+    )
 
 
 def bounded(new, old, low, high):
@@ -128,7 +129,7 @@ class Rearrangement:
         fields = {"is_fluid": roles.fluid, "at_face": at_face}
         backend.pair_sum(
             repulsion_terms, block.pairs, fields, self.shifted, finish=shift,
-            rows=backend.rows_where(roles.fluid, 1.0), normal=(0.0, 1.0),
+            rows=roles.fluid_rows, normal=(0.0, 1.0),
             scale=self.factor * speed * step, limit=LARGEST * self.spacing,
         )  # fmt: skip
 
@@ -141,7 +142,7 @@ class Rearrangement:
         fields = {"v": block.velocity(v, reach), "V": block.V, "C": C, "shifted": self.shifted}
         backend.pair_sum(
             velocity_terms, block.pairs, fields, self._v, finish=adjusted_velocity,
-            rows=backend.rows_where(roles.fluid, 1.0), combine=("sum", "min", "max"),
+            rows=roles.fluid_rows, combine=("sum", "min", "max"),
             e_x=(1.0, 0.0), e_z=(0.0, 1.0),
         )  # fmt: skip
         backend.copy(self._v, v)
@@ -161,7 +162,7 @@ class Rearrangement:
         backend.fill(self._change, 0.0)
         gain, loss = backend.pair_sum(
             enthalpy_terms, block.pairs, fields, (self._change, None, None),
-            finish=enthalpy_change, rows=backend.rows_where(roles.fluid, 1.0),
+            finish=enthalpy_change, rows=roles.fluid_rows,
             combine=("sum", "min", "max"), reduce=(None, "sum", "sum"),
         )  # fmt: skip
         least = min(gain, loss)

@@ -37,14 +37,14 @@ def nearby(fluid_j, r_ij, l_ij, edge_reach):
 
 
 def role_of(total_0, total_1, fluid, fluid_role, edge_role, dummy_role):
-    """Role, and 1 where the pressure is an unknown, 1 where it is that of the edge."""
+    """Role, and 1 where the pressure is an unknown, 1 where it is that of the edge, 1 if either."""
     if fluid > 0.0:
-        return fluid_role, 1.0, 0.0
+        return fluid_role, 1.0, 0.0, 1.0
     if total_1 > 0.0:
-        return edge_role, 1.0, 0.0
+        return edge_role, 1.0, 0.0, 1.0
     if total_0 > 0.0:
-        return dummy_role, 0.0, 1.0
-    return 0.0 * fluid, 0.0, 0.0
+        return dummy_role, 0.0, 1.0, 1.0
+    return 0.0 * fluid, 0.0, 0.0, 0.0
 
 
 class Roles:
@@ -52,12 +52,15 @@ class Roles:
 
     Attributes:
         fluid, unknown, dummy: (n,) 1 where a particle flows; its pressure is an unknown; it takes
-            that of the edge. role: (n,) number of the role.
+            that of the edge. role: (n,) number of the role, active: 1 for all three.
+            before: (n,) `fluid` one step ago.
+        fluid_rows, unknown_rows, dummy_rows, active_rows: index arrays; active are all three.
     """
 
     def __init__(self, backend: Backend, count: int, spacing: float, *, is_box: bool) -> None:
         self.backend, self.reach, self.is_box = backend, EDGE_REACH * spacing, float(is_box)
         self.fluid, self.unknown, self.dummy, self.role = (backend.zeros(count) for _ in range(4))
+        self.before, self.active = backend.zeros(count), backend.zeros(count)
 
     def find_fluid(self, melt_fraction: Any) -> float:
         """Mark what flows; returns how many particles do."""
@@ -67,12 +70,23 @@ class Roles:
         )  # fmt: skip
         return count
 
-    def find_walls(self, pairs: Any, gather: Any, count: int) -> None:
-        """Mark edge and dummies among the first `count` particles, whose rows `pairs` has."""
-        head = self.backend.head
-        out = tuple(head(field, count) for field in (self.role, self.unknown, self.dummy))
+    def remember(self) -> None:
+        """Keep what flows now as what flowed before."""
+        self.backend.copy(self.fluid, self.before)
+
+    def find_walls(self, pairs: Any, gather: Any, count: int, wanted: Any) -> None:
+        """Mark edge and dummies among the first `count` particles; `pairs` has the wanted rows."""
+        backend, head = self.backend, self.backend.head
+        marks = (self.role, self.unknown, self.dummy, self.active)
+        for mark in marks:
+            backend.fill(mark, 0.0)
+        out = tuple(head(mark, count) for mark in marks)
         fields = {"fluid": gather(self.fluid)}
-        self.backend.pair_sum(
+        backend.pair_sum(
             nearby, pairs, fields, out, finish=role_of, edge_reach=self.reach,
-            fluid_role=float(FLUID), edge_role=float(EDGE), dummy_role=float(DUMMY),
+            rows=wanted, fluid_role=float(FLUID), edge_role=float(EDGE), dummy_role=float(DUMMY),
         )  # fmt: skip
+        self.fluid_rows = backend.rows_where(self.fluid, 1.0)
+        self.unknown_rows = backend.rows_where(self.unknown, 1.0)
+        self.dummy_rows = backend.rows_where(self.dummy, 1.0)
+        self.active_rows = backend.rows_where(self.active, 1.0)

@@ -113,7 +113,9 @@ class Sides:
         factor, added = self._velocities(images)
         return ImageRules(factor, added, slope, held, temperature, flux, normal, plane)
 
-    def _crossings(self, images: Images) -> Iterator[tuple[int, str, NDArray[np.bool_], float, float]]:
+    def _crossings(
+        self, images: Images
+    ) -> Iterator[tuple[int, str, NDArray[np.bool_], float, float]]:
         """Axis, side, images beyond it, its place [m] and -1 or 1, for all sides but periodic."""
         for axis, names in enumerate(FACES):
             for end, side, at in zip(ENDS, names, self.box[axis], strict=True):

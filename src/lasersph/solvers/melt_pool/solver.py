@@ -15,6 +15,7 @@ from lasersph.compute.search import EscapedParticle
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.solvers.conduction.solver import ARRAYS, Conduction
 from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.flow import Flow, advected, updated
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
@@ -24,7 +25,7 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
 
 RETRIES = 8
-FLOW_ARRAYS = ("position", "velocity", "pressure")
+FLOW_ARRAYS = ("position", "velocity", "pressure", "flowed", "touched")
 
 
 class MeltPool:
@@ -64,7 +65,8 @@ class MeltPool:
     @property
     def fields(self) -> dict[str, Any]:
         """Arrays of the particles by name."""
-        own = (self.position, self.flow.velocity, self.flow.pressure)
+        own = (self.position, self.flow.velocity, self.flow.pressure, self.roles.before,
+               self.pairs.touched)  # fmt: skip
         return self.heat.fields | dict(zip(FLOW_ARRAYS, own, strict=True))
 
     @property
@@ -91,13 +93,16 @@ class MeltPool:
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
         """Continue from the arrays of `fields` and the numbers of `carried`."""
-        backend, flow = self.backend, self.flow
+        backend = self.backend
         self.heat.restore({name: arrays[name] for name in ARRAYS}, numbers)
-        for name, own in zip(
-            FLOW_ARRAYS, (self.position, flow.velocity, flow.pressure), strict=True
-        ):
-            backend.copy(backend.asarray(arrays[name]), own)
+        for name in FLOW_ARRAYS:
+            backend.copy(backend.asarray(arrays[name]), self.fields[name])
         self._restore_numbers(numbers)
+        touched = backend.to_host(self.pairs.touched) > 0.0
+        if touched.any():
+            block = self.domain.block_for(self.position, self.roles)
+            block.find_pairs(self.position, touched[: block.count])
+            self.pairs.renew(block)
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]."""
@@ -153,6 +158,7 @@ class MeltPool:
         self.shift(step)
         self.adjust()
         self._measure()
+        self.roles.remember()
 
     def advect(self, step: float) -> None:
         """Advected positions with their pairs, walls and surface (67)."""
@@ -162,14 +168,15 @@ class MeltPool:
         block = domain.block_for(self.position, self.roles)
         if block is not flow.current_block:
             flow.enter(block, domain.periods)
-        block.find_pairs(self._advected)
-        self.roles.find_walls(block.pairs, block.gather, block.count)
+        block.find_pairs(self._advected, self._touched(block, self._advected))
+        self.roles.find_walls(block.pairs, block.gather, block.count, block.wanted)
         if domain.lid is not None:
             domain.lid.find_surface(self._advected)
             domain.lid.drive(
-                self.state.temperature, self._advected, block.pairs, block.V, block.gather
-            )
-        flow.correct_kernel()
+                self.state.temperature, self._advected, block.pairs, block.V, block.gather,
+                self.roles.active,
+            )  # fmt: skip
+        flow.correct_kernel(self.roles.active_rows)
 
     def update_positions(self, step: float) -> None:
         """Positions at the end of the step, and the weights of heat there (71)."""
@@ -177,7 +184,7 @@ class MeltPool:
         fields = {"x": self.position, "v_old": self.flow.before, "v": self.flow.velocity}
         self.backend.pointwise(updated, fields, self.position, step=step)
         block.move(self.position)
-        self.flow.correct_kernel()
+        self.flow.correct_kernel(self.roles.fluid_rows)
         self.pairs.renew(block)
 
     def shift(self, step: float) -> None:
@@ -210,15 +217,21 @@ class MeltPool:
         if not self._has_moved:
             return
         block = self.domain.block_for(self.position, self.roles)
-        block.find_pairs(self.position)
+        block.find_pairs(self.position, self._touched(block, self.position))
         self.pairs.renew(block)
+        self.roles.remember()
         self._has_moved = False
+
+    def _touched(self, block: Block, position: Any) -> np.ndarray:
+        """Rows whose neighbors move now, or have just come to rest."""
+        now = block.touched(position, self.roles.fluid)
+        return now | block.touched(self.position, self.roles.before)
 
     def _measure(self) -> None:
         """What observers want to know of the step."""
         flow, block = self.flow, self.flow.block
         flow.measure_divergence(self.roles, self.fluid_count)
-        self.spacing_min = block.smallest_distance(self.position)
+        self.spacing_min = block.smallest_distance(self.position, self.roles.fluid_rows)
         energy = flow.kinetic_energy(self._volume)
         self.steadiness.look(self.state.time, flow.fastest, energy)
 

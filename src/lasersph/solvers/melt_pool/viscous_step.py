@@ -43,12 +43,10 @@ class ViscousStep:
         self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
         self._g_sum = backend.zeros(count)
 
-    def advance(
-        self, block: Block, v: Any, b: Any, reach: Any, roles: Roles, step: float
-    ) -> int:
+    def advance(self, block: Block, v: Any, b: Any, reach: Any, roles: Roles, step: float) -> int:
         """Advance v (2, n) [m/s] under viscosity and the body force b [m/s^2]; iterations."""
         backend = self.backend
-        rows = backend.rows_where(roles.fluid, 1.0)
+        rows = roles.fluid_rows
         if rows.shape[0] == 0:
             return 0
         fields = {
