@@ -43,11 +43,8 @@ def block_of(solver, position=None):
     if position is not None:
         backend.copy(backend.asarray(position), solver.position)
     solver.fluid_count = solver.roles.find_fluid(solver.state.melt_fraction)
-    block = solver.domain.block_for(solver.position, solver.roles)
-    solver.flow.enter(block, solver.domain.periods)
-    block.find_pairs(solver.position)
-    solver.flow.correct_kernel()
-    return block
+    solver.advect(0.0)
+    return solver.flow.block
 
 
 def place_of(solver):

@@ -190,6 +190,9 @@ def tension_table(material: Material) -> tuple[Array, Array]:
     """Temperatures [K] and surface tension [N/m] up to a constant, from gamma(T) or its slope."""
     if material.surface_tension_slope is None:
         return material.table("surface_tension", LOWEST, HIGHEST, NODES)
-    T, slope = material.table("surface_tension_slope", LOWEST, HIGHEST, NODES)
+    T, _ = material.table("surface_tension_slope", LOWEST, HIGHEST, NODES)
+    if T.size > 2:  # the integral of a slope that varies is curved between its nodes
+        T = np.union1d(T, np.linspace(LOWEST, HIGHEST, NODES))
+    slope = material.surface_tension_slope_at(T)
     steps = np.diff(T) * 0.5 * (slope[1:] + slope[:-1])
     return T, np.concatenate([[0.0], np.cumsum(steps)])
