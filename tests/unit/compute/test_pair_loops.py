@@ -354,3 +354,26 @@ def test_same_as_plain_python(backend, dimension):
         expected = radiation(T[i], V[i], 0.5, x[:, i], nodes, values, np.array(gravity))
         for got, value in zip(out, expected, strict=True):
             np.testing.assert_allclose(backend.to_host(got)[..., i], value, rtol=1e-12)
+
+
+def test_prepared_loop_takes_new_numbers(backend):
+    """T <- factor T, twice with another factor; the sum of T^2 before comes back."""
+    T = backend.asarray([1.0, 2.0])
+    loop = backend.prepare(scaled, {"T": T}, (T, None), reduce=(None, "sum"), factor=2.0)
+    assert loop() == (5.0,)
+    assert loop(factor=10.0) == (20.0,)
+    assert backend.to_host(T).tolist() == [20.0, 40.0]
+    with pytest.raises(KeyError):
+        loop(other=1.0)
+
+
+def test_prepared_pair_sum(backend):
+    """The sums of test particles with T, after T has changed in place."""
+    neighbors, T, out = three(backend), backend.asarray([1.0, 2.0, 4.0]), backend.zeros(3)
+    fields = {"g_ij": backend.single(backend.asarray(np.ones(4))), "T": T}
+    loop = backend.prepare(flow, fields, out, neighbors=neighbors, finish=euler, dt=0.5)
+    backend.copy(backend.asarray([0.0, 2.0, 4.0]), T)
+    loop()
+    assert backend.to_host(out).tolist() == [1.0, 2.0, 3.0]
+    loop(dt=1.0)
+    assert backend.to_host(out).tolist() == [2.0, 2.0, 2.0]

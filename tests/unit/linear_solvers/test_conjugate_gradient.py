@@ -9,7 +9,7 @@ from lasersph.linear_solvers.conjugate_gradient import (
     ConjugateGradient,
     PairOperator,
     advance,
-    multiply,
+    turn,
 )
 from lasersph.particles.support import arithmetic
 from lasersph.sph.kernels import kernel
@@ -92,7 +92,42 @@ def test_stops_at_residual_and_at_the_limit(backend):
 
 
 def test_terms_by_hand():
-    """One product and one update of a single unknown."""
-    assert multiply(6.0, 3.0, 0.5, 1.0, 2.0, 10.0) == (76.0, 152.0)
-    x, r, z, rz, size = advance(1.0, 5.0, 2.0, 4.0, 3.0, 0.1, 0.4, 0.5, 2.0)
+    """One product and one update of a single unknown; a held one stays 0."""
+    assert turn(6.0, 2.0, 3.0, 4.0, 7.0, 0.5, 0.1) == (3.5, 15.4, 3.5 * 15.4)
+    assert turn(6.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.1) == (0.0, 0.0, 0.0)
+    x, r, z, rz, size = advance(1.0, 5.0, 2.0, 4.0, 4.0, 0.5)
     assert (x, r, z, rz, size) == (2.0, 3.0, 0.75, 2.25, 3.0)
+    assert advance(0.0, 0.0, 0.0, 0.0, 0.0, 0.5) == (0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def test_rounded_weights(backend):
+    """Weights in float32 change the solution by no more than they are rounded."""
+    g, pull, C, b = system()
+    ring = Ring(backend)
+    weights = backend.asarray(np.take_along_axis(g, ring.host, axis=1).ravel())
+    operator = PairOperator(ring, weights, *(backend.asarray(v) for v in (pull, g.sum(axis=1))))
+    found = []
+    for rounds in (False, True):
+        solver = ConjugateGradient(backend, operator, COUNT, rounds=rounds)
+        arrays = [backend.asarray(v) for v in (b, C, np.ones(COUNT))]
+        solver.solve(*arrays, 1.0, residual=1e-12, max_iterations=200)
+        found.append(backend.to_host(solver.solution))
+    assert found[1] == pytest.approx(found[0], rel=1e-6)
+    assert not np.array_equal(*found)
+
+
+def test_new_weights_are_taken(backend):
+    """Weights that the operator was given after a solve count in the next one."""
+    g, pull, C, b = system()
+    ring = Ring(backend)
+    weights = np.take_along_axis(g, ring.host, axis=1).ravel()
+    total = backend.asarray(g.sum(axis=1))
+    operator = PairOperator(ring, backend.asarray(weights), backend.asarray(pull), total)
+    solver = ConjugateGradient(backend, operator, COUNT)
+    arrays = [backend.asarray(v) for v in (b, C, np.ones(COUNT))]
+    solver.solve(*arrays, 1.0, residual=1e-12, max_iterations=200)
+    operator.weights = backend.asarray(2.0 * weights)
+    backend.copy(backend.asarray(2.0 * g.sum(axis=1)), operator.total)
+    solver.solve(*arrays, 1.0, residual=1e-12, max_iterations=200)
+    matrix = np.diag(C + 2.0 * g.sum(axis=1) + pull) - 2.0 * g
+    assert backend.to_host(solver.solution) == pytest.approx(np.linalg.solve(matrix, b), rel=1e-9)

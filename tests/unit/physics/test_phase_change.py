@@ -6,6 +6,7 @@ import pytest
 from lasersph.physics.conduction import enthalpy_rate
 from lasersph.physics.phase_change import (
     balanced_enthalpy,
+    followed,
     potential_slope,
     state,
     thermal_state,
@@ -65,6 +66,39 @@ def test_balanced_enthalpy_inverts_the_balance(h, m, S):
 def test_balanced_enthalpy_by_hand():
     """m = 2, S = 30, energy 5e5 + 30 * 4000: on the plateau, h = 2.5e5."""
     assert balanced_enthalpy(6.2e5, 2.0, 30.0, H, P) == pytest.approx(2.5e5)
+
+
+@pytest.mark.parametrize(
+    ("h", "dP", "dh", "expected"),
+    [
+        (1e5, 1000.0, 9.0, (1.5e5, 3000.0, 0.02)),  # dP / slope, dh is not read
+        (1.5e5, 3000.0, 0.0, (3e5, 4000.0, 0.0)),  # 1000 to the plateau, 2000 / 0.02 on it
+        (1.5e5, 9000.0, 0.0, (4e5, 4000.0, 0.02)),  # all there is
+        (5e5, -3000.0, 0.0, (3.5e5, 4000.0, 0.0)),  # the same from above
+        (5e5, -9000.0, 0.0, (2e5, 4000.0, 0.0)),
+        (3e5, 9000.0, 5e4, (3.5e5, 4000.0, 0.0)),  # on the plateau dh counts, up to its ends
+        (3e5, 0.0, 5e5, (4e5, 4000.0, 0.02)),
+        (3e5, 0.0, -5e5, (2e5, 4000.0, 0.0)),
+        (5e5, 4000.0, 0.0, (7e5, 10000.0, 0.02)),  # beyond the last node
+    ],
+)
+def test_followed(h, dP, dh, expected):
+    """A change of the potential, off and on the plateau from 2e5 to 4e5 J/kg."""
+    assert followed(h, dP, dh, H, P) == pytest.approx(expected)
+
+
+def test_followed_across_corners():
+    """Slopes 0.02, 0.002, 0.01: 1000 W/m to the corner, 2000 W/m to the next, 1000 W/m beyond."""
+    H_range, P_range = np.array([0.0, 2e5, 1.2e6, 1.4e6]), np.array([0.0, 4e3, 6e3, 8e3])
+    there = followed(1.5e5, 4000.0, 0.0, H_range, P_range)
+    assert there == pytest.approx((1.3e6, 7000.0, 0.01))
+    assert followed(there[0], -4000.0, 0.0, H_range, P_range) == pytest.approx((1.5e5, 3e3, 0.02))
+
+
+def test_followed_on_the_last_plateau():
+    """A plateau without end, as at the vaporization temperature, takes up any rest."""
+    assert followed(1e5, 9000.0, 0.0, H[:3], P[:3]) == pytest.approx((5.5e5, 4000.0, 0.0))
+    assert followed(3e5, 0.0, 9e5, H[:3], P[:3]) == pytest.approx((1.2e6, 4000.0, 0.0))
 
 
 def test_enthalpy_rate():
