@@ -65,7 +65,7 @@ def cell_order(
     if not cell_size > 0.0:
         raise ValueError(f"cell_size must be positive, not {cell_size}")
     host = backend.unwrap(position)
-    _refuse_escape(host, lower, upper)
+    refuse_escape(host, lower, upper)
     count = host.shape[1]
     order = np.arange(count, dtype=np.uint32)
     if count:
@@ -114,7 +114,7 @@ def neighbor_list(
         raise ValueError(f"{count} rows, {total} particles, {reach.shape[0]} supports")
     if total >= 2**32 - 1:
         raise ValueError(f"{total} particles; a list holds fewer than 2^32 - 1")
-    _refuse_escape(host, lower, upper)
+    refuse_escape(host, lower, upper)
     if total and not (np.isfinite(reach).all() and reach.min() > 0.0):
         bad = int(np.flatnonzero(~(np.isfinite(reach) & (reach > 0.0)))[0])
         raise ValueError(f"support of particle {bad} is {reach[bad]} m; it must be positive")
@@ -242,9 +242,10 @@ def _sorted(
     return start, shape, inverse
 
 
-def _refuse_escape(
+def refuse_escape(
     position: np.ndarray, lower: Sequence[float] | None, upper: Sequence[float] | None
 ) -> None:
+    """Raise EscapedParticle where a position, host array (dim, n) [m], is not finite or outside."""
     if not position.size:
         return
     dimension = position.shape[0]

@@ -245,11 +245,10 @@ class Block:
             position: (2, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
 
         Raises:
-            EscapedParticle: a position is not finite.
+            EscapedParticle: a position is not finite or beyond the sides.
         """
         host = self.backend.to_host(position)[:, : self.count]
-        if not np.isfinite(host).all():
-            raise search.EscapedParticle("a particle's position is not finite")
+        search.refuse_escape(host, self._corner(0), self._corner(1))
         flows = self.backend.to_host(fluid)[: self.count] > 0.0
         (x0, x1), _ = self.sides.box
         corner = np.array([[x0 - 2.0 * self.reach], [self.bottom - 2.0 * self.reach]])
