@@ -112,7 +112,7 @@ def test_pressure(name):
     jacobi = PressureEquation(
         backend, pool.count, SUPPORT, tolerance=TOLERANCE, max_iterations=9999
     )
-    jacobi._correction = Diagonal(backend)
+    jacobi._correction = Diagonal(backend)  # pyright: ignore[reportAttributeAccessIssue]
     jacobi.set_operator(*arguments)
     plain, plain_time = timed(backend, jacobi, pool, 2)
 

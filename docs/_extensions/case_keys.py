@@ -115,9 +115,9 @@ def _kind_of_value(choice: Schema, where: str) -> str:
             entries = dict.fromkeys(_kind_of_value(entry, where) for entry in choice["prefixItems"])
             return f"list of {len(choice['prefixItems'])}: " + ", ".join(entries)
         return "list of tables" if "$ref" in items else f"list of {_kind_of_value(items, where)}"
-    return {"boolean": "true or false", "integer": "whole number", "string": "text"}.get(
-        choice.get("type", ""), choice.get("type", "any")
-    )
+    words = {"boolean": "true or false", "integer": "whole number", "string": "text"}
+    kind = str(choice.get("type", "any"))
+    return words.get(kind, kind)
 
 
 def _default(raw: Schema, choices: list[Schema]) -> str:

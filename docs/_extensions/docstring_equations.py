@@ -1,6 +1,7 @@
 """Sets the indented equations of docstrings as they stand, in a fixed-width block."""
 
 import re
+from typing import Any
 
 SECTION = re.compile(r"(Args|Attributes|Returns|Raises|Yields|Example|Examples):$")
 
@@ -28,7 +29,7 @@ def process(_app, _what, _name, _object, _options, lines: list[str]) -> None:
     lines[:] = set_equations(lines)
 
 
-def setup(app: object) -> dict[str, bool]:
+def setup(app: Any) -> dict[str, bool]:
     """Called by Sphinx; before napoleon reads the sections."""
     app.connect("autodoc-process-docstring", process, priority=400)
     return {"parallel_read_safe": True}

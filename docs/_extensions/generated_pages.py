@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 from case_keys import case_keys
 from validation_table import validation_table
@@ -38,7 +39,7 @@ def write_pages(_app: object) -> None:
         (target / name).write_text(text, encoding="utf-8")
 
 
-def setup(app: object) -> dict[str, bool]:
+def setup(app: Any) -> dict[str, bool]:
     """Called by Sphinx."""
     app.connect("builder-inited", write_pages)
     return {"parallel_read_safe": True}

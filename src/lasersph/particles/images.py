@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,7 +66,7 @@ def images_of(position: Array, reach: float, faces: Sequence[FacePair]) -> Image
     sign, offset = np.ones((dimension, count)), np.zeros((dimension, count))
     crossed = np.zeros((dimension, count), np.uint8)
     for axis, pair in enumerate(faces):
-        found = [source], [place], [sign], [offset], [crossed]
+        found: tuple[list[Any], ...] = [source], [place], [sign], [offset], [crossed]
         for side, kind, plane in (
             (LOWER, pair.lower_kind, pair.lower),
             (UPPER, pair.upper_kind, pair.upper),

@@ -50,7 +50,7 @@ def exact(T):
 
 
 def unknown(T):
-    return T + undefined_name  # noqa: F821
+    return T + undefined_name  # noqa: F821  # pyright: ignore[reportUndefinedVariable]
 
 
 def whole(kind, count):

@@ -57,10 +57,11 @@ class PoolDomain:
         self.is_box = sides.flow is not None
         self.spacing, self.support = layers.spacing, float(lattice.support.min())
         self.box = sides.box
-        self.periods = tuple(
+        across, along = (
             high - low if sides.flow_kind(names[0]) == "periodic" else 0.0
             for names, (low, high) in zip(FACES, self.box, strict=True)
         )
+        self.periods = across, along
         thickness = layers.thickness
         self._bottom = np.cumsum(thickness)
         fine = thickness <= layers.spacing * (1.0 + 1e-9)
