@@ -1,7 +1,7 @@
 """`FlatLid`: a free surface that stays flat, as what it gives a step of the flow.
 
     normal velocity       v . n = 0
-    tangential stress     eta d(v . t)/dn = d gamma/dt = t . grad_s gamma(T)   [Demuth2020, eq. (15)]
+    tangential stress     eta d(v . t)/dn = t . grad_s gamma(T)         [Demuth2020, eq. (15)]
     pressure              dp/dn = 0, that is a Neumann condition with flux 0
     heat                  none crosses, unless the face is held or heated
 
@@ -92,7 +92,7 @@ class FlatLid:
     normal_velocity = 0.0
     pressure_flux = 0.0
     heat_flux = 0.0
-    limits = {"capillary": inf, "recoil": inf}
+    capillary_limit = recoil_limit = inf
 
     def __init__(
         self,

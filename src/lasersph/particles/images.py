@@ -26,7 +26,7 @@ LOWER, UPPER = 1, 2
 
 @dataclass(frozen=True)
 class FacePair:
-    """Both faces of the box along one axis: kinds MIRROR, PERIODIC (both) or OPEN, and places [m]."""
+    """Faces of the box along one axis: kinds MIRROR, PERIODIC (both) or OPEN, and places [m]."""
 
     lower_kind: str
     upper_kind: str

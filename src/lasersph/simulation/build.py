@@ -12,9 +12,9 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.observers.view import View
 from lasersph.particles.layers import Layers, stack
 from lasersph.physics.heating import COLDEST, HOTTEST
-from lasersph.solvers.conduction.body import SUPPORT, assemble
 from lasersph.simulation.build_flow import with_flow
 from lasersph.simulation.flow_view import flow_view_of
+from lasersph.solvers.conduction.body import SUPPORT, assemble
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.heat_settings import HeatSettings

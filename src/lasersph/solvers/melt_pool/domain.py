@@ -104,6 +104,7 @@ class PoolDomain:
             self._block = Block(
                 self.backend, self.lattice, self.sides, layers=self.block_layers,
                 rows=int(self._starts[self.block_layers]), count=int(self._starts[last]),
-                bottom=-float(self._bottom[last - 1]), has_bottom=last == total, potential=self.potential, enthalpy=self.enthalpy,
+                bottom=-float(self._bottom[last - 1]), has_bottom=last == total,
+                potential=self.potential, enthalpy=self.enthalpy,
             )  # fmt: skip
         return self._block

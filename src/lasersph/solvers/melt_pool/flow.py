@@ -216,7 +216,8 @@ class Flow:
         """Velocity after the pressure (70)."""
         backend, block = self.backend, self.block
         fields = {
-            "p": block.gather(self.pressure), "V": block.V, "C": block.tensor(self._C), "v": self.velocity,
+            "p": block.gather(self.pressure), "V": block.V, "C": block.tensor(self._C),
+            "v": self.velocity,
         }  # fmt: skip
         (push,) = backend.pair_sum(
             corrected_symmetric_term, block.pairs, fields, (self.velocity, None),

@@ -82,7 +82,7 @@ class Sides:
     def face_pairs(self, *, has_bottom: bool) -> tuple[FacePair, FacePair]:
         """Faces beyond which images lie; without the bottom where particles go on below."""
         pairs = []
-        for (lower, upper), (low, high) in zip(FACES, self.box, strict=True):
+        for (lower, _upper), (low, high) in zip(FACES, self.box, strict=True):
             is_periodic = self.flow_kind(lower) == "periodic"
             kind = PERIODIC if is_periodic else MIRROR
             below = OPEN if lower == "bottom" and not has_bottom else kind

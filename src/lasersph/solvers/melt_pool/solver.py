@@ -186,6 +186,9 @@ class MeltPool:
         block.move(self.position)
         self.flow.correct_kernel(self.roles.fluid_rows)
         self.pairs.renew(block)
+        irradiation, state = self.body.irradiation, self.state
+        irradiation.shine(state.time, state.time + step)
+        irradiation.follow(self.position, self.pairs.touched, state.temperature)
 
     def shift(self, step: float) -> None:
         """Displacements that keep the particles evenly spread (73)."""
