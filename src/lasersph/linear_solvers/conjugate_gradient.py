@@ -92,7 +92,7 @@ class ConjugateGradient:
         self, backend: Backend, operator: PairOperator, count: int, *, rounds: bool = False
     ) -> None:
         self.backend, self.operator, self.rounds = backend, operator, rounds
-        self._used = replace(operator, weights=None)
+        self._first, self._used = replace(operator), replace(operator, weights=None)
         self._bound: tuple = ()
         self._v = {name: backend.zeros(count) for name in VECTORS}
         self.solution = self._v["x"]
@@ -162,9 +162,12 @@ class ConjugateGradient:
         )  # fmt: skip
 
     def _prepared(self, C: Any, mask: Any, s: float) -> Multigrid | None:
-        """Multigrid for this matrix; levels are built when first needed."""
+        """Multigrid for this matrix; levels are built when first needed, from the first pairs,
+        so that they do not depend on when that is."""
         if self._multigrid is None:
-            self._multigrid = Multigrid(self.backend, self._used, self.solution.shape[0])
+            count = self.solution.shape[0]
+            self._multigrid = Multigrid(self.backend, self._first, self._used, count)
+            self._first = self._used  # the first pairs are not held any longer
         if not self._multigrid.levels:
             return None
         if not self._is_set_up:

@@ -200,14 +200,17 @@ def _are(some: tuple, others: tuple) -> bool:
 class Multigrid:
     """Correction of the Jacobi preconditioner by all levels of aggregates.
 
+    Args:
+        first: operator whose geometry makes the levels. operator: that of the equations.
+
     Attributes:
         levels: the finest first; empty where the particles are few.
     """
 
-    def __init__(self, backend: Backend, operator: Any, count: int) -> None:
+    def __init__(self, backend: Backend, first: Any, operator: Any, count: int) -> None:
         self.backend, self.operator, self._step = backend, operator, 0.0
-        pairs = operator.neighbors
-        host = [pairs.position, pairs.support, pairs.row_start, pairs.neighbor, operator.weights]
+        pairs = first.neighbors
+        host = [pairs.position, pairs.support, pairs.row_start, pairs.neighbor, first.weights]
         self.levels = [_Level(backend, a) for a in coarsen(*(backend.to_host(v) for v in host))]
         self._C = backend.zeros(count)
         if not self.levels:

@@ -146,6 +146,8 @@ class MeltPool:
     def _advance(self, step: float, pace: float | None) -> None:
         if not self._melt():
             self._settle_pairs()
+            if self.domain.block_layers:
+                self.illuminate(step)
             self.heat.attempt(step, pace)
             return
         self._has_moved = True
@@ -154,6 +156,7 @@ class MeltPool:
         self.flow.project(self.roles, step)
         self.flow.correct(self.roles, step)
         self.update_positions(step)
+        self.illuminate(step)
         self.heat.attempt(step, pace)
         self.shift(step)
         self.adjust()
@@ -186,6 +189,9 @@ class MeltPool:
         block.move(self.position)
         self.flow.correct_kernel(self.roles.fluid_rows)
         self.pairs.renew(block)
+
+    def illuminate(self, step: float) -> None:
+        """Light of the step on the particles where they are now."""
         irradiation, state = self.body.irradiation, self.state
         irradiation.shine(state.time, state.time + step)
         irradiation.follow(self.position, self.pairs.touched, state.temperature)
