@@ -42,9 +42,11 @@ def test_schwaiger_terms_by_hand():
     assert schwaiger.second_difference_term(
         1.0, 3.0, 5.0, 2.0, one, 2.0, x_ij, r_ij, dW_ij
     ) == pytest.approx(2.0 * 4.0 * 3.0 * -0.1)
-    assert schwaiger.scaled(
-        3.0, 0.5, np.array([1.0, 2.0]), np.array([0.5, 0.25]), 0.5 * one
-    ) == pytest.approx(2.0 * (3.0 - 1.0))
+    assert schwaiger.prefactor(0.5 * one) == pytest.approx(2.0)
+    df, N = np.array([1.0, 2.0]), np.array([0.5, 0.25])
+    assert schwaiger.scaled(3.0, 0.5, df, N, 2.0) == pytest.approx(2.0 * (3.0 - 1.0))
+    A = schwaiger.matrix_term(1.0, 3.0, one, N, 2.0, 2.0, x_ij, r_ij, dW_ij)
+    assert A == pytest.approx(2.0 * 2.0 * (4.0 * -0.1 + 2.0 * 1.0 * (0.5 * 3 + 0.25 * 4) * -0.1))
 
 
 def test_sums_over_two_particles(backend):
