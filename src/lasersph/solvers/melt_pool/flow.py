@@ -183,7 +183,7 @@ class Flow:
         self.iterations["viscosity"] = self.viscous.advance(
             block, self.velocity, self.body_force, self.reach(), roles, step
         )
-        self._stop(roles)
+        self.stop(roles)
 
     def project(self, roles: Roles, step: float) -> None:
         """Pressure that makes the velocity free of divergence (69).
@@ -225,7 +225,7 @@ class Flow:
             step=step, density=self.liquid.density,
         )  # fmt: skip
         self.push = max(push, 0.0) ** 0.5
-        self._stop(roles)
+        self.stop(roles)
 
     def measure_divergence(self, roles: Roles, count: float) -> None:
         """Divergence that the projection left, for observers."""
@@ -275,7 +275,7 @@ class Flow:
         )  # fmt: skip
         backend.copy(self._p, head(self.pressure, block.count))
 
-    def _stop(self, roles: Roles) -> None:
+    def stop(self, roles: Roles) -> None:
         """Hold everything but the fluid; find the largest speed."""
         fields = {"v": self.velocity, "fluid": roles.fluid}
         (square,) = self.backend.pointwise(

@@ -151,6 +151,7 @@ class MeltPool:
             self.heat.attempt(step, pace)
             return
         self._has_moved = True
+        self.flow.stop(self.roles)  # what has frozen since the last step
         self.advect(step)
         self.flow.predict(self.state.temperature, self.roles, step)
         self.flow.project(self.roles, step)
