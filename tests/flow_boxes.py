@@ -3,7 +3,7 @@
 import numpy as np
 
 from lasersph import compute
-from lasersph.case import Case
+from lasersph.case import Case, load_case
 from lasersph.simulation.build import build
 from lasersph.solvers.time_step import choose
 
@@ -35,6 +35,32 @@ def box_case(
 def box(backend=None, **settings):
     """Solver of `box_case`."""
     return build(box_case(**settings), backend or compute.cpu(threads=1))[1]
+
+
+def pool(molten, *settings, backend=None, hot=2500.0, cold=1500.0, slope=0.0):
+    """Steel at 125 nm, 20 columns of half a period, liquid where `molten(x, z)`, else solid.
+
+    Args:
+        hot, cold: temperatures [K]; slope: of the hot one along x [K/m].
+    """
+    common = ("solver.kind=melt-pool", "particles.spacing=125nm", "particles.fine_depth=1.25um",
+              "time.step=50ps")  # fmt: skip
+    case = load_case("dlip-steel", (*common, *settings))
+    solver = build(case, backend or compute.cpu(threads=1))[1]
+    x, z = place_of(solver)
+    curve = solver.body.curve
+    rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
+    T = np.where(molten(x, z), hot + slope * x, cold)
+    start_from(solver, np.interp(T, curve.temperature[rising], curve.enthalpy[rising]))
+    return solver
+
+
+def start_from(solver, enthalpy):
+    """Give the particles enthalpies [J/kg], as after steps that changed nothing."""
+    backend, state = solver.backend, solver.state
+    for array in (state.enthalpy, state.previous, state.older):
+        backend.copy(backend.asarray(np.asarray(enthalpy, float)), array)
+    state.refresh(solver.body)
 
 
 def block_of(solver, position=None):
