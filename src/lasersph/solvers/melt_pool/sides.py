@@ -124,9 +124,13 @@ class Sides:
                     yield axis, side, chosen, at, 1.0 if end == UPPER else -1.0
 
     def _velocities(self, images: Images) -> tuple[Array, Array]:
-        """S and c. In a corner a side stops what crosses it also beyond its neighbor: the rule for
-        the tangential component comes before that for the normal one, or a moving wall would pump
-        fluid through the corner."""
+        """S and c.
+
+        In a corner the rule for the tangential component comes before that for the normal one. The
+        velocity of a moving wall ends there: carried on, it would pump fluid through the corner;
+        reversed, as an impermeable side asks for, its jump would empty the corner of particles.
+        Half of the leak remains, which shrinks with the spacing.
+        """
         factor, added = np.ones((2, images.count)), np.zeros((2, images.count))
         crossings = list(self._crossings(images))
         for axis, side, chosen, _, _ in crossings:
@@ -135,7 +139,7 @@ class Sides:
                 added[1 - axis, chosen] = 2.0 * self.wall_velocity(side)
         for axis, _, chosen, _, _ in crossings:
             factor[axis, chosen] *= -1.0
-            added[axis, chosen] *= -1.0
+            added[axis, chosen] = 0.0
         return factor, added
 
     def _carries_heat(self, side: str) -> bool:
