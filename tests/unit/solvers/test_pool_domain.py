@@ -1,0 +1,74 @@
+"""Blocks that grow with the pool, and the pool that becomes too deep."""
+
+import pytest
+from flow_boxes import box, pool
+
+from lasersph.solvers.melt_pool.domain import BELOW, ROOM, PoolTooDeep
+
+SPACING = 1.25e-7
+DEEP = ("domain.depth=9um", "particles.fine_depth=8um")
+
+
+def molten_to(depth, *settings):
+    """Pool of the upper left corner, down to `depth` [m]."""
+    return pool(lambda x, z: (x < 1e-6) & (z > -depth), *settings)
+
+
+def block_after(solver):
+    """The block for what flows now."""
+    solver.time_step_limits()
+    return solver.domain.block_for(solver.position, solver.roles)
+
+
+def test_block_of_a_box():
+    """All particles, down to the bottom."""
+    solver = box()
+    block = block_after(solver)
+    assert (block.count, block.rows, block.has_bottom) == (100, 100, True)
+    assert solver.domain.width == 1.0
+    assert solver.domain.periods == (0.0, 0.0)
+
+
+def test_block_reaches_below_the_pool():
+    """Two support radii below the deepest melt at least, with room to grow, and a margin."""
+    solver = molten_to(4.0 * SPACING, *DEEP)
+    block = block_after(solver)
+    domain = solver.domain
+    needed = 3.5 * SPACING + BELOW * domain.support
+    assert 0.0 <= domain.block_layers - ROOM - needed / SPACING + 1e-9 <= 1.0
+    assert block.rows == 20 * domain.block_layers < block.count < solver.body.count
+    assert not block.has_bottom
+
+
+def test_block_is_kept_and_grows():
+    """The same block while the pool fits; a larger one after; never a smaller one."""
+    solver = molten_to(4.0 * SPACING, *DEEP)
+    first = block_after(solver)
+    assert block_after(solver) is first
+    other = molten_to(30.0 * SPACING, *DEEP)
+    solver.backend.copy(other.state.enthalpy, solver.state.enthalpy)
+    solver.state.refresh(solver.body)
+    larger = block_after(solver)
+    assert larger.rows > first.rows
+    small = molten_to(2.0 * SPACING, *DEEP)
+    solver.backend.copy(small.state.enthalpy, solver.state.enthalpy)
+    solver.state.refresh(solver.body)
+    assert block_after(solver) is larger
+
+
+def test_pool_too_deep():
+    """The message names the depth of the pool, that of the fine layers, and a remedy that works."""
+    with pytest.raises(PoolTooDeep) as told:
+        solver = molten_to(2e-6)
+        solver.step(1e-12)
+    text = str(told.value)
+    assert "flows into layers coarser than 1.25e-07 m, which begin at 1.25e-06 m" in text
+    remedy = text.partition('give particles.fine_depth = "')[2].partition('"')[0]
+    block_after(molten_to(2e-6, f"particles.fine_depth={remedy}"))
+
+
+def test_at_the_last_fine_layer():
+    """Melt in all of the finest layers still flows."""
+    solver = molten_to(1.25e-6)
+    solver.step(1e-12)
+    assert solver.fluid_count == 8 * 10
