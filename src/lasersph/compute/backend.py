@@ -60,6 +60,12 @@ class Backend:
         """Copy as a NumPy array."""
         return np.array(self.unwrap(array))
 
+    def look(self, array: Any) -> np.ndarray:
+        """The array for reading, until the next loop; not copied where it lies in this memory."""
+        host = self.unwrap(array).view()
+        host.flags.writeable = False
+        return host
+
     def single(self, array: Any) -> Any:
         """Copy in float32, which loops of any precision may read per pair; itself if it is."""
         host = self.unwrap(array)

@@ -122,20 +122,20 @@ def _heat_settings(case: Case) -> ConductionSettings:
 
 
 def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
-    """Host copies of the state for observers."""
+    """The state for observers."""
     body, state, backend = solver.body, solver.state, solver.body.backend
     count, surface = body.count, body.filling.surface
     position, flow = body.filling.position[:, :count], None
-    melt_fraction = backend.to_host(state.melt_fraction)
+    melt_fraction = backend.look(state.melt_fraction)
     if isinstance(solver, MeltPool):
-        position, flow = backend.to_host(solver.position), flow_view_of(case, solver)
+        position, flow = backend.look(solver.position), flow_view_of(case, solver)
         if flow.surface.size:
             surface = flow.surface
         if flow.box:
             melt_fraction = np.ones(count)
     evaporated = None
     if case.solver.plateau == "evaporate":
-        mass = backend.to_host(state.evaporated)[surface]
+        mass = backend.look(state.evaporated)[surface]
         evaporated = mass / case.material.density_reference
     return View(
         time=state.time,
@@ -144,10 +144,10 @@ def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
         position=position,
         width=body.filling.width[:, :count],
         volume=body.filling.volume[:count],
-        temperature=backend.to_host(state.temperature),
-        enthalpy=backend.to_host(state.enthalpy),
+        temperature=backend.look(state.temperature),
+        enthalpy=backend.look(state.enthalpy),
         melt_fraction=melt_fraction,
-        vapor_fraction=backend.to_host(state.vapor_fraction),
+        vapor_fraction=backend.look(state.vapor_fraction),
         surface=surface,
         symmetry_factor=case.domain.symmetry_factor,
         energy=dict(state.energy),

@@ -201,7 +201,7 @@ class ImplicitStep:
         plateau = backend.rows_where(self.mask, 0.0) if freest == 0.0 else None
         self.linear += self.solver.solve(
             self.r, self.C, self.mask, step, residual=linear_residual, max_iterations=MAX_LINEAR,
-            renews=self.newton == 0,
+            renews=self.newton <= 1,
         )  # fmt: skip
         backend.copy(self.h, self.start)
         damping = 1.0
