@@ -16,7 +16,7 @@ from lasersph.solvers.melt_pool.roles import (
     role_of,
 )
 
-NAMES = {"fluid_role": 1.0, "edge_role": 2.0, "dummy_role": 3.0}
+NAMES = {"fluid_role": FLUID, "edge_role": EDGE, "dummy_role": DUMMY}
 
 
 def test_what_flows():

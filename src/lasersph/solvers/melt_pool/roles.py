@@ -44,7 +44,7 @@ def role_of(total_0, total_1, fluid, fluid_role, edge_role, dummy_role):
         return edge_role, 1.0, 0.0, 1.0
     if total_0 > 0.0:
         return dummy_role, 0.0, 1.0, 1.0
-    return 0.0 * fluid, 0.0, 0.0, 0.0
+    return 0, 0.0, 0.0, 0.0
 
 
 class Roles:
@@ -59,8 +59,9 @@ class Roles:
 
     def __init__(self, backend: Backend, count: int, spacing: float, *, is_box: bool) -> None:
         self.backend, self.reach, self.is_box = backend, EDGE_REACH * spacing, float(is_box)
-        self.fluid, self.unknown, self.dummy, self.role = (backend.zeros(count) for _ in range(4))
+        self.fluid, self.unknown, self.dummy = (backend.zeros(count) for _ in range(3))
         self.before, self.active = backend.zeros(count), backend.zeros(count)
+        self.role = backend.zeros(count, "flag")
 
     def find_fluid(self, melt_fraction: Any) -> float:
         """Mark what flows; returns how many particles do."""
@@ -84,7 +85,7 @@ class Roles:
         fields = {"fluid": gather(self.fluid)}
         backend.pair_sum(
             nearby, pairs, fields, out, finish=role_of, edge_reach=self.reach,
-            rows=wanted, fluid_role=float(FLUID), edge_role=float(EDGE), dummy_role=float(DUMMY),
+            rows=wanted, fluid_role=FLUID, edge_role=EDGE, dummy_role=DUMMY,
         )  # fmt: skip
         self.fluid_rows = backend.rows_where(self.fluid, 1.0)
         self.unknown_rows = backend.rows_where(self.unknown, 1.0)
