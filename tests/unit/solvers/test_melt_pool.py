@@ -1,0 +1,212 @@
+"""Steps of a small pool: what they leave alone, how they fail, and how they go on afterwards."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from flow_boxes import box, go, host_fields, matrix_of, pool
+
+from lasersph.compute.search import EscapedParticle
+from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.melt_pool.solver import RETRIES
+
+LIFE = 45
+"""Steps after which the small pool is solid."""
+
+
+def small_pool(*settings):
+    """Fifteen molten particles, colder to the right, in cold steel; solid again after 15 ns."""
+
+    def molten(x, z):
+        return (x < 6e-7) & (z > -4e-7)
+
+    return pool(molten, "time.step=200ps", *settings, cold=300.0, slope=-5e8)
+
+
+@pytest.fixture(scope="module")
+def life():
+    """States of the small pool at the start and after each step, until it is solid."""
+    solver = small_pool()
+    states = [(host_fields(solver), solver.carried())]
+    for _ in range(LIFE):
+        go(solver, 1)
+        states.append((host_fields(solver), solver.carried()))
+    assert solver.fluid_count == 0.0
+    return states
+
+
+def restored(state):
+    """Small pool that goes on from a state."""
+    solver = small_pool()
+    solver.restore(*state)
+    return solver
+
+
+def failing(solver, name, error, times):
+    """Let a method of `solver`, or of an object in it ("flow.project"), raise the first times."""
+    owner, _, method = name.rpartition(".")
+    found = getattr(solver, owner) if owner else solver
+    right, left = getattr(found, method), [times]
+
+    def wrong(*arguments, **options):
+        answer = right(*arguments, **options)
+        if left[0] > 0:
+            left[0] -= 1
+            raise error
+        return answer
+
+    setattr(found, method, wrong)
+    return left
+
+
+def assert_same(one, other):
+    """All that survives a step has the same bits."""
+    assert one.carried() == other.carried()
+    fields = host_fields(other)
+    for name, values in host_fields(one).items():
+        assert np.array_equal(values, fields[name]), name
+
+
+def test_solid_never_moves(life):
+    """Particles that do not flow keep their places, those that have frozen as well."""
+    seen = 0
+    for (before, _), (after, _) in pairwise(life):
+        rests = before["melt_fraction"] < 1.0 - 1e-9
+        assert np.array_equal(before["position"][:, rests], after["position"][:, rests])
+        assert np.all(after["velocity"][:, rests] == 0.0)
+        seen += not rests.all()
+    assert seen > 20
+    first, last = life[0][0], life[-1][0]
+    assert np.abs(last["position"] - first["position"]).max() > 1e-8
+    assert np.all(last["velocity"] == 0.0)
+
+
+def test_energy_stays(life):
+    """Without light the energy stored is that of the start, to rounding, while melt flows."""
+    solver = small_pool()
+    mass = solver.backend.to_host(solver.body.mass)
+    energies = [mass @ fields["enthalpy"] for fields, _ in life]
+    assert energies == pytest.approx([energies[0]] * len(energies), rel=1e-12)
+
+
+def test_pairs_stay_symmetric():
+    """Rows that are renewed fit those that are not, in every step of a pool that comes and goes."""
+    solver = small_pool()
+    for _ in range(LIFE // 5):
+        go(solver, 5)
+        pairs, count = solver.body.pairs, solver.body.count
+        g = matrix_of(solver.backend, pairs.neighbors, pairs.weights, count)
+        assert np.abs(g - g.T).max() < 1e-9 * g.max()
+        assert solver.backend.to_host(pairs.total) == pytest.approx(g.sum(axis=1), rel=1e-12)
+
+
+def test_restored_solver_repeats_the_bits(life):
+    """From any moment: before, during and after the flow."""
+    for moment in (0, 1, 9, 14, 15, 27, 36, 40, 41, 42, 43):
+        again = restored(life[moment])
+        go(again, 2)
+        fields, numbers = life[moment + 2]
+        assert again.carried() == numbers, moment
+        for name, values in host_fields(again).items():
+            assert np.array_equal(values, fields[name]), (moment, name)
+
+
+@pytest.mark.parametrize("at", [0, 14, 41])
+@pytest.mark.parametrize(
+    ("name", "error"),
+    [
+        ("flow.project", NotConverged("the pressure equation")),
+        ("heat.attempt", NotConverged("the heat balance")),
+        ("advect", EscapedParticle("particle 3")),
+    ],
+)
+def test_failed_step_is_retried_with_half(life, at, name, error):
+    """As if the smaller step had been taken at once, to the bit, and so are the steps after it."""
+    first, second = restored(life[at]), restored(life[at])
+    step = min(first.time_step_limits().values())
+    left = failing(first, name, error, 2)
+    taken = first.step(step)
+    assert (left[0] == 0) == (taken == 0.25 * step)
+    assert second.step(taken, taken if left[0] == 0 else None) == taken
+    assert_same(first, second)
+    go(first, 2)
+    go(second, 2)
+    assert_same(first, second)
+
+
+def test_step_that_always_fails(life):
+    """Halved eight times, then told; the state is as before and later steps have the same bits."""
+    first, second = restored(life[5]), restored(life[5])
+    before = host_fields(first), first.carried()
+    left = failing(first, "flow.correct", NotConverged("no way"), RETRIES + 1)
+    with pytest.raises(NotConverged, match="no way"):
+        first.step(1e-11)
+    assert left == [0]
+    assert first.carried() == before[1]
+    for name, values in host_fields(first).items():
+        assert np.array_equal(values, before[0][name]), name
+    go(first, 2)
+    go(second, 2)
+    assert_same(first, second)
+
+
+def test_step_far_too_long():
+    """A step in which particles would leave is halved until they do not."""
+    solver = box(end=100.0)
+    go(solver, 3)
+    step = 2.0 / solver.flow.fastest
+    taken = solver.step(step, step)
+    assert taken < step
+    assert solver.state.time_step == taken
+    for name, values in host_fields(solver).items():
+        assert np.isfinite(values).all(), name
+
+
+def test_pressure_that_is_not_solved(life):
+    """A residual far above the tolerance fails the step with a line that tells it."""
+    solver = restored(life[5])
+    go(solver, 1)
+    solver.flow.equation.max_iterations = 0
+    with pytest.raises(NotConverged, match=r"residual of .* after 0 iterations"):
+        solver.step(1e-11)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        ("solver.pressure=published",),
+        ("solver.viscosity=explicit",),
+        ("solver.marangoni=false",),
+    ],
+)
+def test_variants(settings):
+    """Other ways to the same flow agree within 10 %; without surface tension there is none."""
+    reference, other = small_pool(), small_pool(*settings)
+    for solver in (reference, other):
+        while solver.state.time < 1e-9:
+            solver.step(5e-11)
+    if "false" in settings[0]:
+        assert other.flow.fastest < 1e-6
+    else:
+        assert other.flow.fastest == pytest.approx(reference.flow.fastest, rel=0.1)
+
+
+def test_limits_by_name(life):
+    """Flow adds its limits to those of heat, and only while something flows."""
+    solver = restored(life[5])
+    assert {"advection", "force", "viscosity", "light", "end"} <= set(solver.time_step_limits())
+    published = small_pool("solver.step_limits=published")
+    go(published, 2)
+    assert {"heat", "advection"} <= set(published.time_step_limits())
+    solver = restored(life[-1])
+    assert not {"advection", "viscosity"} & set(solver.time_step_limits())
+
+
+def test_iterations_and_carried_numbers():
+    """What is reported of a step."""
+    solver = box()
+    go(solver, 2)
+    assert set(solver.iterations) == {"newton", "linear", "pressure", "viscosity"}
+    assert solver.iterations["pressure"] > 0
+    assert 0.0 < solver.spacing_min < 0.1
+    assert solver.flow.divergence[0] < solver.flow.divergence[1]
