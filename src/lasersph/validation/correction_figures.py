@@ -60,7 +60,7 @@ def _panels(
             )  # fmt: skip
         what = {"value": "f", "first": "df/dx", "second": "d²f/dx²"}[kind]
         style.label(one, "x [m]", what, title=f"({letter}) {function.name}")
-    style.legend(axes[0])
+    style.legend_above(figure, axes[0], columns=4)
     return style.save(figure, path)
 
 
