@@ -144,8 +144,7 @@ def box_view(time=0.0, step=0, *, count=40, size=1e-3, speed=1.0, wall=(310.0, 2
 def make_box_run(folder: Path) -> Path:
     """Write the run folder of a box and return its path."""
     views = (
-        box_view(step * 2e-5, step, count=24, speed=1.0 - np.exp(-step / 15))
-        for step in range(51)
+        box_view(step * 2e-5, step, count=24, speed=1.0 - np.exp(-step / 15)) for step in range(51)
     )
     return write_run(folder, views, box=True, end=1e-3, complete=True)
 
