@@ -18,7 +18,7 @@ PERIODIC_HEAT = {"sides": "periodic", "bottom": "periodic", "surface": "periodic
 
 def box_case(
     *, flow=None, heat=None, cells=10, width=1.0, depth=1.0, end=1.0, step=0.01, material=None,
-    **settings,
+    steady=None, **settings,
 ):  # fmt: skip
     """Case of a box of unit liquid: nu = a = 0.01 m^2/s, `cells` particles a meter."""
     return Case.model_validate(
@@ -27,7 +27,9 @@ def box_case(
             "domain": {"width": width, "depth": depth},
             "particles": {"spacing": 1.0 / cells, "arrangement": "uniform"},
             "flow": LID if flow is None else flow, "boundaries": heat or {},
-            "solver": {"kind": "melt-pool", **settings}, "time": {"end": end, "step": step},
+            "solver": {"kind": "melt-pool", **settings},
+            "time": {"end": end, "step": step, "steady": steady},
+            "output": {"snapshots": {"interval": 0.25 * end}},
         }
     )  # fmt: skip
 

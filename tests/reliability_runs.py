@@ -50,8 +50,12 @@ def wait_until(process: subprocess.Popen, ready) -> None:
         time.sleep(0.002)
 
 
-def kill_after_checkpoints(folder: Path, count: int, delay: float) -> None:
-    """Resume the run and `kill -9` it `delay` [s] after it wrote `count` further checkpoints."""
+def kill_after_checkpoints(folder: Path, count: int, delay: float, *more: str) -> None:
+    """Resume the run and `kill -9` it `delay` [s] after it wrote `count` further checkpoints.
+
+    Args:
+        more: settings of the case beside those of all runs here.
+    """
     seen = set((folder / "checkpoint").glob("*.checkpoint"))
     known = set(seen)
 
@@ -59,23 +63,24 @@ def kill_after_checkpoints(folder: Path, count: int, delay: float) -> None:
         seen.update((folder / "checkpoint").glob("*.checkpoint"))
         return len(seen - known) >= count
 
-    process = start(folder)
+    process = start(folder, *more)
     wait_until(process, ready)
     time.sleep(delay)
     process.kill()
     process.communicate()
 
 
-def results(folder: Path):
+def results(folder: Path, but: tuple[str, ...] = ()):
     """Summary without times of the clock, history as bytes, and the last snapshot."""
     run = open_run(folder)
-    summary = {key: value for key, value in run.summary.items() if key != "wall_time_s"}
+    left_out = ("wall_time_s", *but)
+    summary = {key: value for key, value in run.summary.items() if key not in left_out}
     return json.dumps(summary), (folder / "history.csv").read_bytes(), run.snapshots[-1]
 
 
-def assert_same(folder: Path, reference: Path) -> None:
-    """Both folders hold the same results to the last bit."""
-    (summary, history, snapshot), expected = results(folder), results(reference)
+def assert_same(folder: Path, reference: Path, but: tuple[str, ...] = ()) -> None:
+    """Both folders hold the same results to the last bit, but for some keys of the summary."""
+    (summary, history, snapshot), expected = results(folder, but), results(reference, but)
     assert summary == expected[0]
     assert history == expected[1]
     assert list(snapshot) == list(expected[2])
