@@ -80,7 +80,8 @@ def test_box_stopped_twice(tmp_path):
 
 def test_steady_box(tmp_path):
     """A run that ends because it is steady ends at the same step when it was stopped before."""
-    case = box_case(end=50.0, step=1.0, steady=0.02)
+    thick = {"kinematic_viscosity": "0.2 m^2/s"}
+    case = box_case(end=50.0, step=1.0, steady=0.2, cells=8, material=thick)
     folders = tmp_path / "whole", tmp_path / "parts"
     summary = run(case, folders[0], threads=1).summary
     assert summary["is_steady"] and summary["time_s"] < 50.0
