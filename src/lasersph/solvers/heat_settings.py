@@ -25,5 +25,5 @@ class HeatSettings(Model):
         description="conduction weights corrected to conduct exactly on the lattice, or as printed",
     )
     tolerance: Annotated[float, Field(gt=0, lt=1e-2)] = Field(
-        default=1e-7, description="residual of a step over the absorbed energy"
+        default=1e-8, description="residual of a step over the absorbed energy"
     )

@@ -16,7 +16,6 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-import lasersph
 from lasersph.case import Case, load_case
 from lasersph.output import Run, open_run
 from lasersph.reading import CaseError
@@ -78,7 +77,7 @@ def fingerprint(case: Case) -> str:
 @cache
 def _sources() -> str:
     """Hash of all sources and data of the package outside `LOOK_ONLY`."""
-    package = Path(lasersph.__file__).parent
+    package = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for path in sorted(package.rglob("*")):
         place = path.relative_to(package)

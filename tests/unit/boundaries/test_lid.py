@@ -115,7 +115,7 @@ def test_what_a_flat_lid_gives():
     """No velocity, flux or heat through it, no capillary waves and no recoil."""
     _, lid = lid_box(lambda x: 0.0 * x)
     assert (lid.normal_velocity, lid.pressure_flux, lid.heat_flux) == (0.0, 0.0, 0.0)
-    assert lid.limits == {"capillary": inf, "recoil": inf}
+    assert lid.capillary_limit == lid.recoil_limit == inf
 
 
 def test_tension_from_a_slope():
