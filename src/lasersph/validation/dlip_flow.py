@@ -42,8 +42,7 @@ class Plan:
     Attributes:
         fluences: [J/cm2]. detail_spacing: [nm] at the detailed fluence with `hold`, with and
             without Marangoni stress. spacing: [nm] of all others. plateaus: readings computed.
-        end, step: [ns], of the run and of its steps in the light. experiment: whether Fig. 12 is
-            computed. share: tolerances over those in full.
+        end: [ns]. experiment: whether Fig. 12 is computed. share: tolerances over those in full.
     """
 
     fluences: tuple[float, ...]
@@ -51,7 +50,6 @@ class Plan:
     spacing: float
     plateaus: tuple[str, ...] = PLATEAUS
     end: float = 200.0
-    step: float = 0.05
     experiment: bool = True
     share: float = 1.0
 
@@ -101,7 +99,6 @@ def run_one(
         f"particles.spacing={spacing} nm",
         f"solver.plateau={plateau}",
         f"time.end={plan.end:g} ns",
-        f"time.step={plan.step:g} ns",
         f"output.snapshots.times=[{times}]",
         *more,
     ]
