@@ -2,8 +2,8 @@
 
 Published: steps by eqs. (59)/(76) with all their terms, explicit viscosity, Table 1's matrix with
 plain BiCGStab [Demuth2020]. Default: the corrected limits, implicit viscosity, conjugate gradients
-on a hierarchy. Both start from the same pool, steel 0.5 J/cm2 at 54 ns, and compute the same time;
-a first part of each compiles its loops. 8 nm takes a minute, the published 3.97 nm some more.
+corrected on grids. Both start from the same pool, steel 0.5 J/cm2 at 54 ns, and compute the same
+time; a first part of each compiles its loops. 8 nm takes a minute, the published 3.97 nm some more.
 Run: pytest benchmarks/test_published_flow.py -s
 """
 
@@ -15,6 +15,7 @@ import pytest
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.build import build
+from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.solvers.time_step import binding
 
 START, WINDOW, FIRST = 54e-9, 0.2e-9, 0.02e-9
@@ -30,7 +31,9 @@ THREADS = 2
 def solver_with(*settings):
     """Solver of the pool with settings, at rest."""
     case = load_case("dlip-steel", [*COMMON, *settings])
-    return build(case, compute.cpu(threads=THREADS))[1]
+    solver = build(case, compute.cpu(threads=THREADS))[1]
+    assert isinstance(solver, MeltPool)
+    return solver
 
 
 def go(solver, end):
