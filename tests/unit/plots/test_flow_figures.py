@@ -175,6 +175,26 @@ def test_animation_is_a_gif_of_the_life_of_the_pool(pool, box, monkeypatch):
     assert not list((pool.path / "figures").glob("unfinished*"))
 
 
+def test_mp4_is_written_by_ffmpeg(pool, box, tmp_path, monkeypatch):
+    """It is handed every frame, of even width and height, and the name of the file."""
+    from matplotlib import rc_context
+
+    stand_in = tmp_path / "ffmpeg"
+    stand_in.write_text(
+        '#!/bin/sh\nfor last; do :; done\ncat > "$last"\necho "$@" > "$(dirname "$0")/asked"\n'
+    )
+    stand_in.chmod(0o755)
+    monkeypatch.setattr(animation, "MOST_FRAMES", 3)
+    for run in (pool, box):
+        with rc_context({"animation.ffmpeg_path": str(stand_in)}):
+            path = animate_run(run.path, format="mp4")
+        assert path == run.path / "figures" / "animation.mp4"
+        size = re.search(r"-s (\d+)x(\d+)", (tmp_path / "asked").read_text())
+        width, height = int(size[1]), int(size[2])
+        assert width % 2 == height % 2 == 0
+        assert path.stat().st_size == 3 * 4 * width * height
+
+
 def test_what_cannot_be_animated(pool, tmp_path, monkeypatch):
     """One clear line: no ffmpeg, not in the plane, too few snapshots."""
     line = open_run(synthetic_run.make_run(tmp_path / "line", dimension=1))
