@@ -34,8 +34,8 @@ class TimeSettings(Model):
     )
     steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
         default=None,
-        description="stop before the end once the flow is steady: largest change of velocity per "
-        "step, over the largest velocity and over the step's share of width/velocity",
+        description="stop before the end once the flow is steady: largest relative change of its "
+        "kinetic energy while the fastest particle crosses the width",
     )
 
 
