@@ -7,11 +7,12 @@ shrinks, the steep gradient at its edge can raise a second maximum closer to x =
 A maximum counts where it rises above the lowest speed between itself and a larger one by a
 twentieth of the largest speed of the profile; of more than two, the two that rise most count. An
 inner one appears after the surface has been at the vaporization temperature, and closer to x = 0
-than the outer one that it joins. Of two that do not fit this the one that continues the outer one
-counts alone (the larger one, where none is known): the other is a wiggle at the moving front. A
-single one keeps the name of the one it continues: that whose last place is closer. A first single
-one is outer. Seen is the side x > 0; a run over a full period is symmetric, which a law of its own
-checks.
+than the outer one that it joins. Until then the pool spreads, the temperature bends in the mush
+before it and the speed with it: no maximum within some spacings of the edge counts. Of two that do
+not fit this the one that continues the outer one counts alone (the larger one, where none is
+known). A single one keeps the name of the one it continues: that whose last place is closer. A
+first single one is outer. Seen is the side x > 0; a run over a full period is symmetric, which a
+law of its own checks.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ from lasersph.observers.view import View
 PROMINENCE = 0.05
 """Least rise of an extremum over the valley beside it, as a part of the largest speed."""
 
+EDGE = 4.0
+"""Spacings from the edge of the liquid within which no extremum counts at first."""
 NEARLY = 1.0 - 1e-9
 """Of the vaporization temperature: at it, but for rounding."""
 
@@ -56,7 +59,7 @@ class FlowExtrema:
         if view.vaporization is not None:
             hottest = float(np.max(view.temperature[view.surface]))
             self.has_boiled |= hottest >= view.vaporization * NEARLY
-        found = self._named(surface_extrema(view))
+        found = self._named(surface_extrema(view, 0.0 if self.has_boiled else EDGE))
         self.last_place = {name: x for name, (_, x) in found.items()}
         outer, inner = found.get("outer", (0.0, 0.0)), found.get("inner", (0.0, 0.0))
         for name, (speed, _) in (("outer", outer), ("inner", inner)):
@@ -125,8 +128,12 @@ class FlowExtrema:
         self.has_boiled = state["has_boiled"]
 
 
-def surface_extrema(view: View) -> list[Place]:
-    """The one or two largest maxima of |u| along the surface at x > 0, in order of x."""
+def surface_extrema(view: View, margin: float = 0.0) -> list[Place]:
+    """The one or two largest maxima of |u| along the surface at x > 0, in order of x.
+
+    Args:
+        margin: spacings from the edge of the liquid within which none counts.
+    """
     flow = flow_of(view)
     x = view.position[0, flow.surface]
     chosen = flow.flows[flow.surface] & (x > 0.0)
@@ -135,6 +142,8 @@ def surface_extrema(view: View) -> list[Place]:
     speed = np.concatenate([[0.0], np.abs(flow.surface_velocity[chosen]), [0.0]])
     place = np.concatenate([[0.0], x[chosen], [0.0]])
     found, rise = local_maxima(speed, PROMINENCE * float(np.max(speed)))
+    edge = float(np.max(place)) - margin * float(view.width[0, flow.surface[0]])
+    found, rise = found[place[found] <= edge], rise[place[found] <= edge]
     most = np.sort(found[np.argsort(-rise, kind="stable")[:2]])
     return [(float(speed[k]), float(place[k])) for k in most]
 

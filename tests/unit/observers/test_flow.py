@@ -142,6 +142,18 @@ def test_noise_is_no_extremum():
     assert len(surface_extrema(replace(view, flow=noisy))) == 1
 
 
+def test_edge_of_the_spreading_liquid_is_no_extremum():
+    """A speed that rises up to the last molten particle, but for a maximum further in."""
+    view = maxima_at((600,), (2.0,))
+    x = view.position[0, view.flow.surface]
+    rising = view.flow.surface_velocity + np.where(x > 1000 * NM, 1.5, 0.0)
+    flows = view.flow.flows & (view.position[0] < 1020 * NM)
+    spread = replace(view, flow=replace(view.flow, surface_velocity=rising, flows=flows))
+    assert len(surface_extrema(spread)) == 2
+    (only,) = surface_extrema(spread, margin=4.0)
+    assert only[1] == pytest.approx(600 * NM, abs=3 * NM)
+
+
 def test_extrema_in_time():
     """One, two, and the inner one alone: it keeps its name, and the times are counted."""
     body, observer = rows(2), FlowExtrema()

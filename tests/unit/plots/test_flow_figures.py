@@ -189,8 +189,8 @@ def test_mp4_is_written_by_ffmpeg(pool, box, tmp_path, monkeypatch):
         with rc_context({"animation.ffmpeg_path": str(stand_in)}):
             path = animate_run(run.path, format="mp4")
         assert path == run.path / "figures" / "animation.mp4"
-        size = re.search(r"-s (\d+)x(\d+)", (tmp_path / "asked").read_text())
-        width, height = int(size[1]), int(size[2])
+        ((width, height),) = re.findall(r"-s (\d+)x(\d+)", (tmp_path / "asked").read_text())
+        width, height = int(width), int(height)
         assert width % 2 == height % 2 == 0
         assert path.stat().st_size == 3 * 4 * width * height
 
