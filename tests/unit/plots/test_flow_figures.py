@@ -23,7 +23,7 @@ from lasersph.plots import (
 )
 from lasersph.plots.box_lines import center_line_figure, heat_history, lines_of
 from lasersph.plots.flow_fields import plane_flow, raster
-from lasersph.plots.flow_map import box_flow_map, pool_flow_map
+from lasersph.plots.flow_map import are_beside, box_flow_map, pool_flow_map
 
 
 @pytest.fixture(scope="module")
@@ -150,6 +150,21 @@ def test_center_lines_of_the_last_snapshot(box):
     lines = lines_of(box, np.linspace(0.0, 1.0, 33))
     assert lines.u == pytest.approx(found["u_m_s"], abs=1e-4)
     assert lines.w == pytest.approx(found["w_m_s"], abs=1e-4)
+
+
+def test_panels_of_boxes(box):
+    """Beside each other, but above each other where the box is flat."""
+    left, right = (axes.get_position() for axes in box_flow_map(box).axes[:2])
+    assert left.y0 == pytest.approx(right.y0) and left.x1 < right.x0
+    assert are_beside(Box(0.0, 2.0, -1.0, 0.0)) and not are_beside(Box(0.0, 2.1, -1.0, 0.0))
+    assert animation.scene_of(box, box.snapshots.times[:3]).is_beside
+
+
+def test_colors_reach_the_coldest_of_a_box(box):
+    """The cold wall may be colder than anything was at the start."""
+    scene = animation.scene_of(box, box.snapshots.times)
+    coldest = min(float(step["temperature"].min()) for step in box.snapshots)
+    assert scene.temperatures[0] == coldest
 
 
 def test_runs_together(pool):
