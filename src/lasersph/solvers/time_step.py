@@ -34,8 +34,8 @@ class TimeSettings(Model):
     )
     steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
         default=None,
-        description="stop before the end once the flow is steady: largest relative change of its "
-        "kinetic energy while the fastest particle crosses the width",
+        description="stop before the end once the flow is steady: range of its kinetic energy over "
+        "the mean, while the fastest particle crosses the width five times",
     )
 
 
