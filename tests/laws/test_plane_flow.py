@@ -15,7 +15,7 @@ TIMES = (2.0, 10.0, 25.0)
 
 
 def assert_follows(solver, exact, axis, offset, largest):
-    """Velocity along `axis` within 1 % of the largest of the steady flow (RMS), next to none across.
+    """Velocity along `axis` within 1 % of the largest of the steady flow (RMS), little across.
 
     Mirrored beyond a wall the profile bends; the divergence of sheared rows sees 0.2 % of that.
     """
