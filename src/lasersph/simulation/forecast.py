@@ -16,7 +16,7 @@ from lasersph.simulation.flow_forecast import FlowForecast, flow_forecast
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import next_light
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.time_step import binding, name_of_longest
 
 PAIRS_PER_SECOND = 2.0e8
 """Of one thread; for the expected time only."""
@@ -116,7 +116,7 @@ def _steps(
         return _heat_steps(case, layers, flow)
     limits = {"end": time.end} | flow.limits
     if time.step is not None:
-        limits["light"] = time.step
+        limits[name_of_longest(case.laser is not None)] = time.step
     steps = int(np.ceil(time.end / min(limits.values())))
     return limits, steps, steps
 
@@ -133,10 +133,10 @@ def _heat_steps(
         diffusivity = steepest / case.material.density_reference
         limits["conduction"] = EXACT_LIMIT[case.solver.dimensions] * layers.spacing**2 / diffusivity
         if time.step is not None:
-            limits["light"] = time.step
+            limits[name_of_longest(pulse is not None)] = time.step
         return limits, int(np.ceil(time.end / min(limits.values()))), 0
     longest = time.step or (0.5 * pulse.resolution if pulse is not None else 1e-3 * time.end)
-    limits["light"] = longest
+    limits[name_of_longest(pulse is not None)] = longest
     smallest, duration = min(limits.values()), flow.duration if flow is not None else 0.0
     if pulse is None:
         moving = min(duration, time.end) / smallest

@@ -16,8 +16,8 @@ class TimeSettings(Model):
     end: Annotated[Time, Field(gt=0)] = Field(description="of the simulated time, from 0")
     step: Annotated[Time, Field(gt=0)] | None = Field(
         default=None,
-        description="largest step while the laser is on; default: a 200th of the pulse (implicit), "
-        "no limit beside stability (explicit)",
+        description="largest step while the laser is on, without laser always; default: a 200th of "
+        "the pulse (implicit), no limit beside stability (explicit)",
     )
     is_fixed: bool = Field(
         default=False, description="take `step` always, also where it is unstable (for studies)"
@@ -58,6 +58,11 @@ def choose(limits: Mapping[str, float]) -> tuple[str, float, float]:
     if pace >= target:
         return name, step, pace
     return bound, 0.5 * target if 2.0 * pace > target else pace, pace
+
+
+def name_of_longest(has_light: bool) -> str:
+    """Name of the limit that `TimeSettings.step` sets."""
+    return "light" if has_light else "largest step"
 
 
 def binding(limits: Mapping[str, float]) -> tuple[str, float]:
