@@ -67,7 +67,7 @@ class FlowExtrema:
         states = {
             "inner": "inner" in found,
             "coexist": len(found) == 2,
-            "inner_exceeds": inner[0] > outer[0],
+            "inner_exceeds": len(found) == 2 and inner[0] > outer[0],
         }
         for name, holds in states.items():
             self.span[name].update(holds, view.time)
@@ -97,7 +97,7 @@ class FlowExtrema:
 
     def summary(self) -> dict[str, Any]:
         """`flow.extrema`: both largest speeds, and for how long the inner one was there, beside
-        the outer one, and faster than it; nothing where the surface never moved.
+        the outer one, and faster than that; nothing where the surface never moved.
         """
         if self.peak["outer"].value == 0.0 and self.peak["inner"].value == 0.0:
             return {}

@@ -41,8 +41,8 @@ def extrema(found: dict[str, Any] | None) -> list[str]:
     )
     if found["inner_exceeds_lasted_s"]:
         lasted = quantity(found["inner_exceeds_lasted_s"], "s", 3)
-        return [f"{inner}; it was the faster one for {lasted}."]
-    return [f"{inner}; it was never the faster one."]
+        return [f"{inner}; it was the faster of both for {lasted}."]
+    return [f"{inner}; it was never the faster of both."]
 
 
 def box_flow(summary: dict[str, Any]) -> list[str]:

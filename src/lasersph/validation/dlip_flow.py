@@ -264,10 +264,13 @@ def claims(label: str, runs: Runs, fluences: tuple[float, ...]) -> list[Row]:
                             f"{fluences[len(fluences) // 2]} J/cm2)", moderate > 10.0,
                             source=source))  # fmt: skip
     else:
-        last = number(runs[fluences[-1], "hold"], "flow.extrema.inner_exceeds_lasted_s") or 0.0
+        inner, outer = (
+            number(runs[fluences[-1], "hold"], f"flow.extrema.{name}_speed_max_m_s") or 0.0
+            for name in ("inner", "outer")
+        )
         first = number(runs[fluences[0], "hold"], "flow.extrema.inner_lasted_s") or 0.0
         rows += [
-            claimed("inner extrema dominate at elevated fluences", last > 1e-9, source=source),
+            claimed("inner extrema dominate at elevated fluences", inner > outer, source=source),
             claimed("there is none at the lowest fluence", first == 0.0, source=source),
         ]
     return rows
