@@ -242,7 +242,7 @@ class _Problem:
             temperatures=temperatures,
             times=found.t if ablating else np.zeros(0),
             fronts=found.y[0] if ablating else np.zeros(0),
-            imbalance=abs(absorbed - stored - gone) / absorbed,
+            imbalance=float(abs(absorbed - stored - gone)) / absorbed,
         )
 
 
