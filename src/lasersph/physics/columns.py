@@ -18,6 +18,7 @@ from __future__ import annotations
 from math import floor
 
 from lasersph.compute.vectors import dot, interpolate
+from lasersph.physics.ejection import LEAVING
 
 ROUNDING = 1e-6
 """Shares of a column below which a particle does not stand in it."""
@@ -68,14 +69,14 @@ def corner(
 
     Args:
         column_x, column_y, beyond_x, beyond_y: from `place_along`; 0 for an axis that is missing.
-            right, back: 1 for the upper corner along x and y.
+            stage: only what is condensed or leaving stands anywhere. right, back: 1 for the upper corner along x and y.
     """
     x = wrapped(column_x + right, count_x, wraps_x)
     y = wrapped(column_y + back, count_y, wraps_y)
     cover = (beyond_x if right > 0.0 else 1.0 - beyond_x) * (
         beyond_y if back > 0.0 else 1.0 - beyond_y
     )
-    if is_there <= 0.0 or x < 0.0 or y < 0.0 or cover <= ROUNDING:
+    if stage > LEAVING or x < 0.0 or y < 0.0 or cover <= ROUNDING:
         return int(count_x * count_y), 0.0
     return int(x * count_y + y), cover
 

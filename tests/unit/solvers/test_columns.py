@@ -6,6 +6,7 @@ import pytest
 from lasersph.lasers import Laser
 from lasersph.materials import load_material
 from lasersph.physics import columns as rules
+from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING, WALL
 from lasersph.solvers.ablation.columns import Columns
 
 DX = 2e-7
@@ -41,8 +42,14 @@ def columns_of(backend, position, *, beam=None, periodic=True, rows=None):
         backend, laser(beam), load_material("aluminium-aa6014"),
         ((-half, half),) * (dimension - 1), DX, (periodic,) * (dimension - 1), deposit,
     )  # fmt: skip
-    rows = np.arange(count) if rows is None else rows
-    found.sort(backend.asarray(position), backend.asarray(rows, "index"))
+    stage = np.full(count, CONDENSED if rows is None else EJECTED)
+    if rows is not None:
+        stage[rows] = CONDENSED
+    found.sort(
+        backend.asarray(position),
+        backend.asarray(stage),
+        backend.asarray(np.arange(count), "index"),
+    )
     found.shine(1e-9, 1.05e-9)
     found.absorb(backend.asarray(np.full(count, 300.0)))
     return found, backend.to_host(deposit)
@@ -131,7 +138,7 @@ def test_crater_wall_takes_nothing(backend):
 
 
 def test_what_has_left_is_transparent(backend):
-    """Particles that are not among the rows neither absorb nor shade."""
+    """What has been ejected, and walls, neither absorb nor shade."""
     position = block(2)
     below = np.flatnonzero(position[1] < -DX)
     found, deposit = columns_of(backend, position, rows=below)
@@ -155,7 +162,8 @@ def test_old_light_goes_out(backend):
     position = block(2)
     found, _ = columns_of(backend, position)
     below = np.flatnonzero(position[1] < -DX)
-    found.sort(backend.asarray(position), backend.asarray(below, "index"))
+    stage = backend.zeros(position.shape[1])
+    found.sort(backend.asarray(position), stage, backend.asarray(below, "index"))
     assert not backend.to_host(found.deposit)[position[1] > -DX].any()
 
 
@@ -164,14 +172,15 @@ def test_place_and_corner():
     column, beyond = rules.place_along(np.array([2.3, 0.0]), (1.0, 0.0), 0.0, 1.0)
     assert column == 1.0 and beyond == pytest.approx(0.8)
 
-    def corner(right, column=column, wraps=0.0):
-        return rules.corner(column, beyond, 0.0, 0.0, 1.0, right, 0.0, 4.0, 1.0, wraps, 0.0)
+    def corner(right, column=column, wraps=0.0, stage=LEAVING):
+        return rules.corner(column, beyond, 0.0, 0.0, stage, right, 0.0, 4.0, 1.0, wraps, 0.0)
 
     assert corner(0.0) == (1, pytest.approx(0.2))
     assert corner(1.0) == (2, pytest.approx(0.8))
     assert corner(1.0, column=3.0) == (4, 0.0)
     assert corner(1.0, column=3.0, wraps=1.0) == (0, pytest.approx(0.8))
     assert corner(0.0, column=-1.0, wraps=1.0) == (3, pytest.approx(0.2))
+    assert corner(0.0, stage=EJECTED) == corner(0.0, stage=WALL) == (4, 0.0)
 
 
 def test_slivers_are_not_the_highest():

@@ -30,6 +30,7 @@ from lasersph.physics.columns import (
     share_of,
     top_of,
 )
+from lasersph.physics.ejection import GONE
 from lasersph.physics.heating import COLDEST, HOTTEST
 
 BAND = 0.5
@@ -87,19 +88,20 @@ class Columns:
 
     # --- who is met -----------------------------------------------------------------------------
 
-    def sort(self, position: Any, rows: Any) -> None:
-        """Find which of the particles `rows` the light meets first.
+    def sort(self, position: Any, stage: Any, rows: Any) -> None:
+        """Find which particles the light meets first.
 
         Args:
-            position: (dim, N) [m]. rows: what absorbs light, kind "index".
+            position: (dim, N) [m]. stage: (N,); what has left and walls are transparent. rows:
+                where to look, kind "index".
         """
         backend = self.backend
         size = max(rows.shape[0], self.count + 1)
-        x = backend.zeros((self.dimension, size))
+        x, stages = backend.zeros((self.dimension, size)), backend.zeros(size)
+        backend.fill(stages, GONE)
         backend.gather(position, rows, x)
-        is_there = backend.zeros(size)
-        backend.fill(backend.head(is_there, rows.shape[0]), 1.0)
-        corners = self._corners(x, is_there)
+        backend.gather(stage, rows, stages)
+        corners = self._corners(x, stages)
         lists = [(column, cover, self._list(x, column)) for column, cover in corners]
         self._find_tops(lists)
         shares, lit = [], backend.zeros(size)
@@ -126,7 +128,7 @@ class Columns:
             self.backend.zeros(rows.shape[0]) for _ in range(3)
         )
 
-    def _corners(self, x: Any, is_there: Any) -> list[tuple[Any, Any]]:
+    def _corners(self, x: Any, stage: Any) -> list[tuple[Any, Any]]:
         """Column and cover of each particle at each corner of its square."""
         backend, size = self.backend, x.shape[1]
         places = [(backend.zeros(size), backend.zeros(size)) for _ in range(2)]
@@ -138,7 +140,7 @@ class Columns:
             )  # fmt: skip
         fields = {
             "column_x": places[0][0], "beyond_x": places[0][1], "column_y": places[1][0],
-            "beyond_y": places[1][1], "is_there": is_there,
+            "beyond_y": places[1][1], "stage": stage,
         }  # fmt: skip
         found = []
         ends = [(0.0, 1.0)] * (self.dimension - 1) + [(0.0,)] * (3 - self.dimension)
