@@ -55,7 +55,7 @@ def corner(
     beyond_x,
     column_y,
     beyond_y,
-    is_there,
+    stage,
     right,
     back,
     count_x,
@@ -69,7 +69,8 @@ def corner(
 
     Args:
         column_x, column_y, beyond_x, beyond_y: from `place_along`; 0 for an axis that is missing.
-            stage: only what is condensed or leaving stands anywhere. right, back: 1 for the upper corner along x and y.
+            stage: only what is condensed or leaving stands anywhere. right, back: 1 for the
+            upper corner along x and y.
     """
     x = wrapped(column_x + right, count_x, wraps_x)
     y = wrapped(column_y + back, count_y, wraps_y)
