@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.settings import HELD
+from lasersph.case.ablation_checks import ablation_problems
 from lasersph.case.flow_checks import flow_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
@@ -36,6 +37,7 @@ def problems_of(case: Case) -> list[tuple[str, str]]:
         *_material(case),
         *_laser(case),
         *flow_problems(case),
+        *ablation_problems(case),
         *_size(case),
         *_probes(case),
         *_snapshots(case),

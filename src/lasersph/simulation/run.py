@@ -18,14 +18,22 @@ from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.compute.search import EscapedParticle
-from lasersph.observers import Observers, SnapshotSchedule, flow_observers, heat_observers
+from lasersph.observers import (
+    Observers,
+    SnapshotSchedule,
+    ablation_observers,
+    flow_observers,
+    heat_observers,
+)
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.particles.layers import Layers
+from lasersph.simulation.ablation_view import pulse_starts
 from lasersph.simulation.build import Solver, build, view_of
 from lasersph.simulation.scales import dimensionless
+from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.state import NotConverged
 from lasersph.solvers.melt_pool.domain import PoolTooDeep
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
@@ -109,6 +117,15 @@ def _observers(case: Case, iterations: tuple[str, ...]) -> Observers:
     if isinstance(case.solver, MeltPoolSettings):
         return flow_observers(
             dimensions, box=case.flow is not None, probes=case.probes, iterations=iterations
+        )
+    if isinstance(case.solver, AblationSettings):
+        return ablation_observers(
+            dimension,
+            probes=case.probes,
+            traces=case.traces,
+            iterations=iterations,
+            axis=None if case.laser is None else case.laser.position,
+            pulse_starts=pulse_starts(case),
         )
     return heat_observers(dimensions, probes=case.probes, iterations=iterations)
 

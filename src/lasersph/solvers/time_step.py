@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Any
 
+import numpy as np
 from pydantic import Field
 
 from lasersph.reading import Model, TemperatureDifference, Time
@@ -58,6 +59,13 @@ def choose(limits: Mapping[str, float]) -> tuple[str, float, float]:
     if pace >= target:
         return name, step, pace
     return bound, 0.5 * target if 2.0 * pace > target else pace, pace
+
+
+def next_edge(pulse: Any, time: float, end: float) -> float | None:
+    """Time from `time` to the next edge of a pulse train [s]; None where there is none before end."""
+    marks = np.asarray(pulse.breakpoints(time, end))
+    ahead = marks[marks > time * (1 + 1e-12)]
+    return float(ahead.min()) - time if ahead.size else None
 
 
 def binding(limits: Mapping[str, float]) -> tuple[str, float]:
