@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from lasersph.boundaries.initial_motion import Rest, SoundWave
 from lasersph.reading import show_quantity
 from lasersph.solvers.ablation.settings import AblationSettings
+from lasersph.solvers.conduction.body import SUPPORT
 
 if TYPE_CHECKING:
     from lasersph.case.case import Case
@@ -34,7 +35,7 @@ def ablation_problems(case: Case) -> Iterator[tuple[str, str]]:
     if case.flow is not None:
         yield "flow", "is about a melt pool's box; say in [motion] how matter starts"
     yield from _faces(case)
-    yield from _particles(case)
+    yield from _particles(case, case.solver)
     yield from _motion(case, case.solver)
     yield from _light(case, case.solver)
 
@@ -56,13 +57,14 @@ def _faces(case: Case) -> Iterator[tuple[str, str]]:
             yield f"vessel.{side}", "no wall stands on a periodic side; leave it out"
 
 
-def _particles(case: Case) -> Iterator[tuple[str, str]]:
+def _particles(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
     if case.particles.arrangement != "uniform":
         yield "particles.arrangement", 'particles that move need one size; write "uniform"'
     width = case.domain.width
-    if width is None or case.solver.dimensions == 1:
+    if width is None or solver.dimensions == 1:
         return
-    reach = 2.0 * (case.particles.support_ratio or 3.75) * case.particles.spacing
+    ratio = case.particles.support_ratio or SUPPORT[case.particles.kernel]
+    reach = 2.0 * (ratio + solver.skin) * case.particles.spacing
     for key, length, face in (
         ("width", width, "left"),
         ("breadth", case.domain.breadth or width, "front"),
@@ -71,7 +73,7 @@ def _particles(case: Case) -> Iterator[tuple[str, str]]:
         if is_there and case.boundaries.kind_of(face) == "periodic" and length <= reach:
             yield (
                 f"domain.{key}",
-                f"{show_quantity(length, 'm')} must be more than twice the support, "
+                f"{show_quantity(length, 'm')} must be more than twice the support and its skin, "
                 f"{show_quantity(reach, 'm')}; take a wider domain or a finer spacing",
             )
 

@@ -23,6 +23,7 @@ MIDPOINT = 2.0
 
 def compressible_limits(
     *,
+    is_still: bool,
     courant: float,
     smoothing: float,
     sound_speed: float,
@@ -34,14 +35,18 @@ def compressible_limits(
     """Named limits [s]; those of what cannot happen are left out.
 
     Args:
+        is_still: nothing moves and no force acts, so that heat alone limits the step.
         smoothing: h [m]. sound_speed: c_0 [m/s]. closing_speed: max |mu_ij| [m/s].
         acceleration: largest [m/s^2]. viscous_rate: N alpha c_0 / dx [1/s].
         diffusive_rate: L D / dx^2 [1/s].
     """
+    heat = MIDPOINT / diffusive_rate if diffusive_rate > 0.0 else inf
+    if is_still:
+        return {"conduction": heat}
     limits = {
         "sound": courant * smoothing / (sound_speed + closing_speed),
         "force": courant * sqrt(smoothing / acceleration) if acceleration > 0.0 else inf,
         "viscosity": MIDPOINT / viscous_rate if viscous_rate > 0.0 else inf,
-        "conduction": MIDPOINT / diffusive_rate if diffusive_rate > 0.0 else inf,
+        "conduction": heat,
     }
     return {name: limit for name, limit in limits.items() if limit < inf}

@@ -13,6 +13,7 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers
 from lasersph.physics.artificial_viscosity import SOFTENING
 from lasersph.simulation.build_flow import wall_enthalpy
+from lasersph.solvers.ablation.active import ActiveRegion
 from lasersph.solvers.ablation.columns import Columns
 from lasersph.solvers.ablation.departure import Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
@@ -76,17 +77,19 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
     )
     columns, ejection = None, None
     if case.laser is not None:
-        columns = _columns(case, case.laser, backend, layout)
+        columns = _columns(case, case.laser, backend, matter)
         ejection = _ejection(case, backend, matter, curve)
+    region = _region(case, backend, matter, settings)
     return Ablation(
         matter,
-        Pairs(matter, shape, settings.skin),
+        Pairs(matter, shape, settings.skin, None if region is None else region.find_pairs),
         Exposure(backend, matter.total, layout.dimension, layout.spacing),
         numbers_of(case, layout, shape, ratio),
         settings,
         case.time,
         columns,
         ejection,
+        region,
     )
 
 
@@ -129,11 +132,12 @@ def _diffusivity(case: Case) -> float:
     return float(np.max(slopes)) / case.material.density_reference
 
 
-def _columns(case: Case, laser: Laser, backend: Backend, layout: Layout) -> Columns:
+def _columns(case: Case, laser: Laser, backend: Backend, matter: Matter) -> Columns:
     """The light; a preset of the published rule brings its reflectivity."""
     reflectivity = ejection_of(case).reflectivity
     if reflectivity is not None and laser.reflectivity is None:
         laser = laser.model_copy(update={"reflectivity": reflectivity})
+    layout = matter.layout
     return Columns(
         backend,
         laser,
@@ -141,7 +145,21 @@ def _columns(case: Case, laser: Laser, backend: Backend, layout: Layout) -> Colu
         layout.bounds[:-1],
         layout.spacing,
         [width > 0.0 for width in layout.period[:-1]],
+        matter.E,
     )
+
+
+def _region(
+    case: Case, backend: Backend, matter: Matter, settings: AblationSettings
+) -> ActiveRegion | None:
+    """What is computed: where light falls on matter at rest only what heat reaches."""
+    is_at_rest = isinstance(case.motion or Rest(), Rest) and settings.gravity == 0.0
+    if case.laser is None or not is_at_rest or not settings.sleep:
+        return None
+    layout = matter.layout
+    support = float(backend.look(matter.support)[0]) + settings.skin * layout.spacing
+    lit = backend.asarray(np.arange(layout.surface_count), "index")
+    return ActiveRegion(backend, matter.now.x, support, layout.period, lit)
 
 
 def _ejection(

@@ -120,7 +120,7 @@ def _observers(case: Case, iterations: tuple[str, ...]) -> Observers:
         )
     if isinstance(case.solver, AblationSettings):
         return ablation_observers(
-            dimension,
+            dimensions,
             probes=case.probes,
             traces=case.traces,
             iterations=iterations,

@@ -62,7 +62,7 @@ def choose(limits: Mapping[str, float]) -> tuple[str, float, float]:
 
 
 def next_edge(pulse: Any, time: float, end: float) -> float | None:
-    """Time from `time` to the next edge of a pulse train [s]; None where there is none before end."""
+    """Time until the next edge of a pulse train before `end` [s]; None where there is none."""
     marks = np.asarray(pulse.breakpoints(time, end))
     ahead = marks[marks > time * (1 + 1e-12)]
     return float(ahead.min()) - time if ahead.size else None

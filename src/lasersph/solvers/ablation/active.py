@@ -106,6 +106,11 @@ class ActiveRegion:
         self._checks_all = True
 
     @property
+    def near(self) -> Any:
+        """What is computed and its sleeping neighbors, kind "index"; None where all is computed."""
+        return None if self.rows is None else self._near
+
+    @property
     def awake_count(self) -> int:
         """How many particles are computed."""
         return self.count if self.rows is None else self.rows.shape[0]

@@ -80,6 +80,7 @@ class Columns:
         self._up = (0.0,) * (self.dimension - 1) + (1.0,)
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._R_T, self._R_R = (backend.asarray(values) for values in table)
+        self._absorptivity = 1.0 - float(np.min(table[1]))
         self._energy = backend.zeros(self.count + 1)
         self._top, self._covers = backend.zeros(self.count + 1), backend.zeros(self.count + 1)
         self._lit: list[tuple[Any, Any]] = []
@@ -199,6 +200,12 @@ class Columns:
         return np.where(top > NOWHERE, top + 0.5 * self.spacing, np.nan)
 
     # --- what they take -------------------------------------------------------------------------
+
+    def largest_flux(self, start: float, end: float) -> float:
+        """Largest mean flux that a column may absorb from `start` to `end` [s], [W/m^2]."""
+        upper = self._lower + self.width[:, None]
+        density = self.laser.energy_density(self._lower, upper, start, end)
+        return self._absorptivity * float(np.max(density)) / (end - start)
 
     def shine(self, start: float, end: float) -> None:
         """Fix the light from `start` to `end` [s]; sets `incident` and `missed`."""

@@ -28,14 +28,16 @@ class Layout:
     """Start of all particles.
 
     Attributes:
-        count: material particles. position, velocity: (dim, N) [m], [m/s]. density: (N,)
-        [kg/m^dim]. temperature: (N,) [K]. conducts: (N,) 1, or 0 of walls without heat.
+        count: material particles. surface_count: of them in the first layer. position,
+            velocity: (dim, N) [m], [m/s]. density: (N,) [kg/m^dim]. temperature: (N,) [K].
+            conducts: (N,) 1, or 0 of walls without heat.
         spacing: [m]. cell: size of a particle's cell along each axis [m]. period: length per axis,
             0.0 where there is none [m].
         bounds: of the block. box: of the vessel around it [m].
     """
 
     count: int
+    surface_count: int
     position: Array
     velocity: Array
     density: Array
@@ -122,6 +124,7 @@ def lay_out(
     ]
     return Layout(
         count=count,
+        surface_count=filling.surface.size,
         position=position,
         velocity=velocity,
         density=density * (1.0 + strain),

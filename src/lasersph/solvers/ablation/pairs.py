@@ -1,8 +1,9 @@
 """`Pairs`: who is near whom, found anew once particles have moved far enough.
 
 A list holds all pairs within the support and a skin. It is good while twice the way of the fastest
-particle is shorter than the skin. Where nothing moves the skin is a millionth of a spacing: a pair
-that enters the support by less than that weighs 1e-12 of its neighbors.
+condensed particle is shorter than the skin; what leaves only parts from its neighbors. Where
+nothing moves the skin is a millionth of a spacing: a pair that enters the support by less than that
+weighs 1e-12 of its neighbors.
 """
 
 from __future__ import annotations
@@ -15,14 +16,12 @@ from lasersph.compute import search
 from lasersph.compute.vectors import dot, vector
 from lasersph.particles.neighbors import NeighborList
 from lasersph.particles.support import arithmetic
-from lasersph.physics.ejection import LEAVING
+from lasersph.physics.ejection import CONDENSED
 from lasersph.solvers.ablation.matter import Matter
 from lasersph.sph.kernels import Kernel
 
 LEAST_SKIN = 1e-6
 """In spacings."""
-LEAST_STEPS = 4.0
-"""Steps at the present speed that a skin lasts, at least."""
 
 Finder = Callable[[Any, Any], tuple[Any, Any]]
 """From places (dim, N) and supports (N,) to row_start and neighbor."""
@@ -52,14 +51,14 @@ def placed(x, x_listed, opaque):
 
 
 def displaced(x, x_listed, stage):
-    """Square of the way since the pairs were found [m^2], of what takes part and moves."""
+    """Square of the way since the pairs were found [m^2], of what is condensed."""
     way = x - x_listed
-    return dot(way, way) if stage <= LEAVING else 0.0 * dot(way, way)
+    return dot(way, way) if stage == CONDENSED else 0.0 * dot(way, way)
 
 
-def reaching(l, margin):
+def reaching(support, margin):
     """Support with the skin [m]."""
-    return l + margin
+    return support + margin
 
 
 class Pairs:
@@ -84,7 +83,7 @@ class Pairs:
         self._low = tuple(lower for lower, _upper in matter.layout.bounds)
 
     def is_stale(self, way: float, rows: Any = None) -> bool:
-        """Whether particles may come nearer than listed during a step in which they move `way` [m]."""
+        """Whether particles may come nearer than listed in a step in which they move `way` [m]."""
         if self.margin == 0.0:
             return True
         fields = {"x": self.matter.now.x, "x_listed": self.listed, "stage": self.matter.stage}
@@ -94,7 +93,11 @@ class Pairs:
         return 2.0 * (sqrt(max(square, 0.0)) + way) > self.margin
 
     def renew(self, way: float, rows: Any = None) -> None:
-        """Find the pairs anew, with a skin for steps in which particles move `way` [m]."""
+        """Find the pairs anew, with a skin for steps in which particles move `way` [m].
+
+        Raises:
+            EscapedParticle: a place is not finite.
+        """
         matter, backend = self.matter, self.matter.backend
         period = matter.layout.period
         if any(period):
@@ -103,13 +106,13 @@ class Pairs:
         fields = {"x": matter.now.x, "x_listed": self.listed, "opaque": matter.opaque}
         backend.pointwise(placed, fields, self.listed, rows=rows)
         least = LEAST_SKIN * matter.layout.spacing
-        self.margin = least if 2.0 * way < least else max(self.skin, 2.0 * LEAST_STEPS * way)
+        self.margin = least if 2.0 * way < least else self.skin
         self.find()
 
     def find(self) -> None:
         """Find the pairs of the listed places."""
         matter, backend = self.matter, self.matter.backend
-        backend.pointwise(reaching, {"l": matter.support}, self._reach, margin=self.margin)
+        backend.pointwise(reaching, {"support": matter.support}, self._reach, margin=self.margin)
         row_start, neighbor = self._finder(self.listed, self._reach)
         self.now, self.half = (
             NeighborList(

@@ -103,8 +103,9 @@ def derived(
         without latent heat counts as molten [K]. Others as in `equation_of_state`.
     """
     T, _potential, f_m, f_v = state(h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes)
-    acts = 1.0 if stage == CONDENSED or stage == WALL else 0.0
-    opaque = 1.0 if stage <= LEAVING or stage == WALL else 0.0
+    is_wall = stage == WALL
+    acts = 1.0 if stage == CONDENSED or is_wall else 0.0
+    opaque = 1.0 if stage <= LEAVING or is_wall else 0.0
     melted = max(f_m, 1.0 if melts_at <= T else 0.0)
     k = opaque * conducts * interpolate(T, k_T, k_nodes)
     P = acts * condensed_pressure(rho, rho_0, c_0, has_tension)
@@ -131,9 +132,12 @@ def foreseen(m, rho, a, drho, dh, dt):
     return m * dt * dh, rho + dt * drho, dot(a, a)
 
 
-def speed_square(v, stage):
-    """|v|^2 [m^2/s^2] of what takes part."""
-    return dot(v, v) if stage <= LEAVING else 0.0 * dot(v, v)
+def speed_squares(v, stage):
+    """|v|^2 [m^2/s^2] of what is condensed, and of what leaves."""
+    square = dot(v, v)
+    is_condensed = 1.0 if stage == CONDENSED else 0.0
+    is_leaving = 1.0 if stage == LEAVING else 0.0
+    return is_condensed * square, is_leaving * square
 
 
 def condensed_extremes(P, v, stage):

@@ -46,6 +46,11 @@ class AblationSettings(Model):
         description="how much further than their support particles look for neighbors once they "
         "move, in spacings",
     )
+    sleep: bool = Field(
+        default=True,
+        description="whether cold matter at rest is left alone until heat comes near (only where "
+        "nothing moves at the start and there is no gravity)",
+    )
     ejecta_height: Annotated[Length, Field(gt=0)] | None = Field(
         default=None,
         description="height over the surface up to which ejecta are followed; default: the depth",

@@ -18,6 +18,7 @@ import numpy as np
 from lasersph.compute.search import EscapedParticle
 from lasersph.physics.compressible_limits import compressible_limits
 from lasersph.physics.ejection import EJECTED
+from lasersph.solvers.ablation.active import ActiveRegion
 from lasersph.solvers.ablation.columns import Columns
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
 from lasersph.solvers.ablation.exposure import Exposure
@@ -34,7 +35,7 @@ from lasersph.solvers.ablation.rates import (
     pair_rates,
     pair_weight,
     rates,
-    speed_square,
+    speed_squares,
     warmed,
 )
 from lasersph.solvers.ablation.settings import AblationSettings
@@ -55,9 +56,10 @@ class Numbers:
     """Constants of a run.
 
     Attributes:
-        smoothing: h [m]. alpha_solid, alpha_liquid: artificial viscosity [1]. viscous_rate, diffusive_rate: of alternating layers [1/s].
-        weight_factor: of the conduction weights [1]. ambient: T_a, h_c, eps of the surroundings.
-        low, high: corners of the box in which ejecta are followed [m].
+        smoothing: h [m]. alpha_solid, alpha_liquid: artificial viscosity [1]. viscous_rate,
+            diffusive_rate: of alternating layers [1/s]. weight_factor: of the conduction weights
+            [1]. ambient: T_a, h_c, eps of the surroundings. low, high: corners of the box in which
+            ejecta are followed [m].
     """
 
     smoothing: float
@@ -90,16 +92,16 @@ class Ablation:
         time: TimeSettings,
         columns: Columns | None = None,
         ejection: EnthalpyEjection | PublishedEjection | None = None,
+        region: ActiveRegion | None = None,
     ) -> None:
         self.body, self.pairs, self.exposure = matter, pairs, exposure
         self.numbers, self.settings, self.time_settings = numbers, settings, time
-        self.columns, self.ejection = columns, ejection
+        self.columns, self.ejection, self.region = columns, ejection, region
         self.backend = backend = matter.backend
         self.state = AblationState()
-        self.rows: Any = None
         dimension, total = matter.layout.dimension, matter.total
         self._a = backend.zeros((dimension, total))
-        self._drho, self._dh, self._light = (backend.zeros(total) for _ in range(3))
+        self._drho, self._dh = (backend.zeros(total) for _ in range(2))
         self._weights: Any = None
         self._surface_known = False
         self._flow = {
@@ -108,7 +110,13 @@ class Ablation:
             "factor": numbers.weight_factor, "g": settings.gravity,
             "up": (0.0,) * (dimension - 1) + (1.0,),
         }  # fmt: skip
-        matter.enter(self.rows)
+        self._everything = backend.asarray(np.arange(total), "index")
+        self._enter()
+
+    @property
+    def rows(self) -> Any:
+        """Particles that are computed, kind "index"; None for all."""
+        return None if self.region is None else self.region.rows
 
     @property
     def fields(self) -> dict[str, Any]:
@@ -117,7 +125,9 @@ class Ablation:
         found = {name: getattr(level, symbol) for name, symbol in LEVEL_ARRAYS.items()}
         found |= {name: getattr(matter, name) for name in MATTER_ARRAYS}
         found["listed"] = self.pairs.listed
-        return found | ({} if self.ejection is None else self.ejection.fields)
+        for part in (self.ejection, self.region):
+            found |= {} if part is None else part.fields
+        return found
 
     @property
     def iterations(self) -> dict[str, int]:
@@ -131,7 +141,8 @@ class Ablation:
 
     def carried(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        return self.state.carried() | {"margin": self.pairs.margin}
+        numbers = self.state.carried() | {"margin": self.pairs.margin}
+        return numbers | ({} if self.region is None else self.region.carried())
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
         """Continue from the arrays of `fields` and the numbers of `carried`."""
@@ -139,33 +150,41 @@ class Ablation:
             self.backend.copy(self.backend.asarray(arrays[name]), field)
         self.state.restore(numbers)
         self.pairs.margin = numbers["margin"]
+        if self.region is not None:
+            self.region.restore(arrays, numbers)
         self.body.refresh(self.body.now)
-        self.body.enter(self.rows)
+        self._enter()
+        self._surface_known, self._weights = False, None
         if self.pairs.margin > 0.0:
             self.pairs.find()
 
     def time_step_limits(self) -> dict[str, float]:
-        """Named limits of the next step [s]."""
+        """Named limits of the next step [s]; of flow only where something moves or is pushed."""
         state, time, numbers = self.state, self.time_settings, self.numbers
         limits = {"end": time.end - state.time}
-        if time.is_fixed and time.step is not None:
-            limits["fixed step"] = time.step
-        else:
-            limits |= compressible_limits(
-                courant=self.settings.courant,
-                smoothing=numbers.smoothing,
-                sound_speed=self.settings.sound_speed,
-                closing_speed=state.closing,
-                acceleration=state.acceleration,
-                viscous_rate=numbers.viscous_rate,
-                diffusive_rate=numbers.diffusive_rate,
-            )
-            if time.step is not None:
-                limits["light"] = time.step
         if self.columns is not None:
             edge = next_edge(self.columns.laser.pulse, state.time, time.end)
             if edge is not None:
                 limits["pulse edge"] = edge
+        if time.is_fixed and time.step is not None:
+            return limits | {"fixed step": time.step}
+        limits |= compressible_limits(
+            is_still=state.is_balanced and state.speed == 0.0,
+            courant=self.settings.courant,
+            smoothing=numbers.smoothing,
+            sound_speed=self.settings.sound_speed,
+            closing_speed=state.closing,
+            acceleration=state.acceleration,
+            viscous_rate=numbers.viscous_rate,
+            diffusive_rate=numbers.diffusive_rate,
+        )
+        if time.step is not None:
+            limits["light"] = time.step
+        if self.columns is not None and self.ejection is not None:
+            flux = self.columns.largest_flux(state.time, state.time + min(limits.values()))
+            if flux > 0.0:
+                density = self.body.material.density_reference
+                limits["vaporization"] = self.ejection.longest_step(flux, density)
         return limits
 
     def step(self, step: float, pace: float | None = None) -> float:
@@ -207,23 +226,32 @@ class Ablation:
         self._fly(step)
         self._surface_known = self._surface_known and is_resting
 
+    def _enter(self) -> None:
+        """Let the middle of the step know what is computed, and its neighbors."""
+        self.body.enter(None if self.region is None else self.region.near)
+
     def _look(self, step: float) -> bool:
         """Renew pairs and surface where matter has moved; returns whether only heat changes."""
         matter, state, backend = self.body, self.state, self.backend
+        has_grown = self.region is not None and self.region.wake(matter.fields())
+        if has_grown:
+            self._enter()
         fields = {"v": matter.now.v, "stage": matter.stage}
-        (square,) = backend.pointwise(
-            speed_square, fields, (None,), rows=self.rows, reduce=("max",)
+        square, leaving = backend.pointwise(
+            speed_squares, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
-        way = step * (sqrt(square) + step * state.acceleration)
-        if not isfinite(way):
-            raise NotConverged("velocities are not finite")
-        if self.pairs.is_stale(way, self.rows):
+        state.speed = sqrt(square)
+        way = step * (state.speed + step * state.acceleration)
+        if not 2.0 * way <= self.pairs.skin:
+            raise NotConverged(f"matter moves {way:.3g} m in {step:.3g} s; take shorter steps")
+        if has_grown or self.pairs.is_stale(way, self.rows):
             try:
                 self.pairs.renew(way, self.rows)
             except EscapedParticle as error:
                 raise NotConverged(str(error)) from error
             self._weights, self._surface_known = None, False
-        is_resting = state.is_balanced and square == 0.0 and self.settings.gravity == 0.0
+        is_still = square == 0.0 and leaving == 0.0 and self.settings.gravity == 0.0
+        is_resting = state.is_balanced and is_still
         if not is_resting:
             self._weights = None
         elif self._weights is None:
@@ -253,8 +281,8 @@ class Ablation:
         matter = self.body
         self.exposure.find(self.pairs.now, matter.now.V, matter.opaque, self.rows)
         if self.columns is not None:
-            absorbing = self.backend.rows_where(matter.opaque, 1.0)
-            self.columns.sort(matter.now.x, absorbing)
+            rows = self._everything if self.rows is None else self.rows
+            self.columns.sort(matter.now.x, matter.stage, rows)
         self._surface_known = True
 
     def _shine(self, step: float) -> tuple[float, float]:
@@ -262,9 +290,8 @@ class Ablation:
         if self.columns is None:
             return 0.0, 0.0
         time = self.state.time
-        self.backend.fill(self.body.E, 0.0)
-        self.columns.shine(time, time + step, self._light)
-        self.columns.absorb(self.body.now.T, self.body.E)
+        self.columns.shine(time, time + step)
+        self.columns.absorb(self.body.now.T)
         return self.columns.incident, self.columns.absorbed
 
     def _evaluate(self, level: Level, step: float, is_resting: bool) -> float:
@@ -331,7 +358,7 @@ class Ablation:
             return
         matter, surface = self.body, self.exposure
         fields = matter.fields() | {
-            "exposed": surface.exposed, "normal": surface.normal, "light": self._light,
+            "exposed": surface.exposed, "normal": surface.normal,
         }  # fmt: skip
         departure = self.ejection.leave(fields, self.pairs.now, self.rows, self.state.time, step)
         matter.refresh(matter.now, self.rows)

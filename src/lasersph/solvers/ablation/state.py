@@ -14,13 +14,15 @@ class AblationState:
 
     Attributes:
         time, time_step: [s]. energy: exchanged since the start [J], by ENERGIES.
-        acceleration, closing: largest |dv/dt| [m/s^2] and |mu| [m/s] of the last step.
+        speed: largest of what was condensed at the start of the last step [m/s]. acceleration,
+            closing: largest |dv/dt| [m/s^2] and |mu| [m/s] when they were last looked for.
         left: all that ever left. gone: how many of them have passed the edge.
         is_balanced: no force was found when forces were last looked for.
     """
 
     time: float = 0.0
     time_step: float = 0.0
+    speed: float = 0.0
     acceleration: float = 0.0
     closing: float = 0.0
     is_balanced: bool = False
@@ -32,7 +34,8 @@ class AblationState:
         """All numbers by name."""
         numbers = {f"energy.{name}": value for name, value in self.energy.items()}
         return numbers | {f"left.{name}": value for name, value in vars(self.left).items()} | {
-            "time": self.time, "time_step": self.time_step, "acceleration": self.acceleration,
+            "time": self.time, "time_step": self.time_step, "speed": self.speed,
+            "acceleration": self.acceleration,
             "closing": self.closing, "is_balanced": float(self.is_balanced), "gone": self.gone,
         }  # fmt: skip
 
@@ -44,7 +47,8 @@ class AblationState:
             numbers["left.kinetic"],
         )  # fmt: skip
         self.time, self.time_step = numbers["time"], numbers["time_step"]
-        self.acceleration, self.closing = numbers["acceleration"], numbers["closing"]
+        self.speed, self.closing = numbers["speed"], numbers["closing"]
+        self.acceleration = numbers["acceleration"]
         self.is_balanced, self.gone = bool(numbers["is_balanced"]), int(numbers["gone"])
 
     def leave(self, departure: Departure) -> None:
