@@ -12,6 +12,7 @@ from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_extrema import FlowExtrema
 from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.lid_pressure import LidPressure
+from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.probes import Probe, Probes
 from lasersph.observers.steps import Steps
@@ -155,7 +156,8 @@ def ablation_observers(
     Args:
         dimension, probes, iterations: as of `heat_observers`.
         traces: particles that are followed.
-        axis: x and y of the beam's axis [m]; without a beam there is neither crater nor ejecta.
+        axis: x and y of the beam's axis [m]; without a beam there is neither crater nor ejecta,
+            but the motion of the whole.
         pulse_starts: times at which the pulses begin [s].
     """
     heat = heat_observers(dimension, probes=probes, iterations=iterations)
@@ -163,4 +165,6 @@ def ablation_observers(
     if axis is not None:
         crater = Crater(dimension, axis=axis, pulse_starts=tuple(pulse_starts))
         members += [crater, Ejecta(dimension)]
+    else:
+        members.append(MatterMotion(dimension))
     return Observers([*members, Traces(tuple(traces))])

@@ -95,24 +95,20 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
 
 def numbers_of(case: Case, layout: Layout, shape: Kernel, ratio: float) -> Numbers:
     """Constants of the solver."""
-    settings, material = case.solver, case.material
+    settings = case.solver
     assert isinstance(settings, AblationSettings)
-    liquid = settings.viscosity_liquid
-    solid = liquid if material.is_liquid else settings.viscosity_solid
     spacing, ambient = layout.spacing, case.boundaries.ambient_temperature
-    is_plain = settings.weights == "plain"
+    solid, liquid = viscosities(case)
     height = settings.ejecta_height or case.domain.depth
     low, high = (tuple(ends) for ends in zip(*layout.box, strict=True))
+    viscous, diffusive = decay_rates(case, spacing)
     return Numbers(
         smoothing=0.5 * ratio * spacing,
         alpha_solid=solid,
         alpha_liquid=liquid,
-        viscous_rate=viscous_rate(shape, ratio, SOFTENING)
-        * max(solid, liquid)
-        * settings.sound_speed
-        / spacing,
-        diffusive_rate=diffusive_rate(shape, ratio) * _diffusivity(case) / spacing**2,
-        weight_factor=1.0 if is_plain else 1.0 / second_moment(shape, ratio),
+        viscous_rate=viscous,
+        diffusive_rate=diffusive,
+        weight_factor=1.0 if settings.weights == "plain" else 1.0 / second_moment(shape, ratio),
         ambient={
             "T_a": case.initial_temperature if ambient is None else ambient,
             "h_c": case.boundaries.convection,
@@ -121,6 +117,27 @@ def numbers_of(case: Case, layout: Layout, shape: Kernel, ratio: float) -> Numbe
         low=low,
         high=(*high[:-1], max(high[-1], height)),
     )
+
+
+def viscosities(case: Case) -> tuple[float, float]:
+    """alpha of solid and liquid; what is liquid everywhere is nowhere solid."""
+    settings = case.solver
+    assert isinstance(settings, AblationSettings)
+    liquid = settings.viscosity_liquid
+    return liquid if case.material.is_liquid else settings.viscosity_solid, liquid
+
+
+def decay_rates(case: Case, spacing: float) -> tuple[float, float]:
+    """Rates at which alternating layers of given spacing [m] stop and cool [1/s]."""
+    settings = case.solver
+    assert isinstance(settings, AblationSettings)
+    shape = kernel(case.particles.kernel, settings.dimensions)
+    ratio = case.particles.support_ratio or SUPPORT[case.particles.kernel]
+    stiffest = max(viscosities(case)) * settings.sound_speed / spacing
+    diffusive = diffusive_rate(shape, ratio) * _diffusivity(case) / spacing**2
+    if settings.weights == "second-moment":
+        diffusive /= second_moment(shape, ratio)
+    return viscous_rate(shape, ratio, SOFTENING) * stiffest, diffusive
 
 
 def _diffusivity(case: Case) -> float:

@@ -10,8 +10,10 @@ import numpy as np
 from lasersph.case import Case
 from lasersph.case.size import BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
 from lasersph.particles.layers import Layers
+from lasersph.simulation.ablation_forecast import ablation_steps, ablation_warnings
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
 from lasersph.simulation.flow_forecast import FlowForecast, flow_forecast
+from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import next_light
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
@@ -64,6 +66,9 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
     if isinstance(case.solver, MeltPoolSettings):
         flow = flow_forecast(case, layers.spacing, support_ratio(case) * layers.spacing)
     limits, steps = _steps(case, layers, flow)
+    moving = []
+    if isinstance(case.solver, AblationSettings):
+        moving = ablation_warnings(case, layers.spacing)
     products = PRODUCTS_PER_STEP[_scheme(case)]
     length, penetration = _lengths(case)
     spacing = layers.spacing
@@ -85,6 +90,7 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         warnings=(
             *_warnings(case, layers, length, penetration),
             *(flow.warnings if flow else ()),
+            *moving,
         ),
         flow=flow,
     )
@@ -92,6 +98,8 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
 
 def _scheme(case: Case) -> str:
     """Key of PRODUCTS_PER_STEP."""
+    if isinstance(case.solver, AblationSettings):
+        return "explicit"
     return case.solver.scheme if isinstance(case.solver, ConductionSettings) else "flow"
 
 
@@ -102,6 +110,8 @@ def _neighbors(case: Case) -> float:
 
 def _steps(case: Case, layers: Layers, flow: FlowForecast | None) -> tuple[dict[str, float], int]:
     """Limits [s] while the light is on and while something flows, and the number of steps."""
+    if isinstance(case.solver, AblationSettings):
+        return ablation_steps(case, layers.spacing)
     if flow is None or (case.time.is_fixed and case.time.step is not None):
         return _heat_steps(case, layers)
     if case.flow is not None:
