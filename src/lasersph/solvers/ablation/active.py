@@ -1,7 +1,7 @@
 """`ActiveRegion`: only particles that heat or motion can reach are computed.
 
 The box is cut into tiles at least as wide as the support. A tile sleeps until something disturbed
-comes within two tiles; then it is awake for good. Disturbed is what has
+comes within two tiles; then it is awake for good, and the tiles next to it too. Disturbed is what has
 
     |h| > 1e-11 times the largest |h| so far,    or moves.
 
@@ -30,7 +30,9 @@ from lasersph.physics.ejection import EJECTED, GONE
 LEAST_RISE = 1e-11
 """Enthalpy over the largest one below which a particle counts as undisturbed."""
 WAKING_REACH = 2
-"""Tiles around something disturbed that are awake."""
+"""Tiles around something disturbed that must be awake."""
+WAKING_AHEAD = 1
+"""Tiles beyond those that wake along with them, so that lists of pairs last for more steps."""
 
 
 def along(x, axis, low, inverse, count):
@@ -67,6 +69,11 @@ def disturbed(h, v, stage, least):
 def of_tile(tile, marks):
     """Mark of a particle's tile."""
     return marks[tile]
+
+
+def numbered(place, numbers):
+    """Number of the particle at a place among those near what is awake."""
+    return numbers[place]
 
 
 class ActiveRegion:
@@ -149,10 +156,10 @@ class ActiveRegion:
         if found == 0.0:
             return False
         warm = self._marked(rows)
-        reached = self._around(self._tiles_of(fields["x"], warm), WAKING_REACH)
-        if not np.any(reached & ~self._awake):
+        tiles = self._tiles_of(fields["x"], warm)
+        if not np.any(self._around(tiles, WAKING_REACH) & ~self._awake):
             return False
-        self._wake(self._awake | reached)
+        self._wake(self._awake | self._around(tiles, WAKING_REACH + WAKING_AHEAD))
         return True
 
     def _marked(self, rows: Any) -> Any:
@@ -249,7 +256,7 @@ class ActiveRegion:
             backend, x, support, size, mean=arithmetic, period=self.period, wanted=self._wanted
         )
         neighbor = backend.zeros(local.shape[0], "index")
-        backend.gather(near, local, neighbor)
+        backend.pointwise(numbered, {"place": local}, neighbor, numbers=near)
         counts = backend.zeros(self.count, "index")
         rows_of = np.diff(backend.look(start).astype(np.int64))
         backend.scatter(backend.asarray(rows_of, "index"), near, counts)
