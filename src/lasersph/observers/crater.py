@@ -2,7 +2,8 @@
 
 The removed volume is that of all particles that left at the reference density; the vaporized
 volume adds the share of its heat of vaporization that each exposed particle has taken up. While
-whole layers leave, the latter grows smoothly.
+whole layers leave, the latter grows smoothly; after the pulse it falls again, as what has not left
+gives its heat to the metal below.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ class Crater:
         self.names = SIZES if dimension > 1 else SIZES[:3]
         self.pulse_starts = pulse_starts
         self.shape = CraterShape()
-        self.removed = self.vaporized = 0.0
+        self.removed = self.vaporized_max = 0.0
         self.bottom: float | None = None
         self.depth_at_start: list[float] = []
 
@@ -66,9 +67,10 @@ class Crater:
         self.removed = seen.ejected_mass / seen.density_reference
         exposed = view.surface[seen.stage[view.surface] == CONDENSED]
         share = float(np.sum(view.vapor_fraction[exposed] * view.volume[exposed]))
-        self.vaporized = self.removed + share
+        vaporized = self.removed + share
+        self.vaporized_max = max(self.vaporized_max, vaporized)
         sizes = [float(getattr(self.shape, name)) for name in self.names]
-        return dict(zip(self.columns, [*sizes, self.removed, self.vaporized], strict=True))
+        return dict(zip(self.columns, [*sizes, self.removed, vaporized], strict=True))
 
     def summary(self) -> dict[str, Any]:
         """`crater`: sizes at the end, volumes, and the depth of each pulse.
@@ -86,7 +88,7 @@ class Crater:
                 "volume_unit": self.unit.replace("m2", "m^2").replace("m3", "m^3"),
                 "volume_m3": self.shape.volume,
                 "removed_volume_m3": self.removed,
-                "vaporized_volume_m3": self.vaporized,
+                "vaporized_volume_max_m3": self.vaporized_max,
                 "mirror_images": self.shape.mirror_images,
                 "depth_of_pulse_m": per_pulse,
             }
@@ -97,7 +99,7 @@ class Crater:
         return {
             "shape": asdict(self.shape),
             "removed": self.removed,
-            "vaporized": self.vaporized,
+            "vaporized_max": self.vaporized_max,
             "bottom": self.bottom,
             "depth_at_start": list(self.depth_at_start),
         }
@@ -105,7 +107,7 @@ class Crater:
     def restore(self, state: dict[str, Any]) -> None:
         """Continue from a state."""
         self.shape = CraterShape(**state["shape"])
-        self.removed, self.vaporized = state["removed"], state["vaporized"]
+        self.removed, self.vaporized_max = state["removed"], state["vaporized_max"]
         self.bottom = state["bottom"]
         self.depth_at_start = list(state["depth_at_start"])
 

@@ -74,7 +74,7 @@ def conduction(case: Case, laser: Laser, reflectivity: float) -> dict[str, float
     """Penetration of heat in a pulse, temperatures without phase change, loss to the sides."""
     duration, material = on_time(laser), case.material
     diffusivity = material.diffusivity_reference
-    given = {
+    given: dict[str, Any] = {
         "flux": (1.0 - reflectivity) * laser.peak_fluence / duration,
         "pulse_duration": duration,
         "conductivity": float(material.conductivity_at(material.reference_temperature)),

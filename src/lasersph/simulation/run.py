@@ -30,6 +30,7 @@ from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.particles.layers import Layers
+from lasersph.simulation.ablation_estimates import ablation_estimates
 from lasersph.simulation.ablation_view import pulse_starts
 from lasersph.simulation.build import Solver, build, view_of
 from lasersph.simulation.scales import dimensionless
@@ -214,6 +215,8 @@ class _Loop:
             **self.observers.summary(),
             "dimensionless": dimensionless(self.case),
         }
+        if isinstance(self.case.solver, AblationSettings):
+            summary["estimates"] = ablation_estimates(self.case)
         self.folder.events.append("finished", time=state.time, step=self.steps)
         self.folder.log(f"finished after {self.steps} steps, {summary['wall_time_s']:.1f} s")
         self.folder.finish(summary)
