@@ -1,7 +1,7 @@
 """Walls of particles beyond the faces of a box: three layers, every second one staggered.
 
 Wall particles obey continuity and equation of state like all others but do not move [Alshaer2017,
-Section 2.3; Crespo et al. 2007, CMC 5, 173]: what comes near them raises their density and is
+Section 2; Crespo2007]: what comes near them raises their density and is
 pushed back. Layers lie half, one and a half and two and a half spacings beyond a face; in the
 second one particles stand in the gaps of the first, by half a spacing along every axis of the face.
 Layers below and above reach beyond the sides, so that corners are closed.

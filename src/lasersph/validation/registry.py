@@ -23,6 +23,9 @@ MODULES = {
     "taylor-green": "taylor_green",
     "marangoni-layer": "marangoni_layer",
     "natural-convection": "natural_convection",
+    "sound-wave": "sound_wave",
+    "hydrostatic-column": "hydrostatic_column",
+    "dam-break": "dam_break",
     "dlip-steel": "dlip_steel",
     "dlip-aluminium": "dlip_aluminium",
 }
