@@ -83,8 +83,8 @@ class Life:
         self.height = float(view.position[-1, k])
         self.stage = int(seen.stage[k])
         self.temperature_max = max(self.temperature_max, self.temperature)
-        if view.liquidus is not None and self.melted_at is None:
-            self.melted_at = view.time if self.temperature >= view.liquidus else None
+        if self.melted_at is None and view.melt_fraction[k] > 0.0:
+            self.melted_at = view.time
         boils = view.vaporization is not None and self.temperature >= view.vaporization * (
             1.0 - AT_BOILING
         )
