@@ -7,7 +7,7 @@
 
 The paper's third limit is dx^2 / D (its eq. (32)), which lies above what the midpoint rule bears:
 with the largest eigenvalue L of the discrete Laplacian it is 0.741 dx^2 / D in 3-D and
-0.846 dx^2 / D in 1-D for the cubic spline with h = 1.5 dx. Its viscosity has a limit of its own,
+0.844 dx^2 / D in 1-D for the cubic spline with h = 1.5 dx. Its viscosity has a limit of its own,
 which the paper does not state: N is the rate at which layers that move against each other stop;
 in 3-D with alpha = 5, dx = 0.2 um and c_0 = 5000 m/s it is 0.016 ns. Both L and N come from
 `sph.lattice_sums`.

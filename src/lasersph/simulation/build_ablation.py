@@ -27,7 +27,7 @@ from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.ablation.solver import Ablation, Numbers
 from lasersph.solvers.conduction.body import SUPPORT
 from lasersph.sph.kernels import Kernel, kernel
-from lasersph.sph.lattice_sums import diffusive_rate, second_moment, viscous_rate
+from lasersph.sph.lattice_sums import diffusive_rate, second_moment, surface_threshold, viscous_rate
 
 NEVER = 1e9
 """Temperature that nothing reaches [K]."""
@@ -83,7 +83,13 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
     return Ablation(
         matter,
         Pairs(matter, shape, settings.skin, None if region is None else region.find_pairs),
-        Exposure(backend, matter.total, layout.dimension, layout.spacing),
+        Exposure(
+            backend,
+            matter.total,
+            layout.dimension,
+            layout.spacing,
+            surface_threshold(shape, ratio),
+        ),
         numbers_of(case, layout, shape, ratio),
         settings,
         case.time,

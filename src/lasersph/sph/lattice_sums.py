@@ -5,12 +5,12 @@ They tell how far a kernel on a lattice is from the continuum, and how fast its 
     second_moment      sum_j V_j |dW| r / d                 1 where gradients of lines are exact;
                        its d-fold is the divergence of positions inside a body
     surface_threshold  mean of that divergence in the first and the second layer of a half space
-    diffusive_rate     L = dx^2 sum_j 2 V_j |dW| / r (1 - cos(pi z / dx))
+    diffusive_rate     L = max over k of dx^2 sum_j 2 V_j |dW| / r (1 - cos(k . r_ij))
     viscous_rate       N = h dx sum_j V_j |dW| / r z^2 / (r^2 + s h^2) (1 - cos(pi z / dx))
 
-L and N belong to layers that alternate, s softens an artificial viscosity. The weights of
-conduction divided by the second moment conduct exactly inside a body (0.98765 in 1-D, 1.01012 in
-3-D for the cubic spline with h = 1.5 dx).
+N belongs to layers that alternate, L to values that alternate along as many axes as decay fastest;
+s softens an artificial viscosity. Weights of conduction divided by the second moment conduct
+exactly inside a body (0.98765 in 1-D, 1.01012 in 3-D for the cubic spline with h = 1.5 dx).
 """
 
 from __future__ import annotations
@@ -54,9 +54,11 @@ def surface_threshold(kernel: Kernel, ratio: float) -> float:
 
 
 def diffusive_rate(kernel: Kernel, ratio: float) -> float:
-    """L: rate of decay of alternating layers over D / dx^2 [1]."""
+    """L: fastest rate of decay over D / dx^2 [1]."""
     place, slope = lattice_neighbors(kernel, ratio)
-    return float(np.sum(2.0 * slope / _distance(place) * (1.0 - np.cos(np.pi * place[-1]))))
+    weight = 2.0 * slope / _distance(place)
+    phases = np.pi * np.cumsum(place, axis=0)
+    return max(float(np.sum(weight * (1.0 - np.cos(phase)))) for phase in phases)
 
 
 def viscous_rate(kernel: Kernel, ratio: float, softening: float) -> float:

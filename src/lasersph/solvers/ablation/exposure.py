@@ -16,18 +16,28 @@ from lasersph.sph.free_surface import SMALLEST_NORMAL, surface_state, surface_te
 class Exposure:
     """The surface of the condensed particles.
 
+    Args:
+        threshold: of the divergence; None for that of the cubic spline with h = 1.5 dx.
+
     Attributes:
         divergence: (n,) of the positions [1]. exposed: (n,) 1 at the surface, else 0. normal:
             (dim, n) outward unit normal there, else 0. area: (n,) open to the surroundings
             [m^(dim-1)].
     """
 
-    def __init__(self, backend: Backend, count: int, dimension: int, spacing: float) -> None:
+    def __init__(
+        self,
+        backend: Backend,
+        count: int,
+        dimension: int,
+        spacing: float,
+        threshold: float | None = None,
+    ) -> None:
         self.backend = backend
         self.divergence, self.exposed, self.area = (backend.zeros(count) for _ in range(3))
         self.normal = backend.zeros((dimension, count))
         self._constants = {
-            "threshold": SURFACE_THRESHOLD[dimension],
+            "threshold": SURFACE_THRESHOLD[dimension] if threshold is None else threshold,
             "up": (0.0,) * (dimension - 1) + (1.0,),
             "least": SMALLEST_NORMAL / spacing,
             "face": spacing ** (dimension - 1),
