@@ -36,6 +36,7 @@ app.command(rich_help_panel="Runs")(results.report)
 app.command(rich_help_panel="Runs")(exporting.export)
 app.command(rich_help_panel="Many runs")(studies.converge)
 app.command(rich_help_panel="Many runs")(studies.threshold)
+app.command(rich_help_panel="Many runs")(studies.spot)
 app.command(rich_help_panel="Many runs")(validating.validate)
 app.command("cache", rich_help_panel="Program")(cache.cache)
 
