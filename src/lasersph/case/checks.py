@@ -13,9 +13,9 @@ from lasersph.case.flow_checks import flow_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
-    estimate,
     in_words,
     machine_memory,
+    size_of,
 )
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
 from lasersph.observers import SnapshotSchedule
@@ -50,7 +50,7 @@ def refuse_if_too_large(case: Case) -> None:
     Raises:
         CaseError: with the estimate, before anything is allocated.
     """
-    size = estimate(case.domain, case.particles, case.solver.dimensions)
+    size = size_of(case)
     memory = machine_memory()
     if size.bytes > LARGEST_COST_SHARE * memory:
         raise CaseError(
@@ -208,7 +208,7 @@ def _whole_periods(
 
 
 def _size(case: Case) -> Iterator[tuple[str, str]]:
-    size = estimate(case.domain, case.particles, case.solver.dimensions)
+    size = size_of(case)
     if size.particles > LARGEST_PARTICLES:
         yield (
             "particles.spacing",

@@ -7,6 +7,7 @@ import numpy as np
 from lasersph.boundaries.initial_motion import Rest
 from lasersph.boundaries.vessel import Vessel
 from lasersph.case import Case
+from lasersph.case.sleeping import sleeps
 from lasersph.compute.backend import Backend
 from lasersph.lasers import Laser
 from lasersph.materials.caloric_curve import CaloricCurve
@@ -176,8 +177,7 @@ def _region(
     case: Case, backend: Backend, matter: Matter, settings: AblationSettings
 ) -> ActiveRegion | None:
     """What is computed: where light falls on matter at rest only what heat reaches."""
-    is_at_rest = isinstance(case.motion or Rest(), Rest) and settings.gravity == 0.0
-    if case.laser is None or not is_at_rest or not settings.sleep:
+    if not sleeps(case):
         return None
     layout = matter.layout
     support = float(backend.look(matter.support)[0]) + settings.skin * layout.spacing

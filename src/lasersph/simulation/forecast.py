@@ -8,7 +8,8 @@ from math import pi, sqrt
 import numpy as np
 
 from lasersph.case import Case
-from lasersph.case.size import BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
+from lasersph.case.size import BYTES_PER_MOVING_NEIGHBOR, BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
+from lasersph.case.sleeping import awake_share
 from lasersph.particles.layers import Layers
 from lasersph.simulation.ablation_forecast import ablation_steps, ablation_warnings
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
@@ -33,7 +34,7 @@ class Forecast:
     """Numbers of `lasersph check`.
 
     Attributes:
-        particles, layers: counts. pairs: estimate. memory: peak [bytes].
+        particles, layers: counts. pairs: estimate, of what is awake. memory: peak [bytes].
         spacing: finest, as used [m]. fine_depth: of the finest layers [m].
         limits: time-step limits [s] while the light is on. binding: name of the smallest.
         steps: estimate. wall_time: rough estimate [s] on `threads` threads.
@@ -60,14 +61,17 @@ class Forecast:
 def forecast(case: Case, *, threads: int = 1) -> Forecast:
     """Forecast of a case, without allocating its particles."""
     layers = lay_out(case)
-    pairs = layers.particle_count * _neighbors(case)
-    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * BYTES_PER_NEIGHBOR
+    awake = awake_share(case, support_ratio(case) * layers.spacing)
+    pairs = awake * layers.particle_count * _neighbors(case)
+    is_moving = isinstance(case.solver, AblationSettings)
+    each = BYTES_PER_MOVING_NEIGHBOR if is_moving else BYTES_PER_NEIGHBOR
+    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * each
     flow = None
     if isinstance(case.solver, MeltPoolSettings):
         flow = flow_forecast(case, layers.spacing, support_ratio(case) * layers.spacing)
     limits, steps = _steps(case, layers, flow)
     moving = []
-    if isinstance(case.solver, AblationSettings):
+    if is_moving:
         moving = ablation_warnings(case, layers.spacing)
     products = PRODUCTS_PER_STEP[_scheme(case)]
     length, penetration = _lengths(case)
