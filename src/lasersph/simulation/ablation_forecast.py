@@ -41,7 +41,7 @@ def flow_limits_of(case: Case, spacing: float, *, is_still: bool) -> dict[str, f
     viscous, diffusive = decay_rates(case, spacing)
     return compressible_limits(
         is_still=is_still,
-        courant=settings.courant,
+        courant=settings.courant_number,
         smoothing=0.5 * ratio * spacing,
         sound_speed=settings.sound_speed,
         closing_speed=0.0,

@@ -1,4 +1,8 @@
-"""What observers see of matter that moves and ablates: arrays where they lie, not copied."""
+"""What observers see of matter that moves and ablates: arrays where they lie, not copied.
+
+After the first view particles that follow the last one awake are left out: cold, at rest and the
+deepest, since particles are numbered from the surface down.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +28,8 @@ def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> Vie
     """The state for observers; particles of walls are left out."""
     solver.find_surface()
     matter, backend, state = solver.body, solver.backend, solver.state
-    count, level, layout = matter.count, matter.now, matter.layout
+    level, layout = matter.now, matter.layout
+    count = _shown(solver) if step else matter.count
     position = backend.look(level.x)[:, :count]
     return View(
         time=state.time,
@@ -37,7 +42,7 @@ def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> Vie
         enthalpy=backend.look(level.h)[:count],
         melt_fraction=backend.look(level.f_m)[:count],
         vapor_fraction=backend.look(level.f_v)[:count],
-        surface=_surface(solver),
+        surface=_surface(solver, count),
         symmetry_factor=case.domain.symmetry_factor,
         energy=dict(state.energy),
         iterations=solver.iterations,
@@ -45,13 +50,22 @@ def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> Vie
         solidus=matter.curve.solidus,
         liquidus=matter.curve.liquidus,
         vaporization=matter.curve.vaporization,
-        ablation=_moving(case, solver),
+        ablation=_moving(case, solver, count),
     )
 
 
-def _surface(solver: Ablation) -> np.ndarray:
+def _shown(solver: Ablation) -> int:
+    """How many particles there are up to the last one that is awake."""
+    count = solver.body.count
+    if solver.rows is None:
+        return count
+    rows = solver.backend.look(solver.rows)
+    return int(rows[np.searchsorted(rows, count) - 1]) + 1
+
+
+def _surface(solver: Ablation, count: int) -> np.ndarray:
     """Particles that the light meets; without light those of the free surface, or the first."""
-    backend, count = solver.backend, solver.body.count
+    backend = solver.backend
     if solver.columns is not None:
         found = backend.look(solver.columns.rows).astype(np.int64)
         found = found[found < count]
@@ -60,10 +74,10 @@ def _surface(solver: Ablation) -> np.ndarray:
     return found if found.size else np.zeros(1, np.int64)
 
 
-def _moving(case: Case, solver: Ablation) -> AblationView:
+def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
     """Crater, ejecta and flow."""
     matter, backend, state = solver.body, solver.backend, solver.state
-    count, level = matter.count, matter.now
+    level = matter.now
     flying = np.zeros(0, np.int64)
     if state.left.count:
         flying = backend.look(backend.rows_where(matter.stage, EJECTED)).astype(np.int64)

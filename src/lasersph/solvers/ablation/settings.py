@@ -38,8 +38,9 @@ class AblationSettings(Model):
     phase_change: bool = Field(
         default=True, description="false: no latent heat of melting and vaporization"
     )
-    courant: Annotated[float, Field(gt=0, le=1)] = Field(
-        default=0.25, description="CFL number of sound and forces [Alshaer2017, eq. (31)]"
+    courant_number: Annotated[float, Field(gt=0, le=1)] = Field(
+        default=0.25,
+        description="CFL number of sound and forces [Alshaer2017, eq. (31)]",
     )
     skin: Annotated[float, Field(gt=0, le=2)] = Field(
         default=0.3,

@@ -170,7 +170,7 @@ class Ablation:
             return limits | {"fixed step": time.step}
         limits |= compressible_limits(
             is_still=state.is_balanced and state.speed == 0.0,
-            courant=self.settings.courant,
+            courant=self.settings.courant_number,
             smoothing=numbers.smoothing,
             sound_speed=self.settings.sound_speed,
             closing_speed=state.closing,
