@@ -115,5 +115,5 @@ def test_limits_by_name():
     assert set(heat.time_step_limits()) == {"end", "pulse edge", "conduction", "vaporization"}
     fixed = moving("sound-wave", *HEATED_BLOCK, "time.step=0.05 ns", "time.is_fixed=true")[1]
     limits = fixed.time_step_limits()
-    assert set(limits) == {"end", "pulse edge", "fixed step"}
+    assert set(limits) == {"end", "fixed step"}
     assert limits["fixed step"] == 5e-11

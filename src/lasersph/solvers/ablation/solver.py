@@ -162,12 +162,12 @@ class Ablation:
         """Named limits of the next step [s]; of flow only where something moves or is pushed."""
         state, time, numbers = self.state, self.time_settings, self.numbers
         limits = {"end": time.end - state.time}
+        if time.is_fixed and time.step is not None:
+            return limits | {"fixed step": time.step}
         if self.columns is not None:
             edge = next_edge(self.columns.laser.pulse, state.time, time.end)
             if edge is not None:
                 limits["pulse edge"] = edge
-        if time.is_fixed and time.step is not None:
-            return limits | {"fixed step": time.step}
         limits |= compressible_limits(
             is_still=state.is_balanced and state.speed == 0.0,
             courant=self.settings.courant_number,
