@@ -30,7 +30,7 @@ NARROW = 0.4
 BESIDE = 0.7
 """Cuts higher than this part of their width are drawn beside each other."""
 ARROW = 0.06
-"""Length of the arrow of the fastest particle over the height of the picture."""
+"""Length of the arrow of the fastest particle over the height of the picture or half its width."""
 MOST_ARROWS = 400
 PIXELS = (400, 800)
 
@@ -158,7 +158,7 @@ def draw_ejecta(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -
     )  # fmt: skip
     some = np.arange(0, x.size, max(1, x.size // MOST_ARROWS))
     velocity = cut.velocity[:, shown][:, some]
-    longest = ARROW * frame.height * unit.factor / max(float(np.max(np.hypot(*velocity))), 1e-300)
+    longest = arrow_length(frame) * unit.factor / max(float(np.max(np.hypot(*velocity))), 1e-300)
     arrows = axes.quiver(
         x[some], z[some], *(velocity * longest), angles="xy", scale_units="xy", scale=1.0,
         color="0.35", width=0.0016, zorder=3,
@@ -179,7 +179,7 @@ def draw_speeds(axes: Axes, cut: Cut, frame: Box, largest: float) -> Any:
     shown = np.flatnonzero(cut.flying[1] < frame.top)
     x, z = cut.flying[:, shown] * unit.factor
     velocity = cut.velocity[:, shown]
-    longest = ARROW * frame.height * unit.factor / largest
+    longest = arrow_length(frame) * unit.factor / largest
     arrows = axes.quiver(
         x, z, *(velocity * longest), np.hypot(*velocity), angles="xy", scale_units="xy",
         scale=1.0, cmap=f"{style.SPEED_COLORS}_r", width=0.0026, zorder=3,
@@ -195,6 +195,11 @@ def prepare(axes: Axes, frame: Box, unit: style.Unit) -> None:
     style.label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
     axes.set_xlim(frame.left * unit.factor, frame.right * unit.factor)
     axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
+
+
+def arrow_length(frame: Box) -> float:
+    """Length of the arrow of the fastest particle [m]."""
+    return ARROW * max(frame.height, 0.5 * frame.width)
 
 
 def aspect_of(frame: Box) -> float:

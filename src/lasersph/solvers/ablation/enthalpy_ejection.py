@@ -9,9 +9,9 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.physics.ejection import enthalpy_departure, light_limit
 from lasersph.solvers.ablation.departure import Departure, Vapor
 
-LIGHT_SHARE = 0.1
+LIGHT_SHARE = 0.02
 """Share of the enthalpy of the vapor that a step of light may bring: what a particle takes up
-beyond it is carried away, on average half a step's light per layer."""
+beyond it is carried away, on average half a step's light per layer: 1 % of the depth."""
 
 
 class EnthalpyEjection:
