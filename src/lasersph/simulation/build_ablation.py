@@ -22,10 +22,11 @@ from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
 from lasersph.solvers.ablation.exposure import Exposure
 from lasersph.solvers.ablation.layout import Layout, lay_out
 from lasersph.solvers.ablation.matter import Matter
+from lasersph.solvers.ablation.numbers import Numbers
 from lasersph.solvers.ablation.pairs import Pairs
 from lasersph.solvers.ablation.published_ejection import PublishedEjection
 from lasersph.solvers.ablation.settings import AblationSettings
-from lasersph.solvers.ablation.solver import Ablation, Numbers
+from lasersph.solvers.ablation.solver import Ablation
 from lasersph.solvers.conduction.body import SUPPORT
 from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.lattice_sums import diffusive_rate, second_moment, surface_threshold, viscous_rate
@@ -52,7 +53,7 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
     curve = material.caloric_curve(
         case.initial_temperature, settings.plateau, phase_change=has_latent_heats(case)
     )
-    layout = lay_out(
+    layout, start = lay_out(
         layers,
         case.boundaries,
         case.vessel or Vessel(),
@@ -68,9 +69,10 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
     matter = Matter(
         backend,
         layout,
+        start,
         material,
         curve,
-        enthalpy=wall_enthalpy(curve, layout.temperature),
+        enthalpy=wall_enthalpy(curve, start.temperature),
         support=ratio * layout.spacing,
         sound_speed=settings.sound_speed,
         has_tension=settings.tension,
@@ -92,7 +94,6 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
             surface_threshold(shape, ratio),
         ),
         numbers_of(case, layout, shape, ratio),
-        settings,
         case.time,
         columns,
         ejection,
@@ -111,6 +112,9 @@ def numbers_of(case: Case, layout: Layout, shape: Kernel, ratio: float) -> Numbe
     viscous, diffusive = decay_rates(case, spacing)
     return Numbers(
         smoothing=0.5 * ratio * spacing,
+        sound_speed=settings.sound_speed,
+        gravity=settings.gravity,
+        courant=settings.courant_number,
         alpha_solid=solid,
         alpha_liquid=liquid,
         viscous_rate=viscous,

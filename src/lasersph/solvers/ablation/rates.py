@@ -129,7 +129,12 @@ def warmed(h, dh, dt):
 
 def foreseen(m, rho, a, drho, dh, dt):
     """What a step would bring: energy taken up [J], density [kg/m^d], |dv/dt|^2 [m^2/s^4]."""
-    return m * dt * dh, rho + dt * drho, dot(a, a)
+    return taken_up(m, dh, dt), rho + dt * drho, dot(a, a)
+
+
+def taken_up(m, dh, dt):
+    """Energy taken up in `dt` [s], [J]."""
+    return m * dt * dh
 
 
 def speed_squares(v, stage):

@@ -9,8 +9,7 @@ only heat is computed, between pairs weighed once.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import isfinite, sqrt
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -23,54 +22,20 @@ from lasersph.solvers.ablation.columns import Columns
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
 from lasersph.solvers.ablation.exposure import Exposure
 from lasersph.solvers.ablation.flight import flown
-from lasersph.solvers.ablation.matter import Level, Matter
+from lasersph.solvers.ablation.matter import Matter
+from lasersph.solvers.ablation.moving_step import MovingStep
+from lasersph.solvers.ablation.numbers import Numbers
 from lasersph.solvers.ablation.pairs import Pairs
 from lasersph.solvers.ablation.published_ejection import PublishedEjection
-from lasersph.solvers.ablation.rates import (
-    COMBINE,
-    condensed_extremes,
-    foreseen,
-    heat_rates,
-    moved,
-    pair_rates,
-    pair_weight,
-    rates,
-    speed_squares,
-    warmed,
-)
-from lasersph.solvers.ablation.settings import AblationSettings
+from lasersph.solvers.ablation.rates import condensed_extremes, speed_squares
+from lasersph.solvers.ablation.resting_step import RestingStep
 from lasersph.solvers.ablation.state import AblationState
 from lasersph.solvers.conduction.state import NotConverged
 from lasersph.solvers.time_step import TimeSettings, next_edge
-from lasersph.sph.laplacian import harmonic_flow
 
 RETRIES = 8
-THINNEST = 0.01
-"""Share of the density at rest below which a step has failed."""
 LEVEL_ARRAYS = {"position": "x", "velocity": "v", "density": "rho", "enthalpy": "h"}
 MATTER_ARRAYS = ("stage", "left_at", "p_v")
-
-
-@dataclass(frozen=True)
-class Numbers:
-    """Constants of a run.
-
-    Attributes:
-        smoothing: h [m]. alpha_solid, alpha_liquid: artificial viscosity [1]. viscous_rate,
-            diffusive_rate: of alternating layers [1/s]. weight_factor: of the conduction weights
-            [1]. ambient: T_a, h_c, eps of the surroundings. low, high: corners of the box in which
-            ejecta are followed [m].
-    """
-
-    smoothing: float
-    alpha_solid: float
-    alpha_liquid: float
-    viscous_rate: float
-    diffusive_rate: float
-    weight_factor: float
-    ambient: dict[str, float]
-    low: tuple[float, ...]
-    high: tuple[float, ...]
 
 
 class Ablation:
@@ -88,29 +53,20 @@ class Ablation:
         pairs: Pairs,
         exposure: Exposure,
         numbers: Numbers,
-        settings: AblationSettings,
         time: TimeSettings,
         columns: Columns | None = None,
         ejection: EnthalpyEjection | PublishedEjection | None = None,
         region: ActiveRegion | None = None,
     ) -> None:
         self.body, self.pairs, self.exposure = matter, pairs, exposure
-        self.numbers, self.settings, self.time_settings = numbers, settings, time
+        self.numbers, self.time_settings = numbers, time
         self.columns, self.ejection, self.region = columns, ejection, region
-        self.backend = backend = matter.backend
+        self.backend = matter.backend
         self.state = AblationState()
-        dimension, total = matter.layout.dimension, matter.total
-        self._a = backend.zeros((dimension, total))
-        self._drho, self._dh = (backend.zeros(total) for _ in range(2))
-        self._weights: Any = None
+        self._moving = MovingStep(matter, pairs, exposure, numbers, self.state)
+        self._resting = RestingStep(matter, pairs, exposure, numbers)
         self._surface_known = False
-        self._flow = {
-            "h_s": numbers.smoothing, "c_0": settings.sound_speed,
-            "alpha_solid": numbers.alpha_solid, "alpha_liquid": numbers.alpha_liquid,
-            "factor": numbers.weight_factor, "g": settings.gravity,
-            "up": (0.0,) * (dimension - 1) + (1.0,),
-        }  # fmt: skip
-        self._everything = backend.asarray(np.arange(total), "index")
+        self._everything = self.backend.asarray(np.arange(matter.total), "index")
         self._enter()
 
     @property
@@ -154,7 +110,7 @@ class Ablation:
             self.region.restore(arrays, numbers)
         self.body.refresh(self.body.now)
         self._enter()
-        self._surface_known, self._weights = False, None
+        self._surface_known, self._resting.weights = False, None
         if self.pairs.margin > 0.0:
             self.pairs.find()
 
@@ -170,9 +126,9 @@ class Ablation:
                 limits["pulse edge"] = edge
         limits |= compressible_limits(
             is_still=state.is_balanced and state.speed == 0.0,
-            courant=self.settings.courant_number,
+            courant=numbers.courant,
             smoothing=numbers.smoothing,
-            sound_speed=self.settings.sound_speed,
+            sound_speed=numbers.sound_speed,
             closing_speed=state.closing,
             acceleration=state.acceleration,
             viscous_rate=numbers.viscous_rate,
@@ -204,40 +160,35 @@ class Ablation:
         return step
 
     def _advance(self, step: float) -> None:
-        """One step of the midpoint rule [Alshaer2017, eqs. (29), (30)]."""
+        """One step of the midpoint rule."""
         matter, state = self.body, self.state
-        is_resting = self._look(step)
+        rule = self._prepare(step)
+        rows = self.rows
         incident, absorbed = self._shine(step)
-        self._evaluate(matter.now, step, is_resting)
-        self._move(matter.half, matter.now, 0.5 * step, is_resting)
-        matter.refresh(matter.half, self.rows)
-        lost = self._evaluate(matter.half, step, is_resting)
-        stored = self._foresee(step)
-        self._move(matter.now, matter.half, step, is_resting)
-        matter.refresh(matter.now, self.rows)
-        energy = state.energy
-        energy["incident"] += incident
-        energy["absorbed"] += absorbed
-        energy["reflected"] += incident - absorbed
-        energy["stored"] += stored
-        energy["lost"] += lost * step
+        rule.evaluate(matter.now, step, rows)
+        rule.move(matter.half, matter.now, 0.5 * step, rows)
+        matter.refresh(matter.half, rows)
+        lost = rule.evaluate(matter.half, step, rows)
+        stored = rule.foresee(step, rows)
+        rule.move(matter.now, matter.half, step, rows)
+        matter.refresh(matter.now, rows)
+        state.add(incident, absorbed, stored, lost * step)
         state.time, state.time_step = state.time + step, step
         self._leave(step)
         self._fly(step)
-        self._surface_known = self._surface_known and is_resting
+        self._surface_known = self._surface_known and rule is self._resting
 
-    def _enter(self) -> None:
-        """Let the middle of the step know what is computed, and its neighbors."""
-        self.body.enter(None if self.region is None else self.region.near)
+    def _prepare(self, step: float) -> MovingStep | RestingStep:
+        """Wake what heat comes near, renew pairs and surface where matter has moved.
 
-    def _look(self, step: float) -> bool:
-        """Renew pairs and surface where matter has moved; returns whether only heat changes."""
-        matter, state, backend = self.body, self.state, self.backend
+        Returns the rule of the step: that of rest where only heat changes.
+        """
+        matter, state = self.body, self.state
         has_grown = self.region is not None and self.region.wake(matter.fields())
         if has_grown:
             self._enter()
         fields = {"v": matter.now.v, "stage": matter.stage}
-        square, leaving = backend.pointwise(
+        square, leaving = self.backend.pointwise(
             speed_squares, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
         state.speed = sqrt(square)
@@ -249,20 +200,15 @@ class Ablation:
                 self.pairs.renew(way, self.rows)
             except EscapedParticle as error:
                 raise NotConverged(str(error)) from error
-            self._weights, self._surface_known = None, False
-        is_still = square == 0.0 and leaving == 0.0 and self.settings.gravity == 0.0
-        is_resting = state.is_balanced and is_still
-        if not is_resting:
-            self._weights = None
-        elif self._weights is None:
-            self._weights = backend.zeros(self.pairs.now.neighbor.shape[0])
-            backend.pair_values(
-                pair_weight, self.pairs.now, {"V": matter.now.V}, self._weights, rows=self.rows,
-                factor=self.numbers.weight_factor,
-            )  # fmt: skip
+            self._resting.weights, self._surface_known = None, False
         if self.columns is not None:
             self.find_surface()
-        return is_resting
+        is_still = square == 0.0 and leaving == 0.0 and self.numbers.gravity == 0.0
+        if state.is_balanced and is_still:
+            self._resting.weigh(self.rows)
+            return self._resting
+        self._resting.weights = None
+        return self._moving
 
     def extremes(self) -> tuple[float, float]:
         """Largest pressure [Pa] and speed [m/s] of what is condensed."""
@@ -294,63 +240,9 @@ class Ablation:
         self.columns.absorb(self.body.now.T)
         return self.columns.incident, self.columns.absorbed
 
-    def _evaluate(self, level: Level, step: float, is_resting: bool) -> float:
-        """Rates at a level; returns the heat lost per second [W]."""
-        matter, backend, state = self.body, self.backend, self.state
-        pairs = self.pairs.now if level is matter.now else self.pairs.half
-        fields = matter.fields(level) | {"A": self.exposure.area}
-        constants = {"step": step, **self.numbers.ambient}
-        if is_resting:
-            (lost,) = backend.pair_sum(
-                harmonic_flow, pairs, fields | {"g_ij": self._weights}, (self._dh, None),
-                rows=self.rows, finish=heat_rates, reduce=(None, "sum"), **constants,
-            )  # fmt: skip
-            return lost
-        lost, square, state.closing = backend.pair_sum(
-            pair_rates, pairs, fields, (self._drho, self._a, self._dh, None, None, None),
-            rows=self.rows, finish=rates, combine=COMBINE,
-            reduce=(None, None, None, "sum", "max", "max"), **self._flow, **constants,
-        )  # fmt: skip
-        state.acceleration = sqrt(square)
-        state.is_balanced = square == 0.0
-        return lost
-
-    def _move(self, target: Level, rate: Level, step: float, is_resting: bool) -> None:
-        """Write the start of the step advanced by `step` [s] into a level.
-
-        Args:
-            rate: level whose velocity goes with the rates.
-        """
-        now, backend = self.body.now, self.backend
-        if is_resting:
-            fields = {"h": now.h, "dh": self._dh}
-            backend.pointwise(warmed, fields, target.h, rows=self.rows, dt=step)
-            return
-        fields = {
-            "x": now.x, "v": now.v, "rho": now.rho, "h": now.h, "stage": self.body.stage,
-            "v_then": rate.v, "a": self._a, "drho": self._drho, "dh": self._dh,
-        }  # fmt: skip
-        out = (target.x, target.v, target.rho, target.h)
-        backend.pointwise(moved, fields, out, rows=self.rows, dt=step)
-
-    def _foresee(self, step: float) -> float:
-        """Energy that the step brings [J].
-
-        Raises:
-            NotConverged: it is not finite, or matter would thin out.
-        """
-        fields = {
-            "m": self.body.m, "rho": self.body.now.rho, "a": self._a, "drho": self._drho,
-            "dh": self._dh,
-        }  # fmt: skip
-        stored, thinnest, force = self.backend.pointwise(
-            foreseen, fields, (None, None, None), rows=self.rows, reduce=("sum", "min", "sum"),
-            dt=step,
-        )  # fmt: skip
-        least = THINNEST * self.body.material.density_reference
-        if not (isfinite(stored) and isfinite(force) and thinnest > least):
-            raise NotConverged(f"a step of {step:.4g} s is unstable; take shorter ones")
-        return stored
+    def _enter(self) -> None:
+        """Let the middle of the step know what is computed, and its neighbors."""
+        self.body.enter(None if self.region is None else self.region.near)
 
     def _leave(self, step: float) -> None:
         """Let what has taken up enough heat leave the surface."""
