@@ -25,12 +25,10 @@ LATERAL = (("left", "right"), ("front", "back"))
 
 @dataclass(frozen=True)
 class Layout:
-    """Start of all particles.
+    """Numbers and sizes that stay.
 
     Attributes:
-        count: material particles. surface_count: of them in the first layer. position,
-            velocity: (dim, N) [m], [m/s]. density: (N,) [kg/m^dim]. temperature: (N,) [K].
-            conducts: (N,) 1, or 0 of walls without heat.
+        count: material particles. surface_count: of them in the first layer. total: with walls.
         spacing: [m]. cell: size of a particle's cell along each axis [m]. period: length per axis,
             0.0 where there is none [m].
         bounds: of the block. box: of the vessel around it [m].
@@ -38,11 +36,7 @@ class Layout:
 
     count: int
     surface_count: int
-    position: Array
-    velocity: Array
-    density: Array
-    temperature: Array
-    conducts: Array
+    total: int
     spacing: float
     cell: tuple[float, ...]
     period: tuple[float, ...]
@@ -58,6 +52,22 @@ class Layout:
     def dimension(self) -> int:
         """Number of space dimensions."""
         return len(self.bounds)
+
+
+@dataclass(frozen=True)
+class Start:
+    """All particles at the start, host arrays.
+
+    Attributes:
+        position, velocity: (dim, N) [m], [m/s]. density: (N,) [kg/m^dim]. temperature: (N,) [K].
+        conducts: (N,) 1, or 0 of walls without heat.
+    """
+
+    position: Array
+    velocity: Array
+    density: Array
+    temperature: Array
+    conducts: Array
 
 
 def faces_of(dimension: int) -> tuple[str, ...]:
@@ -86,7 +96,7 @@ def lay_out(
     temperature: float,
     sound_speed: float,
     gravity: float,
-) -> Layout:
+) -> tuple[Layout, Start]:
     """Particles of uniform layers, their walls, and how they start.
 
     Args:
@@ -122,17 +132,21 @@ def lay_out(
         bounds[axis][1] - bounds[axis][0] if ends[0] in periodic else 0.0
         for axis, ends in enumerate((*named, ("bottom", "surface")))
     ]
-    return Layout(
+    layout = Layout(
         count=count,
         surface_count=filling.surface.size,
-        position=position,
-        velocity=velocity,
-        density=density * (1.0 + strain),
-        temperature=np.concatenate([np.full(count, temperature), *temperatures]),
-        conducts=np.concatenate([np.ones(count), *conducts]),
+        total=total,
         spacing=spacing,
         cell=tuple(float(width) for width in filling.width[:, 0]),
         period=tuple(period),
         bounds=bounds,
         box=box,
     )
+    start = Start(
+        position=position,
+        velocity=velocity,
+        density=density * (1.0 + strain),
+        temperature=np.concatenate([np.full(count, temperature), *temperatures]),
+        conducts=np.concatenate([np.ones(count), *conducts]),
+    )
+    return layout, start

@@ -11,7 +11,7 @@ from lasersph.compute.backend import Backend
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.physics.ejection import CONDENSED, WALL
-from lasersph.solvers.ablation.layout import Layout
+from lasersph.solvers.ablation.layout import Layout, Start
 from lasersph.solvers.ablation.rates import derived
 
 HOTTEST = 5e4
@@ -55,6 +55,7 @@ class Matter:
         self,
         backend: Backend,
         layout: Layout,
+        start: Start,
         material: Material,
         curve: CaloricCurve,
         *,
@@ -65,16 +66,16 @@ class Matter:
         melts_at: float,
     ) -> None:
         self.backend, self.layout, self.material, self.curve = backend, layout, material, curve
-        self.count, self.total = layout.count, layout.position.shape[1]
+        self.count, self.total = layout.count, layout.total
         total, dimension = self.total, layout.dimension
         self.now = Level.empty(backend, dimension, total)
         self.half = Level.empty(backend, dimension, total)
-        self.m = backend.asarray(layout.density * layout.volume)
+        self.m = backend.asarray(start.density * layout.volume)
         self.support = backend.asarray(np.full(total, support))
         stage = np.full(total, CONDENSED)
         stage[self.count :] = WALL
         self.stage = backend.asarray(stage)
-        self.conducts = backend.asarray(layout.conducts)
+        self.conducts = backend.asarray(start.conducts)
         self.M, self.opaque, self.E, self.left_at, self.p_v = (
             backend.zeros(total) for _ in range(5)
         )
@@ -95,9 +96,9 @@ class Matter:
             "has_tension": float(has_tension),
         }
         for array, target in (
-            (layout.position, self.now.x),
-            (layout.velocity, self.now.v),
-            (layout.density, self.now.rho),
+            (start.position, self.now.x),
+            (start.velocity, self.now.v),
+            (start.density, self.now.rho),
             (enthalpy, self.now.h),
         ):
             backend.copy(backend.asarray(array), target)
