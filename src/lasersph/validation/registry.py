@@ -28,6 +28,7 @@ MODULES = {
     "dam-break": "dam_break",
     "dlip-steel": "dlip_steel",
     "dlip-aluminium": "dlip_aluminium",
+    "ablation-aluminium": "ablation_aluminium",
     "ablation-depth": "ablation_depth",
 }
 
