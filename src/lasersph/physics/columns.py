@@ -128,3 +128,22 @@ def light_of(light, column, share, energy):
 def absorbed_light(light, T, R_T, R_R):
     """What a particle absorbs of the light on it [J]: 1 - R(T); R_T, R_R: table of R(T)."""
     return (1.0 - interpolate(T, R_T, R_R)) * light
+
+
+def owed(excess_j, cover_j, whole_j):
+    """What a particle that has left hands to one of its columns [J].
+
+    Args:
+        excess: energy beyond what it took along [J]. cover: share of the column that it covered.
+            whole: sum of its covers.
+    """
+    return excess_j * cover_j / whole_j if cover_j > 0.0 else 0.0 * excess_j
+
+
+def heated(h, m, given):
+    """Enthalpy with the energy that others have handed down [J/kg], and that energy [J].
+
+    Args:
+        m: mass [kg].
+    """
+    return h + given / m, given

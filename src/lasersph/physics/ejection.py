@@ -3,7 +3,7 @@
 A particle is condensed, leaving or ejected. Ejected ones fly on at constant velocity, transparent
 to the beam and without any exchange.
 
-    enthalpy    leaves at once when all of  c_p (T_v - T_0) + L_m + L_v  is in; carries it away
+    enthalpy    leaves at once when all of  c_p (T_v - T_0) + L_m + L_v  is in, and carries it away
     published   leaves from T_v on, without latent heats; moves with the vapor along the normal and
                 keeps absorbing until it has left [Alshaer2017, Sections 3.3 and 4.4]
 
@@ -90,18 +90,19 @@ def published_departure(
     return LEAVING, velocity
 
 
-def enthalpy_departure(stage, h, light, exposed, T, normal, v, h_v, R_s, is_effusion):
-    """Stage and velocity [m/s] after a step, by the enthalpy rule.
+def enthalpy_departure(stage, h, m, light, exposed, T, normal, v, h_v, R_s, is_effusion):
+    """Stage, velocity [m/s], enthalpy [J/kg] and excess [J] after a step, by the enthalpy rule.
 
     A particle that lies at the surface, or in the light, leaves when its enthalpy has reached h_v.
+    What a step has brought beyond that, m (h - h_v), is the excess: it belongs to what lies below.
 
     Args:
-        h: specific enthalpy [J/kg]. light: that fell on it in the step [J]. h_v: enthalpy of the
-            vapor [J/kg].
+        h: specific enthalpy [J/kg]. m: mass [kg]. light: that it absorbed in the step [J]. h_v:
+            enthalpy of the vapor [J/kg].
     """
     if stage == CONDENSED and h >= h_v and (exposed > 0.0 or light > 0.0):
-        return EJECTED, vapor_speed(T, R_s, is_effusion) * normal
-    return stage, v
+        return EJECTED, vapor_speed(T, R_s, is_effusion) * normal, h_v, m * (h - h_v)
+    return stage, v, h, 0.0
 
 
 def departed(stage, left_at, p_v, T, m, h, v, time, p_b, T_b, L_v, R_s):

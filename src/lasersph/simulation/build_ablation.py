@@ -81,7 +81,7 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
     columns, ejection = None, None
     if case.laser is not None:
         columns = _columns(case, case.laser, backend, matter)
-        ejection = _ejection(case, backend, matter, curve)
+        ejection = _ejection(case, backend, matter, curve, columns)
     region = _region(case, backend, matter, settings)
     return Ablation(
         matter,
@@ -190,14 +190,14 @@ def _region(
 
 
 def _ejection(
-    case: Case, backend: Backend, matter: Matter, curve: CaloricCurve
+    case: Case, backend: Backend, matter: Matter, curve: CaloricCurve, columns: Columns
 ) -> EnthalpyEjection | PublishedEjection:
     """The rule of leaving."""
     rule = ejection_of(case)
     vapor = Vapor(backend, case.material, is_effusion=rule.velocity == "effusion")
     spacing = matter.layout.spacing
     if rule.model == "enthalpy":
-        return EnthalpyEjection(backend, vapor, curve, spacing)
+        return EnthalpyEjection(backend, vapor, curve, columns, matter.total, spacing)
     support = float(backend.to_host(matter.support)[0])
     return PublishedEjection(
         backend, vapor, matter.total, spacing, rule.left_after(spacing, support)

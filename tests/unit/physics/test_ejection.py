@@ -91,14 +91,15 @@ def test_enthalpy_rule():
 
     def rule(stage=CONDENSED, h=13.2e6, light=0.0, exposed=1.0):
         return ejection.enthalpy_departure(
-            stage, h, light, exposed, 2730.0, UP, REST, 13.1e6, R_S, 1.0
+            stage, h, 2.0, light, exposed, 2730.0, UP, REST, 13.1e6, R_S, 1.0
         )
 
-    stage, v = rule()
+    stage, v, h, excess = rule()
     assert stage == EJECTED and v[2] == pytest.approx(365.8, abs=0.3)
+    assert h == 13.1e6 and excess == pytest.approx(2e5)
     assert rule(exposed=0.0, light=1e-12)[0] == EJECTED
-    for held in (rule(h=13.0e6), rule(exposed=0.0), rule(stage=WALL)):
-        assert held[0] != EJECTED and not held[1].any()
+    for stage, v, _, excess in (rule(h=13.0e6), rule(exposed=0.0), rule(stage=WALL)):
+        assert stage != EJECTED and not v.any() and excess == 0.0
 
 
 def test_what_leaves_takes_along():

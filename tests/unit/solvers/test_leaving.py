@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from lasersph.lasers import Laser
 from lasersph.materials import load_material
 from lasersph.particles.neighbors import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING
+from lasersph.solvers.ablation.columns import Columns
 from lasersph.solvers.ablation.departure import Departure, Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
@@ -81,20 +83,37 @@ def vapor(backend):
     return Vapor(backend, ALUMINIUM, is_effusion=True)
 
 
+def enthalpy_rule(sample, vapor, *, phase_change=True):
+    """The enthalpy rule under a uniform beam, whose columns know the sample."""
+    side = SIDE * DX
+    pulse = {"kind": "square", "duration": 1e-8}
+    laser = Laser.model_validate(
+        {"fluence": 1e5, "pulse": pulse, "absorption": {"kind": "surface"}}
+    )
+    columns = Columns(
+        sample.backend, laser, ALUMINIUM, ((0.0, side), (0.0, side)), DX, (False, False),
+        sample.fields["E"],
+    )  # fmt: skip
+    count = sample.host.shape[1]
+    rows = sample.backend.asarray(np.arange(count), "index")
+    columns.sort(sample.fields["x"], sample.fields["stage"], rows)
+    curve = ALUMINIUM.caloric_curve(300.0, "hold", phase_change=phase_change)
+    return EnthalpyEjection(sample.backend, vapor, curve, columns, count, DX)
+
+
 def test_enthalpy_rule_takes_all_along(sample, vapor, backend):
     """The particle leaves with its velocity, time and pressure, and is counted once."""
-    curve = ALUMINIUM.caloric_curve(300.0, "hold")
-    rule = EnthalpyEjection(backend, vapor, curve, DX)
+    rule = enthalpy_rule(sample, vapor)
     assert rule.enthalpy_vaporized == pytest.approx(896 * 2430 + 397e3 + 10.53e6)
     below = sample.middle + SIDE**2
     for particle in (sample.middle, below):
-        sample.put("h", particle, 13.2e6)
+        sample.put("h", particle, rule.enthalpy_vaporized)
         sample.put("T", particle, 2730.0)
     assert sample.get("exposed", sample.middle) == 1.0 and sample.get("exposed", below) == 0.0
     left = sample.leave(rule, 3e-9)
     speed = sqrt(R_S * 2730.0 / (2 * pi))
     assert left.count == 1 and left.mass == pytest.approx(MASS)
-    assert left.energy == pytest.approx(MASS * 13.2e6)
+    assert left.energy == pytest.approx(MASS * rule.enthalpy_vaporized)
     assert left.kinetic == pytest.approx(0.5 * MASS * speed**2)
     assert sample.get("stage", sample.middle) == EJECTED
     assert sample.get("stage", below) == CONDENSED
@@ -106,17 +125,41 @@ def test_enthalpy_rule_takes_all_along(sample, vapor, backend):
     assert sample.leave(rule, 5e-9).count == 1
 
 
-def test_longest_step_of_the_enthalpy_rule(backend, vapor):
+def test_excess_goes_to_what_is_uncovered(sample, vapor):
+    """What the step brought beyond the enthalpy of the vapor heats the particle below."""
+    rule = enthalpy_rule(sample, vapor)
+    sample.put("h", sample.middle, rule.enthalpy_vaporized + 3e5)
+    left = sample.leave(rule, 3e-9)
+    assert left.count == 1
+    assert left.energy == pytest.approx(MASS * rule.enthalpy_vaporized)
+    assert sample.get("h", sample.middle) == pytest.approx(rule.enthalpy_vaporized)
+    h = sample.get("h", slice(None)).copy()
+    assert h[sample.middle + SIDE**2] == pytest.approx(3e5)
+    h[[sample.middle, sample.middle + SIDE**2]] = 0.0
+    assert not h.any()
+
+
+def test_excess_without_a_receiver_leaves_too(sample, vapor):
+    """Where the column is empty, what leaves takes its excess along."""
+    rule = enthalpy_rule(sample, vapor)
+    column = sample.middle + SIDE**2 * np.arange(LAYERS)
+    sample.put("h", column, rule.enthalpy_vaporized + 3e5)
+    sample.put("E", column, 1e-12)
+    left = sample.leave(rule, 3e-9)
+    assert left.count == LAYERS
+    assert left.energy == pytest.approx(LAYERS * MASS * (rule.enthalpy_vaporized + 3e5))
+
+
+def test_longest_step_of_the_enthalpy_rule(sample, vapor):
     """A tenth of the enthalpy of the vapor: 0.283 ns at 2.5e12 W/m^2."""
-    rule = EnthalpyEjection(backend, vapor, ALUMINIUM.caloric_curve(300.0, "hold"), DX)
+    rule = enthalpy_rule(sample, vapor)
     assert rule.longest_step(2.5e12, 2705.0) == pytest.approx(2.835e-10, rel=1e-3)
 
 
-def test_enthalpy_rule_needs_a_plateau(backend, vapor):
+def test_enthalpy_rule_needs_a_plateau(sample, vapor):
     """Without latent heats there is nothing to take up."""
-    curve = ALUMINIUM.caloric_curve(300.0, "hold", phase_change=False)
     with pytest.raises(ValueError, match="plateau"):
-        EnthalpyEjection(backend, vapor, curve, DX)
+        enthalpy_rule(sample, vapor, phase_change=False)
 
 
 def lift_layer(sample, rule, T, height):

@@ -23,9 +23,11 @@ from lasersph.physics.columns import (
     added,
     corner,
     cover_of_uppermost,
+    heated,
     heights,
     higher,
     light_of,
+    owed,
     place_along,
     share_of,
     top_of,
@@ -84,6 +86,7 @@ class Columns:
         self._energy = backend.zeros(self.count + 1)
         self._top, self._covers = backend.zeros(self.count + 1), backend.zeros(self.count + 1)
         self._lit: list[tuple[Any, Any]] = []
+        self._lists: list[tuple[Any, Any, NeighborList]] = []
         self._is_met = np.zeros(self.count, bool)
         self._take(backend.zeros(0, "index"))
 
@@ -96,17 +99,17 @@ class Columns:
             position: (dim, N) [m]. stage: (N,); what has left and walls are transparent. rows:
                 where to look, kind "index".
         """
-        backend = self.backend
+        backend, self._sorted = self.backend, rows
         size = max(rows.shape[0], self.count + 1)
         x, stages = backend.zeros((self.dimension, size)), backend.zeros(size)
         backend.fill(stages, GONE)
         backend.gather(position, rows, x)
         backend.gather(stage, rows, stages)
         corners = self._corners(x, stages)
-        lists = [(column, cover, self._list(x, column)) for column, cover in corners]
-        self._find_tops(lists)
+        self._lists = [(column, cover, self._list(x, column)) for column, cover in corners]
+        self._find_tops()
         shares, lit = [], backend.zeros(size)
-        for column, cover, _ in lists:
+        for column, cover, _ in self._lists:
             share = backend.zeros(size)
             backend.pointwise(
                 share_of, {"x": x, "column": column, "cover": cover}, share, tops=self._top,
@@ -165,13 +168,13 @@ class Columns:
             backend.head(start, total), order, x, backend.zeros(x.shape[1]), None, nothing, ()
         )
 
-    def _find_tops(self, lists: list[tuple[Any, Any, NeighborList]]) -> None:
+    def _find_tops(self) -> None:
         """Height of the highest particle of each column, and the cover of its uppermost ones."""
         backend, count = self.backend, self.count
         highest, any_height, part, other = (backend.zeros(count) for _ in range(4))
         backend.fill(highest, NOWHERE)
         backend.fill(any_height, NOWHERE)
-        for _, cover, columns in lists:
+        for _, cover, columns in self._lists:
             backend.pair_sum(
                 heights, columns, {"cover": cover}, (part, other), combine=("max", "max"),
                 up=self._up,
@@ -181,7 +184,7 @@ class Columns:
         top, covers = backend.head(self._top, count), backend.head(self._covers, count)
         backend.pointwise(top_of, {"covering": highest, "any_height": any_height}, top)
         backend.fill(covers, 0.0)
-        for _, cover, columns in lists:
+        for _, cover, columns in self._lists:
             backend.pair_sum(
                 cover_of_uppermost, columns, {"cover": cover, "top": top}, part, up=self._up,
                 band=BAND * self.spacing,
@@ -216,10 +219,15 @@ class Columns:
         self.incident = float(energy.sum())
         self.missed = float(energy[~self._is_met].sum())
         backend.copy(backend.asarray(np.append(energy, 0.0)), self._energy)
+        self._pour(self._energy)
+
+    def _pour(self, energy: Any) -> None:
+        """Let the energy of the columns (columns + 1,) [J] fall on what is met: `_light`."""
+        backend = self.backend
         backend.fill(self._light, 0.0)
         for column, share in self._lit:
             fields = {"light": self._light, "column": column, "share": share}
-            backend.pointwise(light_of, fields, self._light, energy=self._energy)
+            backend.pointwise(light_of, fields, self._light, energy=energy)
 
     def absorb(self, temperature: Any) -> None:
         """Set `deposit` and `absorbed` from the temperatures (N,) of the particles [K]."""
@@ -230,6 +238,36 @@ class Columns:
             absorbed_light, fields, self._absorbed, reduce=("sum",), R_T=self._R_T, R_R=self._R_R
         )
         backend.scatter(self._absorbed, self.rows, self.deposit)
+
+    def hand_down(self, excess: Any, position: Any, stage: Any, h: Any, m: Any) -> float:
+        """Give the excess of what has left to what is met now; sorts anew.
+
+        Args:
+            excess: (N,) [J]. position, stage: (dim, N) [m] and (N,), now. h: (N,) [J/kg], changed.
+                m: (N,) [kg].
+
+        Returns:
+            What was given [J]; less than the excess where columns are empty now.
+        """
+        backend, count = self.backend, self.count
+        size = self._lists[0][0].shape[0]
+        own, whole = backend.zeros(size), backend.zeros(size)
+        backend.gather(excess, self._sorted, own)
+        total, part = backend.zeros(count + 1), backend.zeros(count)
+        for _, cover, _ in self._lists:
+            backend.pointwise(added, {"a": whole, "b": cover}, whole)
+        for _, cover, columns in self._lists:
+            fields = {"excess": own, "cover": cover, "whole": whole}
+            backend.pair_sum(owed, columns, fields, part)
+            head = backend.head(total, count)
+            backend.pointwise(added, {"a": head, "b": part}, head)
+        self.sort(position, stage, self._sorted)
+        self._pour(total)
+        enthalpy, mass = self._gathered(h, self.rows), self._gathered(m, self.rows)
+        fields = {"h": enthalpy, "m": mass, "given": self._light}
+        (given,) = backend.pointwise(heated, fields, (enthalpy, None), reduce=(None, "sum"))
+        backend.scatter(enthalpy, self.rows, h)
+        return given
 
 
 def marked(lit, share):

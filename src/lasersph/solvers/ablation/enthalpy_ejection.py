@@ -2,30 +2,44 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from lasersph.compute.backend import Backend
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.physics.ejection import enthalpy_departure, light_limit
+from lasersph.solvers.ablation.columns import Columns
 from lasersph.solvers.ablation.departure import Departure, Vapor
 
-LIGHT_SHARE = 0.02
-"""Share of the enthalpy of the vapor that a step of light may bring: what a particle takes up
-beyond it is carried away, on average half a step's light per layer: 1 % of the depth."""
+LIGHT_SHARE = 0.1
+"""Share of the enthalpy of the vapor that a step of light may bring, so that layers leave one by
+one and their times are known to a tenth of that between two."""
 
 
 class EnthalpyEjection:
-    """Particles leave when  h >= h_v = c_p (T_v - T_0) + L_m + L_v.
+    """Particles leave when  h >= h_v = c_p (T_v - T_0) + L_m + L_v  and take exactly h_v along.
+
+    What the last step brought beyond h_v goes down the columns of the light to what they uncover.
 
     Args:
         curve: caloric curve with a plateau at the vaporization temperature.
     """
 
-    def __init__(self, backend: Backend, vapor: Vapor, curve: CaloricCurve, spacing: float) -> None:
+    def __init__(
+        self,
+        backend: Backend,
+        vapor: Vapor,
+        curve: CaloricCurve,
+        columns: Columns,
+        count: int,
+        spacing: float,
+    ) -> None:
         if curve.enthalpy_vaporized is None:
             raise ValueError("the enthalpy rule needs a caloric curve with a vaporization plateau")
-        self.backend, self.vapor, self.spacing = backend, vapor, spacing
+        self.backend, self.vapor, self.columns = backend, vapor, columns
+        self.spacing = spacing
         self.enthalpy_vaporized = curve.enthalpy_vaporized
+        self._excess = backend.zeros(count)
 
     @property
     def fields(self) -> dict[str, Any]:
@@ -42,11 +56,17 @@ class EnthalpyEjection:
         """Set stage, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
 
         Args:
-            fields: by symbol; stage, v, h, T, m, E, exposed, normal, left_at, p_v.
+            fields: by symbol; x, stage, v, h, T, m, E, exposed, normal, left_at, p_v.
         """
-        self.backend.pointwise(
-            enthalpy_departure, fields | {"light": fields["E"]}, (fields["stage"], fields["v"]),
-            rows=rows, h_v=self.enthalpy_vaporized, R_s=self.vapor.gas_constant,
+        stage, h = fields["stage"], fields["h"]
+        (excess,) = self.backend.pointwise(
+            enthalpy_departure, fields | {"light": fields["E"]},
+            (stage, fields["v"], h, self._excess), rows=rows, reduce=(None, None, None, "sum"),
+            h_v=self.enthalpy_vaporized, R_s=self.vapor.gas_constant,
             is_effusion=self.vapor.is_effusion,
         )  # fmt: skip
-        return self.vapor.account(fields, rows, time)
+        departure = self.vapor.account(fields, rows, time)
+        if excess == 0.0:
+            return departure
+        given = self.columns.hand_down(self._excess, fields["x"], stage, h, fields["m"])
+        return replace(departure, energy=departure.energy + excess - given)
