@@ -17,6 +17,7 @@ MODULES = {
     "kernel-correction": "kernel_correction",
     "stefan": "stefan",
     "pulsed-heating": "pulsed_heating",
+    "quasi-1d-heating": "quasi_1d_heating",
     "gaussian-pulse": "gaussian_pulse",
     "dlip-thermal": "dlip_thermal",
     "lid-driven-cavity": "lid_driven_cavity",
