@@ -89,7 +89,7 @@ def _row(
     lower, upper = bounds
     count = max(1, round((upper - lower) / spacing))
     width = (upper - lower) / count
-    number = np.arange(-beyond[0], count + beyond[1])
+    number = np.arange(-beyond[0], count + beyond[1], dtype=np.float64)
     if not is_staggered:
         return lower + (number + 0.5) * width
     inner = number if repeats or beyond[0] == 0 else number[1:]

@@ -12,7 +12,9 @@ import numpy as np
 from lasersph.observers.crater import ablation_of
 from lasersph.observers.view import ENERGY_UNITS, View
 
-COLUMNS = ("kinetic_energy_J", "speed_max_m_s", "pressure_max_Pa", "front_m", "height_m")
+COLUMNS: tuple[str, ...] = (
+    "kinetic_energy_J", "speed_max_m_s", "pressure_max_Pa", "front_m", "height_m",
+)  # fmt: skip
 
 
 class MatterMotion:

@@ -32,19 +32,19 @@ def test_pair():
     2 * 6 / 3 * 4 * (-3) / 2 = -24;  -6 * 30 / 6 * (-3) / 2 * (-2) = -90 downward;
     heat: 2 * 2 * 8 * 2 * (-100) * (-3) / 2 / 2 = 4800 W;  mu = 4 / 4.01.
     """
-    drho, a, q, mu = pair_rates(**PAIR, **FLOW)
+    drho, a, q, fourth = pair_rates(**PAIR, **FLOW)
     assert drho == -24.0
     assert a.tolist() == [0.0, -90.0]
     assert q == 0.5 * 2.0 * 2.0 * 16.0 * 100.0 * 1.5
-    assert mu == pytest.approx(4.0 / 4.01)
+    assert fourth == pytest.approx((4.0 / 4.01) ** 4)
 
 
 def test_approaching_pair_feels_viscosity():
     """Pi = alpha c |mu| / 2.5 with alpha = (5 + 0.1) / 2 adds to the push."""
     pair = PAIR | {"v_j": np.array([0.0, -1.0])}
-    _, a, _, mu = pair_rates(**pair, **FLOW)
+    _, a, _, fourth = pair_rates(**pair, **FLOW)
     Pi = 2.55 * 10.0 * (4.0 / 4.01) / 2.5
-    assert mu == pytest.approx(4.0 / 4.01)
+    assert fourth == pytest.approx((4.0 / 4.01) ** 4)
     assert a[1] == pytest.approx(-6.0 * (30.0 / 6.0 + Pi) * 3.0)
 
 

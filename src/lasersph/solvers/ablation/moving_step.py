@@ -12,7 +12,7 @@ from lasersph.solvers.ablation.exposure import Exposure
 from lasersph.solvers.ablation.matter import Level, Matter
 from lasersph.solvers.ablation.numbers import Numbers
 from lasersph.solvers.ablation.pairs import Pairs
-from lasersph.solvers.ablation.rates import COMBINE, foreseen, moved, pair_rates, rates
+from lasersph.solvers.ablation.rates import foreseen, moved, pair_rates, rates
 from lasersph.solvers.ablation.state import AblationState
 from lasersph.solvers.conduction.state import NotConverged
 
@@ -42,12 +42,12 @@ class MovingStep:
         """Find the rates at a level, and what limits the next step; returns the heat lost [W]."""
         matter, state = self.matter, self.state
         pairs = self.pairs.now if level is matter.now else self.pairs.half
-        lost, square, state.closing = matter.backend.pair_sum(
+        lost, square, fourth = matter.backend.pair_sum(
             pair_rates, pairs, matter.fields(level) | {"A": self.exposure.area},
             (self._drho, self._a, self._dh, None, None, None), rows=rows, finish=rates,
-            combine=COMBINE, reduce=(None, None, None, "sum", "max", "max"), step=step,
-            **self._constants,
+            reduce=(None, None, None, "sum", "max", "max"), step=step, **self._constants,
         )  # fmt: skip
+        state.closing = fourth**0.25
         state.acceleration = sqrt(square)
         state.is_balanced = square == 0.0
         return lost

@@ -27,7 +27,10 @@ def pair_rates(
     v_i, v_j, rho_i, rho_j, P_i, P_j, M_j, V_i, V_j, T_i, T_j, k_i, k_j, f_m_i, f_m_j,
     x_ij, r_ij, dW_ij, h_s, c_0, alpha_solid, alpha_liquid, factor,
 ):  # fmt: skip
-    """Terms of d rho/dt [kg/(m^d s)], dv/dt [m/s^2] and heat [W], and |mu_ij| [m/s].
+    """Terms of d rho/dt [kg/(m^d s)], dv/dt [m/s^2], heat [W], and mu_ij^4 [m^4/s^4].
+
+    The fourth root of the sum of the last bounds the largest |mu_ij| from above, with which
+    [Alshaer2017, eq. (31)] limits the step; a maximum would keep the loop from being vectorized.
 
     Args:
         v: velocity [m/s]. rho: density [kg/m^d]. P: pressure [Pa]. M: acting mass [kg].
@@ -45,19 +48,15 @@ def pair_rates(
         density_rate(rho_i, rho_j, M_j, v_ij, x_ij, r_ij, dW_ij),
         pair_acceleration(M_j, P_i, P_j, rho_i, rho_j, Pi_ij, x_ij, r_ij, dW_ij),
         factor * conduction(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij),
-        acts * abs(mu_ij),
+        acts * mu_ij**4,
     )
-
-
-COMBINE = ("sum", "sum", "sum", "max")
-"""How the values of `pair_rates` are joined over the neighbors."""
 
 
 def rates(total_0, total_1, total_2, total_3, stage, m, T, E, A, step, up, g, T_a, h_c, eps):
     """Rates of one particle from its sums.
 
     Returns d rho/dt [kg/(m^d s)], dv/dt [m/s^2], dh/dt [W/kg], heat lost by the surface and to
-    walls [W], |dv/dt|^2 [m^2/s^4], and |mu| of what is condensed [m/s].
+    walls [W], |dv/dt|^2 [m^2/s^4], and the sum of mu^4 of what is condensed [m^4/s^4].
 
     Args:
         stage: of its life. up: unit vector against gravity. g: [m/s^2]. Others of `heat_rates`.

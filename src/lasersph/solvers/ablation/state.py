@@ -15,7 +15,7 @@ class AblationState:
     Attributes:
         time, time_step: [s]. energy: exchanged since the start [J], by ENERGIES.
         speed: largest of what was condensed at the start of the last step [m/s]. acceleration,
-            closing: largest |dv/dt| [m/s^2] and |mu| [m/s] when they were last looked for.
+            closing: largest |dv/dt| [m/s^2], and bound of |mu| [m/s], when last looked for.
         left: all that ever left. gone: how many of them have passed the edge.
         is_balanced: no force was found when forces were last looked for.
     """
