@@ -382,10 +382,7 @@ def test_prepared_pair_sum(backend):
 def test_no_particles(backend):
     """Loops over nothing do nothing: arrays without entries are as good as others."""
     empty = backend.zeros(0)
-    (total,) = backend.pointwise(twice, {"a": empty}, empty, reduce=("sum",))
+    (total,) = backend.pointwise(
+        scaled, {"T": empty}, (empty, None), reduce=(None, "sum"), factor=2.0
+    )
     assert total == 0.0
-
-
-def twice(a):
-    """2 a."""
-    return 2.0 * a
