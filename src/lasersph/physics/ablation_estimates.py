@@ -14,7 +14,7 @@ radius r: 0.54 p(T) = 2 gamma / r.
 
 References: [Alshaer2017] Comput. Mater. Sci. 127, 161; [Kelly1996] Kelly & Miotello, Appl. Surf.
 Sci. 96-98, 205; [Tam1992] Tam et al., J. Appl. Phys. 71, 3515, as cited by [Alshaer2017];
-[Hoffman] Hoffman & Szymanski as cited there, without its sign: 4e-2 1/m.
+[Hoffman2002] Hoffman & Szymanski, Optica Applicata 32, 129, as cited there.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ PHASE_EXPLOSION = 0.9
 EJECTION_ACCELERATION = 1e8
 """Acceleration that ejects a particle without melting [m/s^2], [Tam1992]."""
 VAPOR_ABSORPTION = 4e-2
-"""Absorption coefficient of aluminium vapor below 4000 K [1/m], [Hoffman]."""
+"""Absorption coefficient of aluminium vapor below 4000 K [1/m], [Hoffman2002]."""
 HOTTEST = 1e6
 """Where the search for a temperature ends [K]."""
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from lasersph.plots import style
 
-CITED = ((10.0, 0.6, "s", "SPH, paper"), (10.0, 0.8, "D", "experiment [Lutey 2013], as cited"))
+CITED = ((10.0, 0.6, "s", "SPH, paper"), (10.0, 0.8, "D", "experiment (Lutey et al., as cited)"))
 """Values in the text for 10 ns: fluence [J/cm2], depth [um], marker, name."""
 CITED_RANGE = (20.0, 1.0, 1.2)
 MARKERS = "o^v"
