@@ -31,13 +31,22 @@ CUBIC_MICROMETERS_PER_MICROJOULE = 1e12
 @dataclass(frozen=True)
 class SpotCrater:
     """One run: peak fluence [J/m^2], diameter, depth at the axis [m], removed volume [m^3] and
-    energy of the light [J], both of the computed part of the spot."""
+    energy of the light [J], both of the computed part of the spot; per length in 2-D, as
+    `volume_unit` says."""
 
     fluence: float
     diameter: float
     depth: float
     volume: float
     energy: float
+    volume_unit: str = "m^3"
+
+    @property
+    def shown_volume(self) -> str:
+        """The volume in cubic micrometers, or square ones per length."""
+        if self.volume_unit == "m^2":
+            return f"{1e12 * self.volume:.5g} um2"
+        return f"{1e18 * self.volume:.5g} um3"
 
     @property
     def efficiency(self) -> float:
@@ -68,7 +77,7 @@ class SpotThreshold:
         for one in self.craters:
             rows.append([
                 f"{1e-4 * one.fluence:.5g} J/cm2", f"{1e6 * one.diameter:.4g} um",
-                f"{1e6 * one.depth:.4g} um", f"{1e18 * one.volume:.5g} um3",
+                f"{1e6 * one.depth:.4g} um", one.shown_volume,
                 f"{CUBIC_MICROMETERS_PER_MICROJOULE * one.efficiency:.4g} um3/uJ",
             ])  # fmt: skip
         return rows
@@ -147,6 +156,7 @@ def crater_of(fluence: float, summary: dict[str, Any]) -> SpotCrater:
         depth=float(crater["depth_m"]),
         volume=float(crater["removed_volume_m3"]),
         energy=float(summary["energy"]["incident_J"]),
+        volume_unit=crater["volume_unit"],
     )
 
 

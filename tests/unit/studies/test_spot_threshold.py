@@ -7,7 +7,7 @@ import pytest
 
 from lasersph.case import load_case
 from lasersph.plots.spot_threshold import spot_threshold_figure
-from lasersph.studies import no_spot, spot_threshold, threshold
+from lasersph.studies import SpotCrater, no_spot, spot_threshold, threshold
 from lasersph.studies.spot_threshold import fit
 
 BEAM = 'laser.beam={kind="gaussian", diameter_1e2="10 um"}'
@@ -24,7 +24,8 @@ def run(case, folder):
     """A crater of Liu's diameter; one cubic micrometer removed for each squared one of D^2."""
     fluence = case.laser.fluence
     square = max(2.0 * RADIUS**2 * np.log(fluence / THRESHOLD), 0.0)
-    crater = {"diameter_m": np.sqrt(square), "depth_m": 1e-6, "removed_volume_m3": 1e-6 * square}
+    crater = {"diameter_m": np.sqrt(square), "depth_m": 1e-6, "removed_volume_m3": 1e-6 * square,
+              "volume_unit": "m^3"}  # fmt: skip
     ejecta = {"count": int(fluence > THRESHOLD)}
     energy = {"incident_J": 0.5 * np.pi * RADIUS**2 * fluence}
     summary = {"crater": crater, "ejecta": ejecta, "energy": energy, "temperature_max_K": 2730.0}
@@ -42,6 +43,7 @@ def test_threshold_and_radius_are_found(case, tmp_path):
     assert found.craters[0].efficiency == 0.0
     assert len(found.table()) == 5 and len(lines) == 4
     assert "threshold 3 J/cm2" in found.answer()
+    assert SpotCrater(1e5, 1e-6, 1e-6, 2e-12, 1.0, "m^2").shown_volume == "2 um2"
     assert len(spot_threshold_figure(found.as_dict()).axes) == 2
 
 
