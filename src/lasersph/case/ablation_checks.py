@@ -119,3 +119,13 @@ def _light(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
             "the enthalpy model of ejection is about latent heats; leave it out, or write model = "
             '"published" in [ejection]',
         )
+    rule = case.ejection
+    if rule is None or rule.reflectivity is None:
+        return
+    if case.laser.reflectivity not in (None, rule.reflectivity):
+        yield (
+            "ejection.preset",
+            f'"{rule.preset}" means a reflectivity of {rule.reflectivity:g}, but [laser] has '
+            "another; leave one of them out, or write leave and leave_distance instead of the "
+            "preset",
+        )
