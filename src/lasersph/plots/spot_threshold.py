@@ -29,6 +29,8 @@ def spot_threshold_figure(found: dict[str, Any]) -> Figure:
     left.plot(line, slope * np.log(line / threshold), color=style.GRAY, label=text)
     left.plot(fluence, square, "o", color=style.COLORS[0], label="craters")
     left.set_xscale("log")
+    left.set_xticks(fluence, labels=[f"{value:.3g}" for value in fluence])
+    left.minorticks_off()
     style.label(left, "peak fluence [J/cm$^2$]", "squared diameter [µm$^2$]", title="(a)")
     style.legend(left)
     right.plot(fluence, efficiency, "o-", color=style.COLORS[1], linewidth=1.0)
