@@ -26,7 +26,7 @@ TOLERANCE = 0.02
 """Of the pressure at the bottom."""
 DRIFT = 0.005
 """Of the pressure at the bottom, over 10 s."""
-QUICK_END = 2.0
+QUICK = ("time.end=1 s", "output.snapshots.interval=0.1 s")
 
 
 @dataclass(frozen=True)
@@ -46,14 +46,14 @@ class Column:
 
 
 def run(out_dir: Path, *, quick: bool = False) -> Report:
-    """10 s in 2-D and 1-D; `quick`: 2 s."""
-    settings = [f"time.end={QUICK_END} s"] if quick else []
+    """10 s in 2-D and 1-D; `quick`: 1 s in 2-D."""
+    settings = QUICK if quick else ()
     columns = {
         f"{dimension}-D": measured(
             computed("hydrostatic-column", [f"solver.dimensions={dimension}", *settings], out_dir,
                      f"{dimension}d")
         )
-        for dimension in (2, 1)
+        for dimension in ((2,) if quick else (2, 1))
     }  # fmt: skip
     rows: list[Row] = []
     for name, found in columns.items():
