@@ -15,6 +15,7 @@ import pytest
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.build import build
+from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.solvers.time_step import binding
 
 START, WINDOW, FIRST = 54e-9, 0.2e-9, 0.02e-9
@@ -30,7 +31,9 @@ THREADS = 2
 def solver_with(*settings):
     """Solver of the pool with settings, at rest."""
     case = load_case("dlip-steel", [*COMMON, *settings])
-    return build(case, compute.cpu(threads=THREADS))[1]
+    solver = build(case, compute.cpu(threads=THREADS))[1]
+    assert isinstance(solver, MeltPool)
+    return solver
 
 
 def go(solver, end):

@@ -1,7 +1,8 @@
 """`ActiveRegion`: only particles that heat or motion can reach are computed.
 
 The box is cut into tiles at least as wide as the support. A tile sleeps until something disturbed
-comes within two tiles; then it is awake for good, and the tiles next to it too. Disturbed is what has
+comes within two tiles; then it is awake for good, and the tiles next to it too. Disturbed is what
+has
 
     |h| > 1e-11 times the largest |h| so far,    or moves.
 
