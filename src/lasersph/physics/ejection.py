@@ -90,7 +90,7 @@ def published_departure(
     return LEAVING, velocity
 
 
-def enthalpy_departure(stage, h, m, light, exposed, T, normal, v, h_v, R_s, is_effusion):
+def enthalpy_departure(stage, h, m, light, exposed, T, normal, v, h_v, R_s, is_effusion, up):
     """Stage, velocity [m/s], enthalpy [J/kg] and excess [J] after a step, by the enthalpy rule.
 
     A particle that lies at the surface, or in the light, leaves when its enthalpy has reached h_v.
@@ -98,10 +98,12 @@ def enthalpy_departure(stage, h, m, light, exposed, T, normal, v, h_v, R_s, is_e
 
     Args:
         h: specific enthalpy [J/kg]. m: mass [kg]. light: that it absorbed in the step [J]. h_v:
-            enthalpy of the vapor [J/kg].
+            enthalpy of the vapor [J/kg]. up: where it goes if it lies in the light without being
+            exposed, at the bottom of a hole, and so has no normal.
     """
     if stage == CONDENSED and h >= h_v and (exposed > 0.0 or light > 0.0):
-        return EJECTED, vapor_speed(T, R_s, is_effusion) * normal, h_v, m * (h - h_v)
+        direction = normal if dot(normal, normal) > 0.0 else up + 0.0 * normal
+        return EJECTED, vapor_speed(T, R_s, is_effusion) * direction, h_v, m * (h - h_v)
     return stage, v, h, 0.0
 
 

@@ -89,15 +89,16 @@ def test_published_rule_ends_by_cover_or_by_distance():
 def test_enthalpy_rule():
     """All of the enthalpy must be in, and the particle at the surface or in the light."""
 
-    def rule(stage=CONDENSED, h=13.2e6, light=0.0, exposed=1.0):
+    def rule(stage=CONDENSED, h=13.2e6, light=0.0, exposed=1.0, normal=UP):
         return ejection.enthalpy_departure(
-            stage, h, 2.0, light, exposed, 2730.0, UP, REST, 13.1e6, R_S, 1.0
+            stage, h, 2.0, light, exposed, 2730.0, normal, REST, 13.1e6, R_S, 1.0, UP
         )
 
     stage, v, h, excess = rule()
     assert stage == EJECTED and v[2] == pytest.approx(365.8, abs=0.3)
     assert h == 13.1e6 and excess == pytest.approx(2e5)
-    assert rule(exposed=0.0, light=1e-12)[0] == EJECTED
+    stage, v, _, _ = rule(exposed=0.0, light=1e-12, normal=0.0 * UP)
+    assert stage == EJECTED and v[2] == pytest.approx(365.8, abs=0.3)
     for stage, v, _, excess in (rule(h=13.0e6), rule(exposed=0.0), rule(stage=WALL)):
         assert stage != EJECTED and not v.any() and excess == 0.0
 

@@ -123,6 +123,7 @@ def test_enthalpy_rule_takes_all_along(sample, vapor, backend):
     assert sample.leave(rule, 4e-9) == Departure()
     sample.put("E", below, 1e-12)  # in the light at the bottom of a hole
     assert sample.leave(rule, 5e-9).count == 1
+    np.testing.assert_allclose(sample.get("v", below), [0.0, 0.0, speed])
 
 
 def test_excess_goes_to_what_is_uncovered(sample, vapor):

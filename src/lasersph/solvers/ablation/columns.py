@@ -48,7 +48,8 @@ class Columns:
 
     Attributes:
         center: (dim - 1, columns) [m]. width: along each axis [m]. incident: light of the step on
-            all columns [J]; absorbed: what of it was; missed: what met no particle. rows: the
+            all columns [J]; absorbed: what of it was; missed: what met no particle. up: against the
+            beam, a unit vector. rows: the
             particles that are met.
     """
 
@@ -79,7 +80,7 @@ class Columns:
         self._lower = np.array([part.ravel() for part in mesh]).reshape(len(edges), self.count)
         self.center = self._lower + 0.5 * self.width[:, None]
         self._low = [low for low, _ in bounds]
-        self._up = (0.0,) * (self.dimension - 1) + (1.0,)
+        self.up = (0.0,) * (self.dimension - 1) + (1.0,)
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._R_T, self._R_R = (backend.asarray(values) for values in table)
         self._absorptivity = 1.0 - float(np.min(table[1]))
@@ -113,7 +114,7 @@ class Columns:
             share = backend.zeros(size)
             backend.pointwise(
                 share_of, {"x": x, "column": column, "cover": cover}, share, tops=self._top,
-                covers=self._covers, up=self._up, band=BAND * self.spacing,
+                covers=self._covers, up=self.up, band=BAND * self.spacing,
             )  # fmt: skip
             backend.pointwise(marked, {"lit": lit, "share": share}, lit)
             shares.append((column, share))
@@ -177,7 +178,7 @@ class Columns:
         for _, cover, columns in self._lists:
             backend.pair_sum(
                 heights, columns, {"cover": cover}, (part, other), combine=("max", "max"),
-                up=self._up,
+                up=self.up,
             )  # fmt: skip
             backend.pointwise(higher, {"a": highest, "b": part}, highest)
             backend.pointwise(higher, {"a": any_height, "b": other}, any_height)
@@ -186,7 +187,7 @@ class Columns:
         backend.fill(covers, 0.0)
         for _, cover, columns in self._lists:
             backend.pair_sum(
-                cover_of_uppermost, columns, {"cover": cover, "top": top}, part, up=self._up,
+                cover_of_uppermost, columns, {"cover": cover, "top": top}, part, up=self.up,
                 band=BAND * self.spacing,
             )  # fmt: skip
             backend.pointwise(added, {"a": covers, "b": part}, covers)

@@ -63,7 +63,7 @@ class EnthalpyEjection:
             enthalpy_departure, fields | {"light": fields["E"]},
             (stage, fields["v"], h, self._excess), rows=rows, reduce=(None, None, None, "sum"),
             h_v=self.enthalpy_vaporized, R_s=self.vapor.gas_constant,
-            is_effusion=self.vapor.is_effusion,
+            is_effusion=self.vapor.is_effusion, up=self.columns.up,
         )  # fmt: skip
         departure = self.vapor.account(fields, rows, time)
         if excess == 0.0:
