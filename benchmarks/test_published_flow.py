@@ -2,8 +2,8 @@
 
 Published: steps by eqs. (59)/(76) with all their terms, explicit viscosity, Table 1's matrix with
 plain BiCGStab [Demuth2020]. Default: the corrected limits, implicit viscosity, conjugate gradients
-on a hierarchy. Both start from the same pool, steel 0.5 J/cm2 at 54 ns, and compute the same time;
-a first part of each compiles its loops. 8 nm takes a minute, the published 3.97 nm some more.
+corrected on grids. Both start from the same pool, steel 0.5 J/cm2 at 54 ns, and compute the same
+time; a first part of each compiles its loops. 8 nm takes a minute, the published 3.97 nm some more.
 Run: pytest benchmarks/test_published_flow.py -s
 """
 

@@ -122,6 +122,7 @@ def box_view(time=0.0, step=0, *, count=40, size=1e-3, speed=1.0, wall=(310.0, 2
         box=True,
         conductivity=2.0,
         held={"left": wall[0], "right": wall[1]},
+        crossed=("left", "right"),
     )
     return View(
         time=time,

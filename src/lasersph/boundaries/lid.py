@@ -1,9 +1,9 @@
 """`FlatLid`: a free surface that stays flat, as what it gives a step of the flow.
 
-    normal velocity       v . n = 0
+    normal velocity       v . n = 0, which also the images beyond it show
     tangential stress     eta d(v . t)/dn = t . grad_s gamma(T)         [Demuth2020, eq. (15)]
-    pressure              dp/dn = 0, that is a Neumann condition with flux 0
-    heat                  none crosses, unless the face is held or heated
+    pressure              dp/dn = 0: no row of the pressure equation has a pull or a flux
+    heat                  none crosses, unless the case holds or heats the face
 
 The pressure under a lid replaces the curvature of a surface that is free to move; so a lid has
 neither capillary waves nor recoil, whose time-step limits are infinite here. Particles within one
@@ -82,15 +82,17 @@ class FlatLid:
     Attributes:
         at_surface, near: (n,) 1 where a particle lies at the surface, within reach of it.
         depth: (n,) below the lid [m]. temperature: (n,) of the surface above a particle at it [K].
-        gradient: (n,) dT/dx along the surface [K/m],
-            0 where nothing is active. stress: (n,) tau [Pa]. reach: (n,)
-            2 d tau / eta [m/s].
+        gradient: (n,) dT/dx along the surface [K/m], 0 where nothing is active.
+        stress: (n,) tau [Pa]. reach: (n,) 2 d tau / eta [m/s].
+        normal_velocity: [m/s]. heat_flux: into the body [W/m^2]. pressure_pull, pressure_value,
+            pressure_flux: (n,) a, p_b and f of `PressureEquation`, None for none.
+        capillary_limit, recoil_limit: of the time step [s].
     """
 
     normal = (0.0, 1.0)
     tangent = (1.0, 0.0)
     normal_velocity = 0.0
-    pressure_flux = 0.0
+    pressure_pull = pressure_value = pressure_flux = None
     heat_flux = 0.0
     capillary_limit = recoil_limit = inf
 

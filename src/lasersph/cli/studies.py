@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -55,6 +54,7 @@ def converge(
     if len(set(wanted)) < 3:
         raise WrongCommand("--spacing: an order needs three different spacings, e.g. 32nm,16nm,8nm")
     loaded = load_case(case, settings or ())
+    _refuse_missing_folder(json_file)
     folder = _new_folder(out or Path("runs") / f"{loaded.name}-converge")
     found = studies.converge(loaded, wanted, folder, run=_runner(threads), report=_report)
     print(aligned(found.table(), header=True))
@@ -85,6 +85,7 @@ def threshold(
     section = loaded.material.melting if of == "melt" else loaded.material.vaporization
     if section is None or not (loaded.solver.phase_change or of == "ablate"):
         raise WrongCommand(f"{loaded.name} computes no phase change to {of}, so no threshold")
+    _refuse_missing_folder(json_file)
     folder = _new_folder(out or Path("runs") / f"{loaded.name}-threshold")
     found = studies.threshold(
         loaded, of, folder, tolerance=tolerance, run=_runner(threads), report=_report
@@ -161,6 +162,12 @@ def _new_folder(folder: Path) -> Path:
     return folder
 
 
+def _refuse_missing_folder(file: Path | None) -> None:
+    """Refuse an answer that could not be written after hours of runs."""
+    if file is not None and not file.absolute().parent.is_dir():
+        raise WrongCommand(f"--json: there is no folder {file.parent}")
+
+
 def _runner(threads: int | None) -> Any:
     from lasersph.simulation import run
 
@@ -172,5 +179,7 @@ def _report(line: str) -> None:
 
 
 def _write(file: Path | None, content: dict[str, Any]) -> None:
+    from lasersph.output.atomic import replace_json
+
     if file is not None:
-        file.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+        replace_json(file, content)

@@ -13,7 +13,7 @@ from lasersph.cli.failures import FAILED
 SCHEMA_VERSION = 1
 RUNS = Path("runs") / "validation"
 Names = Annotated[
-    list[str] | None, typer.Argument(metavar="[NAME]...", help="Default: all of them, in order.")
+    list[str] | None, typer.Argument(metavar="NAME", help="Default: all of them, in order.")
 ]
 Json = Annotated[
     Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers as JSON as well.")

@@ -5,7 +5,8 @@ Heat flows into the box through a side at -k <dT/dn>, n into the box, and
     Nu = |<dT/dn>| L / |T_side - T_opposite|
 
 with the distance L and the mean temperatures of the two opposite sides that drive the flow: those
-that are both held at a temperature, else those that differ most. Interpolating from particles
+that are both held at a temperature, else those that heat crosses both; of two such pairs, those
+that differ most. Without such sides there is no Nusselt number. Interpolating from particles
 takes about as long as a step, so it is done in every `EVERY`-th step and at the end; between,
 the history repeats the last value.
 """
@@ -151,7 +152,8 @@ def eddies_of(view: View, box: Box) -> dict[str, float]:
 def heat_of(view: View, box: Box) -> dict[str, Any]:
     """Temperature of and heat flux into the box through each side, Nusselt numbers.
 
-    Empty where the temperature is the same everywhere.
+    Empty where the temperature is the same everywhere; no Nusselt number without two opposite sides
+    that heat crosses.
     """
     flow, spread = flow_of(view), float(np.ptp(view.temperature))
     if spread <= SMALLEST_DIFFERENCE * float(np.max(view.temperature)):
@@ -163,14 +165,22 @@ def heat_of(view: View, box: Box) -> dict[str, Any]:
         for side in SIDES
     }
     pairs = (("left", "right"), ("bottom", "surface"))
-    held = [pair for pair in pairs if all(side in flow.held for side in pair)]
-    first, second = max(held or pairs, key=lambda pair: abs(wall[pair[0]][0] - wall[pair[1]][0]))
-    difference = abs(wall[first][0] - wall[second][0])
-    length = box.width if first == "left" else box.height
-    heat: dict[str, Any] = {"between": f"{first} and {second}", "difference_K": difference}
+    heat: dict[str, Any] = {}
     for side, (temperature, slope) in wall.items():
         heat[f"temperature_{side}_K"] = temperature
         heat[f"flux_{side}_W_m2"] = -flow.conductivity * slope
-        if side in (first, second) and difference > SMALLEST_DIFFERENCE * temperature:
-            heat[f"nusselt_{side}"] = abs(slope) * length / difference
+    held, crossed = (
+        [pair for pair in pairs if all(side in sides for side in pair)]
+        for sides in (flow.held, flow.crossed)
+    )
+    differences = {pair: abs(wall[pair[0]][0] - wall[pair[1]][0]) for pair in held or crossed}
+    if not differences:
+        return heat
+    pair = max(differences, key=lambda one: differences[one])
+    heat |= {"between": " and ".join(pair), "difference_K": differences[pair]}
+    length = box.width if pair == pairs[0] else box.height
+    for side in pair:
+        temperature, slope = wall[side]
+        if differences[pair] > SMALLEST_DIFFERENCE * temperature:
+            heat[f"nusselt_{side}"] = abs(slope) * length / differences[pair]
     return heat

@@ -5,10 +5,14 @@ each side, the outer one, from the onset of the flow. When a zone at the vaporiz
 shrinks, the steep gradient at its edge can raise a second maximum closer to x = 0, the inner one.
 
 A maximum counts where it rises above the lowest speed between itself and a larger one by a
-twentieth of the largest speed of the profile. Of two, the one closer to x = 0 is the inner one; of
-more, the two that rise most count. A single one keeps the name of the one it continues: that whose
-last place is closer. A first single one is outer. Seen is the side x > 0; a run over a full period
-is symmetric, which a law of its own checks.
+twentieth of the largest speed of the profile; of more than two, the two that rise most count. An
+inner one appears after the surface has been at the vaporization temperature, and closer to x = 0
+than the outer one that it joins. Until then the pool spreads, the temperature bends in the mush
+before it and the speed with it: no maximum within some spacings of the edge counts. Of two that do
+not fit this the one that continues the outer one counts alone (the larger one, where none is
+known). A single one keeps the name of the one it continues: that whose last place is closer. A
+first single one is outer. Seen is the side x > 0; a run over a full period is symmetric, which a
+law of its own checks.
 """
 
 from __future__ import annotations
@@ -23,6 +27,11 @@ from lasersph.observers.view import View
 
 PROMINENCE = 0.05
 """Least rise of an extremum over the valley beside it, as a part of the largest speed."""
+
+EDGE = 4.0
+"""Spacings from the edge of the liquid within which no extremum counts at first."""
+NEARLY = 1.0 - 1e-9
+"""Of the vaporization temperature: at it, but for rounding."""
 
 Place = tuple[float, float]
 """Speed [m/s] and x [m] of an extremum."""
@@ -43,13 +52,15 @@ class FlowExtrema:
         self.span = {"inner": Span(), "coexist": Span(), "inner_exceeds": Span()}
         self.lasted = dict.fromkeys(self.span, 0.0)
         self.last_place: dict[str, float] = {}
+        self.has_boiled = False
 
     def observe(self, view: View) -> dict[str, float]:
         """Speed [m/s] and place [m] of both extrema; 0 where one does not exist."""
-        found = self._named(surface_extrema(view))
-        self.last_place = self.last_place | {name: x for name, (_, x) in found.items()}
-        if not found:
-            self.last_place = {}
+        if view.vaporization is not None:
+            hottest = float(np.max(view.temperature[view.surface]))
+            self.has_boiled |= hottest >= view.vaporization * NEARLY
+        found = self._named(surface_extrema(view, 0.0 if self.has_boiled else EDGE))
+        self.last_place = {name: x for name, (_, x) in found.items()}
         outer, inner = found.get("outer", (0.0, 0.0)), found.get("inner", (0.0, 0.0))
         for name, (speed, _) in (("outer", outer), ("inner", inner)):
             self.peak[name].update(speed, view.time)
@@ -65,15 +76,24 @@ class FlowExtrema:
 
     def _named(self, extrema: list[Place]) -> dict[str, Place]:
         """Extrema in order of x, one or two, by name."""
-        if len(extrema) == 2:
-            return {"inner": extrema[0], "outer": extrema[1]}
         if not extrema:
             return {}
+        if len(extrema) == 2:
+            one = self._continued(extrema)
+            is_closer = one is extrema[1] or "outer" not in self.last_place
+            if "inner" in self.last_place or (self.has_boiled and is_closer):
+                return {"inner": extrema[0], "outer": extrema[1]}
+            return {"outer": one}
         x = extrema[0][1]
         apart = {name: abs(place - x) for name, place in self.last_place.items()}
         name = min(apart, key=lambda known: apart[known]) if apart else "outer"
-        self.last_place = {}
         return {name: extrema[0]}
+
+    def _continued(self, extrema: list[Place]) -> Place:
+        """That of two which goes on with the outer one; the larger one, where none is known."""
+        if "outer" not in self.last_place:
+            return max(extrema)
+        return min(extrema, key=lambda place: abs(place[1] - self.last_place["outer"]))
 
     def summary(self) -> dict[str, Any]:
         """`flow.extrema`: both largest speeds, and for how long the inner one was there, beside
@@ -97,6 +117,7 @@ class FlowExtrema:
             "span": {name: span.state() for name, span in self.span.items()},
             "lasted": dict(self.lasted),
             "last_place": dict(self.last_place),
+            "has_boiled": self.has_boiled,
         }
 
     def restore(self, state: dict[str, Any]) -> None:
@@ -104,10 +125,15 @@ class FlowExtrema:
         self.peak = {name: Peak(**values) for name, values in state["peak"].items()}
         self.span = {name: Span(**values) for name, values in state["span"].items()}
         self.lasted, self.last_place = dict(state["lasted"]), dict(state["last_place"])
+        self.has_boiled = state["has_boiled"]
 
 
-def surface_extrema(view: View) -> list[Place]:
-    """The one or two largest maxima of |u| along the surface at x > 0, in order of x."""
+def surface_extrema(view: View, margin: float = 0.0) -> list[Place]:
+    """The one or two largest maxima of |u| along the surface at x > 0, in order of x.
+
+    Args:
+        margin: spacings from the edge of the liquid within which none counts.
+    """
     flow = flow_of(view)
     x = view.position[0, flow.surface]
     chosen = flow.flows[flow.surface] & (x > 0.0)
@@ -116,6 +142,8 @@ def surface_extrema(view: View) -> list[Place]:
     speed = np.concatenate([[0.0], np.abs(flow.surface_velocity[chosen]), [0.0]])
     place = np.concatenate([[0.0], x[chosen], [0.0]])
     found, rise = local_maxima(speed, PROMINENCE * float(np.max(speed)))
+    edge = float(np.max(place)) - margin * float(view.width[0, flow.surface[0]])
+    found, rise = found[place[found] <= edge], rise[place[found] <= edge]
     most = np.sort(found[np.argsort(-rise, kind="stable")[:2]])
     return [(float(speed[k]), float(place[k])) for k in most]
 

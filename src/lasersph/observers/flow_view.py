@@ -38,6 +38,7 @@ class FlowView:
         conductivity: of the liquid [W/(m K)]; boxes report heat fluxes with it.
         held: temperature of each side of a box that has a given one [K], by the name of the side:
             left, right, bottom, surface.
+        crossed: names of the sides of a box that heat crosses, held or with a given flux.
     """
 
     velocity: np.ndarray
@@ -58,3 +59,4 @@ class FlowView:
     box: bool = False
     conductivity: float = 0.0
     held: Mapping[str, float] = field(default_factory=dict)
+    crossed: tuple[str, ...] = ()

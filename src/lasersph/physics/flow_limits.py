@@ -35,6 +35,8 @@ def flow_limits(
     density: float = 0.0,
     surface_tension: float = 0.0,
     is_implicit: bool = True,
+    capillary: float = inf,
+    recoil: float = inf,
 ) -> dict[str, float]:
     """Named limits [s]; infinite where a quantity is zero or nothing can become unstable.
 
@@ -42,6 +44,7 @@ def flow_limits(
         rule: "corrected" or "published". support: l [m]. speed: v [m/s]. acceleration: f [m/s^2].
         viscosity: nu [m^2/s]. diffusivity: a [m^2/s]. density: rho of the liquid [kg/m^3].
         surface_tension: gamma [N/m]; only for the published rule. is_implicit: the viscosity.
+        capillary, recoil: what the surface itself asks for [s]; a flat lid nothing.
     """
     is_published = rule == "published"
     advection = PUBLISHED_ADVECTION if is_published else ADVECTION
@@ -49,8 +52,8 @@ def flow_limits(
         "advection": advection * support / speed if speed else inf,
         "force": FORCE * sqrt(support / acceleration) if acceleration else inf,
         "viscosity": inf,
-        "capillary": inf,
-        "recoil": inf,
+        "capillary": capillary,
+        "recoil": recoil,
     }
     if is_published:
         limits["viscosity"] = PUBLISHED_DIFFUSION * support**2 / viscosity

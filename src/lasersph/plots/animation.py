@@ -33,11 +33,13 @@ from lasersph.plots.flow_map import (
     ARROWS,
     BOX_ARROWS,
     LEAST_SPREAD,
+    are_beside,
     draw_arrows,
     draw_speed,
     draw_temperature,
     finish,
     frame_unit,
+    height_beside,
     shape_of,
     stretch_of,
     time_text,
@@ -131,13 +133,13 @@ class Scene:
         frame: what is shown [m].
         temperatures: of the color scale [K]; None: not drawn, as it is the same everywhere.
         fastest: speed at the end of the color scale [m/s]; 0: not drawn.
-        is_box: panels beside each other instead of above each other.
+        is_beside: panels beside each other instead of above each other.
     """
 
     frame: Box
     temperatures: tuple[float, float] | None
     fastest: float
-    is_box: bool
+    is_beside: bool
 
     @property
     def panels(self) -> int:
@@ -147,9 +149,8 @@ class Scene:
     @property
     def height(self) -> float:
         """Height of the figure [inch]; even numbers of pixels, which mp4 wants."""
-        if self.is_box:
-            width = style.WIDTH / self.panels
-            height = 0.71 * width * shape_of(self.frame) + 0.75
+        if self.is_beside:
+            height = height_beside(self.frame, self.panels)
         else:
             shape = shape_of(self.frame) * stretch_of(self.frame)
             height = self.panels * (MAP_WIDTH * shape + 0.55) + 0.4
@@ -157,7 +158,7 @@ class Scene:
 
     def draw(self, figure: Figure, flow: PlaneFlow) -> None:
         """Draw the first state and fix where the panels lie."""
-        layout = (1, self.panels) if self.is_box else (self.panels, 1)
+        layout = (1, self.panels) if self.is_beside else (self.panels, 1)
         all_axes = list(figure.subplots(*layout, squeeze=False).ravel())
         unit, picture = frame_unit(self.frame), raster(flow, self.frame, PIXELS)
         if self.temperatures is not None:
@@ -165,7 +166,7 @@ class Scene:
         if self.fastest > 0.0:
             draw_speed(all_axes[-1], picture, unit, self.fastest)
             self.draw_arrows(all_axes[-1], flow)
-        stretch = 1.0 if self.is_box else stretch_of(self.frame)
+        stretch = 1.0 if self.is_beside else stretch_of(self.frame)
         finish(figure, all_axes, flow, self.frame, unit, stretch)
         figure.draw_without_rendering()
         figure.set_layout_engine("none")
@@ -187,7 +188,7 @@ class Scene:
     def draw_arrows(self, axes: Axes, flow: PlaneFlow) -> None:
         """Arrows where anything flows."""
         if np.any(flow.flows):
-            count = BOX_ARROWS if self.is_box else ARROWS
+            count = BOX_ARROWS if self.is_beside else ARROWS
             draw_arrows(axes, flow, self.frame, frame_unit(self.frame), self.fastest, count)
 
 
@@ -203,11 +204,12 @@ def scene_of(run: Run, times: np.ndarray) -> Scene:
         left, right, _, _ = middle.cells.frame
         frame = Box(left, right, -shown_depth(run, middle.step), 0.0)
     fastest = float(np.max(history["flow_speed_max_m_s"])) if has_flow(run) else 0.0
-    first = run.snapshots[0]["temperature"]
-    coldest, hottest = float(np.min(first)), float(np.max(history["temperature_max_K"]))
+    shown = times if is_box(run) else times[:1]  # a pool's body is coldest at first
+    coldest = min(float(np.min(run.snapshots.nearest(t)["temperature"])) for t in shown)
+    hottest = float(np.max(history["temperature_max_K"]))
     varies = hottest - coldest > LEAST_SPREAD * hottest
     temperatures = (coldest, hottest) if varies or fastest == 0.0 else None
-    return Scene(frame, temperatures, fastest, is_box(run))
+    return Scene(frame, temperatures, fastest, is_box(run) and are_beside(frame))
 
 
 def frame_times(run: Run) -> np.ndarray:

@@ -35,6 +35,10 @@ STREAM_COLUMNS = 160
 PHASES = ("solid", "mush", "liquid", "at $T_v$")
 PHASE_COLORS = ("#a3adb8", "#c5dff0", "#fff0b0", "#f2a07b")
 LEAST_SPREAD = 1e-6
+PANEL_MARGIN = 1.7
+"""Width of the labels and the color bar of a panel [inch]."""
+FLAT = 0.5
+"""Height over width of a box below which its panels stand above each other."""
 
 
 def pool_flow_map(run: Run, time: float | None = None) -> Figure | None:
@@ -81,17 +85,31 @@ def box_flow_map(run: Run, time: float | None = None) -> Figure | None:
         return None
     frame = body_frame(flow)
     unit, picture = frame_unit(frame), raster(flow, frame)
-    figure, all_axes = style.new_figure(1, 2, height=0.355 * style.WIDTH * shape_of(frame) + 0.75)
+    if are_beside(frame):
+        height, stretch, count = height_beside(frame, 2), 1.0, BOX_ARROWS
+        figure, all_axes = style.new_figure(1, 2, height=height)
+    else:
+        (figure, all_axes, stretch), count = stacked(frame, 2), ARROWS
     draw_speed(all_axes[0], picture, unit, flow.fastest)
-    draw_arrows(all_axes[0], flow, frame, unit, flow.fastest, BOX_ARROWS)
+    draw_arrows(all_axes[0], flow, frame, unit, flow.fastest, count)
     warm = varies(flow)
     if warm:
         draw_temperature(all_axes[1], picture, unit)
     color = "white" if warm else "black"
     draw_streamlines(all_axes[1], flow, frame, unit, color=color, density=1.1)
     style.label(all_axes[1], f"x [{unit.name}]", f"z [{unit.name}]")
-    finish(figure, all_axes, flow, frame, unit, 1.0)
+    finish(figure, all_axes, flow, frame, unit, stretch)
     return figure
+
+
+def are_beside(frame: Box) -> bool:
+    """Whether the panels of a box stand beside each other."""
+    return shape_of(frame) >= FLAT
+
+
+def height_beside(frame: Box, panels: int) -> float:
+    """Height of a figure with panels beside each other [inch]."""
+    return (style.WIDTH / panels - PANEL_MARGIN) * shape_of(frame) + 0.9
 
 
 def varies(flow: PlaneFlow) -> bool:

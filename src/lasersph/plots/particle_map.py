@@ -103,7 +103,8 @@ def particle_map(run: Run, time: float | None = None) -> Figure | None:
     shape = (right - left) / depth
     stretch = max(1.0, shape / LARGEST_STRETCH)
     stretch = 1.0 if stretch < 1.25 else stretch
-    figure, all_axes = style.new_figure(2, height=2.0 * MAP_WIDTH * stretch / shape + 1.7)
+    height = 1.02 * MAP_WIDTH * stretch / shape
+    figure, all_axes = style.new_figure(2, height=2.0 * (height + 0.55) + 0.3)
     picture = cells.picture()
     unit = style.unit_for(max(abs(left), abs(right)), style.LENGTHS)
     for axes, field, name, colors in (

@@ -7,7 +7,7 @@ from typing import Any
 
 PREFIXES = ((1e-12, "p"), (1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""))
 WITH_PREFIX = ("s", "m")
-SMALLEST = 1e-17
+SMALLEST = 1e-15
 """Lengths [m] and times [s] below this are rounding errors."""
 MOST_LISTED = 8
 """Longer lists are not written out."""

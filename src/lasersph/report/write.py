@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,8 @@ from lasersph.report.page import (
 from lasersph.report.words import notes_of, verdict, warnings_of
 
 ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
+SET = "# --set "
+"""What the lines above the text of case.toml begin with that tell its overrides."""
 SECTIONS = ("Results", "Figures", "Energy", "What was asked", "Computation", "Reproduce")
 
 
@@ -147,13 +150,12 @@ def asked(run: Run) -> list[str]:
 
 def reproduce(run: Run, versions: dict[str, str]) -> list[str]:
     """How to get the same numbers again."""
-    command = "lasersph run case.toml --out again"
     return [
         paragraph(
             "The run folder holds case.toml as given. The same program computes the same numbers,"
             " bit for bit, with any number of threads:"
         ),
-        listing(command),
+        listing(command_of(run)),
         paragraph(f"Case {run.resolved.get('case_hash', '')}, computed with:"),
         table([(name, number) for name, number in versions.items()]),
         paragraph(
@@ -161,3 +163,16 @@ def reproduce(run: Run, versions: dict[str, str]) -> list[str]:
             " later), summary.json (SI units). In Python: lasersph.open_run(folder)."
         ),
     ]
+
+
+def command_of(run: Run) -> str:
+    """The command that repeats the run, with what was set beside the case file."""
+    words = ["lasersph", "run", "case.toml", "--out", "again"]
+    for line in run.case_text.splitlines():
+        if not line.startswith(SET):
+            break
+        words += ["--set", line.removeprefix(SET)]
+    precision = run.summary.get("precision", "float64")
+    if precision != "float64":
+        words += ["--precision", precision]
+    return shlex.join(words)

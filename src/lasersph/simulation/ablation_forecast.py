@@ -12,6 +12,7 @@ from lasersph.physics.compressible_limits import compressible_limits
 from lasersph.simulation.build_ablation import decay_rates
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.body import SUPPORT
+from lasersph.solvers.time_step import name_of_longest
 
 
 def ablation_steps(case: Case, spacing: float) -> tuple[dict[str, float], int]:
@@ -21,7 +22,7 @@ def ablation_steps(case: Case, spacing: float) -> tuple[dict[str, float], int]:
         return {"fixed step": time.step}, ceil(time.end / time.step)
     limits = {"end": time.end} | flow_limits_of(case, spacing, is_still=rests(case))
     if time.step is not None:
-        limits["light"] = time.step
+        limits[name_of_longest(case.laser is not None)] = time.step
     return limits, ceil(time.end / min(limits.values()))
 
 

@@ -139,6 +139,8 @@ def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
         position, flow = backend.look(solver.position), flow_view_of(case, solver)
         if flow.surface.size:
             surface = flow.surface
+        elif flow.box:
+            surface = np.flatnonzero(position[1] > -solver.domain.spacing)
         if flow.box:
             melt_fraction = np.ones(count)
     evaporated = None

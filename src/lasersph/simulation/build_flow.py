@@ -58,7 +58,9 @@ def with_flow(case: Case, layers: Layers, heat: Conduction) -> MeltPool:
         backend, layers, carried, sides, lid,
         lambda T: wall_potential(curve, T), lambda T: wall_enthalpy(curve, T),
     )  # fmt: skip
-    flow = Flow(backend, backend.asarray(carried.volume), liquid, lid, settings)
+    flow = Flow(
+        backend, backend.asarray(carried.volume), liquid, lid, settings, layers.spacing
+    )  # fmt: skip
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.begin(start)

@@ -18,6 +18,7 @@ from lasersph.boundaries.settings import HELD
 from lasersph.case import Case
 from lasersph.lasers import GaussianBeam, InterferenceBeam
 from lasersph.physics.flow_limits import flow_limits
+from lasersph.reading import show_quantity
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 BUOYANT_SHARE = 0.2
@@ -146,6 +147,6 @@ def _warnings(layer: float | None, spacing: float) -> list[str]:
     if layer is None or layer >= FEWEST_ROWS * spacing:
         return []
     return [
-        f"the layer that the surface drags along is about {layer:.2g} m thick, less than "
-        f"{FEWEST_ROWS} spacings of {spacing:.3g} m: take a finer spacing"
+        f"the layer that the surface drags along is about {show_quantity(layer, 'm', 3)} thick, "
+        f"less than {FEWEST_ROWS} spacings of {show_quantity(spacing, 'm', 3)}: take a finer one"
     ]

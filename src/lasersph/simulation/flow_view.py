@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lasersph.boundaries.settings import HELD
+from lasersph.boundaries.settings import FLUX, HELD
 from lasersph.case import Case
 from lasersph.observers.flow_view import FlowView
 from lasersph.physics.evaporation import (
@@ -42,10 +42,11 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
         speed = velocity[0, surface] + flows * reach
     T = material.flow_temperature
     has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
+    is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in SIDES}
     held = {
         side: case.boundaries.temperature_of(side, case.initial_temperature)
-        for side in SIDES
-        if case.boundaries.kind_of(side) in HELD
+        for side, kind in kinds.items()
+        if is_box and kind in HELD
     }
     return FlowView(
         velocity=velocity,
@@ -63,9 +64,10 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
         viscosity=liquid.density * liquid.viscosity,
         surface_tension_slope=float(material.surface_tension_slope_at(T)) if has_slope else 0.0,
         saturation_pressure=_recoil(case, temperature),
-        box=case.flow is not None,
+        box=is_box,
         conductivity=float(material.conductivity_at(T)),
-        held=held if case.flow is not None else {},
+        held=held,
+        crossed=tuple(s for s, kind in kinds.items() if is_box and kind in (*HELD, FLUX)),
     )
 
 

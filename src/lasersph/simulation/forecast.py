@@ -11,6 +11,7 @@ from lasersph.case import Case
 from lasersph.case.size import BYTES_PER_MOVING_NEIGHBOR, BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
 from lasersph.case.sleeping import awake_share
 from lasersph.particles.layers import Layers
+from lasersph.reading import show_quantity
 from lasersph.simulation.ablation_forecast import ablation_steps, ablation_warnings
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
 from lasersph.simulation.flow_forecast import FlowForecast, flow_forecast
@@ -18,13 +19,15 @@ from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import next_light
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.time_step import binding, name_of_longest
 
 PAIRS_PER_SECOND = 2.0e8
 """Of one thread; for the expected time only."""
 SECONDS_PER_STEP = 3e-3
 """Besides the products: calls of loops, observers, files."""
-PRODUCTS_PER_STEP = {"implicit": 12.0, "explicit": 2.0, "flow": 100.0}
+PRODUCTS_PER_STEP = {"implicit": 12.0, "explicit": 2.0}
+FLOW_PRODUCTS = {"pool": 25.0, "box": 70.0}
+"""Of a step in which something flows: a part of the block, or all of a box."""
 EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
 """Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx; 2-D interpolated."""
 
@@ -69,11 +72,10 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
     flow = None
     if isinstance(case.solver, MeltPoolSettings):
         flow = flow_forecast(case, layers.spacing, support_ratio(case) * layers.spacing)
-    limits, steps = _steps(case, layers, flow)
-    moving = []
-    if is_moving:
-        moving = ablation_warnings(case, layers.spacing)
-    products = PRODUCTS_PER_STEP[_scheme(case)]
+    notes = ablation_warnings(case, layers.spacing) if is_moving else []
+    limits, steps, moving = _steps(case, layers, flow)
+    flowing = FLOW_PRODUCTS["pool" if case.flow is None else "box"]
+    products = (steps - moving) * PRODUCTS_PER_STEP[_scheme(case)] + moving * flowing
     length, penetration = _lengths(case)
     spacing = layers.spacing
     is_fine = layers.thickness <= spacing * (1.0 + 1e-9)
@@ -87,14 +89,13 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         limits=limits,
         binding=binding(limits)[0],
         steps=steps,
-        wall_time=steps
-        * (products * pairs / PAIRS_PER_SECOND / max(1, threads) + SECONDS_PER_STEP),
+        wall_time=products * pairs / PAIRS_PER_SECOND / max(1, threads) + steps * SECONDS_PER_STEP,
         absorption_length=length,
         penetration=penetration,
         warnings=(
             *_warnings(case, layers, length, penetration),
             *(flow.warnings if flow else ()),
-            *moving,
+            *notes,
         ),
         flow=flow,
     )
@@ -104,7 +105,7 @@ def _scheme(case: Case) -> str:
     """Key of PRODUCTS_PER_STEP."""
     if isinstance(case.solver, AblationSettings):
         return "explicit"
-    return case.solver.scheme if isinstance(case.solver, ConductionSettings) else "flow"
+    return case.solver.scheme if isinstance(case.solver, ConductionSettings) else "implicit"
 
 
 def _neighbors(case: Case) -> float:
@@ -112,51 +113,58 @@ def _neighbors(case: Case) -> float:
     return {1: 2.0 * reach, 2: pi * reach**2, 3: 4.0 / 3.0 * pi * reach**3}[case.solver.dimensions]
 
 
-def _steps(case: Case, layers: Layers, flow: FlowForecast | None) -> tuple[dict[str, float], int]:
-    """Limits [s] while the light is on and while something flows, and the number of steps."""
+def _steps(
+    case: Case, layers: Layers, flow: FlowForecast | None
+) -> tuple[dict[str, float], int, int]:
+    """Limits [s] while the light is on and while something flows, and the numbers of all steps and
+    of those in which something flows."""
     if isinstance(case.solver, AblationSettings):
-        return ablation_steps(case, layers.spacing)
-    if flow is None or (case.time.is_fixed and case.time.step is not None):
-        return _heat_steps(case, layers)
-    if case.flow is not None:
-        limits = {"end": case.time.end} | flow.limits
-        if case.time.step is not None:
-            limits["light"] = case.time.step
-        return limits, int(np.ceil(case.time.end / min(limits.values())))
-    limits, steps = _heat_steps(case, layers)
-    limits |= flow.limits
-    smallest = min(limits.values())
-    return limits, steps + int(np.ceil(flow.duration / smallest))
-
-
-def _heat_steps(case: Case, layers: Layers) -> tuple[dict[str, float], int]:
-    """Limits [s] while the light is on, and the number of steps, of heat alone."""
-    time, pulse = case.time, case.laser.pulse if case.laser is not None else None
+        return *ablation_steps(case, layers.spacing), 0
+    time = case.time
     if time.is_fixed and time.step is not None:
-        return {"fixed step": time.step}, int(np.ceil(time.end / time.step))
-    limits = {"end": time.end}
+        steps = int(np.ceil(time.end / time.step))
+        return {"fixed step": time.step}, steps, steps if flow is not None else 0
+    if case.flow is None or flow is None:
+        return _heat_steps(case, layers, flow)
+    limits = {"end": time.end} | flow.limits
+    if time.step is not None:
+        limits[name_of_longest(case.laser is not None)] = time.step
+    steps = int(np.ceil(time.end / min(limits.values())))
+    return limits, steps, steps
+
+
+def _heat_steps(
+    case: Case, layers: Layers, flow: FlowForecast | None
+) -> tuple[dict[str, float], int, int]:
+    """As `_steps`, of a block in which a pool may flow from the first light on."""
+    time, pulse = case.time, case.laser.pulse if case.laser is not None else None
+    limits = {"end": time.end} | (flow.limits if flow is not None else {})
     if _scheme(case) == "explicit":
         curve = caloric_curve(case)
         steepest = float(np.max(np.diff(curve.potential) / np.diff(curve.enthalpy)))
         diffusivity = steepest / case.material.density_reference
         limits["conduction"] = EXACT_LIMIT[case.solver.dimensions] * layers.spacing**2 / diffusivity
         if time.step is not None:
-            limits["light"] = time.step
-        return limits, int(np.ceil(time.end / min(limits.values())))
+            limits[name_of_longest(pulse is not None)] = time.step
+        return limits, int(np.ceil(time.end / min(limits.values()))), 0
     longest = time.step or (0.5 * pulse.resolution if pulse is not None else 1e-3 * time.end)
-    limits["light"] = longest
+    limits[name_of_longest(pulse is not None)] = longest
+    smallest, duration = min(limits.values()), flow.duration if flow is not None else 0.0
     if pulse is None:
-        return limits, int(np.ceil(time.end / longest))
-    steps, now, lit_until = 0, 0.0, 0.0
+        moving = min(duration, time.end) / smallest
+        return limits, int(np.ceil(moving + (time.end - duration) / longest)), int(np.ceil(moving))
+    steps, moving, now, lit_until, lit_from = 0, 0, 0.0, 0.0, time.end
     while now < time.end and steps < 10_000_000:
         step = next_light(pulse, now, longest)
         if lit_until > 0.0:
             step = min(step, max(longest, time.cooling * (now - lit_until)))
         if pulse.active(now, now + step):
-            lit_until = now + step
+            lit_from, lit_until = min(lit_from, now), now + step
+        if lit_from <= now < lit_from + duration:
+            step, moving = min(step, smallest), moving + 1
         now += step
         steps += 1
-    return limits, steps
+    return limits, steps, moving
 
 
 def _lengths(case: Case) -> tuple[float | None, float | None]:
@@ -175,18 +183,19 @@ def _warnings(
     spacing = layers.spacing
     if abs(spacing - case.particles.spacing) > 1e-2 * case.particles.spacing:
         found.append(
-            f"spacing {case.particles.spacing:.4g} m is rounded to {spacing:.4g} m so that whole "
-            "cells fill the domain"
+            f"spacing {show_quantity(case.particles.spacing, 'm')} is rounded to "
+            f"{show_quantity(spacing, 'm')} so that whole cells fill the domain"
         )
     if penetration is not None and spacing > penetration / 3.0:
         found.append(
-            f"the heat of a pulse reaches {penetration:.3g} m, less than 3 spacings of "
-            f"{spacing:.3g} m: take a finer spacing"
+            f"the heat of a pulse reaches {show_quantity(penetration, 'm', 3)}, less than 3 "
+            f"spacings of {show_quantity(spacing, 'm', 3)}: take a finer spacing"
         )
     if length and spacing > length:
         found.append(
-            f"the light is absorbed within {length:.3g} m, less than one spacing of "
-            f"{spacing:.3g} m: its profile is not resolved, though its energy is exact"
+            f"the light is absorbed within {show_quantity(length, 'm', 3)}, less than one spacing "
+            f"of {show_quantity(spacing, 'm', 3)}: its profile is not resolved, though its energy "
+            "is exact"
         )
     if penetration is not None and layers.thickness.sum() < 5.0 * penetration:
         found.append("the domain is thinner than 5 penetration depths: the bottom will be felt")

@@ -17,8 +17,8 @@ class TimeSettings(Model):
     end: Annotated[Time, Field(gt=0)] = Field(description="of the simulated time, from 0")
     step: Annotated[Time, Field(gt=0)] | None = Field(
         default=None,
-        description="largest step while the laser is on; default: a 200th of the pulse (implicit), "
-        "no limit beside stability (explicit)",
+        description="largest step while the laser is on, without laser always; default: a 200th of "
+        "the pulse (implicit), no limit beside stability (explicit)",
     )
     is_fixed: bool = Field(
         default=False, description="take `step` always, also where it is unstable (for studies)"
@@ -35,8 +35,8 @@ class TimeSettings(Model):
     )
     steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
         default=None,
-        description="stop before the end once the flow is steady: largest change of velocity per "
-        "step, over the largest velocity and over the step's share of width/velocity",
+        description="stop before the end once the flow is steady: range of its kinetic energy over "
+        "the mean, while the fastest particle crosses the width five times",
     )
 
 
@@ -69,6 +69,11 @@ def next_edge(pulse: Any, time: float, end: float) -> float | None:
     marks = np.asarray(pulse.breakpoints(time, end))
     ahead = marks[marks > time * (1 + 1e-12)]
     return float(ahead.min()) - time if ahead.size else None
+
+
+def name_of_longest(has_light: bool) -> str:
+    """Name of the limit that `TimeSettings.step` sets."""
+    return "light" if has_light else "largest step"
 
 
 def binding(limits: Mapping[str, float]) -> tuple[str, float]:

@@ -100,8 +100,8 @@ def one_fluence(
     out_dir: Path, metal: Metal, fluence: float, spacing: float, step: float = 50.0
 ) -> Run:
     """Run of a fluence [J/cm2] at a spacing [nm] with steps of at most `step` [ps]."""
-    settings = [f"laser.fluence={fluence} J/cm^2", f"particles.spacing={spacing} nm",
-                f"time.step={step} ps"]  # fmt: skip
+    settings = ["solver.kind=conduction", f"laser.fluence={fluence} J/cm^2",
+                f"particles.spacing={spacing} nm", f"time.step={step} ps"]  # fmt: skip
     label = f"{metal.case}-{fluence}-{spacing:g}nm-{step:g}ps"
     return computed(metal.case, settings, out_dir, label)
 
@@ -214,7 +214,8 @@ def draw(out_dir: Path, label: str, runs: list[Run]) -> list[Path]:
 
 def draw_particles(out_dir: Path, spacing: float) -> list[Path]:
     """Fig. 2: full period of steel with the published grading, dummies lighter; 440 nm of it."""
-    settings = [f"particles.spacing={spacing} nm", "domain.extent=full", f"particles.ratio={7 / 9}"]
+    settings = ["solver.kind=conduction", f"particles.spacing={spacing} nm",
+                "domain.extent=full", f"particles.ratio={7 / 9}"]  # fmt: skip
     case = load_case("dlip-steel", settings)
     solver = build(case, compute.cpu(threads=1))[1]
     assert not isinstance(solver, Ablation)

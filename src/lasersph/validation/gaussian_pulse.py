@@ -76,7 +76,8 @@ def without_phase_change(
     name: str, settings: list[str], step: int, out_dir: Path, label: str
 ) -> Run:
     """Run of a case without melting, with constant reflectivity and steps up to `step` [ps]."""
-    constant = ["solver.phase_change=false", f"laser.reflectivity={REFLECTIVITY[name]}"]
+    constant = ["solver.kind=conduction", "solver.phase_change=false",
+                f"laser.reflectivity={REFLECTIVITY[name]}"]  # fmt: skip
     every = [*settings, f"time.step={step} ps", *constant]
     return computed(name, every, out_dir, f"{label.replace(' ', '-')}-{step}ps")
 

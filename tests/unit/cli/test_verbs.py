@@ -94,6 +94,8 @@ def test_new_then_check(capsys):
         (["converge", "stefan", "--spacing", "1um,2um"], "an order needs three different"),
         (["converge", "stefan", "--spacing", "1um,2um,3"], '"3" has no unit'),
         (["converge", "stefan", "--spacing", "1um,2um,-3um"], "must be greater than 0"),
+        (["converge", "stefan", "--spacing", "1um,2um,4um", "--json", "no/a.json"], "no folder no"),
+        (["threshold", "dlip-steel", "--of", "melt", "--json", "no/a.json"], "no folder no"),
         (["threshold", "stefan", "--of", "melt"], "stefan has no laser"),
         (["threshold", "dlip-steel", "--of", "boil"], "boil"),
         (["info", "."], "is not a run folder"),

@@ -73,6 +73,22 @@ def test_conduction_has_the_nusselt_number_one():
         assert "nusselt_bottom" not in heat
 
 
+def test_nusselt_number_only_where_heat_crosses():
+    """Of sides with a flux as well, but not of adiabatic ones, however much they differ."""
+    view = box_view()
+    for crossed, names in (
+        (("left", "right"), {"nusselt_left", "nusselt_right"}),
+        (("left", "surface"), set()),
+        ((), set()),
+    ):
+        observer = BoxFlow()
+        observer.observe(replace(view, flow=replace(view.flow, held={}, crossed=crossed)))
+        heat = observer.summary()["box"]["heat"]
+        assert {key for key in heat if key.startswith("nusselt")} == names
+        assert ("between" in heat) == bool(names)
+        assert heat["temperature_left_K"] == pytest.approx(310.0)
+
+
 def test_slope_at_a_held_wall_of_a_boundary_layer():
     """exp(-x/d) with five particles in d: within 2 %, better than without the wall's value."""
     view = box_view(count=50)

@@ -41,6 +41,7 @@ def rows(*heights, spacing=5 * NM):
         surface=np.arange(count),
         symmetry_factor=2,
         iterations={"pressure": 7},
+        vaporization=2990.0,
     )
 
 
@@ -141,6 +142,18 @@ def test_noise_is_no_extremum():
     assert len(surface_extrema(replace(view, flow=noisy))) == 1
 
 
+def test_edge_of_the_spreading_liquid_is_no_extremum():
+    """A speed that rises up to the last molten particle, but for a maximum further in."""
+    view = maxima_at((600,), (2.0,))
+    x = view.position[0, view.flow.surface]
+    rising = view.flow.surface_velocity + np.where(x > 1000 * NM, 1.5, 0.0)
+    flows = view.flow.flows & (view.position[0] < 1020 * NM)
+    spread = replace(view, flow=replace(view.flow, surface_velocity=rising, flows=flows))
+    assert len(surface_extrema(spread)) == 2
+    (only,) = surface_extrema(spread, margin=4.0)
+    assert only[1] == pytest.approx(600 * NM, abs=3 * NM)
+
+
 def test_extrema_in_time():
     """One, two, and the inner one alone: it keeps its name, and the times are counted."""
     body, observer = rows(2), FlowExtrema()
@@ -153,6 +166,42 @@ def test_extrema_in_time():
     assert (found["coexist_start_s"], found["coexist_end_s"]) == (1 * NS, 3 * NS)
     assert found["inner_exceeds_lasted_s"] == pytest.approx(2 * NS)
     assert found["inner_speed_max_m_s"] > found["outer_speed_max_m_s"]
+
+
+def maxima_at(x, speeds, hottest=3000.0):
+    """A view with maxima of |u| at places x [nm], at most `hottest` [K]; T_v is 2990 K."""
+    view = pool_flow(rows(2), inner=0.0)
+    place = view.position[0, view.flow.surface]
+    u = sum(speed * np.exp(-(((place - x) / (60 * NM)) ** 2))
+            for x, speed in zip(np.array(x) * NM, speeds, strict=True))  # fmt: skip
+    flow = replace(view.flow, surface_velocity=u)
+    return replace(view, flow=flow, temperature=np.minimum(view.temperature, hottest))
+
+
+def test_a_second_extremum_before_anything_boils_is_none():
+    """The larger one, then the one that goes on, is the outer one; the other is left out."""
+    observer = FlowExtrema()
+    seen = ((700, 300), (2.0, 1.0)), ((700, 300), (2.0, 3.0)), ((300,), (2.0,))
+    names = ("flow_outer_x_m", "flow_inner_x_m")
+    for (places, speeds), expected in zip(seen, (700, 700, 300), strict=True):
+        row = observer.observe(maxima_at(places, speeds, hottest=2900.0))
+        assert [row[name] for name in names] == pytest.approx([expected * NM, 0.0], abs=20 * NM)
+
+
+def test_a_second_extremum_further_out_is_none():
+    """An inner one lies closer to x = 0 than the outer one that it joins, and may outlive it."""
+    observer = FlowExtrema()
+    seen = (
+        ((500,), (500, None)),
+        ((500, 1000), (500, None)),
+        ((200, 500), (500, 200)),
+        ((200,), (None, 200)),
+        ((200, 600), (600, 200)),
+    )
+    for places, expected in seen:
+        row = observer.observe(maxima_at(places, [2.0] * len(places)))
+        found = [row["flow_outer_x_m"], row["flow_inner_x_m"]]
+        assert found == pytest.approx([NM * (x or 0.0) for x in expected], abs=20 * NM)
 
 
 def test_inner_extremum_that_remains_alone():

@@ -23,7 +23,7 @@ from lasersph.plots import (
 )
 from lasersph.plots.box_lines import center_line_figure, heat_history, lines_of
 from lasersph.plots.flow_fields import plane_flow, raster
-from lasersph.plots.flow_map import box_flow_map, pool_flow_map
+from lasersph.plots.flow_map import are_beside, box_flow_map, pool_flow_map
 
 
 @pytest.fixture(scope="module")
@@ -152,6 +152,21 @@ def test_center_lines_of_the_last_snapshot(box):
     assert lines.w == pytest.approx(found["w_m_s"], abs=1e-4)
 
 
+def test_panels_of_boxes(box):
+    """Beside each other, but above each other where the box is flat."""
+    left, right = (axes.get_position() for axes in box_flow_map(box).axes[:2])
+    assert left.y0 == pytest.approx(right.y0) and left.x1 < right.x0
+    assert are_beside(Box(0.0, 2.0, -1.0, 0.0)) and not are_beside(Box(0.0, 2.1, -1.0, 0.0))
+    assert animation.scene_of(box, box.snapshots.times[:3]).is_beside
+
+
+def test_colors_reach_the_coldest_of_a_box(box):
+    """The cold wall may be colder than anything was at the start."""
+    scene = animation.scene_of(box, box.snapshots.times)
+    coldest = min(float(step["temperature"].min()) for step in box.snapshots)
+    assert scene.temperatures == (coldest, np.max(box.history["temperature_max_K"]))
+
+
 def test_runs_together(pool):
     """One color a run; outer extrema dashed, inner ones full."""
     axes = speed_extrema([pool, pool], ["a", "b"]).axes[0]
@@ -173,6 +188,26 @@ def test_animation_is_a_gif_of_the_life_of_the_pool(pool, box, monkeypatch):
         with Image.open(path) as image:
             assert image.n_frames == 3
     assert not list((pool.path / "figures").glob("unfinished*"))
+
+
+def test_mp4_is_written_by_ffmpeg(pool, box, tmp_path, monkeypatch):
+    """It is handed every frame, of even width and height, and the name of the file."""
+    from matplotlib import rc_context
+
+    stand_in = tmp_path / "ffmpeg"
+    stand_in.write_text(
+        '#!/bin/sh\nfor last; do :; done\ncat > "$last"\necho "$@" > "$(dirname "$0")/asked"\n'
+    )
+    stand_in.chmod(0o755)
+    monkeypatch.setattr(animation, "MOST_FRAMES", 3)
+    for run in (pool, box):
+        with rc_context({"animation.ffmpeg_path": str(stand_in)}):
+            path = animate_run(run.path, format="mp4")
+        assert path == run.path / "figures" / "animation.mp4"
+        ((width, height),) = re.findall(r"-s (\d+)x(\d+)", (tmp_path / "asked").read_text())
+        width, height = int(width), int(height)
+        assert width % 2 == height % 2 == 0
+        assert path.stat().st_size == 3 * 4 * width * height
 
 
 def test_what_cannot_be_animated(pool, tmp_path, monkeypatch):

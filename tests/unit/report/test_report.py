@@ -1,16 +1,20 @@
 """The report: one file, complete, in plain words with right numbers."""
 
 import re
+import shlex
 from html.parser import HTMLParser
+from itertools import pairwise
+from typing import ClassVar
 
 import pytest
 import synthetic_run
 
+from lasersph.case import load_case
 from lasersph.output import OutputError, open_run
 from lasersph.report import write_report
 from lasersph.report.numbers import entry, quantity, shown
 from lasersph.report.words import notes_of, verdict, warnings_of
-from lasersph.report.write import report_page
+from lasersph.report.write import command_of, report_page
 
 
 @pytest.fixture(scope="module")
@@ -63,6 +67,24 @@ def test_page_says_what_was_asked_and_found(page, folder):
     assert "4.0 cells per absorption length" in page
     assert "lasersph run case.toml" in page
     assert "numpy" in page
+
+
+def test_command_repeats_what_was_set(folder, tmp_path):
+    """The case file and the settings above its text, as words of a shell, give the same case."""
+    settings = ["laser.fluence=0.5 J/cm^2", "particles.spacing=32 nm"]
+    case = load_case("dlip-steel", settings, quick=True)
+    (tmp_path / "case.toml").write_text(case.text, encoding="utf-8")
+
+    class Found:
+        case_text = case.text
+        summary: ClassVar = {"precision": "float32"}
+
+    words = shlex.split(command_of(Found()))
+    again = [word for flag, word in pairwise(words) if flag == "--set"]
+    assert again[-2:] == settings
+    assert load_case(str(tmp_path / "case.toml"), again).hash() == case.hash()
+    assert words[-2:] == ["--precision", "float32"]
+    assert command_of(open_run(folder)) == "lasersph run case.toml --out again"
 
 
 def test_text_of_the_case_cannot_break_the_page(tmp_path):

@@ -57,6 +57,8 @@ def test_limits_of_the_implicit_scheme():
     first = solver.time_step_limits()
     assert first["end"] == 1e-8
     assert first["light"] == 2e-12
+    dark = solver_of(time=time, scheme="implicit").time_step_limits()
+    assert dark["largest step"] == 2e-12 and "light" not in dark
     assert first["pulse edge"] == pytest.approx(1e-9)
     state = solver.state
     state.time, state.time_step, state.pace, state.fastest = 2.5e-10, 1e-12, 1e-12, 100.0

@@ -19,18 +19,24 @@ def test_never():
     assert not looked(None, (1.0, 5.0), (2.0, 5.0)).reached
 
 
-def test_needs_two_turnovers():
-    """The first look has nothing to compare with; the second compares."""
-    assert not looked(1e-3, (0.6, 5.0)).reached
-    assert looked(1e-3, (0.6, 5.0), (1.2, 5.004)).reached
-    assert not looked(1e-3, (0.6, 5.0), (1.2, 5.006)).reached
+def turnovers(*energies):
+    """Looks 0.6 s apart."""
+    return [(0.6 * (k + 1), energy) for k, energy in enumerate(energies)]
+
+
+def test_needs_five_turnovers():
+    """Four looks say nothing; five within 1e-3 of their mean do, wherever the largest lies."""
+    assert not looked(1e-3, *turnovers(5.0, 5.0, 5.0, 5.0)).reached
+    assert looked(1e-3, *turnovers(5.0, 5.004, 5.0, 5.0, 5.0)).reached
+    assert not looked(1e-3, *turnovers(5.0, 5.006, 5.0, 5.0, 5.0)).reached
+    assert looked(1e-3, *turnovers(4.0, 5.0, 5.004, 5.0, 5.0, 5.0)).reached
 
 
 def test_not_within_a_turnover():
     """What happens sooner than a turnover after the last look is not looked at."""
     steadiness = looked(1e-3, (0.6, 5.0), (0.9, 5.0))
     assert not steadiness.reached
-    assert (steadiness.time, steadiness.energy) == (0.6, 5.0)
+    assert (steadiness.time, steadiness.energies[-2:]) == (0.6, [0.0, 5.0])
 
 
 def test_at_rest():
@@ -43,9 +49,10 @@ def test_at_rest():
 
 def test_carried_over():
     """Restored it goes on where it was."""
-    first = looked(1e-3, (0.6, 5.0))
+    looks = turnovers(5.0, 5.0, 5.0, 5.0, 5.0)
+    first = looked(1e-3, *looks[:4])
     second = Steadiness(1e-3, WIDTH)
     second.restore(first.carried())
-    second.look(1.2, SPEED, 5.0)
+    second.look(looks[4][0], SPEED, looks[4][1])
     assert second.reached
-    assert second.carried() == looked(1e-3, (0.6, 5.0), (1.2, 5.0)).carried()
+    assert second.carried() == looked(1e-3, *looks).carried()

@@ -31,7 +31,7 @@ from lasersph.solvers.ablation.rates import condensed_extremes, speed_squares
 from lasersph.solvers.ablation.resting_step import RestingStep
 from lasersph.solvers.ablation.state import AblationState
 from lasersph.solvers.conduction.state import NotConverged
-from lasersph.solvers.time_step import TimeSettings, next_edge
+from lasersph.solvers.time_step import TimeSettings, name_of_longest, next_edge
 
 RETRIES = 8
 LEVEL_ARRAYS = {"position": "x", "velocity": "v", "density": "rho", "enthalpy": "h"}
@@ -135,7 +135,7 @@ class Ablation:
             diffusive_rate=numbers.diffusive_rate,
         )
         if time.step is not None:
-            limits["light"] = time.step
+            limits[name_of_longest(self.columns is not None)] = time.step
         if self.columns is not None and self.ejection is not None:
             flux = self.columns.largest_flux(state.time, state.time + min(limits.values()))
             if flux > 0.0:

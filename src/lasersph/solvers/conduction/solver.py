@@ -15,7 +15,7 @@ from lasersph.solvers.conduction.published import PublishedStep
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.state import ENERGIES, HeatState, NotConverged
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
-from lasersph.solvers.time_step import TimeSettings, next_edge
+from lasersph.solvers.time_step import TimeSettings, name_of_longest, next_edge
 
 ARRAYS = ("enthalpy", "temperature", "potential", "melt_fraction", "vapor_fraction", "excess",
           "previous", "older", "evaporated")  # fmt: skip
@@ -118,18 +118,17 @@ class Conduction:
         pulse = self.laser.pulse if self.laser is not None else None
         if time.is_fixed and time.step is not None:
             return limits | {"fixed step": time.step}
+        name = name_of_longest(pulse is not None)
         if self.settings.scheme == "explicit":
             limits["conduction"] = self._stable
             if time.step is not None:
-                limits["light"] = time.step
+                limits[name] = time.step
         else:
             longest = time.step
             if longest is None and pulse is not None:
                 longest = 0.5 * pulse.resolution
             if longest is not None:
-                limits["light"] = (
-                    longest if pulse is None else next_light(pulse, state.time, longest)
-                )
+                limits[name] = longest if pulse is None else next_light(pulse, state.time, longest)
             if longest is not None and state.lit_until > 0.0:
                 dark = state.time - state.lit_until
                 limits["cooling"] = max(longest, time.cooling * dark)

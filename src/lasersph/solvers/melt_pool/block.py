@@ -227,6 +227,22 @@ class Block:
         self.backend.pointwise(mirrored_part, {"d": moved} | self.rules, moved)
         return moved
 
+    def reflected(self, v: Any, reach: Any) -> Any:
+        """Velocities (2, n) on the block with images as mirrors at the walls show them [m/s].
+
+        Beyond a stressed surface they continue the profile: mirrored, it would bend there, and its
+        divergence with it. Args as of `velocity`.
+        """
+        moved = self.gather(v)
+        fields = {
+            "v": moved, "factor": self.sign, "slope": self.rules["slope"],
+            "reach": self.gather(reach),
+        }  # fmt: skip
+        self.backend.pointwise(
+            image_velocity, fields, moved, added=(0.0, 0.0), along=(1.0, 0.0)
+        )  # fmt: skip
+        return moved
+
     def tensor(self, M: Any) -> Any:
         """Tensors (2, 2, count) of the block on the block with images."""
         turned = self.gather(M)

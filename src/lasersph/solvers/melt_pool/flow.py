@@ -2,12 +2,20 @@
 
 Velocities and pressures are fields of all particles, 0 where nothing flows. Each method is one line
 of the algorithm; `solver` puts them in order. Gradient and divergence are corrected by the same
-matrix C, so that they are exact on linear fields and skew-adjoint to each other.
+matrix C, so that the divergence is exact on linear fields and both are skew-adjoint to each other;
+for that images carry the mirrored pressure and, in the divergence, the mirrored velocity, so that
+nothing crosses a side, whatever its motion, which viscosity alone sees.
+
+Deviations from the paper: where particles crowd the projection is asked for a divergence that parts
+them again (`sph.crowding`), 0 on an even spread. And the constant of the pressure, which nothing
+fixes, is such that its gradient sees none below 0: where p < 0 the symmetric gradient pulls
+particles together [Monaghan2000].
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -29,9 +37,12 @@ from lasersph.sph.correction import (
     corrected_symmetric_term,
     correction_term,
 )
+from lasersph.sph.crowding import crowding_term, lattice_crowding, relaxation
 
 ACCEPTED = 10.0
 """Residual of the pressure equation over its tolerance with which a step is still taken."""
+PARTING = 0.1
+"""Rate at which crowded particles part, over the largest speed per spacing."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +75,17 @@ def stopped(v, fluid):
     return kept, dot(kept, kept)
 
 
-def divergence_load(total, V, fraction, d):
+def divergence_terms(v_i, v_j, V_j, C_i, x_ij, r_ij, dW_ij, W_ij):
+    """Terms of D [1/s] and of the crowding S [1]."""
+    return (
+        corrected_divergence_term(v_i, v_j, V_j, C_i, x_ij, r_ij, dW_ij),
+        crowding_term(V_j, W_ij),
+    )
+
+
+def divergence_load(total_0, total_1, V, fraction, even, rate):
     """rho / dt V (D - d) [Pa m^(d-2)], and D [1/s]."""
-    return fraction * V * (total - d), total
+    return fraction * V * (total_0 - relaxation(total_1, even, rate)), total_0
 
 
 def shared(p_j, unknown_j, W_ij):
@@ -79,6 +98,16 @@ def dummy_pressure(total_0, total_1, p, dummy):
     if dummy > 0.0:
         return total_0 / max(total_1, 1.0e-300)
     return p
+
+
+def least(p):
+    """The pressure itself, for its minimum [Pa]."""
+    return 1.0 * p
+
+
+def above(p, lowest):
+    """Pressure over the lowest one [Pa]."""
+    return p - lowest
 
 
 def correct(total, v, step, density):
@@ -101,6 +130,7 @@ class Flow:
     """Velocity and pressure of the particles, and the equations that advance them.
 
     Attributes:
+        spacing: of the particles that move [m].
         velocity: (2, n) [m/s]. pressure: (n,) [Pa]. fastest: largest speed [m/s]. push: largest
             acceleration [m/s^2]. iterations: of the last step. divergence: rms and largest D after
             the projection [1/s].
@@ -113,8 +143,10 @@ class Flow:
         liquid: Liquid,
         lid: FlatLid | None,
         settings: MeltPoolSettings,
+        spacing: float,
     ) -> None:
         count = volume.shape[0]
+        self.spacing = spacing
         self.backend, self.liquid, self.lid, self.settings = backend, liquid, lid, settings
         self.velocity, self.before = backend.zeros((2, count)), backend.zeros((2, count))
         self.pressure, self.body_force = backend.zeros(count), backend.zeros((2, count))
@@ -136,6 +168,8 @@ class Flow:
         self._C = backend.zeros((2, 2, count))
         self._rhs, self._mask, self._p = (backend.zeros(count) for _ in range(3))
         self._D, self._V = backend.zeros(count), block.volume
+        weighing = block.lattice.weighing
+        self._even = lattice_crowding(weighing.kernel, weighing.ratio)
         tolerance = self.settings.pressure_tolerance
         self.equation = PressureEquation(
             backend, count, block.largest_support, tolerance=tolerance, period=periods
@@ -192,7 +226,9 @@ class Flow:
             NotConverged: the pressure equation is not solved.
         """
         backend, block = self.backend, self.block
-        self._diverge(roles.unknown_rows, self.liquid.density / step)
+        speed = max(self.fastest, block.sides.fastest_wall())
+        rate = PARTING * speed / self.spacing
+        self._diverge(roles.unknown_rows, self.liquid.density / step, rate)
         head, count = backend.head, block.count
         backend.copy(head(self.pressure, count), self._p)
         mask = head(roles.unknown, count)
@@ -202,8 +238,12 @@ class Flow:
             )
             outcome = self.published.solve(self._rhs, self._p)
         else:
-            self.equation.set_operator(block.folded(), block.weights, mask, self._V)
-            outcome = self.equation.solve(self._rhs, self._p)
+            pull = value = flux = None
+            if self.lid is not None:
+                lid = self.lid
+                pull, value, flux = lid.pressure_pull, lid.pressure_value, lid.pressure_flux
+            self.equation.set_operator(block.folded(), block.weights, mask, self._V, pull)
+            outcome = self.equation.solve(self._rhs, self._p, value=value, flux=flux)
         if not outcome.residual <= ACCEPTED * self.settings.pressure_tolerance:
             raise NotConverged(
                 f"the pressure equation is left with a residual of {outcome.residual:.1e} of its "
@@ -213,10 +253,19 @@ class Flow:
         self._share(roles)
 
     def correct(self, roles: Roles, step: float) -> None:
-        """Velocity after the pressure (70)."""
+        """Velocity after the pressure (70).
+
+        Raises:
+            NotConverged: the velocity is not finite.
+        """
         backend, block = self.backend, self.block
+        (lowest,) = backend.pointwise(
+            least, {"p": self.pressure}, (None,), rows=roles.unknown_rows, reduce=("min",)
+        )
+        p = block.gather(self.pressure)
+        backend.pointwise(above, {"p": p}, p, lowest=lowest)
         fields = {
-            "p": block.gather(self.pressure), "V": block.V, "C": block.tensor(self._C),
+            "p": p, "V": block.V, "C": block.tensor(self._C),
             "v": self.velocity,
         }  # fmt: skip
         (push,) = backend.pair_sum(
@@ -226,10 +275,12 @@ class Flow:
         )  # fmt: skip
         self.push = max(push, 0.0) ** 0.5
         self.stop(roles)
+        if not isfinite(self.fastest):
+            raise NotConverged("the velocity is not finite")
 
     def measure_divergence(self, roles: Roles, count: float) -> None:
         """Divergence that the projection left, for observers."""
-        self._diverge(roles.fluid_rows, 1.0)
+        self._diverge(roles.fluid_rows, 1.0, 0.0)
         fields = {"D": self._D, "fluid": self.backend.head(roles.fluid, self.block.count)}
         square, largest = self.backend.pointwise(
             sizes, fields, (None, None), rows=roles.fluid_rows, reduce=("sum", "max")
@@ -253,12 +304,12 @@ class Flow:
         self.divergence = (0.0, 0.0)
         self.iterations = {"pressure": 0, "viscosity": 0}
 
-    def _diverge(self, rows: Any, fraction: float) -> None:
+    def _diverge(self, rows: Any, fraction: float, rate: float) -> None:
         block = self.block
-        fields = {"v": block.velocity(self.velocity, self.reach()), "V": block.V, "C": self._C}
+        fields = {"v": block.reflected(self.velocity, self.reach()), "V": block.V, "C": self._C}
         self.backend.pair_sum(
-            corrected_divergence_term, block.pairs, fields, (self._rhs, self._D),
-            finish=divergence_load, rows=rows, fraction=fraction, d=0.0,
+            divergence_terms, block.pairs, fields, (self._rhs, self._D),
+            finish=divergence_load, rows=rows, fraction=fraction, even=self._even, rate=rate,
         )  # fmt: skip
 
     def _share(self, roles: Roles) -> None:

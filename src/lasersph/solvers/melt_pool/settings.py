@@ -20,8 +20,8 @@ class MeltPoolSettings(HeatSettings):
     )
     pressure: Literal["multigrid", "published"] = Field(
         default="multigrid",
-        description="conjugate gradients on coarse aggregates, or the matrix of [Demuth2020, "
-        "Table 1] with BiCGStab",
+        description="conjugate gradients corrected on coarser grids, or the matrix of "
+        "[Demuth2020, Table 1] with BiCGStab",
     )
     pressure_tolerance: Annotated[float, Field(gt=0, lt=1)] = Field(
         default=1e-4, description="residual of the pressure equation over its right-hand side"

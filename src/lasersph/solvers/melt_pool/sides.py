@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.flow_sides import FlowSides
+from lasersph.boundaries.lid import FlatLid
 from lasersph.boundaries.settings import FLUX, HELD
 from lasersph.particles.images import LOWER, MIRROR, OPEN, PERIODIC, UPPER, FacePair, Images
 
@@ -106,6 +107,7 @@ class Sides:
         for axis, side, chosen, at, outward in self._crossings(images):
             if self.flow_kind(side) == "free-surface":
                 slope[chosen] = images.sign[1 - axis, chosen]
+                flux[chosen] = FlatLid.heat_flux
             self._heat(side, axis, chosen & (held == 0.0), place, held, temperature, flux)
             mine = chosen & ((np.abs(normal).sum(axis=0) == 0.0) | self._carries_heat(side))
             normal[:, mine] = 0.0
@@ -139,8 +141,12 @@ class Sides:
                 added[1 - axis, chosen] = 2.0 * self.wall_velocity(side)
         for axis, _, chosen, _, _ in crossings:
             factor[axis, chosen] *= -1.0
-            added[axis, chosen] = 0.0
+            added[axis, chosen] = 2.0 * self._normal_velocity(side)
         return factor, added
+
+    def _normal_velocity(self, side: str) -> float:
+        """Of a side itself [m/s]."""
+        return FlatLid.normal_velocity if self.flow_kind(side) == "free-surface" else 0.0
 
     def _carries_heat(self, side: str) -> bool:
         kind = self.boundaries.kind_of(side)

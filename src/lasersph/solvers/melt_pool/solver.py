@@ -109,7 +109,7 @@ class MeltPool:
         limits = self.heat.time_step_limits()
         if not self._melt():
             return limits
-        flow, liquid = self.flow, self.flow.liquid
+        flow, liquid, lid = self.flow, self.flow.liquid, self.domain.lid
         found = flow_limits(
             self.settings.step_limits,
             support=self.domain.support,
@@ -120,6 +120,8 @@ class MeltPool:
             density=liquid.density,
             surface_tension=liquid.surface_tension,
             is_implicit=self.settings.viscosity == "implicit",
+            capillary=np.inf if lid is None else lid.capillary_limit,
+            recoil=np.inf if lid is None else lid.recoil_limit,
         )
         return limits | {name: limit for name, limit in found.items() if limit < np.inf}
 

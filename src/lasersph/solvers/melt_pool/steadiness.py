@@ -1,18 +1,21 @@
 """When a flow no longer changes.
 
-The kinetic energy is looked at once in every turnover time width / max|v|; where its relative
-change over one such time falls below the given number, the flow is steady. Single particles never
-rest in a steady flow, and their speeds are noisier than the energy.
+The kinetic energy is looked at once in every turnover time width / max|v|; where it has stayed
+within the given part of itself over the last `LOOKS` of them, the flow is steady. Single particles
+never rest in a steady flow, and their speeds are noisier than the energy; a single look would take
+the turn of a slow oscillation for the end.
 """
 
 from __future__ import annotations
+
+LOOKS = 5
 
 
 class Steadiness:
     """Looks at the kinetic energy.
 
     Args:
-        wanted: largest relative change per turnover time; None for never. width: of the box [m].
+        wanted: range of the energy over its mean; None for never. width: of the box [m].
 
     Attributes:
         reached: whether the flow is steady.
@@ -20,23 +23,26 @@ class Steadiness:
 
     def __init__(self, wanted: float | None, width: float) -> None:
         self.wanted, self.width = wanted, width
-        self.time = self.energy = 0.0
+        self.time = 0.0
+        self.energies = [0.0] * LOOKS
         self.reached = False
 
     def look(self, time: float, speed: float, energy: float) -> None:
         """Take note of the time [s], the largest speed [m/s] and the kinetic energy [J]."""
         if self.wanted is None or (time - self.time) * speed < self.width:
             return
-        if self.energy > 0.0:
-            self.reached = abs(energy - self.energy) < self.wanted * energy
-        self.time, self.energy = time, energy
+        self.time, self.energies = time, [*self.energies[1:], energy]
+        if self.energies[0] > 0.0:
+            width = max(self.energies) - min(self.energies)
+            self.reached = width * LOOKS < self.wanted * sum(self.energies)
 
     def carried(self) -> dict[str, float]:
         """Numbers that survive a step."""
-        return {"steady.time": self.time, "steady.energy": self.energy,
-                "steady.reached": float(self.reached)}  # fmt: skip
+        return {"steady.time": self.time, "steady.reached": float(self.reached)} | {
+            f"steady.energy_{k}": energy for k, energy in enumerate(self.energies)
+        }
 
     def restore(self, numbers: dict[str, float]) -> None:
         """Continue from the numbers of `carried`."""
-        self.time, self.energy = numbers["steady.time"], numbers["steady.energy"]
-        self.reached = bool(numbers["steady.reached"])
+        self.time, self.reached = numbers["steady.time"], bool(numbers["steady.reached"])
+        self.energies = [numbers[f"steady.energy_{k}"] for k in range(LOOKS)]
