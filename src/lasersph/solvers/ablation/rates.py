@@ -82,6 +82,11 @@ def heat_rates(total, stage, m, T, E, A, step, T_a, h_c, eps):
     return gain / m, takes_heat * A * loss + is_wall * total
 
 
+def conducted(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij, factor):
+    """Heat from a neighbor alone [W], see `laplacian.conduction`; factor: of the weights [1]."""
+    return factor * conduction(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij)
+
+
 def pair_weight(V_i, V_j, r_ij, dW_ij, factor):
     """Conduction weight of a pair that stays where it is [m^(d-2)], see `laplacian.weight`."""
     return factor * weight(V_i, V_j, r_ij, dW_ij)
@@ -134,6 +139,11 @@ def foreseen(m, rho, a, drho, dh, dt):
 def taken_up(m, dh, dt):
     """Energy taken up in `dt` [s], [J]."""
     return m * dt * dh
+
+
+def lifting(x, v, h, stage, dh, dt):
+    """Position [m] of what leaves and enthalpy [J/kg] after `dt` [s]; the rest stays in place."""
+    return (x + dt * v if stage == LEAVING else x), h + dt * dh
 
 
 def speed_squares(v, stage):

@@ -22,6 +22,7 @@ from lasersph.solvers.ablation.columns import Columns
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
 from lasersph.solvers.ablation.exposure import Exposure
 from lasersph.solvers.ablation.flight import flown
+from lasersph.solvers.ablation.lifting_step import LiftingStep
 from lasersph.solvers.ablation.matter import Matter
 from lasersph.solvers.ablation.moving_step import MovingStep
 from lasersph.solvers.ablation.numbers import Numbers
@@ -65,6 +66,7 @@ class Ablation:
         self.state = AblationState()
         self._moving = MovingStep(matter, pairs, exposure, numbers, self.state)
         self._resting = RestingStep(matter, pairs, exposure, numbers)
+        self._lifting = LiftingStep(matter, pairs, exposure, numbers)
         self._surface_known = False
         self._everything = self.backend.asarray(np.arange(matter.total), "index")
         self._enter()
@@ -203,12 +205,12 @@ class Ablation:
             self._resting.weights, self._surface_known = None, False
         if self.columns is not None:
             self.find_surface()
-        is_still = square == 0.0 and leaving == 0.0 and self.numbers.gravity == 0.0
-        if state.is_balanced and is_still:
+        is_still = square == 0.0 and self.numbers.gravity == 0.0
+        if state.is_balanced and is_still and leaving == 0.0:
             self._resting.weigh(self.rows)
             return self._resting
         self._resting.weights = None
-        return self._moving
+        return self._lifting if state.is_balanced and is_still else self._moving
 
     def extremes(self) -> tuple[float, float]:
         """Largest pressure [Pa] and speed [m/s] of what is condensed."""
