@@ -7,6 +7,7 @@ import synthetic_ablation
 
 from lasersph.case import load_case
 from lasersph.observers import Trace, ablation_observers
+from lasersph.plots import animation, style
 from lasersph.report import ablation_tables, ablation_words, write_report
 from lasersph.report.words import notes_of, verdict
 from lasersph.simulation.ablation_estimates import ablation_estimates
@@ -77,8 +78,11 @@ def test_nothing_without_ablation():
         assert rows({}) == []
 
 
-def test_report_of_a_crater(tmp_path):
-    """The page holds the figures of the crater and an animation."""
+def test_report_of_a_crater(tmp_path, monkeypatch):
+    """The page holds the figures of the crater and an animation, here small and short ones."""
+    monkeypatch.setattr(style, "DPI", 30)
+    monkeypatch.setattr(animation, "DPI", 30)
+    monkeypatch.setattr(animation, "MOST_FRAMES", 3)
     folder = synthetic_ablation.make_run(tmp_path / "run", 2, "gaussian")
     page = write_report(folder).read_text()
     for text in ("Cut through the crater", "ejected particles", "or the ejecta, in time"):
