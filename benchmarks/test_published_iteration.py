@@ -11,6 +11,7 @@ import pytest
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.build import build
+from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.time_step import binding
 
 START, END = 48e-9, 49e-9
@@ -20,7 +21,9 @@ START, END = 48e-9, 49e-9
 def solver_of(iteration):
     """The solver of the shipped case with one of the two iterations, at rest."""
     settings = ["solver.kind=conduction", f"solver.iteration={iteration}"]
-    return build(load_case("dlip-steel", settings), compute.cpu(threads=2))[1]
+    solver = build(load_case("dlip-steel", settings), compute.cpu(threads=2))[1]
+    assert isinstance(solver, Conduction)
+    return solver
 
 
 def go(solver, end):

@@ -60,7 +60,7 @@ BAD_CASES = {
     # choices
     "unknown beam": ('kind = "interference"', 'kind = "interferance"', ':8: laser.beam.kind: must be "uniform" or "top-hat" or "gaussian" or "interference", got "interferance"; do you mean "interference"?'),
     "beam without kind": (BEAM, "beam = {}", ":8: laser.beam.kind: missing"),
-    "unknown solver": ('kind = "conduction"', 'kind = "meltpool"', ':24: solver.kind: must be "conduction" or "melt-pool", got "meltpool"; do you mean "melt-pool"?'),
+    "unknown solver": ('kind = "conduction"', 'kind = "meltpool"', ':24: solver.kind: must be "conduction" or "melt-pool" or "ablation", got "meltpool"; do you mean "melt-pool"?'),
     "four dimensions": ("dimensions = 2", "dimensions = 4", ":25: solver.dimensions: must be \"1\" or \"2\" or \"3\", got 4"),
     "unknown plateau": ('plateau = "hold"', 'plateau = "held"', ':26: solver.plateau: must be "hold" or "clip" or "evaporate", got "held"; do you mean "hold"?'),
     "fluence kind": ('"mean"', '"average"', ':7: laser.fluence_kind: must be "mean" or "peak", got "average"'),

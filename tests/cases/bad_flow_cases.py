@@ -18,7 +18,7 @@ BAD_FLOW_CASES = {
     "flow in 3-D": (KIND, KIND + "\ndimensions = 3", ':35: solver.dimensions: must be "2", got 3'),
     "flow in 1-D": (KIND, KIND + "\ndimensions = 1", ':35: solver.dimensions: must be "2", got 1'),
     "key of the other solver": (KIND, KIND + '\nscheme = "explicit"', ':35: solver.scheme: unknown key; belongs to kind = "conduction"'),
-    "key of this solver under conduction": (KIND, 'kind = "conduction"', ':35: solver.gravity: unknown key; belongs to kind = "melt-pool"'),
+    "key of this solver under conduction": (KIND, 'kind = "conduction"', ':35: solver.gravity: unknown key; belongs to kind = "melt-pool" or kind = "ablation"'),
     "gravity as a velocity": (GRAVITY, 'gravity = "10 m/s"', ':35: solver.gravity: "10 m/s" is a velocity, not an acceleration; write e.g. "9.81 m/s^2"'),
     "gravity upward": (GRAVITY, 'gravity = "-10 m/s^2"', ':35: solver.gravity: must be at least 0, got "-10 m/s^2"'),
     "unknown pressure solver": (KIND, KIND + '\npressure = "publishd"', ':35: solver.pressure: must be "multigrid" or "published", got "publishd"; do you mean "published"?'),

@@ -3,7 +3,9 @@
 from pathlib import Path
 
 import pytest
+from bad_ablation_cases import BAD_ABLATION_CASES
 from bad_cases import BAD_CASES
+from bad_ejection_cases import BAD_EJECTION_CASES
 from bad_flow_cases import BAD_FLOW_CASES
 
 from lasersph.case import load_case
@@ -12,13 +14,16 @@ from lasersph.reading import CaseError
 FOLDER = Path(__file__).parent
 GOOD = (FOLDER / "good.toml").read_text(encoding="utf-8")
 GOOD_FLOW = (FOLDER / "good-flow.toml").read_text(encoding="utf-8")
-ALL = BAD_CASES | BAD_FLOW_CASES
+GOOD_ABLATION = (FOLDER / "good-ablation.toml").read_text(encoding="utf-8")
+MATTER = BAD_ABLATION_CASES | BAD_EJECTION_CASES
+ALL = BAD_CASES | BAD_FLOW_CASES | MATTER
 
 
 def spoiled(name: str) -> bytes:
     """The bytes of a bad case file."""
     old, new, _ = ALL[name]
     good = GOOD_FLOW if name in BAD_FLOW_CASES else GOOD
+    good = GOOD_ABLATION if name in MATTER else good
     if isinstance(new, bytes):
         return new
     if not old:
@@ -29,7 +34,9 @@ def spoiled(name: str) -> bytes:
 
 def test_there_are_enough_and_the_good_one_is_good(tmp_path):
     """The table is as long as promised, and its starting point is accepted."""
-    assert len(BAD_CASES) >= 40 and len(ALL) == len(BAD_CASES) + len(BAD_FLOW_CASES)
+    assert len(BAD_CASES) >= 40 and len(ALL) == sum(
+        len(table) for table in (BAD_CASES, BAD_FLOW_CASES, BAD_ABLATION_CASES, BAD_EJECTION_CASES)
+    )
     file = tmp_path / "case.toml"
     file.write_text(GOOD, encoding="utf-8")
     case = load_case(str(file))
@@ -38,6 +45,8 @@ def test_there_are_enough_and_the_good_one_is_good(tmp_path):
     file.write_text(GOOD_FLOW, encoding="utf-8")
     flow = load_case(str(file))
     assert flow.flow is not None and flow.material.is_liquid
+    file.write_text(GOOD_ABLATION, encoding="utf-8")
+    assert load_case(str(file)).solver.kind == "ablation"
 
 
 @pytest.mark.parametrize("name", ALL)

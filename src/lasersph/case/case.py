@@ -7,15 +7,16 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, model_validator
 
-from lasersph.boundaries import Boundaries, FlowSides
+from lasersph.boundaries import Boundaries, FlowSides, InitialMotion, Vessel
 from lasersph.case.checks import problems_of
 from lasersph.case.material_choice import MaterialChoice
 from lasersph.case.outputs import OutputSettings
 from lasersph.case.solver_choice import SolverChoice
 from lasersph.lasers import Laser
-from lasersph.observers import Probe
+from lasersph.observers import Probe, Trace
 from lasersph.particles import Domain, Lattice
 from lasersph.reading import Model, Temperature, refusal
+from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.time_step import TimeSettings
 
@@ -44,9 +45,21 @@ class Case(Model):
         default=None,
         description="only for a closed box that is all fluid; without it what is molten flows",
     )
+    vessel: Vessel | None = Field(
+        default=None, description="only where matter moves (ablation): walls around the block"
+    )
+    motion: InitialMotion | None = Field(
+        default=None, description="only where matter moves (ablation): how it starts"
+    )
+    ejection: EjectionSettings | None = Field(
+        default=None, description="only where a laser ablates: how particles leave the surface"
+    )
     solver: SolverChoice = ConductionSettings.model_validate({})
     time: TimeSettings
     probes: tuple[Probe, ...] = ()
+    traces: tuple[Trace, ...] = Field(
+        default=(), description="only where matter moves (ablation): particles that are followed"
+    )
     output: OutputSettings = OutputSettings.model_validate({})
     _name: str = PrivateAttr("")
     _text: str = PrivateAttr("")

@@ -8,13 +8,14 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.settings import HELD
+from lasersph.case.ablation_checks import ablation_problems
 from lasersph.case.flow_checks import flow_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
-    estimate,
     in_words,
     machine_memory,
+    size_of,
 )
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
 from lasersph.observers import SnapshotSchedule
@@ -36,6 +37,7 @@ def problems_of(case: Case) -> list[tuple[str, str]]:
         *_material(case),
         *_laser(case),
         *flow_problems(case),
+        *ablation_problems(case),
         *_size(case),
         *_probes(case),
         *_snapshots(case),
@@ -48,7 +50,7 @@ def refuse_if_too_large(case: Case) -> None:
     Raises:
         CaseError: with the estimate, before anything is allocated.
     """
-    size = estimate(case.domain, case.particles, case.solver.dimensions)
+    size = size_of(case)
     memory = machine_memory()
     if size.bytes > LARGEST_COST_SHARE * memory:
         raise CaseError(
@@ -206,7 +208,7 @@ def _whole_periods(
 
 
 def _size(case: Case) -> Iterator[tuple[str, str]]:
-    size = estimate(case.domain, case.particles, case.solver.dimensions)
+    size = size_of(case)
     if size.particles > LARGEST_PARTICLES:
         yield (
             "particles.spacing",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from lasersph.case.case import Case
+from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 
 COARSER = 4.0
@@ -23,7 +24,9 @@ def quick_settings(case: Case) -> list[str]:
         settings.append(f"particles.coarsest={spacing!r} m")
     if case.particles.fine_depth is not None and case.particles.fine_depth < spacing:
         settings.append(f"particles.fine_depth={spacing!r} m")
-    is_explicit = isinstance(case.solver, ConductionSettings) and case.solver.scheme == "explicit"
+    is_explicit = isinstance(case.solver, AblationSettings) or (
+        isinstance(case.solver, ConductionSettings) and case.solver.scheme == "explicit"
+    )
     if case.time.step is not None and not is_explicit:
         settings.append(f"time.step={LONGER * case.time.step!r} s")
     return settings

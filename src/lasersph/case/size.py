@@ -10,8 +10,14 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
+from lasersph.case.sleeping import awake_share
 from lasersph.particles import Domain, Lattice
+from lasersph.solvers.ablation.settings import AblationSettings
+
+if TYPE_CHECKING:
+    from lasersph.case.case import Case
 
 LARGEST_PARTICLES = 2**32 - 1
 """Neighbors are numbered with 32 bits."""
@@ -19,6 +25,8 @@ LARGEST_STEPS = 1e9
 BYTES_PER_PARTICLE = 400
 BYTES_PER_NEIGHBOR = 56
 """Index and weight, and their copies while the list is assembled."""
+BYTES_PER_MOVING_NEIGHBOR = 24
+"""The same where matter moves: nothing is assembled."""
 ASSUMED_FINE_DEPTH = 2e-7
 USUAL_SUPPORT = {"quintic-spline": 3.75}
 
@@ -35,7 +43,27 @@ class Size:
         return f"{self.particles:.2g} particles, {in_words(self.bytes)}"
 
 
-def estimate(domain: Domain, lattice: Lattice, dimensions: int) -> Size:
+def size_of(case: Case) -> Size:
+    """Estimated size of a case; where cold matter sleeps, only the rest has neighbors."""
+    if not isinstance(case.solver, AblationSettings):
+        return estimate(case.domain, case.particles, case.solver.dimensions)
+    support = reach(case.particles) * case.particles.spacing
+    each = BYTES_PER_MOVING_NEIGHBOR * awake_share(case, support)
+    return estimate(case.domain, case.particles, case.solver.dimensions, bytes_per_neighbor=each)
+
+
+def reach(lattice: Lattice) -> float:
+    """Support radius over spacing."""
+    return lattice.support_ratio or USUAL_SUPPORT.get(lattice.kernel, 3.0)
+
+
+def estimate(
+    domain: Domain,
+    lattice: Lattice,
+    dimensions: int,
+    *,
+    bytes_per_neighbor: float = BYTES_PER_NEIGHBOR,
+) -> Size:
     """Estimated size of the particles of a block in 1, 2 or 3 dimensions."""
     sides = [high - low for low, high in domain.lateral(dimensions)]
 
@@ -54,9 +82,9 @@ def estimate(domain: Domain, lattice: Lattice, dimensions: int) -> Size:
             thickness /= lattice.ratio
         if depth < domain.depth:
             count += (domain.depth - depth) / lattice.coarsest * per_layer(lattice.coarsest)
-    reach = lattice.support_ratio or USUAL_SUPPORT.get(lattice.kernel, 3.0)
-    neighbors = {1: 2.0 * reach, 2: math.pi * reach**2, 3: 4.0 / 3.0 * math.pi * reach**3}
-    each = BYTES_PER_PARTICLE + BYTES_PER_NEIGHBOR * neighbors[dimensions]
+    ratio = reach(lattice)
+    neighbors = {1: 2.0 * ratio, 2: math.pi * ratio**2, 3: 4.0 / 3.0 * math.pi * ratio**3}
+    each = BYTES_PER_PARTICLE + bytes_per_neighbor * neighbors[dimensions]
     return Size(count, count * each)
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Discriminator
 
+from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
@@ -18,5 +19,7 @@ def _with_kind(value: Any) -> Any:
 
 
 SolverChoice = Annotated[
-    ConductionSettings | MeltPoolSettings, Discriminator("kind"), BeforeValidator(_with_kind)
+    ConductionSettings | MeltPoolSettings | AblationSettings,
+    Discriminator("kind"),
+    BeforeValidator(_with_kind),
 ]

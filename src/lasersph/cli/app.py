@@ -6,7 +6,16 @@ from typing import Annotated
 
 import typer
 
-from lasersph.cli import cache, cases, material, results, running, studies, validating
+from lasersph.cli import (
+    cache,
+    cases,
+    exporting,
+    material,
+    results,
+    running,
+    studies,
+    validating,
+)
 
 app = typer.Typer(
     name="lasersph",
@@ -24,8 +33,10 @@ app.command(rich_help_panel="Runs")(running.run)
 app.command(rich_help_panel="Runs")(results.info)
 app.command(rich_help_panel="Runs")(results.plot)
 app.command(rich_help_panel="Runs")(results.report)
+app.command(rich_help_panel="Runs")(exporting.export)
 app.command(rich_help_panel="Many runs")(studies.converge)
 app.command(rich_help_panel="Many runs")(studies.threshold)
+app.command(rich_help_panel="Many runs")(studies.spot)
 app.command(rich_help_panel="Many runs")(validating.validate)
 app.command("cache", rich_help_panel="Program")(cache.cache)
 

@@ -75,7 +75,8 @@ def _rows(case: Case, expected: Forecast, threads: int) -> list[tuple[str, str]]
     from lasersph.observers import duration
     from lasersph.reading import show_quantity
 
-    scheme = getattr(case.solver, "scheme", "heat implicit")
+    otherwise = "explicit" if case.solver.kind == "ablation" else "heat implicit"
+    scheme = getattr(case.solver, "scheme", otherwise)
     memory = f"{in_words(expected.memory)} of {in_words(machine_memory())}"
     rows = [
         ("case", case.title or case.name),

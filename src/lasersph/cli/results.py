@@ -21,13 +21,16 @@ Animate = Annotated[
     typer.Option("--animate", help="Write an animation of temperature and speed instead."),
 ]
 Format = Annotated[Literal["gif", "mp4"], typer.Option(help="Of the animation; mp4 needs ffmpeg.")]
+Scene = Annotated[
+    bool, typer.Option("--scene", help="Draw a 3-D crater with pyvista instead (extra `view`).")
+]
 
 
 def info(folder: RunFolder) -> None:
     """Show what a run folder holds: the case, how far it is, the main numbers."""
     from lasersph.reading import show_quantity
 
-    found = _opened(folder)
+    found = opened(folder)
     if found.is_complete:
         print(aligned(summary_rows(found.summary)))
         print(f"{folder}: complete")
@@ -40,12 +43,21 @@ def info(folder: RunFolder) -> None:
 
 
 def plot(
-    folder: RunFolder, kind: Kind = "png", animate: Animate = False, format: Format = "gif"
+    folder: RunFolder,
+    kind: Kind = "png",
+    animate: Animate = False,
+    format: Format = "gif",
+    scene: Scene = False,
 ) -> None:
-    """Draw the figures of a run into DIR/figures, or an animation of it."""
-    from lasersph.plots import animate_run, draw_run
+    """Draw the figures of a run into DIR/figures, or an animation or a 3-D scene of it."""
+    from lasersph.plots import animate_run, crater_scene, draw_run
 
-    _opened(folder)
+    run = opened(folder)
+    if scene:
+        target = run.path / "figures" / "crater-scene.png"
+        target.parent.mkdir(exist_ok=True)
+        print(crater_scene(run, target))
+        return
     if animate:
         print(animate_run(folder, format=format))
         return
@@ -57,11 +69,11 @@ def report(folder: RunFolder) -> None:
     """Write DIR/report.html: figures and numbers on one self-contained page."""
     from lasersph.report import write_report
 
-    _opened(folder)
+    opened(folder)
     print(write_report(folder))
 
 
-def _opened(folder: Path) -> Run:
+def opened(folder: Path) -> Run:
     """The run in a folder; a folder without one is a wrong command."""
     from lasersph.output import OutputError, open_run
 
@@ -84,6 +96,7 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         ("computed in", duration(summary["wall_time_s"])),
         ("highest temperature", f"{summary['temperature_max_K']:.1f} K"),
     ]
+    rows += crater_rows(summary)
     melt = summary.get("melt") or {}
     if melt.get("start_s") is not None:
         span = (show_quantity(melt[key], "s") for key in ("start_s", "end_s"))
@@ -102,4 +115,25 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     unit = energy.get("unit", "J")
     rows.append(("absorbed energy", f"{energy['absorbed_J']:.5g} {unit}"))
     rows.append(("energy imbalance", f"{energy['imbalance_relative']:.1e} of the absorbed"))
+    return rows
+
+
+def crater_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """The crater and what left it; nothing for a run without ablation."""
+    from lasersph.reading import show_quantity
+
+    crater, ejecta = summary.get("crater"), summary.get("ejecta")
+    if crater is None or ejecta is None:
+        return []
+    names = {"depth_m": "crater depth", "depth_mean_m": "mean crater depth",
+             "diameter_m": "crater diameter"}  # fmt: skip
+    rows = [
+        (text, show_quantity(crater[key], "m"))
+        for key, text in names.items()
+        if crater[key] is not None
+    ]
+    rows.append(("ejected", f"{ejecta['count']} particles, {ejecta['mass_kg']:.4g} "
+                 f"{ejecta['mass_unit']}"))  # fmt: skip
+    if ejecta["speed_mean_m_s"] is not None:
+        rows.append(("their mean speed", f"{ejecta['speed_mean_m_s']:.4g} m/s"))
     return rows

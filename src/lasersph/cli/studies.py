@@ -1,4 +1,4 @@
-"""`lasersph converge` and `threshold`: many runs for one answer."""
+"""`lasersph converge`, `threshold` and `spot`: many runs for one answer."""
 
 from __future__ import annotations
 
@@ -16,13 +16,21 @@ Spacings = Annotated[
     str, typer.Option("--spacing", metavar="A,B,C", help="Three or more, e.g. 32nm,16nm,8nm.")
 ]
 Of = Annotated[
-    Literal["melt", "vaporize"],
-    typer.Option("--of", help="Completely molten somewhere, or the boiling point reached."),
+    Literal["melt", "vaporize", "ablate"],
+    typer.Option(
+        "--of", help="Completely molten somewhere, the boiling point reached, or matter ejected."
+    ),
 ]
 Tolerance = Annotated[
     float,
     typer.Option(
         "--tolerance", min=1e-6, max=0.5, help="Half-width of the bracket over its middle."
+    ),
+]
+Fluences = Annotated[
+    str,
+    typer.Option(
+        "--fluence", metavar="A,B,...", help="Peak fluences, e.g. 5J/cm2,10J/cm2,20J/cm2."
     ),
 ]
 Json = Annotated[
@@ -63,7 +71,7 @@ def threshold(
     tolerance: Tolerance = 0.01,
     json_file: Json = None,
 ) -> None:
-    """Find the fluence at which melting or boiling begins, by bisection."""
+    """Find the fluence at which melting, boiling or ablation begins, by bisection."""
     from dataclasses import asdict
 
     from lasersph import studies
@@ -72,8 +80,10 @@ def threshold(
     loaded = load_case(case, settings or (), quick=quick)
     if loaded.laser is None:
         raise WrongCommand(f"{loaded.name} has no laser, so no threshold")
+    if of == "ablate" and loaded.solver.kind != "ablation":
+        raise WrongCommand(f'{loaded.name} ablates nothing: its solver is "{loaded.solver.kind}"')
     section = loaded.material.melting if of == "melt" else loaded.material.vaporization
-    if section is None or not loaded.solver.phase_change:
+    if section is None or not (loaded.solver.phase_change or of == "ablate"):
         raise WrongCommand(f"{loaded.name} computes no phase change to {of}, so no threshold")
     _refuse_missing_folder(json_file)
     folder = _new_folder(out or Path("runs") / f"{loaded.name}-threshold")
@@ -82,6 +92,45 @@ def threshold(
     )
     print(_answer(found))
     _write(json_file, asdict(found))
+
+
+def spot(
+    case: CaseName,
+    fluence: Fluences,
+    out: Out = None,
+    settings: Settings = None,
+    quick: Quick = False,
+    threads: Threads = None,
+    json_file: Json = None,
+) -> None:
+    """Ablate with a Gaussian spot at several fluences: threshold from D^2 over ln F, efficiency."""
+    from lasersph import studies
+    from lasersph.case import load_case
+    from lasersph.plots import style
+    from lasersph.plots.spot_threshold import spot_threshold_figure
+
+    wanted = [_fluence(text) for text in fluence.split(",") if text.strip()]
+    loaded = load_case(case, settings or (), quick=quick)
+    if reason := studies.no_spot(loaded, wanted):
+        raise WrongCommand(f"{loaded.name}: {reason}")
+    folder = _new_folder(out or Path("runs") / f"{loaded.name}-spot")
+    found = studies.spot_threshold(loaded, wanted, folder, run=_runner(threads), report=_report)
+    print(aligned(found.table(), header=True))
+    print(found.answer())
+    _write(json_file, found.as_dict())
+    print(style.save(spot_threshold_figure(found.as_dict()), folder / "spot-threshold.png"))
+
+
+def _fluence(text: str) -> float:
+    from lasersph.reading import QuantityError, parse_quantity
+
+    try:
+        value = parse_quantity(text.strip(), "fluence")
+    except QuantityError as error:
+        raise WrongCommand(f"--fluence: {error}") from None
+    if value <= 0.0:
+        raise WrongCommand(f'--fluence: "{text.strip()}" must be greater than 0')
+    return value
 
 
 def _answer(found: Any) -> str:

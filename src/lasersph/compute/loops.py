@@ -301,5 +301,5 @@ def _listed(value: Any) -> tuple | list:
 def _check(name: str, array: np.ndarray, length: int) -> None:
     if array.shape[-1] < length:
         raise ValueError(f"{name} has {array.shape[-1]} entries, {length} are needed")
-    if array.strides[-1] != array.itemsize:
+    if array.size and array.strides[-1] != array.itemsize:
         raise ValueError(f"{name} is not contiguous along its last axis")

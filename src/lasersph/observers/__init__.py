@@ -1,5 +1,9 @@
 """Observers look at a run after each step and never change it."""
 
+from lasersph.observers.ablation_view import AblationView
+from lasersph.observers.crater import Crater
+from lasersph.observers.crater_shape import CraterShape, crater_shape
+from lasersph.observers.ejecta import Ejecta
 from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_view import FlowView
 from lasersph.observers.melt_pool import MeltPool
@@ -8,12 +12,23 @@ from lasersph.observers.progress import Progress, Standing, duration
 from lasersph.observers.snapshots import SnapshotPlan, SnapshotSchedule, snapshot_fields
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_temperature import SurfaceTemperature
-from lasersph.observers.together import Observer, Observers, flow_observers, heat_observers
+from lasersph.observers.together import (
+    Observer,
+    Observers,
+    ablation_observers,
+    flow_observers,
+    heat_observers,
+)
+from lasersph.observers.traces import Trace, Traces
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import ENERGY_UNITS, View
 
 __all__ = [
     "ENERGY_UNITS",
+    "AblationView",
+    "Crater",
+    "CraterShape",
+    "Ejecta",
     "EnergyBudget",
     "FlowView",
     "MeltPool",
@@ -27,8 +42,12 @@ __all__ = [
     "Standing",
     "Steps",
     "SurfaceTemperature",
+    "Trace",
+    "Traces",
     "Vaporization",
     "View",
+    "ablation_observers",
+    "crater_shape",
     "duration",
     "flow_observers",
     "heat_observers",

@@ -27,6 +27,10 @@ UNITS = {
     "surface_gradient": "K/m",
     "surface_velocity": "m/s",
     "lid_pressure": "Pa",
+    "density": "kg/m^3",
+    "vapor_pressure": "Pa",
+    "normal": "1",
+    "stage": "1",
 }
 """Unit of each field of a snapshot."""
 
@@ -93,7 +97,8 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
     """What a snapshot holds beside the positions, in single precision: see `UNITS`.
 
     The history and the checkpoints keep double precision. With flow the fields of the surface
-    above the particles (`surface_temperature`, ...) are 0 for particles that do not lie at it.
+    above the particles (`surface_temperature`, ...) are 0 for particles that do not lie at it. With
+    ablation `stage` tells ejecta from the body, see `AblationView`.
     """
     count = view.temperature.size
     surface = np.zeros(count, dtype=np.uint8)
@@ -115,4 +120,11 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
             fields[name] = np.zeros(count)
             fields[name][flow.surface] = getattr(flow, name)
         marks["flows"] = flow.flows.astype(np.uint8)
+    if view.ablation is not None:
+        seen = view.ablation
+        fields["velocity"], fields["pressure"] = seen.velocity, seen.pressure
+        fields["speed"] = np.sqrt(np.sum(seen.velocity * seen.velocity, axis=0))
+        fields["density"], fields["vapor_pressure"] = seen.density, seen.vapor_pressure
+        fields["normal"] = seen.normal
+        marks["stage"] = seen.stage.astype(np.uint8)
     return {**{name: a.astype(np.float32) for name, a in fields.items()}, **marks}

@@ -6,15 +6,19 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 from lasersph.observers.box_flow import BoxFlow
+from lasersph.observers.crater import Crater
+from lasersph.observers.ejecta import Ejecta
 from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_extrema import FlowExtrema
 from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.lid_pressure import LidPressure
+from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.probes import Probe, Probes
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_speed import SurfaceSpeed
 from lasersph.observers.surface_temperature import SurfaceTemperature
+from lasersph.observers.traces import Trace, Traces
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import View
 
@@ -136,3 +140,31 @@ def flow_observers(
             BoxFlow(),
         ]
     )
+
+
+def ablation_observers(
+    dimension: int,
+    *,
+    probes: Sequence[Probe] = (),
+    traces: Sequence[Trace] = (),
+    axis: tuple[float, float] | None = None,
+    pulse_starts: Sequence[float] = (),
+    iterations: Sequence[str] = (),
+) -> Observers:
+    """What every run with ablation observes.
+
+    Args:
+        dimension, probes, iterations: as of `heat_observers`.
+        traces: particles that are followed.
+        axis: x and y of the beam's axis [m]; without a beam there is neither crater nor ejecta,
+            but the motion of the whole.
+        pulse_starts: times at which the pulses begin [s].
+    """
+    heat = heat_observers(dimension, probes=probes, iterations=iterations)
+    members: list[Observer] = [*heat.members]
+    if axis is not None:
+        crater = Crater(dimension, axis=axis, pulse_starts=tuple(pulse_starts))
+        members += [crater, Ejecta(dimension)]
+    else:
+        members.append(MatterMotion(dimension))
+    return Observers([*members, Traces(tuple(traces))])

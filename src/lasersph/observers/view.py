@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from lasersph.observers.ablation_view import AblationView
 from lasersph.observers.flow_view import FlowView
 
 ENERGY_UNITS = {1: "J/m^2", 2: "J/m", 3: "J"}
@@ -35,6 +36,7 @@ class View:
         evaporated: (surface,) thickness that has evaporated from each surface cell [m], where the
             run follows it.
         flow: velocity, pressure and what belongs to them; None in a run without flow.
+        ablation: crater and ejecta; None in a run without ablation.
     """
 
     time: float
@@ -57,6 +59,7 @@ class View:
     vaporization: float | None = None
     evaporated: np.ndarray | None = None
     flow: FlowView | None = None
+    ablation: AblationView | None = None
 
     @property
     def dimension(self) -> int:

@@ -73,7 +73,12 @@ def save(folder: Path, checkpoint: Checkpoint) -> Path:
     def write(stream: BinaryIO) -> None:
         checksum = hashlib.sha256()
         size = len(header).to_bytes(8, "little")
-        for piece in (FIRST_LINE, size, header, *(a.tobytes() for a in arrays.values())):
+        for piece in (
+            FIRST_LINE,
+            size,
+            header,
+            *(a.reshape(-1).view(np.uint8).data for a in arrays.values()),
+        ):
             checksum.update(piece)
             stream.write(piece)
         stream.write(checksum.digest())

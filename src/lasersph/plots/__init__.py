@@ -8,6 +8,9 @@ from lasersph.plots.comparison import (
     surface_speeds,
     surface_temperatures,
 )
+from lasersph.plots.crater_cut import crater_cut, ejecta_vectors
+from lasersph.plots.crater_scene import crater_scene
+from lasersph.plots.crater_view import crater_view
 from lasersph.plots.particle_map import particle_map
 from lasersph.plots.run_figures import draw_run
 from lasersph.plots.surface_flow import surface_flow_profiles
@@ -16,7 +19,11 @@ from lasersph.plots.surface_profiles import surface_profiles
 __all__ = [
     "animate_run",
     "arrangement",
+    "crater_cut",
+    "crater_scene",
+    "crater_view",
     "draw_run",
+    "ejecta_vectors",
     "melt_pools",
     "particle_map",
     "speed_extrema",

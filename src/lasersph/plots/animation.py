@@ -1,4 +1,5 @@
-"""An animation of a run from its snapshots: temperature, and speed with arrows where it flows.
+"""An animation of a run from its snapshots: temperature, and speed with arrows where it flows; of
+an ablation the cut through the crater with its ejecta.
 
 Colors keep their meaning over all frames. The gif needs nothing beside matplotlib; mp4 needs the
 program ffmpeg.
@@ -17,6 +18,8 @@ from lasersph.observers.box_sections import Box
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.errors import clear_errors
 from lasersph.plots import style
+from lasersph.plots.ablation_fields import has_ablation
+from lasersph.plots.crater_frames import crater_frames
 from lasersph.plots.flow_fields import (
     PlaneFlow,
     body_frame,
@@ -62,7 +65,8 @@ def animate_run(folder: str | Path, *, format: Format = "gif") -> Path:
     """Write an animation of a run to `figures/animation.gif` or `.mp4`.
 
     Args:
-        folder: the run folder; the run is in the plane and has at least 3 snapshots.
+        folder: the run folder; the run has at least 3 snapshots and is in the plane, or an
+            ablation in 2-D or 3-D.
         format: "gif", or "mp4" where ffmpeg is installed.
 
     Returns:
@@ -100,6 +104,8 @@ def refuse_what_does_not_move(run: Run) -> None:
         raise OutputError(
             f"{run.path} has {len(run.snapshots)} snapshots; an animation needs {LEAST_FRAMES}"
         )
+    if has_ablation(run) and run.snapshots.dimension == 3:
+        return
     if run.snapshots.dimension != 2:
         raise OutputError(f"{run.path} is no plane run: only those are animated")
 
@@ -107,6 +113,9 @@ def refuse_what_does_not_move(run: Run) -> None:
 def frames(run: Run) -> Iterator[Figure]:
     """One figure again and again, each time with another state."""
     times = frame_times(run)
+    if has_ablation(run):
+        yield from crater_frames(run, times)
+        return
     scene = scene_of(run, times)
     figure, axes = style.new_figure(height=scene.height)
     axes[0].remove()
@@ -206,7 +215,7 @@ def scene_of(run: Run, times: np.ndarray) -> Scene:
 def frame_times(run: Run) -> np.ndarray:
     """Times of the snapshots that are shown: of a melt pool those of its life, else all [s]."""
     times = run.snapshots.times
-    if not is_box(run):
+    if not is_box(run) and not has_ablation(run):
         history = run.history
         wet = history["time_s"][history.get("melt_depth_any_m", np.zeros(1)) > 0.0]
         if wet.size:

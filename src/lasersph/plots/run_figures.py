@@ -9,8 +9,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.errors import clear_errors
 from lasersph.plots import flow_history, history, style
+from lasersph.plots.ablation_fields import has_ablation
+from lasersph.plots.ablation_history import crater_history, trace_figure
 from lasersph.plots.arrangement import arrangement
 from lasersph.plots.box_lines import center_line_figure, heat_history
+from lasersph.plots.crater_cut import crater_cut, ejecta_vectors
+from lasersph.plots.crater_view import crater_view
 from lasersph.plots.flow_fields import is_box
 from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
 from lasersph.plots.particle_map import particle_map
@@ -46,9 +50,9 @@ def where_warm(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure |
     return draw_or_not
 
 
-def without_box(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:
-    """A drawing that says nothing about a closed box of liquid."""
-    return lambda run: None if is_box(run) else draw(run)
+def in_place(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:
+    """A drawing of metal that stays in one body, with its surface at z = 0."""
+    return lambda run: None if is_box(run) or has_ablation(run) else draw(run)
 
 
 DRAWINGS = (
@@ -68,13 +72,44 @@ DRAWINGS = (
     Drawing(
         "surface-profiles",
         "Temperature along the surface at several times.",
-        without_box(surface_profiles),
+        in_place(surface_profiles),
     ),
     Drawing(
         "particles",
         "Temperature and melt fraction of the particles near the surface, at the snapshot closest"
         " to the deepest melt (without melt: to the largest temperature).",
-        without_box(particle_map),
+        in_place(particle_map),
+    ),
+    Drawing(
+        "crater",
+        "Cut through the crater when it had its final volume: temperature of the body and of the"
+        " ejecta above it, with arrows of their velocity. Dashed: the original surface. In 1-D"
+        " temperature against height.",
+        crater_cut,
+    ),
+    Drawing(
+        "crater-3d",
+        "Surface of the crater and ejecta, colored by temperature.",
+        crater_view,
+    ),
+    Drawing(
+        "ejecta",
+        "Velocity of the ejecta in the cut through the crater, when a third and when all of the"
+        " volume had left.",
+        ejecta_vectors,
+    ),
+    Drawing(
+        "crater-history",
+        "Depth of the crater over time (above; the shade is the power of the light) and where the"
+        " absorbed energy went (below).",
+        crater_history,
+    ),
+    Drawing(
+        "traces",
+        "Temperature and speed of single particles. Regions of the first one: heated by conduction"
+        " (I), at or above the boiling point (II), ejected (III); its speed: at rest (I), the jump"
+        " (II), rising until it leaves (III), steady (IV).",
+        trace_figure,
     ),
     Drawing(
         "flow",

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from lasersph.observers.energy_budget import IMBALANCE_ALLOWED, IMBALANCE_ALLOWED_WITH_FLOW
+from lasersph.report.ablation_words import crater, limits_of
 from lasersph.report.flow_words import box_flow, pool_flow
 from lasersph.report.numbers import quantity, shown
 
 
 def verdict(summary: dict[str, Any]) -> str:
-    """What happened, in two to six sentences."""
+    """What happened, in two to eight sentences."""
     if "box" in summary:
         return " ".join([*box_flow(summary), *balance(summary)])
     parts = [hottest(summary)]
@@ -26,9 +27,10 @@ def verdict(summary: dict[str, Any]) -> str:
     else:
         parts += melting(melt)
     vapor = summary.get("vaporization")
-    if vapor is not None and vapor["start_s"] is not None:
+    if vapor is not None and vapor["start_s"] is not None and "crater" not in summary:
         parts.append(boiling(vapor))
-    return " ".join([*parts, *pool_flow(summary), *balance(summary)])
+    told = [*parts, *crater(summary), *pool_flow(summary), *balance(summary)]
+    return " ".join(told)
 
 
 def hottest(summary: dict[str, Any]) -> str:
@@ -109,7 +111,7 @@ def warnings_of(summary: dict[str, Any], events: list[dict[str, Any]]) -> list[s
 
 def notes_of(summary: dict[str, Any]) -> list[str]:
     """What is worth knowing beside the numbers."""
-    found = []
+    found = limits_of(summary)
     if summary.get("melt", {}).get("molten_at_end"):
         found.append(
             "The run ended while metal was still fluid: the end of melting is later than given."

@@ -11,10 +11,11 @@ from typing import Any
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.atomic import replace_text
 from lasersph.output.errors import clear_errors
+from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.animation import LEAST_FRAMES, animate_run
 from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.run_figures import DRAWINGS, draw_run
-from lasersph.report import flow_tables, tables
+from lasersph.report import ablation_tables, flow_tables, tables
 from lasersph.report.page import (
     contents,
     figure,
@@ -27,7 +28,7 @@ from lasersph.report.page import (
 )
 from lasersph.report.words import notes_of, verdict, warnings_of
 
-ANIMATION = "Temperature, and speed with arrows, in time."
+ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
 SET = "# --set "
 """What the lines above the text of case.toml begin with that tell its overrides."""
 SECTIONS = ("Results", "Figures", "Energy", "What was asked", "Computation", "Reproduce")
@@ -51,13 +52,20 @@ def write_report(folder: str | Path) -> Path:
             " go on with --resume"
         )
     images = draw_run(folder)
-    if has_flow(run) and len(run.snapshots) >= LEAST_FRAMES:
+    if is_moving(run):
         images.append(animate_run(folder))
     path = run.path / "report.html"
     with clear_errors("read", run.path):
         text = report_page(run, images)
     replace_text(path, text)
     return path
+
+
+def is_moving(run: Run) -> bool:
+    """Whether a run has something to animate: a flow in the plane, or a crater."""
+    if len(run.snapshots) < LEAST_FRAMES:
+        return False
+    return has_flow(run) or (has_ablation(run) and run.snapshots.dimension > 1)
 
 
 def report_page(run: Run, images: list[Path]) -> str:
@@ -95,9 +103,14 @@ def results(summary: dict[str, Any]) -> list[str]:
                 " width at f_m = 0.5, which is interpolated."
             )
         )
-    if rows := tables.vaporization(summary):
+    if (rows := tables.vaporization(summary)) and "crater" not in summary:
         body.append(table(rows))
     for rows, head in (
+        (ablation_tables.crater(summary), ("crater", "")),
+        (ablation_tables.ejecta(summary), ("ejecta", "")),
+        (ablation_tables.traces(summary), ablation_tables.TRACE_HEAD),
+        (ablation_tables.estimates(summary), ablation_tables.ESTIMATE_HEAD),
+        (ablation_tables.left_out(summary), ablation_tables.LEFT_OUT_HEAD),
         (flow_tables.speeds(summary), flow_tables.SPEED_HEAD),
         (flow_tables.layer(summary), ()),
         (flow_tables.extrema(summary), flow_tables.EXTREMA_HEAD),

@@ -12,8 +12,12 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.observers.view import View
 from lasersph.particles.layers import Layers, stack
 from lasersph.physics.heating import COLDEST, HOTTEST
+from lasersph.simulation.ablation_view import ablation_view_of
+from lasersph.simulation.build_ablation import ablation
 from lasersph.simulation.build_flow import with_flow
 from lasersph.simulation.flow_view import flow_view_of
+from lasersph.solvers.ablation.settings import AblationSettings
+from lasersph.solvers.ablation.solver import Ablation
 from lasersph.solvers.conduction.body import SUPPORT, assemble
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import Conduction
@@ -90,12 +94,14 @@ def fine_depth(case: Case) -> float:
     return max(least, estimate.safe_depth + 2.0 * support_ratio(case) * spacing)
 
 
-Solver = Conduction | MeltPool
+Solver = Conduction | MeltPool | Ablation
 
 
 def build(case: Case, backend: Backend) -> tuple[Layers, Solver]:
     """Particles and solver of a case."""
     layers = lay_out(case)
+    if isinstance(case.solver, AblationSettings):
+        return layers, ablation(case, backend, layers)
     body = assemble(
         backend,
         lattice=case.particles,
@@ -123,6 +129,8 @@ def _heat_settings(case: Case) -> ConductionSettings:
 
 def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
     """The state for observers."""
+    if isinstance(solver, Ablation):
+        return ablation_view_of(case, solver, step, limit)
     body, state, backend = solver.body, solver.state, solver.body.backend
     count, surface = body.count, body.filling.surface
     position, flow = body.filling.position[:, :count], None

@@ -8,11 +8,14 @@ from math import pi, sqrt
 import numpy as np
 
 from lasersph.case import Case
-from lasersph.case.size import BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
+from lasersph.case.size import BYTES_PER_MOVING_NEIGHBOR, BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
+from lasersph.case.sleeping import awake_share
 from lasersph.particles.layers import Layers
 from lasersph.reading import show_quantity
+from lasersph.simulation.ablation_forecast import ablation_steps, ablation_warnings
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
 from lasersph.simulation.flow_forecast import FlowForecast, flow_forecast
+from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import next_light
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
@@ -34,7 +37,7 @@ class Forecast:
     """Numbers of `lasersph check`.
 
     Attributes:
-        particles, layers: counts. pairs: estimate. memory: peak [bytes].
+        particles, layers: counts. pairs: estimate, of what is awake. memory: peak [bytes].
         spacing: finest, as used [m]. fine_depth: of the finest layers [m].
         limits: time-step limits [s] while the light is on. binding: name of the smallest.
         steps: estimate. wall_time: rough estimate [s] on `threads` threads.
@@ -61,11 +64,15 @@ class Forecast:
 def forecast(case: Case, *, threads: int = 1) -> Forecast:
     """Forecast of a case, without allocating its particles."""
     layers = lay_out(case)
-    pairs = layers.particle_count * _neighbors(case)
-    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * BYTES_PER_NEIGHBOR
+    awake = awake_share(case, support_ratio(case) * layers.spacing)
+    pairs = awake * layers.particle_count * _neighbors(case)
+    is_moving = isinstance(case.solver, AblationSettings)
+    each = BYTES_PER_MOVING_NEIGHBOR if is_moving else BYTES_PER_NEIGHBOR
+    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * each
     flow = None
     if isinstance(case.solver, MeltPoolSettings):
         flow = flow_forecast(case, layers.spacing, support_ratio(case) * layers.spacing)
+    notes = ablation_warnings(case, layers.spacing) if is_moving else []
     limits, steps, moving = _steps(case, layers, flow)
     flowing = FLOW_PRODUCTS["pool" if case.flow is None else "box"]
     products = (steps - moving) * PRODUCTS_PER_STEP[_scheme(case)] + moving * flowing
@@ -88,6 +95,7 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         warnings=(
             *_warnings(case, layers, length, penetration),
             *(flow.warnings if flow else ()),
+            *notes,
         ),
         flow=flow,
     )
@@ -95,6 +103,8 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
 
 def _scheme(case: Case) -> str:
     """Key of PRODUCTS_PER_STEP."""
+    if isinstance(case.solver, AblationSettings):
+        return "explicit"
     return case.solver.scheme if isinstance(case.solver, ConductionSettings) else "implicit"
 
 
@@ -108,6 +118,8 @@ def _steps(
 ) -> tuple[dict[str, float], int, int]:
     """Limits [s] while the light is on and while something flows, and the numbers of all steps and
     of those in which something flows."""
+    if isinstance(case.solver, AblationSettings):
+        return *ablation_steps(case, layers.spacing), 0
     time = case.time
     if time.is_fixed and time.step is not None:
         steps = int(np.ceil(time.end / time.step))

@@ -18,14 +18,23 @@ from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.compute.search import EscapedParticle
-from lasersph.observers import Observers, SnapshotSchedule, flow_observers, heat_observers
+from lasersph.observers import (
+    Observers,
+    SnapshotSchedule,
+    ablation_observers,
+    flow_observers,
+    heat_observers,
+)
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.particles.layers import Layers
+from lasersph.simulation.ablation_estimates import ablation_estimates
+from lasersph.simulation.ablation_view import pulse_starts
 from lasersph.simulation.build import Solver, build, view_of
 from lasersph.simulation.scales import dimensionless
+from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.state import NotConverged
 from lasersph.solvers.melt_pool.domain import PoolTooDeep
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
@@ -109,6 +118,15 @@ def _observers(case: Case, iterations: tuple[str, ...]) -> Observers:
     if isinstance(case.solver, MeltPoolSettings):
         return flow_observers(
             dimensions, box=case.flow is not None, probes=case.probes, iterations=iterations
+        )
+    if isinstance(case.solver, AblationSettings):
+        return ablation_observers(
+            dimensions,
+            probes=case.probes,
+            traces=case.traces,
+            iterations=iterations,
+            axis=None if case.laser is None else case.laser.position,
+            pulse_starts=pulse_starts(case),
         )
     return heat_observers(dimensions, probes=case.probes, iterations=iterations)
 
@@ -197,6 +215,8 @@ class _Loop:
             **self.observers.summary(),
             "dimensionless": dimensionless(self.case),
         }
+        if isinstance(self.case.solver, AblationSettings):
+            summary["estimates"] = ablation_estimates(self.case)
         self.folder.events.append("finished", time=state.time, step=self.steps)
         self.folder.log(f"finished after {self.steps} steps, {summary['wall_time_s']:.1f} s")
         self.folder.finish(summary)
@@ -219,7 +239,7 @@ class _Loop:
         self.folder.save_checkpoint(
             step=self.steps,
             time=state.time,
-            arrays={name: backend.to_host(array) for name, array in self.solver.fields.items()},
+            arrays={name: backend.look(array) for name, array in self.solver.fields.items()},
             scalars={
                 "limit": self.limit,
                 "wall_time": self._wall_time(),

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Any
 
+import numpy as np
 from pydantic import Field
 
 from lasersph.reading import Model, TemperatureDifference, Time
@@ -41,6 +42,8 @@ class TimeSettings(Model):
 
 TARGETS = ("end", "pulse edge", "snapshot")
 """Limits that are times to be hit; the others bound the step itself."""
+ROUNDING = 1e-9
+"""Share of a step by which it is stretched to hit a time, so that sums of steps may round."""
 
 
 def choose(limits: Mapping[str, float]) -> tuple[str, float, float]:
@@ -49,15 +52,23 @@ def choose(limits: Mapping[str, float]) -> tuple[str, float, float]:
     The way to a target is split evenly where one step falls short of it but two would not, so that
     no sliver of a step remains.
     """
-    name, step = binding(limits)
     bounds = {key: value for key, value in limits.items() if key not in TARGETS}
     if not bounds:
+        name, step = binding(limits)
         return name, step, step
     bound, pace = binding(bounds)
-    target = min((limits[key] for key in TARGETS if key in limits), default=float("inf"))
-    if pace >= target:
-        return name, step, pace
+    targets = {key: limits[key] for key in TARGETS if key in limits}
+    aim, target = binding(targets) if targets else ("", float("inf"))
+    if pace * (1.0 + ROUNDING) >= target:
+        return aim, target, pace
     return bound, 0.5 * target if 2.0 * pace > target else pace, pace
+
+
+def next_edge(pulse: Any, time: float, end: float) -> float | None:
+    """Time until the next edge of a pulse train before `end` [s]; None where there is none."""
+    marks = np.asarray(pulse.breakpoints(time, end))
+    ahead = marks[marks > time * (1 + 1e-12)]
+    return float(ahead.min()) - time if ahead.size else None
 
 
 def name_of_longest(has_light: bool) -> str:

@@ -14,6 +14,9 @@ from __future__ import annotations
 
 from lasersph.compute.vectors import dot
 
+SMALLEST_CONDUCTIVITY = 1e-30
+"""What a sum of two conductivities is divided by at least [W/(m K)]."""
+
 
 def diffusion(G_i, G_j, f_i, f_j, V_j, r_ij, dW_ij):
     """div(G grad f) at particle i with the arithmetic mean of G [unit of G f / m^2].
@@ -34,9 +37,10 @@ def conduction(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij):
 
     Args:
         T: temperature [K]. k: conductivity [W/(m K)]. V: volume [m^d]. r_ij: distance [m].
-        dW_ij: dW/dr [1/m^(d+1)].
+        dW_ij: dW/dr [1/m^(d+1)]. Two particles that conduct nothing exchange nothing.
     """
-    return V_i * V_j * 4.0 * k_i * k_j / (k_i + k_j) * (T_i - T_j) * dW_ij / r_ij
+    mean = 4.0 * k_i * k_j / max(k_i + k_j, SMALLEST_CONDUCTIVITY)
+    return V_i * V_j * mean * (T_i - T_j) * dW_ij / r_ij
 
 
 def weight(V_i, V_j, r_ij, dW_ij):
@@ -76,4 +80,4 @@ def flow(g_ij, P_i, P_j):
 
 def harmonic_flow(g_ij, T_i, T_j, k_i, k_j):
     """Heat flowing from j into i [W] with the harmonic mean of k, from assembled weights."""
-    return g_ij * 2.0 * k_i * k_j / (k_i + k_j) * (T_j - T_i)
+    return g_ij * 2.0 * k_i * k_j / max(k_i + k_j, SMALLEST_CONDUCTIVITY) * (T_j - T_i)

@@ -1,4 +1,4 @@
-"""Threshold of a case: the fluence at which melting or boiling begins, by bisection.
+"""Threshold of a case: the fluence at which melting, boiling or ablation begins, by bisection.
 
 The case's own energy (fluence, intensity, pulse_energy or power, whichever it gives) is varied:
 first doubled or halved until a run with the event and one without bracket the threshold, then the
@@ -15,7 +15,7 @@ from typing import Any, Literal
 from lasersph.lasers.laser import AMOUNTS
 from lasersph.studies.variation import Run, changed, simulate
 
-Event = Literal["melt", "vaporize"]
+Event = Literal["melt", "vaporize", "ablate"]
 UNITS = {"fluence": ("J/cm^2", 1e-4), "intensity": ("W/cm^2", 1e-4), "pulse_energy": ("J", 1.0),
          "power": ("W", 1.0)}  # fmt: skip
 """By the last part of the key: unit to show and its number of SI units."""
@@ -69,11 +69,12 @@ def threshold(
     run: Run = simulate,
     report: Callable[[str], None] | None = None,
 ) -> Threshold:
-    """Energy at which the hottest spot just melts completely or just reaches the boiling point.
+    """Energy at which the hottest spot just melts completely, just boils, or just ablates.
 
     Args:
         case: the case; its energy is the first guess.
-        of: "melt" (f_m = 1 somewhere) or "vaporize" (T_v reached).
+        of: "melt" (f_m = 1 somewhere), "vaporize" (T_v reached) or "ablate" (a particle left, so
+            that the threshold falls with the spacing).
         out: folder that receives the run folders of all trials.
         tolerance: half-width of the final bracket over its middle.
         bracket: a value without and one with the event, if known; both are run first.
@@ -119,6 +120,8 @@ class _Search:
         hottest = float(summary["temperature_max_K"])
         if self.of == "melt":  # the liquidus alone is not enough where melting is isothermal
             reached = (summary.get("melt") or {}).get("start_s") is not None
+        elif self.of == "ablate":
+            reached = bool(summary["ejecta"]["count"])
         else:
             reached = hottest >= self.temperature * (1.0 - 1e-9)
         self.trials.append(Trial(value, reached, hottest))
@@ -149,9 +152,9 @@ def _event_temperature(material: Any, of: Event) -> float:
     """Temperature of the event [K]; ValueError where the material has none."""
     if of == "melt" and material.melting is not None:
         return material.melting.liquidus
-    if of == "vaporize" and material.vaporization is not None:
+    if of in ("vaporize", "ablate") and material.vaporization is not None:
         return material.vaporization.temperature
-    data = {"melt": "melting", "vaporize": "vaporization"}.get(of)
+    data = {"melt": "melting", "vaporize": "vaporization", "ablate": "vaporization"}.get(of)
     if data is None:
-        raise ValueError(f'no threshold of "{of}"; choose "melt" or "vaporize"')
+        raise ValueError(f'no threshold of "{of}"; choose "melt", "vaporize" or "ablate"')
     raise ValueError(f"material {material.name!r} has no {data} data, so no threshold to {of}")

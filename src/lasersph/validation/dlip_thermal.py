@@ -22,6 +22,7 @@ from lasersph.output import Run
 from lasersph.plots import melt_pools, style, surface_temperatures
 from lasersph.plots.arrangement import arrangement
 from lasersph.simulation.build import build
+from lasersph.solvers.ablation.solver import Ablation
 from lasersph.validation.dlip_claims import both_metals, one_metal, value
 from lasersph.validation.dlip_columns import Columns
 from lasersph.validation.dlip_numbers import table_rows
@@ -216,7 +217,9 @@ def draw_particles(out_dir: Path, spacing: float) -> list[Path]:
     settings = ["solver.kind=conduction", f"particles.spacing={spacing} nm",
                 "domain.extent=full", f"particles.ratio={7 / 9}"]  # fmt: skip
     case = load_case("dlip-steel", settings)
-    filling = build(case, compute.cpu(threads=1))[1].body.filling
+    solver = build(case, compute.cpu(threads=1))[1]
+    assert not isinstance(solver, Ablation)
+    filling = solver.body.filling
     count = filling.count
     body = {"position": filling.position[:, :count], "width": filling.width[:, :count]}
     figure = arrangement(body, dummies=filling.position[:, count:], detail=440e-9)

@@ -17,14 +17,20 @@ MODULES = {
     "kernel-correction": "kernel_correction",
     "stefan": "stefan",
     "pulsed-heating": "pulsed_heating",
+    "quasi-1d-heating": "quasi_1d_heating",
     "gaussian-pulse": "gaussian_pulse",
     "dlip-thermal": "dlip_thermal",
     "lid-driven-cavity": "lid_driven_cavity",
     "taylor-green": "taylor_green",
     "marangoni-layer": "marangoni_layer",
     "natural-convection": "natural_convection",
+    "sound-wave": "sound_wave",
+    "hydrostatic-column": "hydrostatic_column",
+    "dam-break": "dam_break",
     "dlip-steel": "dlip_steel",
     "dlip-aluminium": "dlip_aluminium",
+    "ablation-aluminium": "ablation_aluminium",
+    "ablation-depth": "ablation_depth",
 }
 
 

@@ -5,11 +5,13 @@ import pytest
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.case import available_cases, estimate, load_case
 from lasersph.lasers import GaussianPulse, InterferenceBeam, SquarePulse
+from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 NAMES = (
-    "dlip-aluminium", "dlip-steel", "lid-driven-cavity", "marangoni-layer", "natural-convection",
-    "pulsed-heating", "stefan", "taylor-green",
+    "ablation-aluminium", "ablation-depth", "dam-break", "dlip-aluminium", "dlip-steel",
+    "hydrostatic-column", "lid-driven-cavity", "marangoni-layer", "natural-convection",
+    "pulsed-heating", "sound-wave", "stefan", "taylor-green",
 )  # fmt: skip
 
 
@@ -95,6 +97,20 @@ def test_natural_convection():
     lift = case.solver.gravity * float(material.expansion_at(300.0)) * difference
     assert lift / (nu * a) == pytest.approx(1e4, rel=1e-6)
     assert nu / a == pytest.approx(0.71, rel=1e-6)
+
+
+def test_matter_that_moves():
+    """Sound is ten times faster than what falls from the column's height; the sound wave runs once
+    around in 20 ns; the column is twice as high as wide."""
+    water, dam, wave = (load_case(n) for n in ("hydrostatic-column", "dam-break", "sound-wave"))
+    for case in (water, dam):
+        assert isinstance(case.solver, AblationSettings) and case.material.is_liquid
+        fall = (case.solver.gravity * case.domain.depth) ** 0.5
+        assert 10.0 <= case.solver.sound_speed / fall < 15.0
+    assert dam.domain.width is not None and dam.domain.depth == 2.0 * dam.domain.width
+    assert dam.vessel is not None and dam.vessel.right == pytest.approx(4.0 * dam.domain.width)
+    assert isinstance(wave.solver, AblationSettings)
+    assert wave.time.end * wave.solver.sound_speed == pytest.approx(wave.domain.depth)
 
 
 def test_stefan_number():

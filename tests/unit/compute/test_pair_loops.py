@@ -377,3 +377,12 @@ def test_prepared_pair_sum(backend):
     assert backend.to_host(out).tolist() == [1.0, 2.0, 3.0]
     loop(dt=1.0)
     assert backend.to_host(out).tolist() == [2.0, 2.0, 2.0]
+
+
+def test_no_particles(backend):
+    """Loops over nothing do nothing: arrays without entries are as good as others."""
+    empty = backend.zeros(0)
+    (total,) = backend.pointwise(
+        scaled, {"T": empty}, (empty, None), reduce=(None, "sum"), factor=2.0
+    )
+    assert total == 0.0

@@ -31,10 +31,16 @@ def test_binding_limit():
 
 @pytest.mark.parametrize(
     ("snapshot", "expected"),
-    [(10.0, ("light", 2.0, 2.0)), (3.0, ("light", 1.5, 2.0)), (1.5, ("snapshot", 1.5, 2.0))],
+    [
+        (10.0, ("light", 2.0, 2.0)),
+        (3.0, ("light", 1.5, 2.0)),
+        (1.5, ("snapshot", 1.5, 2.0)),
+        (2.0 + 1e-12, ("snapshot", 2.0 + 1e-12, 2.0)),
+    ],
 )
 def test_the_way_to_a_snapshot_is_split(snapshot, expected):
-    """With steps of 2 a snapshot 10 away changes nothing, 3 away two steps of 1.5 reach it."""
+    """With steps of 2 a snapshot 10 away changes nothing, 3 away two steps of 1.5 reach it, and one
+    that is 2 away but for rounding is reached at once."""
     assert choose({"end": 50.0, "light": 2.0, "snapshot": snapshot}) == expected
 
 

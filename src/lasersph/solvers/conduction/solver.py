@@ -15,7 +15,7 @@ from lasersph.solvers.conduction.published import PublishedStep
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.state import ENERGIES, HeatState, NotConverged
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
-from lasersph.solvers.time_step import TimeSettings, name_of_longest
+from lasersph.solvers.time_step import TimeSettings, name_of_longest, next_edge
 
 ARRAYS = ("enthalpy", "temperature", "potential", "melt_fraction", "vapor_fraction", "excess",
           "previous", "older", "evaporated")  # fmt: skip
@@ -141,10 +141,9 @@ class Conduction:
             else:
                 limits["first step"] = 1e-3 * time.end
         if pulse is not None:
-            marks = np.asarray(pulse.breakpoints(state.time, time.end))
-            ahead = marks[marks > state.time * (1 + 1e-12)]
-            if ahead.size:
-                limits["pulse edge"] = float(ahead.min()) - state.time
+            edge = next_edge(pulse, state.time, time.end)
+            if edge is not None:
+                limits["pulse edge"] = edge
         return limits
 
     def step(self, step: float, pace: float | None = None) -> float:

@@ -1,0 +1,131 @@
+"""Checks of cases whose matter moves and ablates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lasersph.boundaries.initial_motion import Rest, SoundWave
+from lasersph.reading import show_quantity
+from lasersph.solvers.ablation.settings import AblationSettings
+from lasersph.solvers.conduction.body import SUPPORT
+
+if TYPE_CHECKING:
+    from lasersph.case.case import Case
+
+ONLY_HERE = ("vessel", "motion", "ejection", "traces")
+REFUSED = {
+    "fixed-temperature": 'holds the face itself; write "wall" for particles of that temperature',
+    "prescribed-flux": 'is for bodies at rest; write "adiabatic" or "wall"',
+}
+SIDES = {1: (), 2: ("left", "right"), 3: ("left", "right", "front", "back")}
+
+
+def ablation_problems(case: Case) -> Iterator[tuple[str, str]]:
+    """(key, "what is wrong; what would be right") of all that concerns matter that moves."""
+    if not isinstance(case.solver, AblationSettings):
+        for key in ONLY_HERE:
+            if getattr(case, key):
+                yield (
+                    key,
+                    f'matter stays where it is where kind = "{case.solver.kind}"; write kind = '
+                    '"ablation" in [solver], or leave it out',
+                )
+        return
+    if case.flow is not None:
+        yield "flow", "is about a melt pool's box; say in [motion] how matter starts"
+    yield from _faces(case)
+    yield from _particles(case, case.solver)
+    yield from _motion(case, case.solver)
+    yield from _light(case, case.solver)
+
+
+def _faces(case: Case) -> Iterator[tuple[str, str]]:
+    dimensions = case.solver.dimensions
+    for face in ("surface", "bottom", *SIDES[dimensions]):
+        kind = case.boundaries.kind_of(face)
+        key = face if face in ("surface", "bottom") else "sides"
+        key = face if getattr(case.boundaries, face, None) else key
+        if kind in REFUSED:
+            yield f"boundaries.{key}", f'"{kind}" {REFUSED[kind]}'
+    if case.vessel is None:
+        return
+    for side in ("left", "right"):
+        if getattr(case.vessel, side) > 0.0 and dimensions == 1:
+            yield f"vessel.{side}", "a 1-D column has no sides; leave it out"
+        elif getattr(case.vessel, side) > 0.0 and case.boundaries.kind_of(side) == "periodic":
+            yield f"vessel.{side}", "no wall stands on a periodic side; leave it out"
+
+
+def _particles(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
+    if case.particles.arrangement != "uniform":
+        yield "particles.arrangement", 'particles that move need one size; write "uniform"'
+    width = case.domain.width
+    if width is None or solver.dimensions == 1:
+        return
+    ratio = case.particles.support_ratio or SUPPORT[case.particles.kernel]
+    reach = 2.0 * (ratio + solver.skin) * case.particles.spacing
+    for key, length, face in (
+        ("width", width, "left"),
+        ("breadth", case.domain.breadth or width, "front"),
+    ):
+        is_there = face == "left" or case.solver.dimensions == 3
+        if is_there and case.boundaries.kind_of(face) == "periodic" and length <= reach:
+            yield (
+                f"domain.{key}",
+                f"{show_quantity(length, 'm')} must be more than twice the support and its skin, "
+                f"{show_quantity(reach, 'm')}; take a wider domain or a finer spacing",
+            )
+
+
+def _motion(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
+    motion = case.motion
+    if isinstance(motion, SoundWave):
+        if case.boundaries.surface != "periodic":
+            yield (
+                "motion.kind",
+                'a sound wave runs through a block that is periodic in z; write surface = '
+                '"periodic" and bottom = "periodic" in [boundaries]',
+            )  # fmt: skip
+        if motion.amplitude > 0.1 * solver.sound_speed:
+            yield (
+                "motion.amplitude",
+                f"{motion.amplitude:g} m/s is no small wave where sound runs at "
+                f"{solver.sound_speed:g} m/s; take less than a tenth",
+            )
+    if isinstance(motion, Rest) and motion.hydrostatic and solver.gravity == 0.0:
+        yield "motion.hydrostatic", "nothing weighs anything without gravity in [solver]"
+
+
+def _light(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
+    material = case.material
+    if case.laser is None:
+        if case.ejection is not None:
+            yield "ejection", "nothing leaves without a [laser]; add one or leave it out"
+        return
+    if case.boundaries.surface not in ("free", "adiabatic"):
+        yield "boundaries.surface", 'a surface that ablates lies open; write "free"'
+    vapor = material.vaporization
+    if vapor is None or vapor.molar_mass is None:
+        yield (
+            "material",
+            f'"{material.name}" has no vaporization data with molar_mass, which ejection needs; '
+            'add them, or write kind = "conduction" in [solver]',
+        )
+    published = case.ejection is not None and case.ejection.model == "published"
+    if not solver.phase_change and not published:
+        yield (
+            "solver.phase_change",
+            "the enthalpy model of ejection is about latent heats; leave it out, or write model = "
+            '"published" in [ejection]',
+        )
+    rule = case.ejection
+    if rule is None or rule.reflectivity is None:
+        return
+    if case.laser.reflectivity not in (None, rule.reflectivity):
+        yield (
+            "ejection.preset",
+            f'"{rule.preset}" means a reflectivity of {rule.reflectivity:g}, but [laser] has '
+            "another; leave one of them out, or write leave and leave_distance instead of the "
+            "preset",
+        )

@@ -1,0 +1,41 @@
+"""Whether cold matter of a case sleeps until heat comes near, and how deep it will be awake.
+
+Heat is followed down to 1e-11 of its largest rise: erfc(4.8) of the penetration 2 sqrt(D t). Tiles
+wake ahead of it by some supports. An estimate, for sizes and forecasts only.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import TYPE_CHECKING
+
+from lasersph.boundaries.initial_motion import Rest
+from lasersph.solvers.ablation.settings import AblationSettings
+
+if TYPE_CHECKING:
+    from lasersph.case.case import Case
+
+PENETRATIONS = 9.6
+"""Depth of the awake over sqrt(D t)."""
+SUPPORTS = 4.0
+"""Supports that wake ahead of the heat."""
+
+
+def sleeps(case: Case) -> bool:
+    """Whether only what heat reaches is computed: light on matter at rest, without gravity."""
+    solver = case.solver
+    if case.laser is None or not isinstance(solver, AblationSettings) or not solver.sleep:
+        return False
+    return isinstance(case.motion or Rest(), Rest) and solver.gravity == 0.0
+
+
+def awake_share(case: Case, support: float) -> float:
+    """Estimated largest share of the particles that is awake at the end [1].
+
+    Args:
+        support: support radius of the particles [m].
+    """
+    if not sleeps(case):
+        return 1.0
+    heat = PENETRATIONS * sqrt(case.material.diffusivity_reference * case.time.end)
+    return min(1.0, (heat + SUPPORTS * support) / case.domain.depth)

@@ -1,0 +1,182 @@
+"""What single particles go through: temperature, speed, height, as in Figs. 20 and 23 of
+[Alshaer2017].
+
+A trace follows the particle that lies closest to a point at the start. The published regions are
+between its times:
+
+    temperature (Fig. 20)  I up to boiling, II up to leaving, III after
+    speed (Fig. 23)        I at rest, II the jump at boiling, III rising up to leaving, IV after
+
+The published acceleration is the mean one of region III of the speed; where a particle leaves in
+the step in which it starts to move, it is the speed over that step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field
+
+from lasersph.observers.ablation_view import CONDENSED, EJECTED, AblationView
+from lasersph.observers.crater import ablation_of
+from lasersph.observers.probes import weights_at
+from lasersph.observers.view import View
+from lasersph.reading import Length, Model
+
+AT_BOILING = 1e-9
+"""Relative distance below T_v that counts as T_v."""
+
+
+class Trace(Model):
+    """A named particle that is followed: the one closest to a point at the start."""
+
+    name: Annotated[
+        str,
+        Field(
+            min_length=1,
+            max_length=40,
+            pattern=r"^[A-Za-z0-9_-]+$",
+            description="letters, digits, - and _; names the history columns trace_<name>_...",
+        ),
+    ]
+    depth: Annotated[Length, Field(ge=0.0)] = Field(
+        default=0.0, description="below the original surface"
+    )
+    x: Length = Field(default=0.0, description="not used in 1-D")
+    y: Length = Field(default=0.0, description="used in 3-D")
+
+    def place(self, dimension: int) -> np.ndarray:
+        """Coordinates of the point, (dim,) [m]."""
+        return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
+
+
+@dataclass
+class Life:
+    """What has happened to a particle so far; times [s] are None before."""
+
+    particle: int
+    start: list[float]
+    temperature: float
+    speed: float = 0.0
+    height: float = 0.0
+    stage: int = CONDENSED
+    temperature_max: float = 0.0
+    melted_at: float | None = None
+    boiled_at: float | None = None
+    moved_at: float | None = None
+    speed_moved: float = 0.0
+    step_moved: float = 0.0
+    left_at: float | None = None
+    temperature_left: float | None = None
+    speed_left: float | None = None
+    vapor_pressure: float | None = None
+
+    def update(self, view: View, seen: AblationView) -> None:
+        """Look at the particle once more; one that the view leaves out has stayed as it was."""
+        k = self.particle
+        if k >= view.temperature.size:
+            return
+        self.temperature = float(view.temperature[k])
+        self.speed = float(np.linalg.norm(seen.velocity[:, k]))
+        self.height = float(view.position[-1, k])
+        self.stage = int(seen.stage[k])
+        self.temperature_max = max(self.temperature_max, self.temperature)
+        if self.melted_at is None and view.melt_fraction[k] > 0.0:
+            self.melted_at = view.time
+        boils = view.vaporization is not None and self.temperature >= view.vaporization * (
+            1.0 - AT_BOILING
+        )
+        if self.boiled_at is None and (boils or self.stage != CONDENSED):
+            self.boiled_at = view.time
+        if self.moved_at is None and self.stage != CONDENSED:
+            self.moved_at, self.speed_moved = view.time, self.speed
+            self.step_moved = view.time_step
+        if self.left_at is None and self.stage >= EJECTED:
+            self.left_at, self.temperature_left = view.time, self.temperature
+            self.speed_left = self.speed
+            self.vapor_pressure = float(seen.vapor_pressure[k])
+
+    @property
+    def acceleration(self) -> float | None:
+        """Mean acceleration in region III [m/s^2]; None before the particle has left."""
+        if self.left_at is None or self.moved_at is None or self.speed_left is None:
+            return None
+        lasted = self.left_at - self.moved_at
+        if lasted > 0.0:
+            return (self.speed_left - self.speed_moved) / lasted
+        return self.speed_left / self.step_moved if self.step_moved > 0.0 else None
+
+
+class Traces:
+    """Observes named particles."""
+
+    quantities = ("temperature_K", "speed_m_s", "z_m", "stage")
+
+    def __init__(self, traces: tuple[Trace, ...]) -> None:
+        """Raises ValueError where two traces have the same name."""
+        self.traces = traces
+        if len({trace.name for trace in traces}) < len(traces):
+            raise ValueError("two traces have the same name")
+        self.lives: list[Life] = []
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the history columns."""
+        return tuple(f"trace_{t.name}_{name}" for t in self.traces for name in self.quantities)
+
+    def observe(self, view: View) -> dict[str, float]:
+        """Temperature [K], speed [m/s], height z [m] and stage of each particle."""
+        seen = ablation_of(view)
+        if not self.lives:
+            self.lives = [found(trace, view) for trace in self.traces]
+        row: list[float] = []
+        for life in self.lives:
+            life.update(view, seen)
+            row += [life.temperature, life.speed, life.height, float(life.stage)]
+        return dict(zip(self.columns, row, strict=True))
+
+    def summary(self) -> dict[str, Any]:
+        """`traces`: where each particle began and when it melted, boiled and left."""
+        if not self.traces:
+            return {}
+        return {
+            "traces": {
+                trace.name: {
+                    "start_m": life.start,
+                    "melted_at_s": life.melted_at,
+                    "boiled_at_s": life.boiled_at,
+                    "moved_at_s": life.moved_at,
+                    "left_at_s": life.left_at,
+                    "temperature_max_K": life.temperature_max,
+                    "temperature_left_K": life.temperature_left,
+                    "temperature_end_K": life.temperature,
+                    "speed_moved_m_s": life.speed_moved,
+                    "speed_left_m_s": life.speed_left,
+                    "acceleration_m_s2": life.acceleration,
+                    "vapor_pressure_Pa": life.vapor_pressure,
+                }
+                for trace, life in zip(self.traces, self.lives, strict=True)
+            }
+        }
+
+    def state(self) -> dict[str, Any]:
+        """What `restore` needs."""
+        return {"lives": [asdict(life) for life in self.lives]}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from a state."""
+        self.lives = [Life(**values) for values in state["lives"]]
+
+
+def found(trace: Trace, view: View) -> Life:
+    """The particle of a trace, as it is in the first view."""
+    particles, _ = weights_at(view.position, trace.place(view.dimension), "nearest")
+    k = int(particles[0])
+    return Life(
+        particle=k,
+        start=[float(value) for value in view.position[:, k]],
+        temperature=float(view.temperature[k]),
+        height=float(view.position[-1, k]),
+    )

@@ -1,0 +1,149 @@
+"""The surface of a crater as a height map, and as files for other programs: CSV, STL, PLY.
+
+A height map holds, for each column of one particle's width, the upper face of the uppermost
+condensed particle. CSV gives it in meters, one line a column. STL (binary) [StlFormat] and PLY
+(ASCII) [PlyFormat] hold the surface as triangles between the centers of the columns, two for each
+four of them, normals upward, in micrometers: these formats know no units, and printers and viewers
+take small numbers for none.
+
+[StlFormat] 3D Systems, Stereolithography Interface Specification (1988).
+[PlyFormat] Turk, The PLY Polygon File Format (1994).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lasersph.output.atomic import replace_file, replace_text
+from lasersph.output.errors import OutputError
+
+CONDENSED = 0
+"""Stage of a particle of the body, see `observers.AblationView`."""
+MICROMETERS = 1e6
+KINDS = ("csv", "stl", "ply")
+
+
+@dataclass(frozen=True)
+class HeightMap:
+    """Height of the surface over a regular grid of columns.
+
+    Attributes:
+        x: (nx,) centers of the columns [m]. y: (ny,) [m]; in 2-D one value, 0.
+        z: (ny, nx) height [m], 0 at the original surface; NaN where nothing is left.
+        top: (ny, nx) number of the uppermost particle in the snapshot; -1 where nothing is left.
+        time: seconds.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    top: np.ndarray
+    time: float
+
+    def write(self, path: Path) -> Path:
+        """Write the map; the ending of the name says in which format: .csv, .stl, .ply.
+
+        Raises:
+            OutputError: another ending, a surface of one line as triangles, or the file cannot be
+                written.
+        """
+        kind = path.suffix.removeprefix(".").lower()
+        if kind not in KINDS:
+            raise OutputError(f'no format "{kind}" for a height map; there are {", ".join(KINDS)}')
+        if kind == "csv":
+            replace_text(path, self.as_csv())
+            return path
+        if min(self.z.shape) < 2:
+            raise OutputError(f"a 2-D crater is a line and has no {kind.upper()} surface; take csv")
+        if kind == "stl":
+            replace_file(path, lambda stream: stream.write(self.as_stl()))
+        else:
+            replace_text(path, self.as_ply())
+        return path
+
+    def as_csv(self) -> str:
+        """Lines of x, y, z in meters."""
+        x, y = np.meshgrid(self.x, self.y)
+        rows = np.column_stack([x.ravel(), y.ravel(), self.z.ravel()])
+        lines = (f"{a:.9g},{b:.9g},{c:.9g}" for a, b, c in rows)
+        return "x_m,y_m,z_m\n" + "\n".join(lines) + "\n"
+
+    def vertices(self) -> np.ndarray:
+        """Centers of the columns at their heights, (ny nx, 3) [um]; the lowest height where nothing
+        is left."""
+        x, y = np.meshgrid(self.x, self.y)
+        z = np.where(np.isnan(self.z), np.nanmin(self.z), self.z)
+        return MICROMETERS * np.column_stack([x.ravel(), y.ravel(), z.ravel()])
+
+    def triangles(self) -> np.ndarray:
+        """Numbers of the vertices of each triangle, (t, 3), counterclockwise from above."""
+        ny, nx = self.z.shape
+        number = np.arange(ny * nx).reshape(ny, nx)
+        a, b = number[:-1, :-1].ravel(), number[:-1, 1:].ravel()
+        c, d = number[1:, 1:].ravel(), number[1:, :-1].ravel()
+        return np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+
+    def as_stl(self) -> bytes:
+        """Binary STL: header, number of triangles, normal and corners of each, single precision."""
+        corners = self.vertices()[self.triangles()]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+        layout = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
+        facets = np.zeros(len(corners), layout)
+        facets["normal"], facets["corners"] = normal, corners
+        head = f"lasersph crater at {self.time:.6g} s, unit um".encode().ljust(80)
+        return head + np.uint32(len(corners)).tobytes() + facets.tobytes()
+
+    def as_ply(self) -> str:
+        """ASCII PLY of vertices and triangles."""
+        vertices, triangles = self.vertices(), self.triangles()
+        head = [
+            "ply", "format ascii 1.0", f"comment lasersph crater at {self.time:.6g} s, unit um",
+            f"element vertex {len(vertices)}",
+            *(f"property float {axis}" for axis in "xyz"),
+            f"element face {len(triangles)}", "property list uchar int vertex_indices",
+            "end_header",
+        ]  # fmt: skip
+        points = [f"{x:.7g} {y:.7g} {z:.7g}" for x, y, z in vertices]
+        faces = [f"3 {a} {b} {c}" for a, b, c in triangles]
+        return "\n".join([*head, *points, *faces]) + "\n"
+
+
+def height_map(step: Mapping[str, Any]) -> HeightMap:
+    """Height map of a snapshot of an ablation in 2-D or 3-D.
+
+    Args:
+        step: a snapshot with position, width and stage.
+
+    Raises:
+        OutputError: no ablation, or a run of one dimension.
+    """
+    if "stage" not in step or step["position"].shape[0] == 1:
+        raise OutputError("a height map needs a 2-D or 3-D run with ablation")
+    position, width = step["position"], float(np.min(step["width"]))
+    body = np.flatnonzero(step["stage"] == CONDENSED)
+    x, column = bins(position[0, body], width)
+    if position.shape[0] == 3:
+        y, row = bins(position[1, body], width)
+    else:
+        y, row = np.zeros(1), np.zeros(body.size, dtype=int)
+    place = row * x.size + column
+    upward = np.argsort(position[-1, body], kind="stable")
+    top = np.full(x.size * y.size, -1)
+    top[place[upward]] = body[upward]
+    z = np.where(top >= 0, position[-1, top] + 0.5 * step["width"][-1, top], np.nan)
+    shape = (y.size, x.size)
+    return HeightMap(x, y, z.reshape(shape), top.reshape(shape), float(step["time"]))
+
+
+def bins(values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
+    """Centers of equal columns that hold all values [m], and the column of each value."""
+    first = float(np.min(values))
+    count = int(np.round((float(np.max(values)) - first) / width)) + 1
+    number = np.clip(np.round((values - first) / width).astype(int), 0, count - 1)
+    return first + width * np.arange(count), number

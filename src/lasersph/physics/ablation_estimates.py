@@ -1,0 +1,99 @@
+"""Estimates beside an ablation: how deep light and heat go, what the model leaves out matters from.
+
+All arguments and results are floats in SI units.
+
+Phase explosion is taken to set in at 0.9 T_c [Kelly1996], shielding of the light by the vapor at
+T_c, where [Alshaer2017, Section 4.4] lets the vapor break down and absorb. A surface pinned at the
+boiling point never gets there; the temperature to compare is the one at which evaporation alone,
+with the latent heat and the kinetics of `evaporation`, carries the absorbed flux away:
+
+    0.82 p(T) / sqrt(2 pi R_s T) [c_p (T - T_0) + L_m + L_v] = q
+
+Recoil pressure moves the melt once it exceeds the capillary pressure 2 gamma / r of a pool of
+radius r: 0.54 p(T) = 2 gamma / r.
+
+References: [Alshaer2017] Comput. Mater. Sci. 127, 161; [Kelly1996] Kelly & Miotello, Appl. Surf.
+Sci. 96-98, 205; [Tam1992] Tam et al., J. Appl. Phys. 71, 3515, as cited by [Alshaer2017];
+[Hoffman2002] Hoffman & Szymanski, Optica Applicata 32, 129, as cited there.
+"""
+
+from __future__ import annotations
+
+from math import exp, log
+
+from lasersph.physics.evaporation import RECOIL_FACTOR, mass_flux, saturation_pressure
+
+PHASE_EXPLOSION = 0.9
+"""Temperature of phase explosion over the critical temperature [Kelly1996]."""
+EJECTION_ACCELERATION = 1e8
+"""Acceleration that ejects a particle without melting [m/s^2], [Tam1992]."""
+VAPOR_ABSORPTION = 4e-2
+"""Absorption coefficient of aluminium vapor below 4000 K [1/m], [Hoffman2002]."""
+HOTTEST = 1e6
+"""Where the search for a temperature ends [K]."""
+
+
+def light_left(depth: float, absorption_coefficient: float) -> float:
+    """Share of the light that is left at a depth, exp(-alpha z) [Alshaer2017, eqs. (3), (4)]."""
+    return exp(-absorption_coefficient * depth)
+
+
+def depth_of_light(share: float, absorption_coefficient: float) -> float:
+    """Depth at which a share of the light is left [m]: -ln(share) / alpha, from eq. (3).
+
+    [Alshaer2017] finds 0.004 % at 250 nm; with its alpha = 1.23e8 1/m that is the share at 82 nm.
+    """
+    return -log(share) / absorption_coefficient
+
+
+def absorbed_by_vapor(height: float, absorption_coefficient: float = VAPOR_ABSORPTION) -> float:
+    """Share of the light that vapor takes over a height [m]: 1 - exp(-a h)."""
+    return 1.0 - exp(-absorption_coefficient * height)
+
+
+def temperature_at_pressure(p: float, p_b: float, T_b: float, L_v: float, R_s: float) -> float:
+    """Temperature at which eq. (5) of [Alshaer2017] gives a pressure [K]; inf beyond its range.
+
+    1/T = 1/T_b - R_s/L_v ln(p/p_b)
+    """
+    inverse = 1.0 / T_b - R_s / L_v * log(p / p_b)
+    return 1.0 / inverse if inverse > 0.0 else float("inf")
+
+
+def evaporating_temperature(
+    flux: float,
+    *,
+    p_b: float,
+    T_b: float,
+    T_0: float,
+    c_p: float,
+    L_m: float,
+    L_v: float,
+    R_s: float,
+) -> float:
+    """Temperature at which evaporation alone carries a flux [W/m^2] away [K]; see above.
+
+    By bisection; T_b where that much evaporates below the boiling point, `HOTTEST` at most.
+    """
+
+    def carried(T: float) -> float:
+        pressure = saturation_pressure(T, p_b, T_b, L_v, R_s)
+        return mass_flux(T, pressure, R_s) * (c_p * (T - T_0) + L_m + L_v)
+
+    low, high = T_b, HOTTEST
+    if carried(low) >= flux:
+        return low
+    if carried(high) <= flux:
+        return high
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if carried(middle) < flux else (low, middle)
+    return 0.5 * (low + high)
+
+
+def recoil_moves_melt_at(
+    radius: float, *, surface_tension: float, p_b: float, T_b: float, L_v: float, R_s: float
+) -> float:
+    """Temperature at which the recoil pressure exceeds the capillary pressure 2 gamma / r [K]."""
+    pressure = 2.0 * surface_tension / (radius * RECOIL_FACTOR)
+    return temperature_at_pressure(pressure, p_b, T_b, L_v, R_s)

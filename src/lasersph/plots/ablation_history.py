@@ -1,0 +1,106 @@
+"""Figures of an ablation over time: crater and ejecta, and the traces of single particles.
+
+The traces are drawn with the regions of Fig. 20 (temperature) and Fig. 23 (speed) of [Alshaer2017].
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lasersph.output import Run
+from lasersph.plots import style
+from lasersph.plots.history import (
+    draw_corner_temperatures,
+    draw_pulse,
+    material_of,
+    summary_of,
+    time_axis,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+ROMAN = ("I", "II", "III", "IV")
+AROUND = 0.6
+"""Time shown after a particle left, over the time until then."""
+
+
+def crater_history(run: Run) -> Figure | None:
+    """Depth of the crater and share of the mass ejected over time; None without ablation."""
+    history = run.history
+    if "crater_depth_m" not in history:
+        return None
+    figure, (above, below) = style.new_figure(2, height=4.8, share_x=True)
+    time, name = time_axis(history)
+    unit = style.unit_for(float(np.max(history["crater_depth_max_m"])), style.LENGTHS)
+    draw_pulse(above, history, time)
+    names = {"depth": "at the axis", "depth_mean": "mean", "depth_max": "largest"}
+    columns = {text: history[f"crater_{key}_m"] for key, text in names.items()}
+    if run.case.get("solver", {}).get("dimensions") == 1:
+        smooth = history["crater_vaporized_volume_m"]
+        columns = {"whole layers": columns["at the axis"], "with the layer on its way": smooth}
+    for k, (text, values) in enumerate(columns.items()):
+        above.plot(time, values * unit.factor, style.LINES[k], color=style.COLORS[k], label=text)
+    style.label(above, "", f"depth of the crater [{unit.name}]")
+    style.legend(above)
+    energy = {"removed": "carried away by ejecta", "stored": "in the body"}
+    absorbed = max(float(history["energy_absorbed_J"][-1]), 1e-300)
+    for k, (term, text) in enumerate(energy.items()):
+        values = 100.0 * history[f"energy_{term}_J"] / absorbed
+        below.plot(time, values, style.LINES[k], color=style.COLORS[k], label=text)
+    style.label(below, name, "energy [% of the absorbed]")
+    style.legend(below)
+    below.set_xlim(time[0], time[-1])
+    return figure
+
+
+def trace_figure(run: Run) -> Figure | None:
+    """Temperature and speed of the traced particles over time, with the published regions.
+
+    None where no particle was traced.
+    """
+    history = run.history
+    names = [key.removeprefix("trace_").removesuffix("_stage") for key in history
+             if key.startswith("trace_") and key.endswith("_stage")]  # fmt: skip
+    if not names:
+        return None
+    figure, (above, below) = style.new_figure(2, height=5.2, share_x=True)
+    time, label = time_axis(history)
+    for k, name in enumerate(names):
+        color = style.COLORS[k % len(style.COLORS)]
+        above.plot(time, history[f"trace_{name}_temperature_K"], color=color, label=name)
+        below.plot(time, history[f"trace_{name}_speed_m_s"], color=color, label=name)
+    draw_corner_temperatures(above, material_of(run))
+    style.label(above, "", "temperature [K]")
+    style.label(below, label, "speed [m/s]")
+    below.set_ylim(bottom=0.0)
+    style.legend(above)
+    end = mark_regions(run, names[0], above, below)
+    below.set_xlim(time[0], min(end, time[-1]))
+    return figure
+
+
+def mark_regions(run: Run, name: str, above: Axes, below: Axes) -> float:
+    """Lines and Roman numbers of the regions of one trace; returns where the axis should end."""
+    found: dict[str, Any] = summary_of(run).get("traces", {}).get(name, {})
+    time, _ = time_axis(run.history)
+    factor = time[-1] / float(run.history["time_s"][-1])
+    left, boiled, moved = (found.get(key) for key in ("left_at_s", "boiled_at_s", "moved_at_s"))
+    if left is None or boiled is None or moved is None:
+        return float(time[-1])
+    end = max(left * (1.0 + AROUND), left + 0.02 * float(run.history["time_s"][-1]))
+    others = summary_of(run)["traces"].values()
+    end = max([end, *(1.1 * one["left_at_s"] for one in others if one["left_at_s"] is not None)])
+    for axes, edges in ((above, (0.0, boiled, left, end)), (below, (0.0, moved, moved, left, end))):
+        for edge in edges[1:-1]:
+            axes.axvline(edge * factor, color=style.GRAY, linewidth=0.7, linestyle=":")
+        for number, first, last in zip(ROMAN, edges, edges[1:], strict=False):
+            if last > first or number == "II":
+                axes.annotate(
+                    number, (0.5 * (first + last) * factor, 1.01), ha="center", va="bottom",
+                    xycoords=("data", "axes fraction"), fontsize=8.5, color=style.GRAY,
+                )  # fmt: skip
+    return end * factor

@@ -1,0 +1,231 @@
+"""A cut through the crater with its temperature and the ejecta above, as in Figs. 19 and 22 of
+[Alshaer2017]."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lasersph.observers.box_sections import Box
+from lasersph.output import Run
+from lasersph.plots import style
+from lasersph.plots.ablation_fields import (
+    Cut,
+    cut_frame,
+    has_ablation,
+    plane_cut,
+    telling_snapshot,
+)
+from lasersph.plots.flow_map import frame_unit, time_text
+from lasersph.plots.history import draw_corner_temperatures, material_of
+from lasersph.plots.particle_map import MAP_WIDTH
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+NARROW = 0.4
+"""A frame narrower than this part of its height is drawn wider than to scale."""
+BESIDE = 0.7
+"""Cuts higher than this part of their width are drawn beside each other."""
+ARROW = 0.06
+"""Length of the arrow of the fastest particle over the height of the picture or half its width."""
+MOST_ARROWS = 400
+PIXELS = (400, 800)
+
+
+def crater_cut(run: Run, time: float | None = None) -> Figure | None:
+    """Temperature of body and ejecta in the cut through the beam's axis, with velocities.
+
+    In 1-D the temperature against height.
+
+    Args:
+        run: the run.
+        time: seconds; if not given, when the crater had its final size.
+
+    Returns:
+        The figure; None where the run has no ablation.
+    """
+    if not has_ablation(run):
+        return None
+    step = telling_snapshot(run) if time is None else run.snapshots.nearest(time)
+    cut, frame = plane_cut(run, step), cut_frame(run)
+    if run.snapshots.dimension == 1:
+        return height_profile(cut, frame, material_of(run))
+    figure, (axes,) = style.new_figure(height=figure_height(frame))
+    draw_cut(axes, cut, frame, temperature_range(run))
+    axes.set_title(time_text(cut.time), fontsize=10, loc="left")
+    return figure
+
+
+def ejecta_vectors(run: Run, times: tuple[float, ...] = ()) -> Figure | None:
+    """The cut at several times below each other: speed and direction of the ejecta.
+
+    Args:
+        run: the run, 2-D or 3-D.
+        times: seconds; if not given, two: when a third and when all of the volume had left.
+
+    Returns:
+        The figure; None where nothing was ejected, or in 1-D.
+    """
+    if not has_ablation(run) or run.snapshots.dimension == 1:
+        return None
+    count = run.history["ejected_count"]
+    if count[-1] == 0.0:
+        return None
+    if not times:
+        moments = (count >= count[-1] / 3.0, count >= count[-1])
+        times = tuple(float(run.history["time_s"][np.argmax(one)]) for one in moments)
+    cuts = [plane_cut(run, run.snapshots.nearest(time)) for time in times]
+    frame, largest = cut_frame(run), 0.0
+    for cut in cuts:
+        largest = max(largest, float(np.max(np.hypot(*cut.velocity), initial=0.0)))
+    if largest == 0.0:
+        return None
+    if frame.height > BESIDE * frame.width:
+        figure, all_axes = style.new_figure(1, len(cuts), height=figure_height(frame) * 0.6 + 0.5)
+    else:
+        height = len(cuts) * (figure_height(frame) - 0.3)
+        figure, all_axes = style.new_figure(len(cuts), height=height)
+    arrows: Any = None
+    for axes, cut, letter in zip(all_axes, cuts, "abcdefgh", strict=False):
+        arrows = draw_speeds(axes, cut, frame, largest)
+        axes.set_title(f"({letter}) {time_text(cut.time)}", fontsize=10, loc="left")
+    bar = figure.colorbar(arrows, ax=all_axes, pad=0.015, aspect=22)
+    bar.set_label("speed [m/s]", fontsize=10)
+    return figure
+
+
+def figure_height(frame: Box) -> float:
+    """Height of a figure with one cut [inch]."""
+    return float(np.clip(MAP_WIDTH * frame.height / frame.width, 2.0, 5.6)) + 0.9
+
+
+def temperature_range(run: Run) -> tuple[float, float]:
+    """Lowest and highest temperature of the whole run [K]."""
+    coldest = float(np.min(run.snapshots[0]["temperature"]))
+    return coldest, max(float(np.max(run.history["temperature_max_K"])), coldest + 1.0)
+
+
+def draw_cut(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -> list[Any]:
+    """Body as cells and ejecta as dots, colored by temperature [K], with arrows of velocity.
+
+    Returns what was drawn of the ejecta.
+    """
+    unit = frame_unit(frame)
+    prepare(axes, frame, unit)
+    image = draw_body(axes, cut, frame, limits)
+    bar = axes.figure.colorbar(image, ax=axes, pad=0.015, aspect=22)
+    bar.set_label("temperature [K]", fontsize=10)
+    return draw_ejecta(axes, cut, frame, limits)
+
+
+def draw_body(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -> Any:
+    """The cells of the body; returns the image."""
+    unit = frame_unit(frame)
+    values = body_picture(cut, frame)
+    image = axes.imshow(
+        values, extent=extent_of(frame, unit), origin="lower", cmap=style.TEMPERATURE_COLORS,
+        interpolation="nearest", aspect="auto", zorder=2,
+    )  # fmt: skip
+    image.set_clim(*limits)
+    axes.set_aspect(aspect_of(frame))
+    return image
+
+
+def extent_of(frame: Box, unit: style.Unit) -> tuple[float, float, float, float]:
+    """Edges of the picture of the body: left, right, bottom and the original surface."""
+    return frame.left * unit.factor, frame.right * unit.factor, frame.bottom * unit.factor, 0.0
+
+
+def body_picture(cut: Cut, frame: Box) -> np.ndarray:
+    """Temperature of the body below the original surface as pixels [K]; NaN outside."""
+    numbers = cut.body.picture((frame.left, frame.right, frame.bottom, 0.0), PIXELS)
+    return cut.temperature(numbers)
+
+
+def draw_ejecta(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -> list[Any]:
+    """Dots of the ejecta in the frame, with arrows; returns what was drawn."""
+    shown = cut.flying[1] < frame.top
+    if not np.any(shown):
+        return []
+    unit = frame_unit(frame)
+    x, z = cut.flying[:, shown] * unit.factor
+    dots = axes.scatter(
+        x, z, s=9.0, c=cut.temperature(cut.ejecta)[shown], cmap=style.TEMPERATURE_COLORS,
+        vmin=limits[0], vmax=limits[1], linewidths=0.3, edgecolors="black", zorder=4,
+    )  # fmt: skip
+    some = np.arange(0, x.size, max(1, x.size // MOST_ARROWS))
+    velocity = cut.velocity[:, shown][:, some]
+    longest = arrow_length(frame) * unit.factor / max(float(np.max(np.hypot(*velocity))), 1e-300)
+    arrows = axes.quiver(
+        x[some], z[some], *(velocity * longest), angles="xy", scale_units="xy", scale=1.0,
+        color="0.35", width=0.0016, zorder=3,
+    )  # fmt: skip
+    return [dots, arrows]
+
+
+def draw_speeds(axes: Axes, cut: Cut, frame: Box, largest: float) -> Any:
+    """The body in gray, arrows of the ejecta colored by their speed [m/s]; returns the arrows."""
+    unit = frame_unit(frame)
+    prepare(axes, frame, unit)
+    is_body = np.where(np.isnan(body_picture(cut, frame)), np.nan, 1.0)
+    axes.imshow(
+        is_body, extent=extent_of(frame, unit), origin="lower", cmap="Greys", vmin=0.0, vmax=3.0,
+        interpolation="nearest", aspect="auto", zorder=2,
+    )  # fmt: skip
+    axes.set_aspect(aspect_of(frame))
+    shown = np.flatnonzero(cut.flying[1] < frame.top)
+    x, z = cut.flying[:, shown] * unit.factor
+    velocity = cut.velocity[:, shown]
+    longest = arrow_length(frame) * unit.factor / largest
+    arrows = axes.quiver(
+        x, z, *(velocity * longest), np.hypot(*velocity), angles="xy", scale_units="xy",
+        scale=1.0, cmap=f"{style.SPEED_COLORS}_r", width=0.0026, zorder=3,
+    )  # fmt: skip
+    arrows.set_clim(0.0, largest)
+    return arrows
+
+
+def prepare(axes: Axes, frame: Box, unit: style.Unit) -> None:
+    """Limits, names and the line of the original surface."""
+    axes.grid(False)
+    axes.axhline(0.0, color=style.GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+    style.label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
+    axes.set_xlim(frame.left * unit.factor, frame.right * unit.factor)
+    axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
+
+
+def arrow_length(frame: Box) -> float:
+    """Length of the arrow of the fastest particle [m]."""
+    return ARROW * max(frame.height, 0.5 * frame.width)
+
+
+def aspect_of(frame: Box) -> float:
+    """Height of a unit of z over the width of a unit of x; 1 unless the frame is narrow."""
+    shape = frame.width / frame.height
+    return 1.0 if shape >= NARROW else float(shape / NARROW)
+
+
+def height_profile(cut: Cut, frame: Box, corners: dict[str, Any]) -> Figure:
+    """Temperature over height of a 1-D run: body and ejecta."""
+    unit = style.unit_for(frame.height, style.LENGTHS)
+    figure, (axes,) = style.new_figure(height=3.6)
+    z, temperature = cut.body.center[1], cut.temperature(cut.body.number)
+    order = np.argsort(z)
+    axes.plot(
+        z[order] * unit.factor, temperature[order], ".-", ms=4, lw=1.0, color=style.COLORS[0],
+        label="body",
+    )  # fmt: skip
+    flying = cut.flying[1]
+    axes.plot(
+        flying * unit.factor, cut.temperature(cut.ejecta), "o", ms=5, color=style.COLORS[1],
+        label="ejecta",
+    )  # fmt: skip
+    axes.axvline(0.0, color=style.GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+    axes.set_xlim(frame.bottom * unit.factor, frame.top * unit.factor)
+    draw_corner_temperatures(axes, corners)
+    style.label(axes, f"z [{unit.name}]", "temperature [K]", title=time_text(cut.time))
+    style.legend(axes)
+    return figure

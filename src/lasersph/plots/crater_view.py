@@ -1,0 +1,96 @@
+"""The crater in three dimensions: surface colored by temperature, ejecta above, as in Fig. 18 of
+[Alshaer2017]. Drawn with matplotlib; `crater_scene` draws the same with pyvista."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lasersph.observers.ablation_view import EJECTED
+from lasersph.output import Run
+from lasersph.output.height_map import HeightMap, height_map
+from lasersph.plots import style
+from lasersph.plots.ablation_fields import has_ablation, telling_snapshot
+from lasersph.plots.crater_cut import temperature_range
+from lasersph.plots.flow_map import time_text
+from lasersph.plots.particle_map import Snapshot
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MOST_CELLS = 110
+"""Cells of the surface along an axis; finer maps are thinned."""
+MOST_EJECTA = 1500
+FLATTEST = 0.35
+"""Height of the picture over its width, at least; flat craters are drawn deeper than to scale."""
+
+
+def crater_view(run: Run, time: float | None = None) -> Figure | None:
+    """Surface of the crater and ejecta of a 3-D run, colored by temperature.
+
+    Args:
+        run: the run.
+        time: seconds; if not given, when the crater had its final size.
+
+    Returns:
+        The figure; None where the run is not in 3-D or has no ablation.
+    """
+    if not has_ablation(run) or run.snapshots.dimension != 3:
+        return None
+    from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+    from matplotlib.figure import Figure
+
+    step = telling_snapshot(run) if time is None else run.snapshots.nearest(time)
+    surface = height_map(step)
+    scale = Normalize(*temperature_range(run))
+    colors = colormaps[style.TEMPERATURE_COLORS]
+    unit = style.unit_for(float(np.ptp(surface.x)), style.LENGTHS)
+    figure = Figure(figsize=(style.WIDTH, 5.4), layout="constrained")
+    axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
+    draw_surface(axes, surface, colors(scale(surface_temperature(step, surface))), unit)
+    highest = draw_ejecta(axes, step, colors, scale, unit)
+    low = float(np.nanmin(surface.z)) * unit.factor
+    across = [float(np.ptp(side)) * unit.factor for side in (surface.x, surface.y)]
+    height = max(highest - low, 1e-12)
+    axes.set_box_aspect((across[0], across[1], max(height, FLATTEST * across[0])))
+    axes.view_init(elev=28.0, azim=-60.0)
+    for name in ("x", "y", "z"):
+        getattr(axes, f"set_{name}label")(f"{name} [{unit.name}]", fontsize=9)
+    axes.tick_params(labelsize=8)
+    figure.suptitle(time_text(step["time"]), fontsize=10)
+    bar = figure.colorbar(ScalarMappable(scale, colors), ax=axes, shrink=0.6, pad=0.08)
+    bar.set_label("temperature [K]", fontsize=10)
+    return figure
+
+
+def surface_temperature(step: Snapshot, surface: HeightMap) -> np.ndarray:
+    """Temperature of the uppermost particle of each column, (ny, nx) [K]; NaN where none is."""
+    return np.where(surface.top < 0, np.nan, step["temperature"][surface.top])
+
+
+def draw_surface(axes: Any, surface: HeightMap, colors: np.ndarray, unit: style.Unit) -> None:
+    """The height map as a lit surface."""
+    thin = max(1, -(-max(surface.z.shape) // MOST_CELLS))
+    x, y = np.meshgrid(surface.x[::thin], surface.y[::thin])
+    z = np.where(np.isnan(surface.z), np.nanmin(surface.z), surface.z)[::thin, ::thin]
+    axes.plot_surface(
+        x * unit.factor, y * unit.factor, z * unit.factor, facecolors=colors[::thin, ::thin],
+        rstride=1, cstride=1, linewidth=0.0, antialiased=False, shade=False, zorder=1,
+    )  # fmt: skip
+
+
+def draw_ejecta(axes: Any, step: Snapshot, colors: Any, scale: Any, unit: style.Unit) -> float:
+    """Ejecta as dots; returns the height of the highest, at least that of the surface."""
+    flying = np.flatnonzero(step["stage"] == EJECTED)
+    if flying.size == 0:
+        return 0.0
+    shown = flying[:: max(1, flying.size // MOST_EJECTA)]
+    x, y, z = step["position"][:, shown] * unit.factor
+    axes.scatter(
+        x, y, z, s=5.0, c=colors(scale(step["temperature"][shown])), depthshade=False,
+        linewidths=0.2, edgecolors="black", zorder=2,
+    )  # fmt: skip
+    return float(np.max(z))

@@ -1,0 +1,116 @@
+"""What observers see of matter that moves and ablates: arrays where they lie, not copied.
+
+After the first view particles that follow the last one awake are left out: cold, at rest and the
+deepest, since particles are numbered from the surface down.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lasersph.case import Case
+from lasersph.observers.ablation_view import AblationView
+from lasersph.observers.view import View
+from lasersph.physics.ejection import EJECTED
+from lasersph.solvers.ablation.solver import Ablation
+
+
+def pulse_starts(case: Case) -> tuple[float, ...]:
+    """Times at which the pulses of a case begin [s]."""
+    if case.laser is None:
+        return ()
+    pulse = case.laser.pulse
+    first, period = pulse.window[0], pulse.period or 0.0
+    return tuple(first + number * period for number in range(pulse.count))
+
+
+def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> View:
+    """The state for observers; particles of walls are left out."""
+    solver.find_surface()
+    matter, backend, state = solver.body, solver.backend, solver.state
+    level, layout = matter.now, matter.layout
+    count = _shown(solver) if step else matter.count
+    position = backend.look(level.x)[:, :count]
+    return View(
+        time=state.time,
+        step=step,
+        time_step=state.time_step,
+        position=position,
+        width=np.broadcast_to(np.array(layout.cell)[:, None], position.shape),
+        volume=np.broadcast_to(np.array(layout.volume), (count,)),
+        temperature=backend.look(level.T)[:count],
+        enthalpy=backend.look(level.h)[:count],
+        melt_fraction=backend.look(level.f_m)[:count],
+        vapor_fraction=backend.look(level.f_v)[:count],
+        surface=_surface(solver, count),
+        symmetry_factor=case.domain.symmetry_factor,
+        energy=dict(state.energy),
+        iterations=solver.iterations,
+        limit=limit,
+        solidus=matter.curve.solidus,
+        liquidus=matter.curve.liquidus,
+        vaporization=matter.curve.vaporization,
+        ablation=_moving(case, solver, count),
+    )
+
+
+def _shown(solver: Ablation) -> int:
+    """How many particles there are up to the last one that is awake."""
+    count = solver.body.count
+    if solver.rows is None:
+        return count
+    rows = solver.backend.look(solver.rows)
+    return int(rows[np.searchsorted(rows, count) - 1]) + 1
+
+
+def _surface(solver: Ablation, count: int) -> np.ndarray:
+    """Particles that the light meets; without light those of the free surface, or the first."""
+    backend = solver.backend
+    if solver.columns is not None:
+        found = backend.look(solver.columns.rows).astype(np.int64)
+        found = found[found < count]
+    else:
+        found = np.flatnonzero(backend.look(solver.exposure.exposed)[:count])
+    return found if found.size else np.zeros(1, np.int64)
+
+
+def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
+    """Crater, ejecta and flow."""
+    matter, backend, state = solver.body, solver.backend, solver.state
+    level = matter.now
+    flying = np.zeros(0, np.int64)
+    if state.left.count:
+        flying = backend.look(backend.rows_where(matter.stage, EJECTED)).astype(np.int64)
+    look = {
+        name: backend.look(array)[..., :count]
+        for name, array in (
+            ("stage", matter.stage), ("velocity", level.v), ("density", level.rho),
+            ("pressure", level.P), ("vapor_pressure", matter.p_v),
+            ("normal", solver.exposure.normal),
+        )
+    }  # fmt: skip
+    columns = solver.columns
+    dimension = matter.layout.dimension
+    pressure, speed = solver.extremes()
+    vapor = case.material.vaporization
+    return AblationView(
+        **look,
+        column_center=np.zeros((dimension - 1, 0)) if columns is None else columns.center,
+        column_width=float(matter.layout.cell[0]),
+        column_top=np.zeros(0) if columns is None else columns.tops(),
+        ejecta_position=backend.look(level.x)[:, flying],
+        ejecta_velocity=look["velocity"][:, flying],
+        ejecta_temperature=backend.look(level.T)[flying],
+        ejecta_mass=backend.look(matter.m)[flying],
+        ejecta_time=backend.look(matter.left_at)[flying],
+        ejected_count=state.left.count,
+        ejected_mass=state.left.mass,
+        ejected_energy=state.left.energy,
+        ejected_kinetic=state.left.kinetic,
+        gone_count=state.gone,
+        pressure_max=pressure,
+        speed_max_condensed=speed,
+        particle_mass=case.material.density_reference * matter.layout.volume,
+        density_reference=case.material.density_reference,
+        gas_constant=None if vapor is None else vapor.specific_gas_constant,
+    )

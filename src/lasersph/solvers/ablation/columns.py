@@ -1,0 +1,280 @@
+"""`Columns`: the beam shot down columns of one spacing onto the particles that it meets first.
+
+See `physics.columns` for who takes what. Which particles that are is found when particles have
+moved or left (`sort`), the light of a step in each step (`shine`), what of it they absorb from
+their temperatures (`absorb`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.backend import Backend
+from lasersph.lasers import Laser
+from lasersph.materials import Material
+from lasersph.particles.neighbors import NeighborList
+from lasersph.physics.columns import (
+    NOWHERE,
+    absorbed_light,
+    added,
+    corner,
+    cover_of_uppermost,
+    heated,
+    heights,
+    higher,
+    light_of,
+    owed,
+    place_along,
+    share_of,
+    top_of,
+)
+from lasersph.physics.ejection import GONE
+from lasersph.physics.heating import COLDEST, HOTTEST
+
+BAND = 0.5
+"""Depth over the spacing down to which particles of a column are uppermost."""
+
+
+class Columns:
+    """Columns over the surface, and the light in them.
+
+    Args:
+        bounds: lower and upper bound along x (and y) [m], empty in 1-D. periodic: which of these
+            axes are. deposit: (N,) what each particle absorbs in a step [J], kept up to date.
+
+    Attributes:
+        center: (dim - 1, columns) [m]. width: along each axis [m]. incident: light of the step on
+            all columns [J]; absorbed: what of it was; missed: what met no particle. up: against the
+            beam, a unit vector. rows: the particles that are met.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        laser: Laser,
+        material: Material,
+        bounds: Sequence[tuple[float, float]],
+        spacing: float,
+        periodic: Sequence[bool],
+        deposit: Any,
+    ) -> None:
+        self.backend, self.laser, self.spacing = backend, laser, spacing
+        self.dimension = len(bounds) + 1
+        self.deposit = deposit
+        self.incident = self.absorbed = self.missed = 0.0
+        counts = [max(1, round((high - low) / spacing)) for low, high in bounds]
+        self._shape = (*counts, 1, 1)[:2]
+        self._wraps = (*(float(wraps) for wraps in periodic), 0.0, 0.0)[:2]
+        self.width = np.array(
+            [(high - low) / n for (low, high), n in zip(bounds, counts, strict=True)]
+        )
+        self.count = self._shape[0] * self._shape[1]
+        edges = [low + np.arange(n) * w for (low, _), n, w in
+                 zip(bounds, counts, self.width, strict=True)]  # fmt: skip
+        mesh = np.meshgrid(*edges, indexing="ij") if edges else []
+        self._lower = np.array([part.ravel() for part in mesh]).reshape(len(edges), self.count)
+        self.center = self._lower + 0.5 * self.width[:, None]
+        self._low = [low for low, _ in bounds]
+        self.up = (0.0,) * (self.dimension - 1) + (1.0,)
+        table = laser.reflectivity_table(material, COLDEST, HOTTEST)
+        self._R_T, self._R_R = (backend.asarray(values) for values in table)
+        self._absorptivity = 1.0 - float(np.min(table[1]))
+        self._energy = backend.zeros(self.count + 1)
+        self._top, self._covers = backend.zeros(self.count + 1), backend.zeros(self.count + 1)
+        self._lit: list[tuple[Any, Any]] = []
+        self._lists: list[tuple[Any, Any, NeighborList]] = []
+        self._is_met = np.zeros(self.count, bool)
+        self._take(backend.zeros(0, "index"))
+
+    # --- who is met -----------------------------------------------------------------------------
+
+    def sort(self, position: Any, stage: Any, rows: Any) -> None:
+        """Find which particles the light meets first.
+
+        Args:
+            position: (dim, N) [m]. stage: (N,); what has left and walls are transparent. rows:
+                where to look, kind "index".
+        """
+        backend, self._sorted = self.backend, rows
+        size = max(rows.shape[0], self.count + 1)
+        x, stages = backend.zeros((self.dimension, size)), backend.zeros(size)
+        backend.fill(stages, GONE)
+        backend.gather(position, rows, x)
+        backend.gather(stage, rows, stages)
+        corners = self._corners(x, stages)
+        self._lists = [(column, cover, self._list(x, column)) for column, cover in corners]
+        self._find_tops()
+        shares, lit = [], backend.zeros(size)
+        for column, cover, _ in self._lists:
+            share = backend.zeros(size)
+            backend.pointwise(
+                share_of, {"x": x, "column": column, "cover": cover}, share, tops=self._top,
+                covers=self._covers, up=self.up, band=BAND * self.spacing,
+            )  # fmt: skip
+            backend.pointwise(marked, {"lit": lit, "share": share}, lit)
+            shares.append((column, share))
+        met = backend.rows_where(lit, 1.0)
+        self._lit = [
+            (self._gathered(column, met, "index"), self._gathered(share, met))
+            for column, share in shares
+        ]
+        backend.scatter(backend.zeros(self.rows.shape[0]), self.rows, self.deposit)
+        self._take(self._gathered(rows, met, "index"))
+
+    def _take(self, rows: Any) -> None:
+        """Let `rows` be what is met."""
+        self.rows = rows
+        self._light, self._temperature, self._absorbed = (
+            self.backend.zeros(rows.shape[0]) for _ in range(3)
+        )
+
+    def _corners(self, x: Any, stage: Any) -> list[tuple[Any, Any]]:
+        """Column and cover of each particle at each corner of its square."""
+        backend, size = self.backend, x.shape[1]
+        places = [(backend.zeros(size), backend.zeros(size)) for _ in range(2)]
+        for axis in range(self.dimension - 1):
+            unit = tuple(float(k == axis) for k in range(self.dimension))
+            backend.pointwise(
+                place_along, {"x": x}, places[axis], axis=unit, low=self._low[axis],
+                inverse=1.0 / float(self.width[axis]),
+            )  # fmt: skip
+        fields = {
+            "column_x": places[0][0], "beyond_x": places[0][1], "column_y": places[1][0],
+            "beyond_y": places[1][1], "stage": stage,
+        }  # fmt: skip
+        found = []
+        ends = [(0.0, 1.0)] * (self.dimension - 1) + [(0.0,)] * (3 - self.dimension)
+        for right, back in product(*ends):
+            column, cover = backend.zeros(size, "index"), backend.zeros(size)
+            backend.pointwise(
+                corner, fields, (column, cover), right=right, back=back,
+                count_x=float(self._shape[0]), count_y=float(self._shape[1]),
+                wraps_x=self._wraps[0], wraps_y=self._wraps[1],
+            )  # fmt: skip
+            found.append((column, cover))
+        return found
+
+    def _list(self, x: Any, column: Any) -> NeighborList:
+        """The particles of each column, as rows of a list."""
+        backend, total = self.backend, self.count + 1
+        start = backend.zeros(total + 1, "offset")
+        backend.exclusive_scan(backend.count_by_key(column, total), start)
+        order = backend.sort_by_key(column, total)
+        return NeighborList(
+            backend.head(start, total), order, x, backend.zeros(x.shape[1]), None, nothing, ()
+        )
+
+    def _find_tops(self) -> None:
+        """Height of the highest particle of each column, and the cover of its uppermost ones."""
+        backend, count = self.backend, self.count
+        highest, any_height, part, other = (backend.zeros(count) for _ in range(4))
+        backend.fill(highest, NOWHERE)
+        backend.fill(any_height, NOWHERE)
+        for _, cover, columns in self._lists:
+            backend.pair_sum(
+                heights, columns, {"cover": cover}, (part, other), combine=("max", "max"),
+                up=self.up,
+            )  # fmt: skip
+            backend.pointwise(higher, {"a": highest, "b": part}, highest)
+            backend.pointwise(higher, {"a": any_height, "b": other}, any_height)
+        top, covers = backend.head(self._top, count), backend.head(self._covers, count)
+        backend.pointwise(top_of, {"covering": highest, "any_height": any_height}, top)
+        backend.fill(covers, 0.0)
+        for _, cover, columns in self._lists:
+            backend.pair_sum(
+                cover_of_uppermost, columns, {"cover": cover, "top": top}, part, up=self.up,
+                band=BAND * self.spacing,
+            )  # fmt: skip
+            backend.pointwise(added, {"a": covers, "b": part}, covers)
+        self._is_met = backend.to_host(covers) > 0.0
+
+    def _gathered(self, source: Any, order: Any, kind: str = "real") -> Any:
+        out = self.backend.zeros(order.shape[0], kind)
+        self.backend.gather(source, order, out)
+        return out
+
+    def tops(self) -> np.ndarray:
+        """z of the upper face of the highest particle of each column [m]; NaN where none is."""
+        top = self.backend.to_host(self._top)[: self.count]
+        return np.where(top > NOWHERE, top + 0.5 * self.spacing, np.nan)
+
+    # --- what they take -------------------------------------------------------------------------
+
+    def largest_flux(self, start: float, end: float) -> float:
+        """Largest mean flux that a column may absorb from `start` to `end` [s], [W/m^2]."""
+        upper = self._lower + self.width[:, None]
+        density = self.laser.energy_density(self._lower, upper, start, end)
+        return self._absorptivity * float(np.max(density)) / (end - start)
+
+    def shine(self, start: float, end: float) -> None:
+        """Fix the light from `start` to `end` [s]; sets `incident` and `missed`."""
+        backend = self.backend
+        upper = self._lower + self.width[:, None]
+        density = self.laser.energy_density(self._lower, upper, start, end)
+        energy = density * np.prod(self.width)
+        self.incident = float(energy.sum())
+        self.missed = float(energy[~self._is_met].sum())
+        backend.copy(backend.asarray(np.append(energy, 0.0)), self._energy)
+        self._pour(self._energy)
+
+    def _pour(self, energy: Any) -> None:
+        """Let the energy of the columns (columns + 1,) [J] fall on what is met: `_light`."""
+        backend = self.backend
+        backend.fill(self._light, 0.0)
+        for column, share in self._lit:
+            fields = {"light": self._light, "column": column, "share": share}
+            backend.pointwise(light_of, fields, self._light, energy=energy)
+
+    def absorb(self, temperature: Any) -> None:
+        """Set `deposit` and `absorbed` from the temperatures (N,) of the particles [K]."""
+        backend = self.backend
+        backend.gather(temperature, self.rows, self._temperature)
+        fields = {"light": self._light, "T": self._temperature}
+        (self.absorbed,) = backend.pointwise(
+            absorbed_light, fields, self._absorbed, reduce=("sum",), R_T=self._R_T, R_R=self._R_R
+        )
+        backend.scatter(self._absorbed, self.rows, self.deposit)
+
+    def hand_down(self, excess: Any, position: Any, stage: Any, h: Any, m: Any) -> float:
+        """Give the excess of what has left to what is met now; sorts anew.
+
+        Args:
+            excess: (N,) [J]. position, stage: (dim, N) [m] and (N,), now. h: (N,) [J/kg], changed.
+                m: (N,) [kg].
+
+        Returns:
+            What was given [J]; less than the excess where columns are empty now.
+        """
+        backend, count = self.backend, self.count
+        size = self._lists[0][0].shape[0]
+        own, whole = backend.zeros(size), backend.zeros(size)
+        backend.gather(excess, self._sorted, own)
+        total, part = backend.zeros(count + 1), backend.zeros(count)
+        for _, cover, _ in self._lists:
+            backend.pointwise(added, {"a": whole, "b": cover}, whole)
+        for _, cover, columns in self._lists:
+            fields = {"excess": own, "cover": cover, "whole": whole}
+            backend.pair_sum(owed, columns, fields, part)
+            head = backend.head(total, count)
+            backend.pointwise(added, {"a": head, "b": part}, head)
+        self.sort(position, stage, self._sorted)
+        self._pour(total)
+        enthalpy, mass = self._gathered(h, self.rows), self._gathered(m, self.rows)
+        fields = {"h": enthalpy, "m": mass, "given": self._light}
+        (given,) = backend.pointwise(heated, fields, (enthalpy, None), reduce=(None, "sum"))
+        backend.scatter(enthalpy, self.rows, h)
+        return given
+
+
+def marked(lit, share):
+    """1 for a particle that takes a share of any column."""
+    return 1.0 if share > 0.0 else lit
+
+
+def nothing(l_i, l_j):
+    """Mean of supports that columns do not have."""
+    return l_i

@@ -1,0 +1,54 @@
+"""What leaves in a step, and what it takes along."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from lasersph.compute.backend import Backend
+from lasersph.materials import Material
+from lasersph.physics.ejection import departed
+from lasersph.physics.evaporation import STANDARD_ATMOSPHERE
+
+
+@dataclass(frozen=True)
+class Departure:
+    """Particles that left in a step: count, mass [kg], enthalpy and kinetic energy [J].
+
+    Per area in 1-D, per length in 2-D. Enthalpy counts from the initial temperature.
+    """
+
+    count: int = 0
+    mass: float = 0.0
+    energy: float = 0.0
+    kinetic: float = 0.0
+
+
+class Vapor:
+    """Constants of the vapor and the account of what leaves."""
+
+    def __init__(self, backend: Backend, material: Material, *, is_effusion: bool) -> None:
+        vaporization = material.vaporization
+        if vaporization is None:
+            raise ValueError(f"material {material.name!r} has no vaporization data")
+        self.backend = backend
+        self.temperature = vaporization.temperature
+        self.gas_constant = vaporization.specific_gas_constant
+        self.is_effusion = float(is_effusion)
+        self._boiling = {
+            "p_b": STANDARD_ATMOSPHERE, "T_b": vaporization.temperature,
+            "L_v": vaporization.latent_heat, "R_s": self.gas_constant,
+        }  # fmt: skip
+
+    def account(self, fields: dict[str, Any], rows: Any, time: float) -> Departure:
+        """Write `left_at` [s] and `p_v` [Pa] of what has just left; returns what it takes along.
+
+        Args:
+            fields: by symbol; stage, m, h, v, T, left_at, p_v. time: end of the step [s].
+        """
+        out = (fields["left_at"], fields["p_v"], None, None, None, None)
+        count, mass, energy, kinetic = self.backend.pointwise(
+            departed, fields, out, rows=rows, reduce=(None, None, "sum", "sum", "sum", "sum"),
+            time=time, **self._boiling,
+        )  # fmt: skip
+        return Departure(int(count), mass, energy, kinetic)

@@ -1,0 +1,72 @@
+"""Ejection by the enthalpy balance: what has taken up all latent heats leaves with them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from lasersph.compute.backend import Backend
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.physics.ejection import enthalpy_departure, light_limit
+from lasersph.solvers.ablation.columns import Columns
+from lasersph.solvers.ablation.departure import Departure, Vapor
+
+LIGHT_SHARE = 0.1
+"""Share of the enthalpy of the vapor that a step of light may bring, so that layers leave one by
+one and their times are known to a tenth of that between two."""
+
+
+class EnthalpyEjection:
+    """Particles leave when  h >= h_v = c_p (T_v - T_0) + L_m + L_v  and take exactly h_v along.
+
+    What the last step brought beyond h_v goes down the columns of the light to what they uncover.
+
+    Args:
+        curve: caloric curve with a plateau at the vaporization temperature.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        vapor: Vapor,
+        curve: CaloricCurve,
+        columns: Columns,
+        count: int,
+        spacing: float,
+    ) -> None:
+        if curve.enthalpy_vaporized is None:
+            raise ValueError("the enthalpy rule needs a caloric curve with a vaporization plateau")
+        self.backend, self.vapor, self.columns = backend, vapor, columns
+        self.spacing = spacing
+        self.enthalpy_vaporized = curve.enthalpy_vaporized
+        self._excess = backend.zeros(count)
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Arrays that survive a step beside those of the particles: none."""
+        return {}
+
+    def longest_step(self, flux: float, density: float) -> float:
+        """Longest step [s] at a flux absorbed by the surface [W/m^2]."""
+        return light_limit(LIGHT_SHARE, density, self.spacing, self.enthalpy_vaporized, flux)
+
+    def leave(
+        self, fields: dict[str, Any], pairs: Any, rows: Any, time: float, step: float
+    ) -> Departure:
+        """Set stage, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
+
+        Args:
+            fields: by symbol; x, stage, v, h, T, m, E, exposed, normal, left_at, p_v.
+        """
+        stage, h = fields["stage"], fields["h"]
+        (excess,) = self.backend.pointwise(
+            enthalpy_departure, fields | {"light": fields["E"]},
+            (stage, fields["v"], h, self._excess), rows=rows, reduce=(None, None, None, "sum"),
+            h_v=self.enthalpy_vaporized, R_s=self.vapor.gas_constant,
+            is_effusion=self.vapor.is_effusion, up=self.columns.up,
+        )  # fmt: skip
+        departure = self.vapor.account(fields, rows, time)
+        if excess == 0.0:
+            return departure
+        given = self.columns.hand_down(self._excess, fields["x"], stage, h, fields["m"])
+        return replace(departure, energy=departure.energy + excess - given)

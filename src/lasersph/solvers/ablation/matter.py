@@ -1,0 +1,132 @@
+"""`Matter`: the particles of a run that moves, at the start of a step and in its middle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.backend import Backend
+from lasersph.materials import Material
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.physics.ejection import CONDENSED, WALL
+from lasersph.solvers.ablation.layout import Layout, Start
+from lasersph.solvers.ablation.rates import derived
+
+HOTTEST = 5e4
+"""End of the table of conductivities [K]; its last law goes on."""
+
+
+@dataclass(frozen=True)
+class Level:
+    """Fields at one time, (N,) and (dim, N): x, v, rho, h, and what follows from them."""
+
+    x: Any
+    v: Any
+    rho: Any
+    h: Any
+    T: Any
+    f_m: Any
+    f_v: Any
+    k: Any
+    P: Any
+    V: Any
+
+    @classmethod
+    def empty(cls, backend: Backend, dimension: int, total: int) -> Level:
+        """All zero."""
+        vectors = [backend.zeros((dimension, total)) for _ in range(2)]
+        return cls(*vectors, *(backend.zeros(total) for _ in range(8)))
+
+
+class Matter:
+    """Fields of the particles; the first `count` of N are material, the others walls.
+
+    Attributes:
+        now, half: fields at the start and in the middle of the step. m: mass [kg per (3 - d)
+            lengths]. M: acting mass. support: [m]. stage: of the life of each particle.
+        conducts: 1, or 0 of walls without heat. opaque: 1 of what has not been ejected.
+        E: light absorbed in the step [J]. left_at: time of leaving [s], 0 before. p_v: vapor
+            pressure at leaving [Pa].
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        layout: Layout,
+        start: Start,
+        material: Material,
+        curve: CaloricCurve,
+        *,
+        enthalpy: np.ndarray,
+        support: float,
+        sound_speed: float,
+        has_tension: bool,
+        melts_at: float,
+    ) -> None:
+        self.backend, self.layout, self.material, self.curve = backend, layout, material, curve
+        self.count, self.total = layout.count, layout.total
+        total, dimension = self.total, layout.dimension
+        self.now = Level.empty(backend, dimension, total)
+        self.half = Level.empty(backend, dimension, total)
+        self.m = backend.asarray(start.density * layout.volume)
+        self.support = backend.asarray(np.full(total, support))
+        stage = np.full(total, CONDENSED)
+        stage[self.count :] = WALL
+        self.stage = backend.asarray(stage)
+        self.conducts = backend.asarray(start.conducts)
+        self.M, self.opaque, self.E, self.left_at, self.p_v = (
+            backend.zeros(total) for _ in range(5)
+        )
+        T, k = material.table("conductivity", 1.0, HOTTEST)
+        self._tables = {
+            "h_nodes": backend.asarray(curve.enthalpy),
+            "T_nodes": backend.asarray(curve.temperature),
+            "P_nodes": backend.asarray(curve.potential),
+            "m_nodes": backend.asarray(curve.melt_fraction),
+            "v_nodes": backend.asarray(curve.vapor_fraction),
+            "k_T": backend.asarray(T),
+            "k_nodes": backend.asarray(k),
+        }
+        self._constants = {
+            "melts_at": melts_at,
+            "rho_0": material.density_reference,
+            "c_0": sound_speed,
+            "has_tension": float(has_tension),
+        }
+        for array, target in (
+            (start.position, self.now.x),
+            (start.velocity, self.now.v),
+            (start.density, self.now.rho),
+            (enthalpy, self.now.h),
+        ):
+            backend.copy(backend.asarray(array), target)
+        self.refresh(self.now)
+
+    def fields(self, level: Level | None = None) -> dict[str, Any]:
+        """Arrays by symbol, those of `level` or of the start of the step."""
+        return vars(level or self.now) | {
+            "m": self.m, "M": self.M, "l": self.support, "stage": self.stage,
+            "opaque": self.opaque, "conducts": self.conducts, "E": self.E,
+            "left_at": self.left_at, "p_v": self.p_v,
+        }  # fmt: skip
+
+    def refresh(self, level: Level, rows: Any = None) -> None:
+        """Set what follows from enthalpy, density and stage."""
+        fields = {
+            "h": level.h, "rho": level.rho, "m": self.m, "stage": self.stage,
+            "conducts": self.conducts,
+        }  # fmt: skip
+        out = (level.T, level.f_m, level.f_v, level.k, level.P, level.V, self.M, self.opaque)
+        self.backend.pointwise(derived, fields, out, rows=rows, **self._tables, **self._constants)
+
+    def enter(self, rows: Any) -> None:
+        """Let the middle of the step know particles that take part from now on."""
+        for name, array in vars(self.now).items():
+            self.backend.pointwise(same, {"value": array}, getattr(self.half, name), rows=rows)
+
+
+def same(value):
+    """A copy of a field, in chosen rows."""
+    return 1.0 * value

@@ -1,0 +1,85 @@
+"""Half and whole steps of matter that moves: density, velocity, position and enthalpy.
+
+y' = y + dt/2 f(y),    y + dt f(y')              [Alshaer2017, eqs. (29), (30)]
+"""
+
+from __future__ import annotations
+
+from math import isfinite, sqrt
+from typing import Any
+
+from lasersph.solvers.ablation.exposure import Exposure
+from lasersph.solvers.ablation.matter import Level, Matter
+from lasersph.solvers.ablation.numbers import Numbers
+from lasersph.solvers.ablation.pairs import Pairs
+from lasersph.solvers.ablation.rates import foreseen, moved, pair_rates, rates
+from lasersph.solvers.ablation.state import AblationState
+from lasersph.solvers.conduction.state import NotConverged
+
+THINNEST = 0.01
+"""Share of the density at rest below which a step has failed."""
+
+
+class MovingStep:
+    """Rates of all that changes, and the steps that they lead to."""
+
+    def __init__(
+        self, matter: Matter, pairs: Pairs, exposure: Exposure, numbers: Numbers,
+        state: AblationState,
+    ) -> None:  # fmt: skip
+        backend, dimension = matter.backend, matter.layout.dimension
+        self.matter, self.pairs, self.exposure, self.state = matter, pairs, exposure, state
+        self._a = backend.zeros((dimension, matter.total))
+        self._drho, self._dh = (backend.zeros(matter.total) for _ in range(2))
+        self._constants = {
+            "h_s": numbers.smoothing, "c_0": numbers.sound_speed, "g": numbers.gravity,
+            "alpha_solid": numbers.alpha_solid, "alpha_liquid": numbers.alpha_liquid,
+            "factor": numbers.weight_factor, "up": (0.0,) * (dimension - 1) + (1.0,),
+            **numbers.ambient,
+        }  # fmt: skip
+
+    def evaluate(self, level: Level, step: float, rows: Any) -> float:
+        """Find the rates at a level, and what limits the next step; returns the heat lost [W]."""
+        matter, state = self.matter, self.state
+        pairs = self.pairs.now if level is matter.now else self.pairs.half
+        lost, square, fourth = matter.backend.pair_sum(
+            pair_rates, pairs, matter.fields(level) | {"A": self.exposure.area},
+            (self._drho, self._a, self._dh, None, None, None), rows=rows, finish=rates,
+            reduce=(None, None, None, "sum", "max", "max"), step=step, **self._constants,
+        )  # fmt: skip
+        state.closing = fourth**0.25
+        state.acceleration = sqrt(square)
+        state.is_balanced = square == 0.0
+        return lost
+
+    def foresee(self, step: float, rows: Any) -> float:
+        """Energy that the step brings [J].
+
+        Raises:
+            NotConverged: it is not finite, or matter would thin out.
+        """
+        matter = self.matter
+        fields = {
+            "m": matter.m, "rho": matter.now.rho, "a": self._a, "drho": self._drho, "dh": self._dh,
+        }  # fmt: skip
+        stored, thinnest, force = matter.backend.pointwise(
+            foreseen, fields, (None, None, None), rows=rows, reduce=("sum", "min", "sum"), dt=step
+        )
+        least = THINNEST * matter.material.density_reference
+        if not (isfinite(stored) and isfinite(force) and thinnest > least):
+            raise NotConverged(f"a step of {step:.4g} s is unstable; take shorter ones")
+        return stored
+
+    def move(self, target: Level, rate: Level, step: float, rows: Any) -> None:
+        """Write the start of the step advanced by `step` [s] into a level.
+
+        Args:
+            rate: level that the rates were found at; positions move with its velocity.
+        """
+        now = self.matter.now
+        fields = {
+            "x": now.x, "v": now.v, "rho": now.rho, "h": now.h, "stage": self.matter.stage,
+            "v_then": rate.v, "a": self._a, "drho": self._drho, "dh": self._dh,
+        }  # fmt: skip
+        out = (target.x, target.v, target.rho, target.h)
+        self.matter.backend.pointwise(moved, fields, out, rows=rows, dt=step)

@@ -1,0 +1,32 @@
+"""Constants of a run whose matter moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Constants of a run.
+
+    Attributes:
+        smoothing: h [m]. sound_speed: c_0 [m/s]. gravity: [m/s^2]. courant: CFL number.
+        alpha_solid, alpha_liquid: artificial viscosity [1].
+        viscous_rate, diffusive_rate: of what stops and cools fastest on the lattice [1/s].
+        weight_factor: of the conduction weights [1].
+        ambient: T_a, h_c, eps of the surroundings, as in `losses.surface_loss`.
+        low, high: corners of the box in which ejecta are followed [m].
+    """
+
+    smoothing: float
+    sound_speed: float
+    gravity: float
+    courant: float
+    alpha_solid: float
+    alpha_liquid: float
+    viscous_rate: float
+    diffusive_rate: float
+    weight_factor: float
+    ambient: dict[str, float]
+    low: tuple[float, ...]
+    high: tuple[float, ...]

@@ -1,0 +1,130 @@
+"""`Pairs`: who is near whom, found anew once particles have moved far enough.
+
+A list holds all pairs within the support and a skin. It is good while twice the way of the fastest
+condensed particle is shorter than the skin; what leaves only parts from its neighbors. Where
+nothing moves the skin is a millionth of a spacing: a pair that enters the support by less than that
+weighs 1e-12 of its neighbors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import floor, sqrt
+from typing import Any
+
+from lasersph.compute import search
+from lasersph.compute.vectors import dot, vector
+from lasersph.particles.neighbors import NeighborList
+from lasersph.particles.support import arithmetic
+from lasersph.physics.ejection import CONDENSED
+from lasersph.solvers.ablation.matter import Matter
+from lasersph.sph.kernels import Kernel
+
+LEAST_SKIN = 1e-6
+"""In spacings."""
+
+Finder = Callable[[Any, Any], tuple[Any, Any]]
+"""From places (dim, N) and supports (N,) to row_start and neighbor."""
+
+
+def folded(x, low, width):
+    """Coordinate [m] within the period of given width that begins at `low`; width 0: as it is."""
+    return x - width * floor((x - low) / width) if width > 0.0 else x
+
+
+def within(x, low, width):
+    """Position [m] with each coordinate `folded`."""
+    if len(x) == 1:
+        return vector(folded(x[0], low[0], width[0]))
+    if len(x) == 2:
+        return vector(folded(x[0], low[0], width[0]), folded(x[1], low[1], width[1]))
+    return vector(
+        folded(x[0], low[0], width[0]),
+        folded(x[1], low[1], width[1]),
+        folded(x[2], low[2], width[2]),
+    )
+
+
+def placed(x, x_listed, opaque):
+    """Place for the list: where the particle is; where it was once it has left."""
+    return opaque * x + (1.0 - opaque) * x_listed
+
+
+def displaced(x, x_listed, stage):
+    """Square of the way since the pairs were found [m^2], of what is condensed."""
+    way = x - x_listed
+    return dot(way, way) if stage == CONDENSED else 0.0 * dot(way, way)
+
+
+def reaching(support, margin):
+    """Support with the skin [m]."""
+    return support + margin
+
+
+class Pairs:
+    """Neighbor lists of the start and of the middle of a step.
+
+    Attributes:
+        listed: (dim, N) places when the pairs were found [m]. margin: skin of the list [m], 0
+            before the first. now, half: the list with the positions of either level.
+    """
+
+    def __init__(
+        self, matter: Matter, kernel: Kernel, skin: float, finder: Finder | None = None
+    ) -> None:
+        backend = matter.backend
+        self.matter, self.kernel = matter, kernel
+        self.skin = skin * matter.layout.spacing
+        self.listed = backend.zeros(matter.now.x.shape)
+        backend.copy(matter.now.x, self.listed)
+        self.margin = 0.0
+        self._reach = backend.zeros(matter.total)
+        self._finder = finder or self._all
+        self._low = tuple(lower for lower, _upper in matter.layout.bounds)
+
+    def is_stale(self, way: float, rows: Any = None) -> bool:
+        """Whether particles may come nearer than listed in a step in which they move `way` [m]."""
+        if self.margin == 0.0:
+            return True
+        fields = {"x": self.matter.now.x, "x_listed": self.listed, "stage": self.matter.stage}
+        (square,) = self.matter.backend.pointwise(
+            displaced, fields, (None,), rows=rows, reduce=("max",)
+        )
+        return 2.0 * (sqrt(max(square, 0.0)) + way) > self.margin
+
+    def renew(self, way: float, rows: Any = None) -> None:
+        """Find the pairs anew, with a skin for steps in which particles move `way` [m].
+
+        Raises:
+            EscapedParticle: a place is not finite.
+        """
+        matter, backend = self.matter, self.matter.backend
+        period = matter.layout.period
+        if any(period):
+            fields = {"x": matter.now.x}
+            backend.pointwise(within, fields, matter.now.x, rows=rows, low=self._low, width=period)
+        fields = {"x": matter.now.x, "x_listed": self.listed, "opaque": matter.opaque}
+        backend.pointwise(placed, fields, self.listed, rows=rows)
+        least = LEAST_SKIN * matter.layout.spacing
+        self.margin = least if 2.0 * way < least else self.skin
+        self.find()
+
+    def find(self) -> None:
+        """Find the pairs of the listed places."""
+        matter, backend = self.matter, self.matter.backend
+        backend.pointwise(reaching, {"support": matter.support}, self._reach, margin=self.margin)
+        row_start, neighbor = self._finder(self.listed, self._reach)
+        self.now, self.half = (
+            NeighborList(
+                row_start, neighbor, level.x, matter.support, self.kernel, arithmetic,
+                matter.layout.period,
+            )
+            for level in (matter.now, matter.half)
+        )  # fmt: skip
+
+    def _all(self, place: Any, reach: Any) -> tuple[Any, Any]:
+        """Pairs of all particles."""
+        return search.neighbor_list(
+            self.matter.backend, place, reach, self.matter.total, mean=arithmetic,
+            period=self.matter.layout.period,
+        )  # fmt: skip

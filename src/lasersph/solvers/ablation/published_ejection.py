@@ -1,0 +1,74 @@
+"""Ejection as published: from the boiling temperature on with the velocity of the vapor.
+
+A particle that leaves keeps absorbing until it has left [Alshaer2017, Sections 3.3 and 4.4]. There
+are no latent heats, and the depth depends on when a particle counts as left.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.backend import Backend
+from lasersph.physics.ejection import (
+    BELOW_ALIGNMENT,
+    BELOW_REACH,
+    LEAVING,
+    covered_term,
+    lifted,
+    published_departure,
+)
+from lasersph.solvers.ablation.departure import Departure, Vapor
+
+
+class PublishedEjection:
+    """Exposed particles above T_v leave along their normal.
+
+    Args:
+        left_after: distance after which a particle has left [m]; negative where it has left when
+            it covers no particle any more.
+
+    Attributes:
+        lift: (n,) distance that leaving particles have moved [m].
+    """
+
+    def __init__(
+        self, backend: Backend, vapor: Vapor, count: int, spacing: float, left_after: float
+    ) -> None:
+        self.backend, self.vapor, self.left_after = backend, vapor, left_after
+        self.reach = BELOW_REACH * spacing
+        self.lift = backend.zeros(count)
+        self._covered = backend.zeros(count)
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Arrays that survive a step beside those of the particles."""
+        return {"lift": self.lift}
+
+    def longest_step(self, flux: float, density: float) -> float:
+        """No limit: the rule depends on the step, as published."""
+        return np.inf
+
+    def leave(
+        self, fields: dict[str, Any], pairs: Any, rows: Any, time: float, step: float
+    ) -> Departure:
+        """Set stage, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
+
+        Args:
+            fields: by symbol; stage, v, h, T, m, exposed, normal, left_at, p_v.
+        """
+        backend, stage, v = self.backend, fields["stage"], fields["v"]
+        own = fields | {"lift": self.lift, "covered": self._covered}
+        backend.pointwise(lifted, own, self.lift, rows=rows, step=step)
+        leaving = backend.rows_where(stage, LEAVING)
+        backend.pair_sum(
+            covered_term, pairs, own, self._covered, rows=leaving, reach=self.reach,
+            alignment=BELOW_ALIGNMENT,
+        )  # fmt: skip
+        backend.pointwise(
+            published_departure, own, (stage, v), rows=rows, T_v=self.vapor.temperature,
+            R_s=self.vapor.gas_constant, is_effusion=self.vapor.is_effusion,
+            distance=self.left_after,
+        )  # fmt: skip
+        return self.vapor.account(fields, rows, time)

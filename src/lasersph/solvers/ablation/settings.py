@@ -1,0 +1,63 @@
+"""`AblationSettings`: the `[solver]` table of a run whose matter moves, compresses and ablates."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from lasersph.reading import Acceleration, Length, Model, Velocity
+
+
+class AblationSettings(Model):
+    """Weakly compressible flow with heat, melting and ejection of the surface."""
+
+    kind: Literal["ablation"] = "ablation"
+    dimensions: Literal[1, 2, 3] = 3
+    sound_speed: Annotated[Velocity, Field(gt=0)] = Field(
+        description="c_0 of the equation of state [Alshaer2017, eq. (26)]; far above all speeds of "
+        "condensed matter, and the time step falls with it"
+    )
+    viscosity_solid: Annotated[float, Field(ge=0)] = Field(
+        default=5.0, description="alpha of the artificial viscosity [Alshaer2017, eq. (23)]"
+    )
+    viscosity_liquid: Annotated[float, Field(ge=0)] = Field(
+        default=0.1, description="alpha of what is molten"
+    )
+    tension: bool = Field(
+        default=False, description="whether condensed matter below its density pulls (P < 0)"
+    )
+    gravity: Annotated[Acceleration, Field(ge=0)] = Field(
+        default=0.0, description="along -z; within nanoseconds it does nothing"
+    )
+    weights: Literal["second-moment", "plain"] = Field(
+        default="second-moment",
+        description="conduction weights divided by their second moment on the lattice, or as "
+        "printed",
+    )
+    phase_change: bool = Field(
+        default=True, description="false: no latent heat of melting and vaporization"
+    )
+    courant_number: Annotated[float, Field(gt=0, le=1)] = Field(
+        default=0.25,
+        description="CFL number of sound and forces [Alshaer2017, eq. (31)]",
+    )
+    skin: Annotated[float, Field(gt=0, le=2)] = Field(
+        default=0.3,
+        description="how much further than their support particles look for neighbors once they "
+        "move, in spacings",
+    )
+    sleep: bool = Field(
+        default=True,
+        description="whether cold matter at rest is left alone until heat comes near (only where "
+        "nothing moves at the start and there is no gravity)",
+    )
+    ejecta_height: Annotated[Length, Field(gt=0)] | None = Field(
+        default=None,
+        description="height over the surface up to which ejecta are followed; default: the depth",
+    )
+
+    @property
+    def plateau(self) -> Literal["hold"]:
+        """Matter at the boiling point keeps its temperature while it takes up latent heat."""
+        return "hold"

@@ -1,0 +1,274 @@
+"""`Ablation`: matter that is heated, moves, compresses and leaves. `step()` is the recipe.
+
+    light -> rates -> half step -> rates -> whole step -> what leaves -> what flies
+
+[Alshaer2017, Sections 2 and 4.4]. Rates are evaluated anew in the middle of the step, that is the
+midpoint rule; the paper's eqs. (29), (30) do not show it. While nothing moves and no force acts,
+only heat is computed, between pairs weighed once.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute.search import EscapedParticle
+from lasersph.physics.compressible_limits import compressible_limits
+from lasersph.physics.ejection import EJECTED
+from lasersph.solvers.ablation.active import ActiveRegion
+from lasersph.solvers.ablation.columns import Columns
+from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
+from lasersph.solvers.ablation.exposure import Exposure
+from lasersph.solvers.ablation.flight import flown
+from lasersph.solvers.ablation.lifting_step import LiftingStep
+from lasersph.solvers.ablation.matter import Matter
+from lasersph.solvers.ablation.moving_step import MovingStep
+from lasersph.solvers.ablation.numbers import Numbers
+from lasersph.solvers.ablation.pairs import Pairs
+from lasersph.solvers.ablation.published_ejection import PublishedEjection
+from lasersph.solvers.ablation.rates import condensed_extremes, speed_squares
+from lasersph.solvers.ablation.resting_step import RestingStep
+from lasersph.solvers.ablation.state import AblationState
+from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.time_step import TimeSettings, name_of_longest, next_edge
+
+RETRIES = 8
+LEVEL_ARRAYS = {"position": "x", "velocity": "v", "density": "rho", "enthalpy": "h"}
+MATTER_ARRAYS = ("stage", "left_at", "p_v")
+
+
+class Ablation:
+    """Solver of a run whose matter may move and leave.
+
+    Attributes:
+        body: the particles. pairs: who is near whom. exposure: the free surface. columns: the
+            light. ejection: the rule of leaving. Both None without a laser.
+        state: all numbers that survive a step.
+    """
+
+    def __init__(
+        self,
+        matter: Matter,
+        pairs: Pairs,
+        exposure: Exposure,
+        numbers: Numbers,
+        time: TimeSettings,
+        columns: Columns | None = None,
+        ejection: EnthalpyEjection | PublishedEjection | None = None,
+        region: ActiveRegion | None = None,
+    ) -> None:
+        self.body, self.pairs, self.exposure = matter, pairs, exposure
+        self.numbers, self.time_settings = numbers, time
+        self.columns, self.ejection, self.region = columns, ejection, region
+        self.backend = matter.backend
+        self.state = AblationState()
+        self._moving = MovingStep(matter, pairs, exposure, numbers, self.state)
+        self._resting = RestingStep(matter, pairs, exposure, numbers)
+        self._lifting = LiftingStep(matter, pairs, exposure, numbers)
+        self._surface_known = False
+        self._everything = self.backend.asarray(np.arange(matter.total), "index")
+        self._enter()
+
+    @property
+    def rows(self) -> Any:
+        """Particles that are computed, kind "index"; None for all."""
+        return None if self.region is None else self.region.rows
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Arrays of the particles by name."""
+        level, matter = self.body.now, self.body
+        found = {name: getattr(level, symbol) for name, symbol in LEVEL_ARRAYS.items()}
+        found |= {name: getattr(matter, name) for name in MATTER_ARRAYS}
+        found["listed"] = self.pairs.listed
+        for part in (self.ejection, self.region):
+            found |= {} if part is None else part.fields
+        return found
+
+    @property
+    def iterations(self) -> dict[str, int]:
+        """An explicit step has none."""
+        return {}
+
+    @property
+    def is_steady(self) -> bool:
+        """A run goes on to its end."""
+        return False
+
+    def carried(self) -> dict[str, float]:
+        """Numbers beside the fields that survive a step."""
+        numbers = self.state.carried() | {"margin": self.pairs.margin}
+        return numbers | ({} if self.region is None else self.region.carried())
+
+    def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
+        """Continue from the arrays of `fields` and the numbers of `carried`."""
+        for name, field in self.fields.items():
+            self.backend.copy(self.backend.asarray(arrays[name]), field)
+        self.state.restore(numbers)
+        self.pairs.margin = numbers["margin"]
+        if self.region is not None:
+            self.region.restore(arrays, numbers)
+        self.body.refresh(self.body.now)
+        self._enter()
+        self._surface_known, self._resting.weights = False, None
+        if self.pairs.margin > 0.0:
+            self.pairs.find()
+
+    def time_step_limits(self) -> dict[str, float]:
+        """Named limits of the next step [s]; of flow only where something moves or is pushed."""
+        state, time, numbers = self.state, self.time_settings, self.numbers
+        limits = {"end": time.end - state.time}
+        if time.is_fixed and time.step is not None:
+            return limits | {"fixed step": time.step}
+        if self.columns is not None:
+            edge = next_edge(self.columns.laser.pulse, state.time, time.end)
+            if edge is not None:
+                limits["pulse edge"] = edge
+        limits |= compressible_limits(
+            is_still=state.is_balanced and state.speed == 0.0,
+            courant=numbers.courant,
+            smoothing=numbers.smoothing,
+            sound_speed=numbers.sound_speed,
+            closing_speed=state.closing,
+            acceleration=state.acceleration,
+            viscous_rate=numbers.viscous_rate,
+            diffusive_rate=numbers.diffusive_rate,
+        )
+        if time.step is not None:
+            limits[name_of_longest(self.columns is not None)] = time.step
+        if self.columns is not None and self.ejection is not None:
+            flux = self.columns.largest_flux(state.time, state.time + min(limits.values()))
+            if flux > 0.0:
+                density = self.body.material.density_reference
+                limits["vaporization"] = self.ejection.longest_step(flux, density)
+        return limits
+
+    def step(self, step: float, pace: float | None = None) -> float:
+        """Advance by `step` [s], or by less where that is unstable; returns the step taken.
+
+        Raises:
+            NotConverged: not even a 256th of the step is stable; the state is as before.
+        """
+        for attempt in range(RETRIES + 1):
+            try:
+                self._advance(step)
+                break
+            except NotConverged:
+                if attempt == RETRIES:
+                    raise
+                step *= 0.5
+        return step
+
+    def _advance(self, step: float) -> None:
+        """One step of the midpoint rule."""
+        matter, state = self.body, self.state
+        rule = self._prepare(step)
+        rows = self.rows
+        incident, absorbed = self._shine(step)
+        rule.evaluate(matter.now, step, rows)
+        rule.move(matter.half, matter.now, 0.5 * step, rows)
+        matter.refresh(matter.half, rows)
+        lost = rule.evaluate(matter.half, step, rows)
+        stored = rule.foresee(step, rows)
+        rule.move(matter.now, matter.half, step, rows)
+        matter.refresh(matter.now, rows)
+        state.add(incident, absorbed, stored, lost * step)
+        state.time, state.time_step = state.time + step, step
+        self._leave(step)
+        self._fly(step)
+        self._surface_known = self._surface_known and rule is self._resting
+
+    def _prepare(self, step: float) -> MovingStep | RestingStep:
+        """Wake what heat comes near, renew pairs and surface where matter has moved.
+
+        Returns the rule of the step: that of rest where only heat changes.
+        """
+        matter, state = self.body, self.state
+        has_grown = self.region is not None and self.region.wake(matter.fields())
+        if has_grown:
+            self._enter()
+        fields = {"v": matter.now.v, "stage": matter.stage}
+        square, leaving = self.backend.pointwise(
+            speed_squares, fields, (None, None), rows=self.rows, reduce=("max", "max")
+        )
+        state.speed = sqrt(square)
+        way = step * (state.speed + step * state.acceleration)
+        if not 2.0 * way <= self.pairs.skin:
+            raise NotConverged(f"matter moves {way:.3g} m in {step:.3g} s; take shorter steps")
+        if has_grown or self.pairs.is_stale(way, self.rows):
+            try:
+                self.pairs.renew(way, self.rows)
+            except EscapedParticle as error:
+                raise NotConverged(str(error)) from error
+            self._resting.weights, self._surface_known = None, False
+        if self.columns is not None:
+            self.find_surface()
+        is_still = square == 0.0 and self.numbers.gravity == 0.0
+        if state.is_balanced and is_still and leaving == 0.0:
+            self._resting.weigh(self.rows)
+            return self._resting
+        self._resting.weights = None
+        return self._lifting if state.is_balanced and is_still else self._moving
+
+    def extremes(self) -> tuple[float, float]:
+        """Largest pressure [Pa] and speed [m/s] of what is condensed."""
+        fields = {"P": self.body.now.P, "v": self.body.now.v, "stage": self.body.stage}
+        pressure, square = self.backend.pointwise(
+            condensed_extremes, fields, (None, None), rows=self.rows, reduce=("max", "max")
+        )
+        return pressure, sqrt(square)
+
+    def find_surface(self) -> None:
+        """Surface, normals and open areas of what has not been ejected, where not known."""
+        if self._surface_known:
+            return
+        if self.pairs.margin == 0.0:
+            self.pairs.renew(0.0, self.rows)
+        matter = self.body
+        self.exposure.find(self.pairs.now, matter.now.V, matter.opaque, self.rows)
+        if self.columns is not None:
+            rows = self._everything if self.rows is None else self.rows
+            self.columns.sort(matter.now.x, matter.stage, rows)
+        self._surface_known = True
+
+    def _shine(self, step: float) -> tuple[float, float]:
+        """Light of the step: what falls on the surface and what of it is absorbed [J]."""
+        if self.columns is None:
+            return 0.0, 0.0
+        time = self.state.time
+        self.columns.shine(time, time + step)
+        self.columns.absorb(self.body.now.T)
+        return self.columns.incident, self.columns.absorbed
+
+    def _enter(self) -> None:
+        """Let the middle of the step know what is computed, and its neighbors."""
+        self.body.enter(None if self.region is None else self.region.near)
+
+    def _leave(self, step: float) -> None:
+        """Let what has taken up enough heat leave the surface."""
+        if self.ejection is None:
+            return
+        matter, surface = self.body, self.exposure
+        fields = matter.fields() | {
+            "exposed": surface.exposed, "normal": surface.normal,
+        }  # fmt: skip
+        departure = self.ejection.leave(fields, self.pairs.now, self.rows, self.state.time, step)
+        matter.refresh(matter.now, self.rows)
+        if departure.count:
+            self.state.leave(departure)
+            self._surface_known = False
+
+    def _fly(self, step: float) -> None:
+        """Move what has been ejected."""
+        if not self.state.left.count:
+            return
+        matter = self.body
+        fields = {"x": matter.now.x, "v": matter.now.v, "stage": matter.stage}
+        (gone,) = self.backend.pointwise(
+            flown, fields, (matter.now.x, matter.stage, None),
+            rows=self.backend.rows_where(matter.stage, EJECTED), reduce=(None, None, "sum"),
+            step=step, low=self.numbers.low, high=self.numbers.high,
+        )  # fmt: skip
+        self.state.gone += int(gone)

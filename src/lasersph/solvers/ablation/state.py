@@ -1,0 +1,71 @@
+"""What survives a step of an ablation beside the fields of the particles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from lasersph.solvers.ablation.departure import Departure
+from lasersph.solvers.conduction.state import ENERGIES
+
+
+@dataclass
+class AblationState:
+    """Times, energies and what limits the next step.
+
+    Attributes:
+        time, time_step: [s]. energy: exchanged since the start [J], by ENERGIES.
+        speed: largest of what was condensed at the start of the last step [m/s]. acceleration,
+            closing: largest |dv/dt| [m/s^2], and bound of |mu| [m/s], when last looked for.
+        left: all that ever left. gone: how many of them have passed the edge.
+        is_balanced: no force was found when forces were last looked for.
+    """
+
+    time: float = 0.0
+    time_step: float = 0.0
+    speed: float = 0.0
+    acceleration: float = 0.0
+    closing: float = 0.0
+    is_balanced: bool = False
+    gone: int = 0
+    left: Departure = field(default_factory=Departure)
+    energy: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
+
+    def carried(self) -> dict[str, float]:
+        """All numbers by name."""
+        numbers = {f"energy.{name}": value for name, value in self.energy.items()}
+        return numbers | {f"left.{name}": value for name, value in vars(self.left).items()} | {
+            "time": self.time, "time_step": self.time_step, "speed": self.speed,
+            "acceleration": self.acceleration,
+            "closing": self.closing, "is_balanced": float(self.is_balanced), "gone": self.gone,
+        }  # fmt: skip
+
+    def restore(self, numbers: dict[str, float]) -> None:
+        """Set all numbers from `carried`."""
+        self.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
+        self.left = Departure(
+            int(numbers["left.count"]), numbers["left.mass"], numbers["left.energy"],
+            numbers["left.kinetic"],
+        )  # fmt: skip
+        self.time, self.time_step = numbers["time"], numbers["time_step"]
+        self.speed, self.closing = numbers["speed"], numbers["closing"]
+        self.acceleration = numbers["acceleration"]
+        self.is_balanced, self.gone = bool(numbers["is_balanced"]), int(numbers["gone"])
+
+    def add(self, incident: float, absorbed: float, stored: float, lost: float) -> None:
+        """Count the energies of a step [J]."""
+        energy = self.energy
+        energy["incident"] += incident
+        energy["absorbed"] += absorbed
+        energy["reflected"] += incident - absorbed
+        energy["stored"] += stored
+        energy["lost"] += lost
+
+    def leave(self, departure: Departure) -> None:
+        """Count what left in a step."""
+        was = self.left
+        self.left = Departure(
+            was.count + departure.count, was.mass + departure.mass,
+            was.energy + departure.energy, was.kinetic + departure.kinetic,
+        )  # fmt: skip
+        self.energy["removed"] += departure.energy
+        self.energy["stored"] -= departure.energy

@@ -1,0 +1,45 @@
+"""Cold matter that sleeps changes nothing: craters with and without sleepers are the same."""
+
+import numpy as np
+import pytest
+
+from lasersph import compute
+from lasersph.case import load_case
+from lasersph.physics.ejection import LEAVING
+from lasersph.simulation.build import build
+from lasersph.solvers.time_step import binding
+
+SPOT = ("solver.dimensions=2", "particles.spacing=0.2 um", "domain.depth=12 um",
+        "domain.width=6 um", "laser.fluence=20 J/cm2", "time.end=4 ns")  # fmt: skip
+UNIFORM = ("solver.dimensions=1", "particles.spacing=0.1 um", "laser.fluence=20 J/cm2",
+           "time.end=8 ns")  # fmt: skip
+TOP_HAT = ("laser.beam.kind=top-hat", "laser.beam.radius=1.5 um")
+PUBLISHED = ("ejection.model=published", "ejection.preset=timeline")
+
+
+def computed(*settings):
+    """The solver after its run, with the particles awake at most."""
+    case = load_case("ablation-depth", list(settings))
+    _, solver = build(case, compute.cpu(threads=1))
+    while solver.state.time < case.time.end * (1.0 - 1e-12):
+        solver.step(binding(solver.time_step_limits())[1])
+    return solver
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [UNIFORM, (*UNIFORM, *PUBLISHED), (*SPOT, *TOP_HAT)],
+    ids=["enthalpy", "published", "spot"],
+)
+def test_sleepers_change_nothing(settings):
+    """Temperatures agree within 1e-8 of the rise, and the same particles have left."""
+    asleep, awake = computed(*settings), computed(*settings, "solver.sleep=false")
+    assert awake.region is None and asleep.region.awake_count < 0.95 * asleep.body.total
+    assert asleep.state.left.count == awake.state.left.count > 0
+    T, expected = (s.backend.to_host(s.body.now.T) for s in (asleep, awake))
+    stage, other = (s.backend.to_host(s.body.stage) for s in (asleep, awake))
+    np.testing.assert_array_equal(stage, other)
+    body = stage <= LEAVING
+    rise = expected[body].max() - 300.0
+    assert np.abs(T - expected)[body].max() < 1e-8 * rise
+    assert asleep.state.energy["removed"] == pytest.approx(awake.state.energy["removed"], rel=1e-9)

@@ -1,0 +1,63 @@
+"""Estimates beside an ablation, against numbers worked by hand and those of the paper."""
+
+import numpy as np
+import pytest
+
+from lasersph.case import load_case
+from lasersph.physics import ablation_estimates as estimate
+from lasersph.physics.evaporation import mass_flux, saturation_pressure
+
+ALUMINIUM = {"p_b": 101325.0, "T_b": 2730.0, "L_v": 10.53e6, "R_s": 308.17}
+ALPHA = 1.23e8
+
+
+def test_light_in_the_metal():
+    """5 % after three absorption lengths, 24.4 nm; 0.004 % at 82 nm, not at 250 nm."""
+    assert estimate.light_left(3.0 / ALPHA, ALPHA) == pytest.approx(np.exp(-3.0))
+    assert estimate.depth_of_light(np.exp(-3.0), ALPHA) == pytest.approx(24.4e-9, rel=1e-3)
+    assert estimate.depth_of_light(4e-5, ALPHA) == pytest.approx(82.3e-9, rel=1e-3)
+
+
+def test_vapor_takes_nothing():
+    """2.4e-6 % of the light over 0.6 um, as [Alshaer2017] says."""
+    assert 100.0 * estimate.absorbed_by_vapor(6e-7) == pytest.approx(2.4e-6, rel=1e-6)
+
+
+def test_temperature_at_pressure():
+    """The inverse of eq. (5): 30.05 bar at 3744 K, 35 bar at 3807.6 K."""
+    assert estimate.temperature_at_pressure(30.05e5, **ALUMINIUM) == pytest.approx(3744.0, abs=0.1)
+    assert estimate.temperature_at_pressure(35e5, **ALUMINIUM) == pytest.approx(3807.6, abs=0.1)
+    assert estimate.temperature_at_pressure(1e30, **ALUMINIUM) == np.inf
+
+
+def test_evaporation_carries_the_flux():
+    """At the temperature found, mass flux times the full heat is the flux."""
+    heats = {"T_0": 300.0, "c_p": 896.0, "L_m": 397e3}
+    T = estimate.evaporating_temperature(2.5e12, **heats, **ALUMINIUM)
+    pressure = saturation_pressure(T, *ALUMINIUM.values())
+    carried = mass_flux(T, pressure, 308.17) * (896.0 * (T - 300.0) + 397e3 + 10.53e6)
+    assert carried == pytest.approx(2.5e12, rel=1e-9)
+    assert estimate.evaporating_temperature(1.0, **heats, **ALUMINIUM) == 2730.0
+    assert estimate.evaporating_temperature(1e30, **heats, **ALUMINIUM) == estimate.HOTTEST
+
+
+def test_recoil_against_capillary_pressure():
+    """With 2 gamma/(0.54 r) = 1 atm the recoil moves the melt from the boiling point on."""
+    radius = 2.0 * 0.87 / (0.54 * 101325.0)
+    found = estimate.recoil_moves_melt_at(radius, surface_tension=0.87, **ALUMINIUM)
+    assert found == pytest.approx(2730.0)
+
+
+def test_estimates_of_a_case():
+    """Penetration of eq. (34), velocities of eq. (6), loss of a disc to its sides."""
+    from lasersph.simulation.ablation_estimates import ablation_estimates
+
+    beam = 'laser.beam={kind="top-hat", radius="1 um"}'
+    found = ablation_estimates(load_case("ablation-depth", [beam, "solver.dimensions=2"]))
+    assert found["conduction"]["penetration_m"] == pytest.approx(np.sqrt(6.89e-5 * 1e-8), rel=1e-4)
+    assert 0.0 < found["conduction"]["lateral_loss_relative"] < 1.0
+    assert found["vapor"]["effusion_velocity_m_s"] == pytest.approx(365.8, abs=0.2)
+    assert found["vapor"]["mean_normal_velocity_m_s"] == pytest.approx(731.7, abs=0.2)
+    assert found["left_out"]["phase_explosion_from_K"] == pytest.approx(7200.0)
+    assert found["left_out"]["recoil_from_K"] is None
+    assert ablation_estimates(load_case("stefan")) == {}

@@ -1,0 +1,89 @@
+"""The report of an ablation: plain words, tables with units, what the model leaves out."""
+
+import re
+
+import pytest
+import synthetic_ablation
+
+from lasersph.case import load_case
+from lasersph.observers import Trace, ablation_observers
+from lasersph.plots import animation, style
+from lasersph.report import ablation_tables, ablation_words, write_report
+from lasersph.report.words import notes_of, verdict
+from lasersph.simulation.ablation_estimates import ablation_estimates
+
+
+@pytest.fixture(scope="module")
+def summary():
+    """Summary of a made-up crater in 3-D, with the estimates of a case."""
+    observers = ablation_observers(
+        3, traces=(Trace(name="center"),), axis=(0.0, 0.0), pulse_starts=(0.0, 5e-9)
+    )
+    for view in synthetic_ablation.views(3):
+        observers.observe(view)
+    return {**observers.summary(), "estimates": ablation_estimates(load_case("ablation-depth"))}
+
+
+def test_words_about_a_crater(summary):
+    """Depth, width, when and how fast the ejecta left, their share of the energy."""
+    text = verdict(summary)
+    assert "a crater 800 nm deep at the axis and 4.012 µm wide" in text
+    assert re.search(r"left between 3 ns and 9 ns, at 400 m/s on average, and carried \d", text)
+    assert "this run leaves out" not in text
+
+
+def test_what_is_left_out(summary):
+    """The three mechanisms, the temperatures of 0.9 T_c and of a surface that only evaporates."""
+    (text,) = ablation_words.limits_of(summary)
+    for word in ("recoil", "phase explosion", "plasma", "9 227 K", "above the 7 200 K", "estimate"):
+        assert word in text
+    assert notes_of(summary)[0] == text
+    assert ablation_words.limits_of({}) == []
+
+
+def test_below_the_explosion(summary):
+    """Where evaporation can carry the flux below 0.9 T_c, the text says so."""
+    left_out = {**summary["estimates"]["left_out"], "evaporating_K": 5000.0, "recoil_from_K": 3e3}
+    (text,) = ablation_words.limits_of({"estimates": {"left_out": left_out}})
+    assert "below the 7 200 K" in text and "about 3 000 K on" in text and "estimate" not in text
+
+
+def test_no_crater(summary):
+    """Light too weak to ablate."""
+    ejecta = {**summary["ejecta"], "count": 0}
+    assert ablation_words.crater({**summary, "ejecta": ejecta}) == ["Nothing was ablated."]
+
+
+def test_tables_with_units(summary):
+    """Crater, ejecta, traces and estimates; each pulse and the removal efficiency."""
+    crater = dict(ablation_tables.crater(summary))
+    assert crater["depth at the axis"] == "800 nm"
+    assert crater["removed volume"] == "7.52 µm³"
+    assert crater["depth of each pulse"] == "400 nm, 400 nm"
+    incident = summary["energy"]["incident_J"]
+    expected = f"{1e12 * 7.52e-18 / incident:.4g}"
+    assert crater["removed volume over energy of the light"].startswith(expected[:4])
+    ejecta = dict(ablation_tables.ejecta(summary))
+    assert ejecta["speed, mean (smallest to largest)"] == "400 (400 to 400) m/s"
+    ((name, *_, acceleration, pressure),) = ablation_tables.traces(summary)
+    assert (name, acceleration, pressure) == ("center", "8·10¹¹ m/s²", "200 kPa")
+    assert any("24.4 nm" in row for row in ablation_tables.estimates(summary))
+    assert len(ablation_tables.left_out(summary)) == 3
+
+
+def test_nothing_without_ablation():
+    """All tables are empty for another run."""
+    for rows in (ablation_tables.crater, ablation_tables.ejecta, ablation_tables.traces,
+                 ablation_tables.estimates, ablation_tables.left_out):  # fmt: skip
+        assert rows({}) == []
+
+
+def test_report_of_a_crater(tmp_path, monkeypatch):
+    """The page holds the figures of the crater and an animation, here small and short ones."""
+    monkeypatch.setattr(style, "DPI", 30)
+    monkeypatch.setattr(animation, "DPI", 30)
+    monkeypatch.setattr(animation, "MOST_FRAMES", 3)
+    folder = synthetic_ablation.make_run(tmp_path / "run", 2, "gaussian")
+    page = write_report(folder).read_text()
+    for text in ("Cut through the crater", "ejected particles", "or the ejecta, in time"):
+        assert text in page

@@ -1,0 +1,47 @@
+"""Steps in which only what leaves moves: by hand, and against those that compute all motion."""
+
+import numpy as np
+import pytest
+
+from lasersph import compute
+from lasersph.case import load_case
+from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING
+from lasersph.simulation.build import build
+from lasersph.solvers.ablation.rates import conducted, lifting
+from lasersph.solvers.time_step import binding
+
+PUBLISHED = ("particles.spacing=0.2 um", "domain.depth=6 um", "ejection.model=published",
+             "ejection.preset=timeline", "time.end=2 ns")  # fmt: skip
+
+
+def test_position_and_enthalpy():
+    """Leaving particles move by v dt, all are heated by dh dt."""
+    x, v = np.array([0.0, 1.0]), np.array([0.0, 400.0])
+    for stage, z in ((CONDENSED, 1.0), (LEAVING, 1.2), (EJECTED, 1.0)):
+        moved, h = lifting(x, v, 10.0, stage, 4.0, 5e-4)
+        np.testing.assert_allclose(moved, [0.0, z])
+        assert h == pytest.approx(10.002)
+
+
+def test_heat_of_a_pair():
+    """V_i V_j 4 k_i k_j / (k_i + k_j) (T_i - T_j) dW / r, times the factor."""
+    found = conducted(300.0, 400.0, 2.0, 6.0, 0.5, 0.25, 2.0, -3.0, 1.1)
+    assert found == pytest.approx(1.1 * 0.125 * 6.0 * (-100.0) * (-1.5))
+
+
+def test_same_as_with_all_motion():
+    """Where no force acts on what is condensed, the general step gives the same, to rounding."""
+    found = []
+    for is_general in (False, True):
+        case = load_case("ablation-depth", list(PUBLISHED))
+        _, solver = build(case, compute.cpu(threads=1))
+        if is_general:
+            solver._lifting = solver._moving
+        while solver.state.time < case.time.end * (1.0 - 1e-12):
+            solver.step(binding(solver.time_step_limits())[1])
+        found.append(solver)
+    quick, general = found
+    assert quick.state.left.count == general.state.left.count > 0
+    for symbol in ("T", "x"):
+        values = [s.backend.to_host(getattr(s.body.now, symbol)) for s in found]
+        np.testing.assert_allclose(*values, rtol=1e-11, atol=1e-20)

@@ -1,0 +1,119 @@
+"""Neighbor lists of what moves, flight of what has left, and the solver's choices."""
+
+import numpy as np
+import pytest
+from moving_matter import DRIFTING_BLOCK, HEATED_BLOCK, go, host, moving, put, stir
+
+from lasersph.physics.ejection import CONDENSED, EJECTED, GONE, LEAVING
+from lasersph.solvers.ablation.flight import flown
+from lasersph.solvers.ablation.pairs import displaced, placed, within
+from lasersph.solvers.conduction.state import NotConverged
+
+LOW, WIDTH = (0.0, -5.0), (2.0, 0.0)
+BOX = {"low": (0.0, -5.0), "high": (2.0, 5.0)}
+
+
+def test_folding():
+    """2.5 is 0.5 and -0.5 is 1.5 in a period of 2 from 0; the other axis has none."""
+    assert within(np.array([2.5, 9.0]), LOW, WIDTH).tolist() == [0.5, 9.0]
+    assert within(np.array([-0.5, 9.0]), LOW, WIDTH).tolist() == [1.5, 9.0]
+    assert within(np.array([2.5]), (0.0,), (2.0,)).tolist() == [0.5]
+
+
+def test_places_for_the_list():
+    """Where it is; where it was once it left. Only condensed matter counts as displaced."""
+    x, listed = np.array([3.0, 4.0]), np.zeros(2)
+    assert placed(x, listed, 1.0).tolist() == [3.0, 4.0]
+    assert placed(x, listed, 0.0).tolist() == [0.0, 0.0]
+    assert displaced(x, listed, CONDENSED) == 25.0
+    assert displaced(x, listed, LEAVING) == 0.0
+
+
+def test_flight():
+    """Straight on; gone once outside; what is condensed does not fly."""
+    x, v = np.array([1.0, 4.0]), np.array([0.0, 2.0])
+    place, stage, gone = flown(x, v, EJECTED, 0.25, **BOX)
+    assert (place.tolist(), stage, gone) == ([1.0, 4.5], EJECTED, 0.0)
+    place, stage, gone = flown(x, v, EJECTED, 1.0, **BOX)
+    assert (place.tolist(), stage, gone) == ([1.0, 6.0], GONE, 1.0)
+    assert flown(x, v, CONDENSED, 1.0, **BOX)[0].tolist() == [1.0, 4.0]
+
+
+def test_pairs_are_found_anew_only_when_particles_have_moved():
+    """At rest once, with hardly any skin; in motion each time that the skin is used up."""
+    _, rest = moving("sound-wave", *HEATED_BLOCK, "laser=", "time.end=1 us")
+    go(rest, steps=2)
+    first = rest.pairs.now
+    assert rest.pairs.margin == 1e-6 * rest.body.layout.spacing
+    go(rest, steps=2)
+    assert rest.pairs.now is first
+    _, drift = moving("sound-wave", *DRIFTING_BLOCK)
+    stir(drift, 100.0)
+    go(drift, steps=1)
+    first, renewed = drift.pairs.now, 0
+    assert drift.pairs.margin == pytest.approx(0.3e-6)
+    for _ in range(40):
+        go(drift, steps=1)
+        renewed += drift.pairs.now is not first
+        first = drift.pairs.now
+    assert 2 <= renewed <= 20
+
+
+def test_list_holds_every_pair_in_reach():
+    """After many steps no particle within the support is missing."""
+    _, solver = moving("sound-wave", *DRIFTING_BLOCK)
+    stir(solver, 100.0)
+    go(solver, steps=15)
+    x, size = host(solver, "position"), np.array([[10e-6], [12e-6]])
+    start = solver.backend.to_host(solver.pairs.now.row_start).astype(int)
+    neighbor = solver.backend.to_host(solver.pairs.now.neighbor)
+    for i in range(0, x.shape[1], 7):
+        apart = x - x[:, [i]]
+        apart -= size * np.round(apart / size)
+        near = np.flatnonzero(np.sum(apart**2, axis=0) < (3e-6) ** 2)
+        assert set(near) - {i} <= set(neighbor[start[i] : start[i + 1]])
+
+
+def test_free_fall():
+    """Without walls a block falls: v = -g t and z = -g t^2 / 2, exactly for the midpoint rule."""
+    _, solver = moving("hydrostatic-column", "boundaries.bottom=free", "motion=",
+                       "solver.dimensions=1", "time.step=1 ms", "time.is_fixed=true")  # fmt: skip
+    before = host(solver, "position")
+    go(solver, steps=10)
+    t = solver.state.time
+    assert host(solver, "velocity")[0] == pytest.approx(np.full(20, -9.81 * t), rel=1e-12)
+    fallen = host(solver, "position") - before
+    assert fallen[0] == pytest.approx(np.full(20, -0.5 * 9.81 * t * t), rel=1e-9)
+
+
+def test_too_long_a_step_is_halved():
+    """A step in which matter would pass its neighbors is not taken; shorter ones are."""
+    _, solver = moving("sound-wave", *DRIFTING_BLOCK)
+    stir(solver, 100.0)
+    taken = solver.step(4e-9)
+    assert 0.0 < taken < 4e-9
+    assert solver.state.time == taken
+
+
+def test_what_no_step_saves_is_said():
+    """Velocities that are not finite: the state stays as it was."""
+    _, solver = moving("sound-wave", *DRIFTING_BLOCK)
+    put(solver, "velocity", np.nan)
+    before = host(solver, "position")
+    with pytest.raises(NotConverged, match="take shorter steps"):
+        solver.step(1e-11)
+    assert np.array_equal(host(solver, "position"), before)
+    assert solver.state.time == 0.0
+
+
+def test_limits_by_name():
+    """Flow limits where it flows, heat alone at rest, the light's share while it is on."""
+    _, flow = moving("dam-break", "particles.spacing=5.715 mm")
+    assert {"end", "sound", "viscosity", "conduction"} <= set(flow.time_step_limits())
+    _, heat = moving("sound-wave", *HEATED_BLOCK)
+    go(heat, steps=1)
+    assert set(heat.time_step_limits()) == {"end", "pulse edge", "conduction", "vaporization"}
+    fixed = moving("sound-wave", *HEATED_BLOCK, "time.step=0.05 ns", "time.is_fixed=true")[1]
+    limits = fixed.time_step_limits()
+    assert set(limits) == {"end", "fixed step"}
+    assert limits["fixed step"] == 5e-11
