@@ -210,3 +210,18 @@ def test_iterations_and_carried_numbers():
     assert solver.iterations["pressure"] > 0
     assert 0.0 < solver.spacing_min < 0.1
     assert solver.flow.divergence[0] < solver.flow.divergence[1]
+
+
+def test_speed_without_bound(life):
+    """A particle that crosses its support in less than 1e-9 of the time to compute ends the run."""
+    solver = restored(life[5])
+    crossing = solver.domain.support / solver.flow.fastest
+    solver.flow.fastest *= 0.9e9 * crossing / solver.heat.time_settings.end
+    before = host_fields(solver)
+    solver.step(1e-15)
+    solver.restore(before, life[5][1])
+    solver.flow.fastest *= 1.1e9 * crossing / solver.heat.time_settings.end
+    with pytest.raises(NotConverged, match=r"unstable: .* m/s"):
+        solver.step(1e-15)
+    for name, values in host_fields(solver).items():
+        assert np.array_equal(values, before[name]), name

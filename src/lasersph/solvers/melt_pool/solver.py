@@ -25,6 +25,9 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
 
 RETRIES = 8
+SHORTEST = 1e-9
+"""Time in which the fastest particle crosses its support, over the time to compute: in a flow that
+takes less its speeds have grown without bound."""
 FLOW_ARRAYS = ("position", "velocity", "pressure", "flowed", "touched")
 
 
@@ -129,9 +132,12 @@ class MeltPool:
         """Advance by `step` [s], or by less where that fails; returns the step taken.
 
         Raises:
-            NotConverged: not even a 256th of the step succeeds; the state is as before.
+            NotConverged: not even a 256th of the step succeeds, or the flow has become unstable;
+                the state is as before.
             PoolTooDeep: the melt reaches the graded layers.
         """
+        if self.flow.fastest * SHORTEST * self.heat.time_settings.end > self.domain.support:
+            raise NotConverged(f"the flow has become unstable: {self.flow.fastest:.3g} m/s")
         self._keep()
         for attempt in range(RETRIES + 1):
             try:
