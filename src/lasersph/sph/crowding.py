@@ -9,14 +9,11 @@ the divergence
     d_i = rate (S_i - S_0)
 
 crowded particles part again. Such a relaxed condition of constant density is that of [Asai2012];
-its rate here follows the flow. i itself is left out of the sums: all volumes are equal.
+its rate here follows the flow. i itself is left out of the sums: all volumes are equal. S_0 is
+`lattice_sums.crowding`.
 """
 
 from __future__ import annotations
-
-from math import hypot
-
-from lasersph.sph.kernels import Kernel
 
 
 def crowding_term(V_j, W_ij):
@@ -27,12 +24,3 @@ def crowding_term(V_j, W_ij):
 def relaxation(total, even, rate):
     """Divergence that evens the spread, rate (S - S_0) [1/s]."""
     return rate * (total - even)
-
-
-def lattice_crowding(kernel: Kernel, ratio: float) -> float:
-    """S_0 of a square lattice [1]; ratio: support radius over spacing."""
-    reach = int(ratio) + 1
-    places = range(-reach, reach + 1)
-    distances = [hypot(k, m) / ratio for k in places for m in places if (k, m) != (0, 0)]
-    inside = [s for s in distances if s < 1.0]
-    return kernel.sigma / ratio**2 * sum(kernel.shape(s) for s in inside)

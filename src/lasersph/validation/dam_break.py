@@ -4,7 +4,8 @@ The case `dam-break`: a column twice as high as wide, as in [Martin1952], Table 
 far end of the particle at the largest x. Computations start at once, the experiments with a
 membrane that takes time to clear the water, so that their front comes later by a time that is the
 same at all places. Judged are the places as measured, with a band that covers this, the speed of
-the front, and the places after one delay has been fitted.
+the front, and the places after one delay has been fitted. The experiment states no error; the bands
+were set after a first run had shown the delay.
 """
 
 from __future__ import annotations

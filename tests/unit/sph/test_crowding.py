@@ -2,8 +2,9 @@
 
 import pytest
 
-from lasersph.sph.crowding import crowding_term, lattice_crowding, relaxation
+from lasersph.sph.crowding import crowding_term, relaxation
 from lasersph.sph.kernels import kernel
+from lasersph.sph.lattice_sums import crowding
 
 
 def test_lattice():
@@ -11,14 +12,14 @@ def test_lattice():
     shape = kernel("cubic-spline", 2)
     s = 1.0 / 1.2
     expected = 4.0 * shape.sigma / 1.2**2 * shape.shape(s)
-    assert lattice_crowding(shape, 1.2) == pytest.approx(expected)
+    assert crowding(shape, 1.2) == pytest.approx(expected)
 
 
 def test_with_the_particle_itself():
     """With W(0) the sum is close to 1: the kernel's integral."""
     shape = kernel("quintic-spline", 2)
     own = shape.sigma / 3.75**2 * shape.shape(0.0)
-    assert lattice_crowding(shape, 3.75) + own == pytest.approx(1.0, abs=1e-4)
+    assert crowding(shape, 3.75) + own == pytest.approx(1.0, abs=1e-4)
 
 
 def test_term_and_relaxation():

@@ -37,7 +37,8 @@ from lasersph.sph.correction import (
     corrected_symmetric_term,
     correction_term,
 )
-from lasersph.sph.crowding import crowding_term, lattice_crowding, relaxation
+from lasersph.sph.crowding import crowding_term, relaxation
+from lasersph.sph.lattice_sums import crowding
 
 ACCEPTED = 10.0
 """Residual of the pressure equation over its tolerance with which a step is still taken."""
@@ -169,7 +170,7 @@ class Flow:
         self._rhs, self._mask, self._p = (backend.zeros(count) for _ in range(3))
         self._D, self._V = backend.zeros(count), block.volume
         weighing = block.lattice.weighing
-        self._even = lattice_crowding(weighing.kernel, weighing.ratio)
+        self._even = crowding(weighing.kernel, weighing.ratio)
         tolerance = self.settings.pressure_tolerance
         self.equation = PressureEquation(
             backend, count, block.largest_support, tolerance=tolerance, period=periods
