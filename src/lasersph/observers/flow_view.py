@@ -39,6 +39,7 @@ class FlowView:
         held: temperature of each side of a box that has a given one [K], by the name of the side:
             left, right, bottom, surface.
         crossed: names of the sides of a box that heat crosses, held or with a given flux.
+        is_shortened: whether the step was cut to end at a given time.
     """
 
     velocity: np.ndarray
@@ -60,3 +61,4 @@ class FlowView:
     conductivity: float = 0.0
     held: Mapping[str, float] = field(default_factory=dict)
     crossed: tuple[str, ...] = ()
+    is_shortened: bool = False

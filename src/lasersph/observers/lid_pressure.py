@@ -4,6 +4,9 @@ The lid keeps the surface flat. Where it pushes (above zero) the liquid would ri
 (below zero) it would sink; this pressure drives a return flow that a free surface would not have.
 A boiling surface is pushed down by 0.54 p_sat(T) [Anisimov1968], which is what the lid pressure is
 compared with. The dynamic pressure is known up to a constant; its mean over the liquid is zero.
+
+A part of it undoes within one step what moving the particles left of divergence, and grows as the
+step shrinks. Steps that are shortened to end at a given time are therefore passed over.
 """
 
 from __future__ import annotations
@@ -13,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.observers.flow_speed import flow_of, time_of
+from lasersph.observers.flow_view import FlowView
 from lasersph.observers.peak import Peak
 from lasersph.observers.view import View
 
@@ -27,13 +31,22 @@ class LidPressure:
         self.at_largest: dict[str, float] = {}
         self.at_lowest: dict[str, float] = {}
         self.has_vapor = False
+        self.row = dict.fromkeys(self.columns, 0.0)
 
     def observe(self, view: View) -> dict[str, float]:
-        """Largest and smallest pressure of the lid and largest recoil pressure [Pa]."""
+        """Largest and smallest pressure of the lid and largest recoil pressure [Pa].
+
+        Those of the step before where this one is shortened.
+        """
         flow = flow_of(view)
         wet = np.flatnonzero(flow.flows[flow.surface])
         if wet.size == 0:
-            return dict.fromkeys(self.columns, 0.0)
+            self.row = dict.fromkeys(self.columns, 0.0)
+        elif not flow.is_shortened:
+            self.row = self._look(view, flow, wet)
+        return self.row
+
+    def _look(self, view: View, flow: FlowView, wet: np.ndarray) -> dict[str, float]:
         vapor = flow.saturation_pressure
         self.has_vapor = vapor is not None
         recoil = np.zeros(wet.size) if vapor is None else vapor[wet]
@@ -77,6 +90,7 @@ class LidPressure:
             "at_largest": dict(self.at_largest),
             "at_lowest": dict(self.at_lowest),
             "has_vapor": self.has_vapor,
+            "row": dict(self.row),
         }
 
     def restore(self, state: dict[str, Any]) -> None:
@@ -84,4 +98,4 @@ class LidPressure:
         for name in ("largest", "lowest", "recoil"):
             setattr(self, name, Peak(**state[name]))
         self.at_largest, self.at_lowest = dict(state["at_largest"]), dict(state["at_lowest"])
-        self.has_vapor = state["has_vapor"]
+        self.has_vapor, self.row = state["has_vapor"], dict(state["row"])

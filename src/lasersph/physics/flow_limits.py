@@ -5,7 +5,7 @@
     capillary   0.25 sqrt(rho l^3 / (2 pi gamma))               [Demuth2020, eqs. (59), (76)]
 
 l is the support radius, v the largest speed, f the largest acceleration. Corrected: advection takes
-0.08 l / v, 0.3 spacings, since a pressure that acts for a whole step of 0.94 spacings loses 1 % of
+0.06 l / v, 0.23 spacings, since a pressure that acts for a whole step of 0.94 spacings loses 1 % of
 the energy of a vortex within a tenth of its turn; viscosity 0.05 l^2 / nu where it is explicit,
 since forward Euler with the SPH Laplacian diverges beyond 0.0575 l^2 / nu, and 0.2 l^2 / nu where
 it is implicit: the split of viscous forces from pressure errs within sqrt(nu dt) of the walls. Heat
@@ -18,7 +18,7 @@ from __future__ import annotations
 from math import inf, pi, sqrt
 
 PUBLISHED_ADVECTION, FORCE, PUBLISHED_DIFFUSION, CAPILLARY = 0.25, 0.25, 0.125, 0.25
-ADVECTION = 0.08
+ADVECTION = 0.06
 """Share of l / v."""
 DIFFUSION, SPLIT = 0.05, 0.2
 """Share of l^2 / nu that explicit and implicit viscosity are allowed."""

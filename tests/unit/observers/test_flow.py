@@ -229,6 +229,15 @@ def test_lid_pressure_beside_the_recoil_pressure(view):
     assert lid["recoil_max_Pa"] == pytest.approx(view.flow.saturation_pressure[0])
 
 
+def test_lid_pressure_of_a_shortened_step_is_passed_over(view):
+    """It keeps the values of the step before."""
+    observer = LidPressure()
+    before = observer.observe(view)
+    flow = replace(view.flow, lid_pressure=3.0 * view.flow.lid_pressure, is_shortened=True)
+    assert observer.observe(replace(view, flow=flow)) == before
+    assert observer.summary()["lid"]["pressure_max_Pa"] == before["lid_pressure_max_Pa"]
+
+
 def test_pool_width_of_moved_particles():
     """Cells meet half way between their particles: a pool of three, whose neighbors came closer."""
     view = replace(rows(1), surface=np.arange(500))

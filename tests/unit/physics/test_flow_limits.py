@@ -25,13 +25,13 @@ def test_published():
 
 
 def test_corrected():
-    """Advection 0.08 l/v = 298 ps, viscosity 0.05 l^2/nu = 10.9 ps, implicit 0.2 l^2/nu = 43.5 ps;
+    """Advection 0.06 l/v = 223 ps, viscosity 0.05 l^2/nu = 10.9 ps, implicit 0.2 l^2/nu = 43.5 ps;
     no heat and no capillary limit."""
     found = flow_limits("corrected", **STEEL, is_implicit=False)
     assert found["viscosity"] == pytest.approx(10.87e-12, rel=2e-3)
     assert "heat" not in found
     assert found["capillary"] == found["recoil"] == inf
-    assert found["advection"] == pytest.approx(297.8e-12, rel=2e-3)
+    assert found["advection"] == pytest.approx(223.3e-12, rel=2e-3)
     assert flow_limits("corrected", **STEEL)["viscosity"] == pytest.approx(43.5e-12, rel=2e-3)
 
 
