@@ -127,6 +127,13 @@ def test_programs_that_are_not_installed(tmp_path, capsys):
     assert len(found) + len(lines) == len(run.PROGRAMS)
 
 
+def test_every_program_can_be_installed():
+    """`install.sh` knows each of the names that it is asked for."""
+    text = (run.ROOT / "benchmarks" / "peers" / "install.sh").read_text(encoding="utf-8")
+    packages = [program.package for program in run.PROGRAMS if program.package]
+    assert packages and all(f"\n    {package}) " in text for package in packages)
+
+
 def test_round_goes_on_after_a_failure(tmp_path, capsys):
     """A peer that fails is named, and the others are measured."""
 
