@@ -3,9 +3,11 @@ spreads sideways as from an exact disc."""
 
 import numpy as np
 import pytest
-from moving_matter import go, moving
+from moving_matter import go, host, mass, moving
 
 from lasersph.analytic.half_space import step_rise
+from lasersph.observers.energy_budget import relative_imbalance
+from lasersph.physics.ejection import EJECTED
 
 BLOCK = (
     "solver.dimensions=3", "boundaries.sides=wall", "boundaries.bottom=wall", "traces=",
@@ -66,3 +68,27 @@ def test_heat_spreads_sideways_as_from_a_disc():
     )  # fmt: skip
     assert exact[4] < 0.9 * wide[4]
     assert T[below][2:8] == pytest.approx(exact[2:8], abs=0.03 * exact[0])
+
+
+def test_light_goes_through_a_foil_burnt_through():
+    """Where columns are empty the light is transmitted, neither absorbed nor reflected, and the
+    balance closes to rounding; the foil is gone in the middle of the beam alone."""
+    _, solver = moving(
+        "ablation-depth", "solver.dimensions=2", "domain.width=6 um", "domain.depth=0.4 um",
+        "particles.spacing=0.1 um", "boundaries.bottom=free", "traces=", "time.step=",
+        "laser.beam={kind='gaussian', radius_1e2='1.5 um'}", "laser.fluence_kind=peak",
+        "laser.fluence=20 J/cm^2", "laser.reflectivity=0.75",
+    )  # fmt: skip
+    go(solver, end=7e-9)
+    solver.find_surface()
+    is_empty = np.isnan(solver.columns.tops())
+    assert 0 < is_empty.sum() < 60
+    assert np.abs(solver.columns.center[0, is_empty]).max() < 1e-6
+    energy = solver.state.energy
+    assert energy["transmitted"] > 0.1 * energy["incident"]
+    met = energy["incident"] - energy["transmitted"]
+    assert energy["reflected"] == pytest.approx(0.75 * met, rel=1e-12)
+    assert energy["absorbed"] == pytest.approx(0.25 * met, rel=1e-12)
+    stays = host(solver, "stage") < EJECTED
+    stored = float(mass(solver)[stays] @ host(solver, "enthalpy")[stays])
+    assert relative_imbalance(energy | {"stored": stored}) < 1e-12

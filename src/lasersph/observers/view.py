@@ -27,8 +27,8 @@ class View:
         surface: indices of the particles of the surface layer; where particles move, of those
             that lie at the surface now.
         symmetry_factor: 2 where half a period is computed, else 1; multiplies widths.
-        energy: incident, absorbed, reflected, stored, lost, removed, discarded since the start,
-            in `ENERGY_UNITS`; lost and removed leave, stored stays.
+        energy: incident, absorbed, reflected, transmitted, stored, lost, removed, discarded since
+            the start, in `ENERGY_UNITS`; lost and removed leave, stored stays.
         iterations: iterations of this step, by solver part.
         limit: name of the limit that bound the time step.
         solidus, liquidus, vaporization: corner temperatures of the material [K], None where it
