@@ -48,8 +48,8 @@ class Columns:
 
     Attributes:
         center: (dim - 1, columns) [m]. width: along each axis [m]. incident: light of the step on
-            all columns [J]; absorbed: what of it was; transmitted: what met no particle. up: against
-            the beam, a unit vector. rows: the particles that are met.
+            all columns [J]; absorbed: what of it was; transmitted: what met no particle.
+            up: against the beam, a unit vector. rows: the particles that are met.
     """
 
     def __init__(
