@@ -137,6 +137,11 @@ def estimates(summary: dict[str, Any]) -> Rows:
         ("surface at its end without phase change, (A.1)",
          entry("_K", heat["surface_temperature_K"]), "–"),
     ]  # fmt: skip
+    if "surface_temperature_last_K" in heat:
+        rows.append(
+            ("the same at the end of the last pulse, on the axis, (A.3)",
+             entry("_K", heat["surface_temperature_last_K"]), "–")
+        )  # fmt: skip
     if "surface_temperature_disc_K" in heat:
         lost = f"{shown(100.0 * heat['lateral_loss_relative'], 2)} % less rise"
         rows.append(
