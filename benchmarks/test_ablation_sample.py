@@ -2,9 +2,9 @@
 
 One pulse of 10 J/cm2 and 10 ns under a top hat, steps of 0.05 ns to 15 ns [Alshaer2017, Section
 4.4]. Only what heat reaches is computed. What this gains is the time of a step with every particle
-awake, also of the whole sample, over that of the run's. With 1.26 million wall particles everything
+awake, also of the whole sample, over that of the run's. With 1.27 million wall particles everything
 awake takes 1.96 kB a particle in float64, half of it weights of its 116 pairs, 20.6 GiB in all; in
-float32 it is 1.23 kB and 12.8 GiB, so that both are timed in float32.
+float32 it is 1.23 kB and 12.9 GiB, so that both are timed in float32.
 Run: pytest benchmarks/test_ablation_sample.py -s
 """
 

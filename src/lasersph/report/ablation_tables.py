@@ -18,6 +18,9 @@ CITED_SPEEDS = (
     "380-450 m/s [AlShaer 2017]; 167, 640, 1110 m/s at the edge, on average and in the center"
     " [Hamadi, as cited there]; 750 m/s [Rajendran, as cited there]"
 )
+CITED_ACCELERATIONS = (
+    "1.4·10¹¹ m/s² [AlShaer 2017]; 10⁸ m/s² eject without melting [Tam 1992, as cited there]"
+)
 
 
 def crater(summary: dict[str, Any]) -> Rows:
@@ -156,6 +159,10 @@ def estimates(summary: dict[str, Any]) -> Rows:
         both = (vapor["effusion_velocity_m_s"], vapor["mean_normal_velocity_m_s"])
         text = " and ".join(f"{shown(v)} m/s" for v in both)
         rows.append(("vapor at the boiling point: effusion, and eq. (6)", text, CITED_SPEEDS))
+    found = [life["acceleration_m_s2"] for life in summary.get("traces", {}).values()]
+    largest = max((value for value in found if value is not None), default=None)
+    rows.append(("largest acceleration of a traced particle", acceleration(largest),
+                 CITED_ACCELERATIONS))  # fmt: skip
     return rows
 
 

@@ -80,6 +80,8 @@ def test_tables_with_units(summary):
     ((name, *_, acceleration, pressure),) = ablation_tables.traces(summary)
     assert (name, acceleration, pressure) == ("center", "8·10¹¹ m/s²", "200 kPa")
     assert any("24.4 nm" in row for row in ablation_tables.estimates(summary))
+    *_, (_, largest, cited) = ablation_tables.estimates(summary)
+    assert largest == acceleration and "10⁸" in cited and "1.4·10¹¹" in cited
     assert len(ablation_tables.left_out(summary)) == 3
 
 
