@@ -7,6 +7,11 @@ pointwise function bare names are fields where there is such a field, else const
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
+from itertools import product
+from operator import itemgetter
+
 import numpy as np
 
 from lasersph.compute.generate import Argument
@@ -94,10 +99,21 @@ def fingerprint(value) -> object:
     return type(value)
 
 
-def components(array: np.ndarray) -> tuple[np.ndarray, ...] | list[np.ndarray]:
+def components(array: np.ndarray) -> tuple[np.ndarray, ...]:
     """Contiguous 1-D views of a field, row-major."""
-    if array.ndim == 1:
-        return (array,)
-    if array.ndim == 2:
-        return list(array)
-    return [row for block in array for row in block]
+    split = splitter(array.shape[:-1])
+    return (array,) if split is None else split(array)
+
+
+@cache
+def splitter(shape: tuple[int, ...]) -> Callable[[np.ndarray], tuple[np.ndarray, ...]] | None:
+    """Function that takes a field with values of this shape apart; None where it is a scalar's.
+
+    By indices, all at once: NumPy's iterator over rows takes three times as long.
+    """
+    if not shape:
+        return None
+    places = range(*shape) if len(shape) == 1 else list(product(*map(range, shape)))
+    if len(places) == 1:
+        return lambda array: (array[places[0]],)
+    return itemgetter(*places)
