@@ -62,7 +62,11 @@ def coarsen(
         position: (dim, n). support: (n,) [m]. row_start: (n + 1,), neighbor, weight: (pairs,).
     """
     graph: Any = sparse.csr_array(
-        (weight.astype(np.float64), neighbor.astype(np.int32), row_start.astype(np.int64)),
+        (
+            weight.astype(np.float64, copy=False),
+            neighbor.astype(np.int32),
+            row_start.astype(np.int64),
+        ),
         shape=(support.size, support.size),
     )
     levels: list[Aggregates] = []
