@@ -194,9 +194,9 @@ class LoopText:
                 if period[k]:
                     width, x = f"period__{k}", f"x_ij__{k}"
                     self._constant(width, ("real", ()), "period", k)
-                    rows.append(f"half__{k} = real(0.5) * {width}")
-                    inner.append(f"{x} = {x} - {width} if {x} > half__{k} else {x}")
-                    inner.append(f"{x} = {x} + {width} if {x} < -half__{k} else {x}")
+                    rows.append(f"per_width__{k} = real(1.0) / {width}")
+                    nearest = f"np.floor({x} * per_width__{k} + real(0.5))"
+                    inner.append(f"{x} = {x} - {width} * {nearest}")
         if wanted & {"r_ij", "W_ij", "dW_ij"}:
             squares = " + ".join(f"x_ij__{k} * x_ij__{k}" for k in range(dimension))
             inner.append(f"r_ij = math.sqrt({squares})")

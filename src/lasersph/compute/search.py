@@ -21,6 +21,8 @@ from lasersph.compute.scan import scan_text, sort_text, store_text
 
 _CELLS_PER_REACH = 1.0
 _CELLS_PER_PARTICLE = 4
+_PLACES_PER_ROW = 256
+"""At first; a list with more neighbors per particle is begun anew. Memory not written is free."""
 
 
 class EscapedParticle(ValueError):
@@ -143,7 +145,8 @@ def _scanned(
     set_num_threads(backend.threads)
     store = cache.load(store_text()).store_blocks
     blocks, group = -(-count // BLOCK), 8 * backend.threads
-    scratch = np.empty((min(group, blocks), 64 * min(BLOCK, count)), dtype=np.uint32)
+    places = _PLACES_PER_ROW * min(BLOCK, count)
+    scratch = np.empty((min(group, blocks), places), dtype=np.uint32)
     ends = np.empty(count, dtype=np.uint64)
     used = np.empty(group, dtype=np.uint64)
     neighbor = np.empty(0, dtype=np.uint32)

@@ -25,7 +25,7 @@ import numpy as np
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
-from lasersph.particles.support import arithmetic
+from lasersph.particles.support import common
 from lasersph.physics.ejection import EJECTED, GONE
 
 LEAST_RISE = 1e-11
@@ -247,14 +247,14 @@ class ActiveRegion:
         backend = self.backend
         if self.rows is None:
             return search.neighbor_list(
-                backend, place, reach, self.count, mean=arithmetic, period=self.period
+                backend, place, reach, self.count, mean=common, period=self.period
             )
         near, size = self._near, self._near.shape[0]
         x, support = backend.zeros((len(self._shape), size)), backend.zeros(size)
         backend.gather(place, near, x)
         backend.gather(reach, near, support)
         start, local = search.neighbor_list(
-            backend, x, support, size, mean=arithmetic, period=self.period, wanted=self._wanted
+            backend, x, support, size, mean=common, period=self.period, wanted=self._wanted
         )
         neighbor = backend.zeros(local.shape[0], "index")
         backend.pointwise(numbered, {"place": local}, neighbor, numbers=near)
