@@ -67,6 +67,12 @@ class OrderedPairs:
         self.backend, self.colors, self.sides, self.inner = backend, colors, sides, inner
         self.total, self.after = total, after
 
+    @property
+    def stored(self) -> int:
+        """Bytes of weights and columns that a sweep forward and one backward read."""
+        sides = sum(tiles.column.nbytes + tiles.value.nbytes for tiles in self.sides)
+        return sides + 2 * self.inner.nbytes
+
     def prepare(
         self,
         function: Callable,

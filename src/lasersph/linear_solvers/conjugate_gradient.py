@@ -6,8 +6,8 @@ on the particles whose mask is 1; the others keep 0. All vectors stay on the bac
 dot products are fused into the loops. Symmetric positive definite for g_ij = g_ji >= 0, C > 0.
 
 The preconditioner follows the stiffness s max(sum_j g_ij / C_i). Up to `FACTORED` it is that of
-`incomplete_factors`, whose iterations grow with its fourth root, for the pairs that the solver was
-made with: arranging them costs some thirty iterations, which particles that move would not earn.
+`incomplete_factors`, whose iterations grow with its fourth root, as long as particles that are said
+to rest have not moved: arranging their pairs takes as long as some thirty iterations.
 Else it is Jacobi's, whose iterations grow with the root of the stiffness; where that exceeds
 `STIFF`, `multigrid` corrects it and they do not. Any iteration reads the weights once, and takes as
 long as that: q = A p follows from A z, so that the product is summed in the same loop that turns
@@ -89,13 +89,21 @@ class ConjugateGradient:
     Args:
         rounds: read the weights in float32. The solution is then that of weights which are off
             by up to 6e-8 of themselves.
+        rests: the pairs and weights that the operator has now are worth arranging. The factors are
+            used until it is given others.
 
     Attributes:
-        solution: (n,) x after `solve`.
+        solution: (n,) x after `solve`. factors: incomplete factors, where a solve has used them.
     """
 
     def __init__(
-        self, backend: Backend, operator: PairOperator, count: int, *, rounds: bool = False
+        self,
+        backend: Backend,
+        operator: PairOperator,
+        count: int,
+        *,
+        rounds: bool = False,
+        rests: bool = False,
     ) -> None:
         self.backend, self.operator, self.rounds = backend, operator, rounds
         self._first, self._used = replace(operator), replace(operator, weights=None)
@@ -109,8 +117,8 @@ class ConjugateGradient:
         )  # fmt: skip
         self._multigrid: Multigrid | None = None
         self._is_set_up = False
-        self._given: tuple = (operator.neighbors, operator.weights)
-        self._factors: IncompleteFactors | None = None
+        self._given: tuple = (operator.neighbors, operator.weights) if rests else ()
+        self.factors: IncompleteFactors | None = None
 
     def solve(
         self,
@@ -163,18 +171,18 @@ class ConjugateGradient:
     def _factored(self) -> IncompleteFactors | None:
         """Incomplete factors of the pairs that the solver was made with, while they stay."""
         if not self._given:
-            return self._factors
+            return self.factors
         now = (self.operator.neighbors, self.operator.weights)
         if any(a is not b for a, b in zip(now, self._given, strict=True)):
-            self._given, self._factors = (), None
-        elif self._factors is None:
+            self._given, self.factors = (), None
+        elif self.factors is None:
             pairs = ordered_pairs(self.backend, now[0], self._weights())
             if pairs is None:
                 self._given = ()
             else:
                 count = self.solution.shape[0]
-                self._factors = IncompleteFactors(self.backend, pairs, self._v, count)
-        return self._factors
+                self.factors = IncompleteFactors(self.backend, pairs, self._v, count)
+        return self.factors
 
     def _weights(self) -> Any:
         """Weights as they are read."""

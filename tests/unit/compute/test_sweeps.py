@@ -131,3 +131,10 @@ def test_missing_and_unfit_arguments_are_refused(backend):
         ordered.prepare(swept, {}, [backend.zeros(12)], reduces=1, s=1.0)
     with pytest.raises(ValueError, match="is asked for"):
         ordered.prepare(swept, {"b": backend.zeros(5)}, [backend.zeros(12)], reduces=1, s=1.0)
+
+
+def test_other_memory_is_not_arranged():
+    """Where arrays are not the processor's, there are no sweeps."""
+    neighbors = SimpleNamespace(row_start=None, neighbor=None)
+    elsewhere = SimpleNamespace(unwrap=lambda array: "on a card")
+    assert ordered_pairs(elsewhere, neighbors, None) is None
