@@ -7,9 +7,12 @@ pointwise function bare names are fields where there is such a field, else const
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from lasersph.compute.generate import Argument
+from lasersph.compute.opaque_array import OpaqueArray
 
 GEOMETRY = ("x_ij", "r_ij", "l_ij", "W_ij", "dW_ij")
 _REALS = (float, np.floating)
@@ -62,7 +65,7 @@ def constant_kind(name: str, value):
         return "constant", ("real", ())
     if isinstance(value, _WHOLE):
         return "constant", ("int", ())
-    if isinstance(value, np.ndarray) and value.ndim == 1:
+    if getattr(value, "ndim", 0) == 1:
         return "table", (array_kind(value)[0] + "-table", ())
     if (
         isinstance(value, tuple | list)
@@ -91,11 +94,15 @@ def fingerprint(value) -> object:
         return (value.dtype.char, value.shape[:-1])
     if type(value) is tuple or type(value) is list:
         return len(value)
+    if isinstance(value, OpaqueArray):
+        return (value.dtype.char, value.shape[:-1])
     return type(value)
 
 
-def components(array: np.ndarray) -> tuple[np.ndarray, ...] | list[np.ndarray]:
+def components(array: Any) -> tuple | list:
     """Contiguous 1-D views of a field, row-major."""
+    if type(array) is not np.ndarray:
+        return array.parts
     if array.ndim == 1:
         return (array,)
     if array.ndim == 2:

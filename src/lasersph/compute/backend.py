@@ -19,8 +19,14 @@ class Backend:
     """Loops on the processor with a fixed number of threads and one precision.
 
     Attributes:
+        name: as asked for by --backend. device: what computes, None for the processor.
         real: NumPy type of kind "real". threads: number of threads of a loop.
+        search: what finds neighbors and splices lists; None for `search` and `splice` themselves.
     """
+
+    name = "cpu"
+    device: str | None = None
+    search: Any = None
 
     def __init__(self, threads_wanted: int | None, precision: str) -> None:
         if precision not in ("float64", "float32"):

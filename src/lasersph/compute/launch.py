@@ -14,8 +14,8 @@ import numpy as np
 from lasersph.compute import threads
 from lasersph.compute.generate import BLOCK
 
-_TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
-_EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
+TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
+EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
 
 
 class Compiled(NamedTuple):
@@ -79,11 +79,11 @@ class Launch:
         for name, value in constants.items():
             self._set(name, value)
         if self.rows == 0:
-            return tuple([_EMPTY[how] for how in self.reductions])
+            return tuple([EMPTY[how] for how in self.reductions])
         if self.blocks == 1:
             self.block(np.uint64(0), np.uint64(self.rows), *self._arguments)
         else:
             threads.use(self.thread_count)
             self.loop(self.blocks, np.uint64(self.rows), *self._arguments)
         pairs = zip(self.reductions, self._partial, strict=True)
-        return tuple([float(_TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])
+        return tuple([float(TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])

@@ -133,7 +133,7 @@ class Bound:
                 raise ValueError(f"{call.function.__name__}(): fields of lengths {lengths}")
         else:
             row_start, neighbor = self._list()
-            rows, pairs = row_start.size - 1, int(row_start[-1])
+            rows, pairs = row_start.size - 1, self.last(row_start)
             support = call.neighbors.support
             total = rows if support is None else support.shape[-1]
             if pairs > neighbor.size or total < rows:
@@ -156,9 +156,21 @@ class Bound:
             return rows
         if self.rows.dtype != np.uint32:
             raise ValueError(f"rows must be of kind index (uint32), not {self.rows.dtype}")
-        if self.rows.size and int(self.rows.max()) >= rows:
-            raise ValueError(f"row {int(self.rows.max())} of {rows}")
+        self.refuse_beyond(self.rows, rows)
         return self.rows.size
+
+    def reductions(self) -> tuple[str, ...]:
+        """How values are reduced, those that are."""
+        return tuple([how for how in self.reduce if how is not None])
+
+    def last(self, row_start: Any) -> int:
+        """The last row pointer: the number of pairs."""
+        return int(row_start[-1])
+
+    def refuse_beyond(self, rows: Any, count: int) -> None:
+        """Raise ValueError where a listed row is not below `count`."""
+        if rows.size and int(rows.max()) >= count:
+            raise ValueError(f"row {int(rows.max())} of {count}")
 
     def _list(self) -> tuple[np.ndarray, np.ndarray]:
         neighbors = self.call.neighbors
@@ -172,7 +184,14 @@ class Bound:
 
 
 class Loops:
-    """All loops of one backend, found by key."""
+    """All loops of one backend, found by key.
+
+    Attributes:
+        bound, loop_text: what binds the arrays and writes the loops of this backend.
+    """
+
+    bound: type[Bound] = Bound
+    loop_text: type[LoopText] = LoopText
 
     def __init__(self, precision: str, threads: int, unwrap: Callable[[Any], np.ndarray]) -> None:
         self.precision, self.threads, self.unwrap = precision, threads, unwrap
@@ -192,7 +211,7 @@ class Loops:
 
     def prepared(self, call: Call) -> Launch:
         """The loop of a call, bound to its arrays."""
-        bound = Bound(call, self.unwrap, self.roles)
+        bound = self.bound(call, self.unwrap, self.roles)
         key = bound.key()
         compiled = self._compiled.get(key)
         if compiled is None or not source.is_current(compiled.watched):
@@ -251,7 +270,7 @@ class Loops:
             bound.reduce, bound.rows is not None, call.finish, arguments(bound.finish_roles),
             bound.geometry, bound.combine,
         )  # fmt: skip
-        return LoopText(loop)
+        return self.loop_text(loop)
 
     def compiled(self, bound: Bound) -> Compiled:
         """Generate, cache and load the loop of a new key."""
@@ -261,7 +280,7 @@ class Loops:
             raise ValueError('combine takes "sum", "max" or "min"')
         arrays = [*bound.arrays.items(), *((f"out {k}", o) for k, o in enumerate(bound.outs))]
         for name, array in [*arrays, *bound.constants.items()]:
-            if not isinstance(array, np.ndarray) or array.dtype.kind != "f":
+            if getattr(array, "ndim", 0) == 0 or array.dtype.kind != "f":
                 continue
             is_pair = ("pair", name) in [(role, symbol) for _, role, symbol in bound.roles]
             if array.dtype != self.real and not (is_pair and array.dtype == np.float32):
@@ -276,21 +295,29 @@ class Loops:
     def _launch(self, compiled: Compiled, bound: Bound) -> Launch:
         """The loop with the arrays of a call."""
         rows = bound.count()
-        arrays = [] if bound.rows is None else [bound.rows]
+        arrays = [] if bound.rows is None else [*components(bound.rows)]
         constants = bound.constants
         neighbors = bound.call.neighbors
         if neighbors is not None:
-            arrays += [self.unwrap(neighbors.row_start), self.unwrap(neighbors.neighbor)]
+            for array in (neighbors.row_start, neighbors.neighbor):
+                arrays += components(self.unwrap(array))
             constants = constants | {"period": neighbors.period}
         for symbol in compiled.arrays:
             arrays += components(bound.arrays[symbol])
-        arrays += [constants[name] for name in compiled.tables]
+        for name in compiled.tables:
+            arrays += components(constants[name])
         for out in bound.outs:
             if out is not None:
                 arrays += components(out)
+        return self.launched(compiled, arrays, constants, bound, rows)
+
+    def launched(
+        self, compiled: Compiled, arrays: list, constants: dict[str, Any], bound: Bound, rows: int
+    ) -> Launch:
+        """The loop with the components of its arrays, in order, and its constants."""
         return Launch(
             compiled, arrays, constants, rows=rows, thread_count=self.threads, real=self.real,
-            reductions=tuple([how for how in bound.reduce if how is not None]),
+            reductions=bound.reductions(),
         )  # fmt: skip
 
 
