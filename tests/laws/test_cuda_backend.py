@@ -1,0 +1,85 @@
+"""The three solvers and whole runs on a graphics card, or its simulator, against the CPU."""
+
+import numpy as np
+import pytest
+from conftest import backends
+from flow_boxes import LID, box
+from flow_boxes import go as flow_steps
+from law_runs import solver_of
+from moving_matter import HEATED_BLOCK, moving
+from moving_matter import go as moving_steps
+
+from lasersph import compute
+from lasersph.case import load_case
+from lasersph.compute.cuda_device import IS_SIMULATED
+from lasersph.simulation.run import Stopped, run
+
+pytestmark = pytest.mark.skipif("cuda" not in backends(), reason="no CUDA device or simulator")
+COLUMN = (*HEATED_BLOCK, "solver.dimensions=1", "domain.depth=4 um", "particles.spacing=0.5um",
+          "laser.fluence=40 J/cm^2")  # fmt: skip
+RELATIVE = {"float64": 1e-10, "float32": 1e-4}
+"""Largest difference over the largest value of a field."""
+
+
+def heat(backend):
+    """Implicit heat in a small section of steel in the light, losing heat by evaporation."""
+    _, solver = solver_of(
+        "dlip-steel", "particles.spacing=500nm", "particles.coarsest=1um", "domain.depth=4um",
+        "solver.plateau=evaporate", "boundaries.convection=1e5 W/(m^2 K)", backend=backend,
+    )  # fmt: skip
+    solver.state.time = 5e-8
+    solver.time_step_limits()
+    for _ in range(2):
+        solver.step(1e-11)
+    return solver, ("enthalpy", "temperature")
+
+
+def flow(backend):
+    """A liquid under a moving lid, between a warm and a cold wall."""
+    walls = {"left": "fixed-temperature", "left_temperature": 310.0, "right": "fixed-temperature"}
+    solver = box(
+        backend, heat=walls, flow=LID, material={"expansion": "0.01 1/K"}, gravity=10.0, end=10.0,
+        step=0.1,
+    )  # fmt: skip
+    flow_steps(solver, 1 if IS_SIMULATED else 3)
+    return solver, ("enthalpy", "temperature", "position", "velocity", "pressure")
+
+
+def ablation(backend):
+    """A column of aluminium that boils away."""
+    _, solver = moving("sound-wave", *COLUMN, backend=backend)
+    moving_steps(solver, steps=40)
+    assert solver.state.left.count > 0
+    return solver, ("position", "velocity", "density", "enthalpy", "stage")
+
+
+@pytest.mark.parametrize("precision", ["float64", "float32"])
+@pytest.mark.parametrize("make", [heat, flow, ablation])
+def test_steps(make, precision):
+    """Steps end in the CPU's fields, but for the order of the card's sums."""
+    if precision == "float32" and make is not heat and IS_SIMULATED:
+        pytest.skip("takes the simulator long")
+    found = []
+    for backend in (compute.cpu(1, precision), compute.cuda(precision)):
+        solver, names = make(backend)
+        fields = [backend.to_host(solver.fields[name]).astype(float) for name in names]
+        found.append((solver.state.time, *fields))
+    (time, *expected), (other, *fields) = found
+    assert other == pytest.approx(time, rel=RELATIVE[precision])
+    for name, first, second in zip(names, expected, fields, strict=True):
+        largest = np.abs(first).max()
+        assert np.abs(second - first).max() <= RELATIVE[precision] * largest, name
+
+
+@pytest.mark.parametrize("first, second", [("cpu", "cuda"), ("cuda", "cpu")])
+def test_checkpoint_is_continued_by_the_other(first, second, tmp_path):
+    """A run stopped on one backend ends on the other as one that stayed, and says where."""
+    case = load_case("sound-wave", (*COLUMN, "time.end=1 ns"))
+    whole = run(case, tmp_path / "whole", threads=1).summary
+    asked = iter([False, False, True])
+    with pytest.raises(Stopped):
+        run(case, tmp_path / "run", threads=1, backend=first, should_stop=lambda: next(asked))
+    found = run(case, tmp_path / "run", threads=1, backend=second, resume=True).summary
+    assert found["backend"] == second and (found["device"] is None) == (second == "cpu")
+    assert found["steps"] == whole["steps"] > 3
+    assert found["temperature_max_K"] == pytest.approx(whole["temperature_max_K"], rel=1e-10)
