@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from lasersph.cli.arguments import CaseName, Out, Quick, Settings, Threads
-from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal
+from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal, WrongCommand
 
 if TYPE_CHECKING:
     from lasersph.case import Case
@@ -23,6 +23,10 @@ Resume = Annotated[
 ]
 Precision = Annotated[
     Literal["float64", "float32"], typer.Option("--precision", help="Of the computation.")
+]
+Backend = Annotated[
+    Literal["cpu", "cuda"],
+    typer.Option("--backend", help="Where to compute: the processor or a CUDA graphics card."),
 ]
 Figures = Annotated[bool, typer.Option(help="Draw the figures and write report.html at the end.")]
 
@@ -66,18 +70,22 @@ def run(
     quick: Quick = False,
     threads: Threads = None,
     precision: Precision = "float64",
+    backend: Backend = "cpu",
     figures: Figures = True,
 ) -> None:
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
     from lasersph.case import load_case
 
+    if backend != "cpu" and threads is not None:
+        raise WrongCommand("--threads is for --backend cpu")
     loaded = load_case(case, settings or (), quick=quick)
     folder = out or RUNS / loaded.name
     command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
     command += [word for setting in settings or () for word in ("--set", setting)]
     command += ["--quick"] if quick else []
     command += ["--precision", precision] if precision != "float64" else []
-    options = {"resume": resume, "threads": threads, "precision": precision}
+    command += ["--backend", backend] if backend != "cpu" else []
+    options = {"resume": resume, "threads": threads, "precision": precision, "backend": backend}
     result = _compute(loaded, folder, shlex.join(command), options)
     _tell(result)
     if figures:

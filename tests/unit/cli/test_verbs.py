@@ -13,6 +13,7 @@ import pytest
 import lasersph
 from lasersph.case import available_cases
 from lasersph.cli import main
+from lasersph.compute import cuda_device
 
 PROGRAM = "import sys; from lasersph.cli import main; sys.exit(main())"
 SMALL = ["--set", "particles.spacing=2um", "--set", "time.end=200ns", "--set", "time.step=5ns"]
@@ -231,3 +232,18 @@ def test_validate(monkeypatch, capsys):
     assert 'do you mean "good"' in capsys.readouterr().err
     assert main(["validate", "good", "--json", "none/all.json"]) == 1
     assert "cannot write none/all.json" in capsys.readouterr().err
+
+
+def test_run_without_a_graphics_card(tmp_path, monkeypatch, capsys):
+    """`--backend cuda` without a card, or with threads: one line, exit code 2, nothing written."""
+
+    def no_card():
+        raise cuda_device.NoDevice("--backend cuda: no CUDA device found")
+
+    monkeypatch.setattr(cuda_device, "checked", no_card)
+    command = ["run", "stefan", "--backend", "cuda", "--out", str(tmp_path / "run")]
+    assert main(command) == 2
+    assert capsys.readouterr().err == "lasersph: --backend cuda: no CUDA device found\n"
+    assert main([*command, "--threads", "2"]) == 2
+    assert capsys.readouterr().err == "lasersph: --threads is for --backend cpu\n"
+    assert not any(tmp_path.iterdir())
