@@ -116,7 +116,7 @@ def view_at(time, step, dimension, kind="top-hat"):
         gas_constant=GAS_CONSTANT,
     )
     incident = 1e5 * (min(time, PULSE) / PULSE) * WIDTH ** (dimension - 1)
-    energy = dict.fromkeys(("lost", "discarded"), 0.0)
+    energy = dict.fromkeys(("lost", "discarded", "transmitted"), 0.0)
     energy |= {"incident": incident, "reflected": 0.75 * incident, "absorbed": 0.25 * incident}
     energy["removed"] = seen.ejected_energy
     energy["stored"] = energy["absorbed"] - energy["removed"]

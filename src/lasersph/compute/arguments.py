@@ -7,7 +7,10 @@ pointwise function bare names are fields where there is such a field, else const
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from functools import cache
+from itertools import product
+from operator import itemgetter
 
 import numpy as np
 
@@ -90,21 +93,31 @@ def argument_for(name: str, role: str, symbol: str, value, dimension: int) -> Ar
 
 def fingerprint(value) -> object:
     """Hashable that changes whenever the argument's kind does, cheap enough for every call."""
-    if type(value) is np.ndarray:
-        return (value.dtype.char, value.shape[:-1])
-    if type(value) is tuple or type(value) is list:
+    kind = type(value)
+    if kind is float or kind is int:
+        return kind
+    if kind is tuple or kind is list:
         return len(value)
-    if isinstance(value, OpaqueArray):
+    if kind is np.ndarray or isinstance(value, OpaqueArray):
         return (value.dtype.char, value.shape[:-1])
-    return type(value)
+    return kind
 
 
-def components(array: Any) -> tuple | list:
+def components(array: np.ndarray) -> tuple[np.ndarray, ...]:
     """Contiguous 1-D views of a field, row-major."""
-    if type(array) is not np.ndarray:
-        return array.parts
-    if array.ndim == 1:
-        return (array,)
-    if array.ndim == 2:
-        return list(array)
-    return [row for block in array for row in block]
+    split = splitter(array.shape[:-1])
+    return (array,) if split is None else split(array)
+
+
+@cache
+def splitter(shape: tuple[int, ...]) -> Callable[[np.ndarray], tuple[np.ndarray, ...]] | None:
+    """Function that takes a field with values of this shape apart; None where it is a scalar's.
+
+    By indices, all at once: NumPy's iterator over rows takes three times as long.
+    """
+    if not shape:
+        return None
+    places = range(*shape) if len(shape) == 1 else list(product(*map(range, shape)))
+    if len(places) == 1:
+        return lambda array: (array[places[0]],)
+    return itemgetter(*places)

@@ -15,7 +15,7 @@ from lasersph.compute import cuda_device, cuda_kernels
 from lasersph.compute.backend import Backend
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import THREADS, start
-from lasersph.compute.cuda_launch import CudaLoops
+from lasersph.compute.cuda_launch import CudaLauncher
 from lasersph.compute.cuda_search import CudaSearch
 
 
@@ -34,8 +34,11 @@ class CudaBackend(Backend):
     def __init__(self, precision: str) -> None:
         self.device = cuda_device.checked()
         super().__init__(1, precision)
-        self._loops = CudaLoops(self.precision, self.threads, self.unwrap)
         self.search = CudaSearch(self)
+
+    def launcher(self) -> CudaLauncher:
+        """What runs the loops."""
+        return CudaLauncher(self.threads)
 
     # --- arrays ---------------------------------------------------------------------------------
 

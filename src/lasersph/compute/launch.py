@@ -1,25 +1,31 @@
-"""A loop bound to its arrays, ready to be run again with other numbers.
-
-Binding names, checking lengths and finding the loop take some 40 us, which an iteration on small
-arrays would spend most of its time with; a launch takes a fifth of that.
-"""
+"""A loop bound to its arrays, and what runs it: once, or again with other numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
+from operator import methodcaller
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from lasersph.compute import threads
-from lasersph.compute.generate import BLOCK
+from lasersph.compute.arguments import splitter
+from lasersph.compute.generate import BLOCK, LoopText
 
 TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
 EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
+_FIRST = np.uint64(0)
+_count = lru_cache(maxsize=1024)(np.uint64)  # making one takes as long as looking up five
 
 
 class Compiled(NamedTuple):
-    """A compiled loop, with the order of its arguments."""
+    """A compiled loop, with the order of its arguments.
+
+    Attributes:
+        arrays, tables: symbols and names. reals, whole: (name, component) of each number.
+        reductions: "sum", "max", "min" in order. real: precision. watched: see `source.is_current`.
+    """
 
     block: Callable
     loop: Callable
@@ -27,48 +33,97 @@ class Compiled(NamedTuple):
     tables: tuple[str, ...]
     reals: tuple[tuple[str, int], ...]
     whole: tuple[tuple[str, int], ...]
+    reductions: tuple[str, ...]
+    real: np.dtype
     watched: tuple
+
+
+class Bound(NamedTuple):
+    """A loop with its arguments.
+
+    Attributes:
+        arguments: rows, lists, fields, tables, outputs and numbers, in the order of the loop's.
+        reals, whole: the numbers among them. outs: the outputs as a whole, None if not stored.
+    """
+
+    compiled: Compiled
+    rows: int
+    arguments: list[Any]
+    reals: np.ndarray | None
+    whole: np.ndarray | None
+    outs: list[Any]
+
+
+class Launcher:
+    """All that loops need to know of where they run: here the processor, on NumPy's arrays.
+
+    Attributes:
+        text: writes the loops. split: see `splitter`. last: the last element of an array.
+    """
+
+    text: type[LoopText] = LoopText
+    split: Callable = staticmethod(splitter)
+    last: Callable = staticmethod(methodcaller("item", -1))
+
+    def __init__(self, threads: int) -> None:
+        self.threads = threads
+
+    def largest(self, rows: Any) -> int:
+        """The largest of some row numbers."""
+        return int(np.maximum.reduce(rows))
+
+    def partial(self, bound: Bound) -> Any:
+        """Room for what each block reduces, one row a reduction; None without reductions."""
+        count = len(bound.compiled.reductions)
+        return np.empty((count, -(-bound.rows // BLOCK)), bound.compiled.real) if count else None
+
+    def run(self, bound: Bound, partial: Any) -> tuple[float, ...]:
+        """Run a loop; returns the reductions."""
+        compiled, rows, arguments, _, _, _ = bound
+        reductions = compiled.reductions
+        if rows == 0:
+            return tuple([EMPTY[how] for how in reductions])
+        if partial is not None:
+            arguments = [*arguments, partial]
+        if rows <= BLOCK:
+            compiled.block(_FIRST, _count(rows), *arguments)
+        else:
+            threads.use(self.threads)
+            compiled.loop(-(-rows // BLOCK), _count(rows), *arguments)
+        if partial is None:
+            return ()
+        if rows <= BLOCK:
+            parts = zip(reductions, partial[:, 0].tolist(), strict=True)
+            return tuple([0.0 + part if how == "sum" else part for how, part in parts])
+        return totals(reductions, partial)
+
+
+def totals(reductions: tuple[str, ...], partial: Any) -> tuple[float, ...]:
+    """What the rows of `partial` reduce to."""
+    pairs = zip(reductions, partial, strict=True)
+    return tuple([float(TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])
 
 
 class Launch:
     """A loop with its arrays; called with the numbers that have changed, it runs.
 
     Args:
-        arrays: rows, lists, fields, tables and outputs, in the order of the loop's arguments.
-        constants: numbers by name. rows: how many. reductions: "sum", "max", "min" in order.
+        bound: with numbers that no other launch has.
     """
 
-    def __init__(
-        self,
-        compiled: Compiled,
-        arrays: list[np.ndarray],
-        constants: dict[str, Any],
-        *,
-        rows: int,
-        reductions: tuple[str, ...],
-        thread_count: int,
-        real: np.dtype,
-    ) -> None:
-        self.rows, self.blocks = rows, -(-rows // BLOCK)
-        self.reductions, self.thread_count = reductions, thread_count
-        self.block, self.loop = compiled.block, compiled.loop
-        self._places: dict[str, list[tuple[np.ndarray, int, int]]] = {}
-        self._arguments: list[Any] = list(arrays)
-        for names, kind in ((compiled.reals, real), (compiled.whole, np.dtype(np.int64))):
-            values = np.zeros(len(names), kind)
-            if names:
-                self._arguments.append(values)
+    def __init__(self, bound: Bound, launcher: Launcher) -> None:
+        self._bound, self._launcher = bound, launcher
+        self._partial = launcher.partial(bound)
+        self._places: dict[str, list[tuple[Any, int, int]]] = {}
+        compiled = bound.compiled
+        for names, values in ((compiled.reals, bound.reals), (compiled.whole, bound.whole)):
             for k, (name, component) in enumerate(names):
                 self._places.setdefault(name, []).append((values, k, component))
-        for name in self._places:
-            self._set(name, constants[name])
-        self._partial = np.empty((len(reductions), self.blocks), real)
-        if reductions:
-            self._arguments.append(self._partial)
 
-    def _set(self, name: str, value: Any) -> None:
-        for values, k, component in self._places[name]:
-            values[k] = value[component] if isinstance(value, tuple | list) else value
+    @property
+    def reduces(self) -> bool:
+        """Whether a run returns numbers."""
+        return bool(self._bound.compiled.reductions)
 
     def __call__(self, **constants: Any) -> tuple[float, ...]:
         """Run; returns the reductions.
@@ -77,13 +132,6 @@ class Launch:
             KeyError: a constant that the loop does not have.
         """
         for name, value in constants.items():
-            self._set(name, value)
-        if self.rows == 0:
-            return tuple([EMPTY[how] for how in self.reductions])
-        if self.blocks == 1:
-            self.block(np.uint64(0), np.uint64(self.rows), *self._arguments)
-        else:
-            threads.use(self.thread_count)
-            self.loop(self.blocks, np.uint64(self.rows), *self._arguments)
-        pairs = zip(self.reductions, self._partial, strict=True)
-        return tuple([float(TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])
+            for values, k, component in self._places[name]:
+                values[k] = value[component] if isinstance(value, tuple | list) else value
+        return self._launcher.run(self._bound, self._partial)

@@ -1,222 +1,89 @@
 """Running of loops: bind arguments by name, find or generate the loop, launch it.
 
-A loop is generated for the functions, the kinds of their arguments and the dimension, and found
-again by a key made of the function objects and the arrays' shapes, so that a repeated call neither
-reads source text nor hashes it. Before each use the global names that entered are compared with
-those of the first call; an edited constant or callee gives a new loop.
+A loop is generated for the functions, the kinds of their arguments and the dimension. What a call's
+names decide is kept in its `Signature`; the compiled loop is found there by the kinds of the arrays
+and constants, so that a repeated call neither resolves names, nor reads source text, nor hashes it.
+Lengths, rows and lists are checked at every call. Before each use the global names that entered are
+compared with those of the first call; an edited constant or callee gives a new loop.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from functools import lru_cache
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from lasersph.compute import cache, source
-from lasersph.compute.arguments import (
-    argument_for,
-    array_kind,
-    components,
-    fingerprint,
-    pair_roles,
-    parameter_names,
-)
+from lasersph.compute.arguments import argument_for, array_kind, fingerprint
 from lasersph.compute.generate import Loop, LoopText
-from lasersph.compute.launch import Compiled, Launch
+from lasersph.compute.launch import Bound, Compiled, Launch, Launcher
+from lasersph.compute.signature import Call, Signature, listed
+
+_layout = attrgetter("dtype", "shape", "strides")
+_INDEX, _OFFSET, _WHOLE = np.dtype(np.uint32), np.dtype(np.uint64), np.dtype(np.int64)
 
 
-class Call(NamedTuple):
-    """One call of a loop shape, as the caller wrote it."""
+class Given(NamedTuple):
+    """Arrays and constants of one call, in the order of its signature, as the launcher takes them.
 
-    shape: str
-    function: Callable
-    neighbors: Any
-    fields: Mapping[str, Any]
-    out: Any
+    Attributes:
+        row_start, neighbor: the list, None without. geometry: kernel, mean, periodic axes and
+            dimension as far as the loop depends on them, else None.
+    """
+
+    call: Call
+    signature: Signature
+    arrays: list[Any]
+    constants: list[Any]
+    outs: list[Any]
     rows: Any
-    finish: Callable | None
-    reduce: Any
-    constants: dict[str, Any]
-    combine: Any = None
+    row_start: Any
+    neighbor: Any
+    geometry: tuple | None
 
 
-class Bound:
-    """Arrays and constants of one call, by symbol and name, and the roles of the arguments."""
+class Ready(NamedTuple):
+    """A compiled loop and where its arguments stand in `Given`.
 
-    def __init__(self, call: Call, unwrap: Callable[[Any], np.ndarray], roles: Callable) -> None:
-        self.call, self.unwrap = call, unwrap
-        self.arrays: dict[str, np.ndarray] = {}
-        self.constants: dict[str, Any] = {}
-        self.roles = self._bound(call.function, roles(call.shape, call.function))
-        self.finish_roles: tuple = ()
-        if call.finish is not None:
-            self.finish_roles = self._bound(call.finish, roles("finish", call.finish))
-        if len(self.constants) < len(call.constants):
-            extra = ", ".join(sorted(set(call.constants) - set(self.constants)))
-            raise ValueError(f"{call.function.__name__}() has no argument {extra}")
-        self.outs = [None if o is None else unwrap(o) for o in _listed(call.out)]
-        self.reduce = () if call.reduce is None else tuple(_listed(call.reduce))
-        self.combine = () if call.combine is None else tuple(_listed(call.combine))
-        self.rows = None if call.rows is None else unwrap(call.rows)
-        self.geometry = None if call.neighbors is None else self._geometry(call.neighbors)
+    Attributes:
+        arrays, outs: (place, function that takes it apart, None for scalars), as they enter.
+        tables: places of constants. reals, whole: (place, component; -1 for a number).
+    """
 
-    def _bound(self, function: Callable, roles: tuple) -> tuple:
-        fields, constants = self.call.fields, self.call.constants
-        bound = []
-        for name, role, symbol in roles:
-            if role == "bare":
-                role = "row" if name in fields else "constant"
-            if role == "constant":
-                if name not in constants:
-                    raise ValueError(f"{function.__name__}() needs a value for {name}")
-                value = constants[name]
-                self.constants[name] = self.unwrap(value) if hasattr(value, "shape") else value
-            elif role in ("row", "neighbor", "pair"):
-                if symbol in fields:
-                    if symbol not in self.arrays:
-                        self.arrays[symbol] = self.unwrap(fields[symbol])
-                elif symbol not in ("x", "l"):
-                    known = ", ".join(sorted(fields)) or "none"
-                    raise ValueError(
-                        f"{function.__name__}() needs field {symbol} for {name}; given: {known}"
-                    )
-            bound.append((name, role, symbol))
-        return tuple(bound)
-
-    def _geometry(self, neighbors: Any) -> tuple | None:
-        """Kernel, mean, periodic axes and dimension, as far as they are asked for."""
-        wanted = {name for name, role, _ in self.roles if role == "geometry"}
-        symbols = {symbol for _, role, symbol in self.roles if role in ("row", "neighbor")}
-        dimension = 0
-        if wanted - {"l_ij"}:
-            self.arrays["x"] = self.unwrap(neighbors.position)
-            dimension = self.arrays["x"].shape[0]
-        elif "x" in symbols and "x" not in self.arrays:
-            self.arrays["x"] = self.unwrap(neighbors.position)
-        if wanted & {"l_ij", "W_ij", "dW_ij"} or ("l" in symbols and "l" not in self.arrays):
-            self.arrays["l"] = self.unwrap(neighbors.support)
-        if not wanted:
-            return None
-        kernel = neighbors.kernel if wanted & {"W_ij", "dW_ij"} else None
-        mean = neighbors.mean if wanted - {"x_ij", "r_ij"} else None
-        period = tuple([bool(width) for width in neighbors.period or (0.0,) * dimension])
-        return (kernel, mean, period, dimension)
-
-    def key(self) -> tuple:
-        """Hashable that decides which loop is needed."""
-        call = self.call
-        return (
-            call.shape, call.function, call.finish, self.reduce, self.combine, self.rows is None,
-            self.geometry,
-            tuple([(name, fingerprint(value)) for name, value in self.arrays.items()]),
-            tuple([(name, fingerprint(value)) for name, value in self.constants.items()]),
-            tuple([o if o is None else fingerprint(o) for o in self.outs]),
-        )  # fmt: skip
-
-    def count(self) -> int:
-        """Number of rows, after checking the lengths of all arrays.
-
-        Raises:
-            ValueError: an array is too short, not contiguous or of the wrong type.
-        """
-        call, arrays = self.call, self.arrays
-        total, pairs = 0, 0
-        if call.neighbors is None:
-            outs = [o for o in self.outs if o is not None]
-            lengths = {a.shape[-1] for a in arrays.values()}
-            if outs:
-                rows = outs[0].shape[-1]
-            elif len(lengths) == 1:
-                rows = lengths.pop()
-            else:
-                raise ValueError(f"{call.function.__name__}(): fields of lengths {lengths}")
-        else:
-            row_start, neighbor = self._list()
-            rows, pairs = row_start.size - 1, self.last(row_start)
-            support = call.neighbors.support
-            total = rows if support is None else support.shape[-1]
-            if pairs > neighbor.size or total < rows:
-                raise ValueError(f"{pairs} pairs, {neighbor.size} stored; {total} particles")
-        needed = {"row": rows, "neighbor": total, "pair": pairs}
-        for name, role, symbol in (*self.roles, *self.finish_roles):
-            if role in needed:
-                _check(name, arrays[symbol], needed[role])
-        if self.geometry is not None:
-            for symbol in ("x", "l"):
-                if symbol in arrays:
-                    _check(symbol, arrays[symbol], total)
-        for k, out in enumerate(self.outs):
-            if out is not None:
-                _check(f"out {k}", out, pairs if call.shape == "pair_values" else rows)
-                for name, role, symbol in self.roles:
-                    if role == "neighbor" and arrays[symbol] is out:
-                        raise ValueError(f"out is also read at neighbors, as {name}")
-        if self.rows is None:
-            return rows
-        if self.rows.dtype != np.uint32:
-            raise ValueError(f"rows must be of kind index (uint32), not {self.rows.dtype}")
-        self.refuse_beyond(self.rows, rows)
-        return self.rows.size
-
-    def reductions(self) -> tuple[str, ...]:
-        """How values are reduced, those that are."""
-        return tuple([how for how in self.reduce if how is not None])
-
-    def last(self, row_start: Any) -> int:
-        """The last row pointer: the number of pairs."""
-        return int(row_start[-1])
-
-    def refuse_beyond(self, rows: Any, count: int) -> None:
-        """Raise ValueError where a listed row is not below `count`."""
-        if rows.size and int(rows.max()) >= count:
-            raise ValueError(f"row {int(rows.max())} of {count}")
-
-    def _list(self) -> tuple[np.ndarray, np.ndarray]:
-        neighbors = self.call.neighbors
-        row_start, neighbor = self.unwrap(neighbors.row_start), self.unwrap(neighbors.neighbor)
-        if row_start.dtype != np.uint64 or neighbor.dtype != np.uint32:
-            raise ValueError(
-                f"row_start must be uint64 and neighbor uint32, not {row_start.dtype} and"
-                f" {neighbor.dtype}"
-            )
-        return row_start, neighbor
+    compiled: Compiled
+    arrays: tuple[tuple[int, Callable | None], ...]
+    outs: tuple[tuple[int, Callable | None], ...]
+    tables: tuple[int, ...]
+    reals: tuple[tuple[int, int], ...]
+    whole: tuple[tuple[int, int], ...]
 
 
 class Loops:
-    """All loops of one backend, found by key.
+    """All loops of one backend, found by signature and kinds."""
 
-    Attributes:
-        bound, loop_text: what binds the arrays and writes the loops of this backend.
-    """
-
-    bound: type[Bound] = Bound
-    loop_text: type[LoopText] = LoopText
-
-    def __init__(self, precision: str, threads: int, unwrap: Callable[[Any], np.ndarray]) -> None:
-        self.precision, self.threads, self.unwrap = precision, threads, unwrap
+    def __init__(self, precision: str, launcher: Launcher, unwrap: Callable[[Any], Any]) -> None:
+        self.precision, self.launcher, self.unwrap = precision, launcher, unwrap
         self.real = np.dtype(precision)
-        self._compiled: dict[Any, Compiled] = {}
+        self._signatures: dict[Any, Signature] = {}
         self._record: list[Launch] | None = None
-        self._roles: dict[Any, tuple] = {}
 
     def run(self, call: Call) -> tuple[float, ...]:
         """Launch the loop of a call; returns the reductions."""
-        launch = self.prepared(call)
-        if self._record is not None:
-            if launch.reductions:
-                raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
-            self._record.append(launch)
+        bound, launcher = self._bound(call), self.launcher
+        if self._record is None:
+            return launcher.run(bound, launcher.partial(bound))
+        launch = Launch(bound, launcher)
+        if launch.reduces:
+            raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
+        self._record.append(launch)
         return launch()
 
     def prepared(self, call: Call) -> Launch:
         """The loop of a call, bound to its arrays."""
-        bound = self.bound(call, self.unwrap, self.roles)
-        key = bound.key()
-        compiled = self._compiled.get(key)
-        if compiled is None or not source.is_current(compiled.watched):
-            compiled = self._compiled[key] = self.compiled(bound)
-        return self._launch(compiled, bound)
+        return Launch(self._bound(call), self.launcher)
 
     def recorded(self, run: Callable[[], None]) -> Callable[[], None]:
         """Run `run`; returns a function that launches the same loops once more."""
@@ -234,29 +101,56 @@ class Loops:
 
         return replay
 
-    def roles(self, shape: str, function: Callable) -> tuple:
-        """(name, role, symbol) of a function's arguments; "bare" is a field or a constant."""
-        roles = self._roles.get((shape, function))
-        if roles is None:
-            if shape in ("pair_sum", "pair_values"):
-                roles = pair_roles(function)
-            else:
-                roles = tuple((name, "bare", name) for name in parameter_names(function))
-                if shape == "finish":
-                    roles = tuple(
-                        (name, "total", name) if name.partition("_")[0] == "total" else role
-                        for name, role in zip(parameter_names(function), roles, strict=True)
-                    )
-            self._roles[(shape, function)] = roles
-        return roles
+    def _bound(self, call: Call) -> Bound:
+        """The loop of a call with its arguments, all checked."""
+        given = self.given(call)
+        rows, key = _checked(given, self.launcher)
+        loops = given.signature.loops
+        ready = loops.get(key)
+        if ready is None or not source.is_current(ready.compiled.watched):
+            _refuse_strides(given)
+            ready = loops[key] = self._ready(given)
+        return _arguments(given, ready, rows)
 
-    def text(self, bound: Bound) -> LoopText:
+    def given(self, call: Call) -> Given:
+        """Arrays and constants that the call's signature asks for."""
+        shape, function, neighbors, fields, out, rows, finish, reduce, constants, combine = call
+        names = (
+            shape, function, finish, tuple(fields), tuple(constants),
+            tuple(reduce) if type(reduce) is list else reduce,
+            tuple(combine) if type(combine) is list else combine, rows is None,
+        )  # fmt: skip
+        signature = self._signatures.get(names)
+        if signature is None:
+            signature = self._signatures[names] = Signature(call)
+        unwrap = self.unwrap
+        arrays = [unwrap(fields[symbol]) for symbol in signature.fields]
+        row_start = neighbor = geometry = None
+        if neighbors is not None:
+            row_start, neighbor = unwrap(neighbors.row_start), unwrap(neighbors.neighbor)
+            if signature.position:
+                arrays.append(unwrap(neighbors.position))
+            if signature.support:
+                arrays.append(unwrap(neighbors.support))
+            if signature.geometry:
+                geometry = _geometry(signature, neighbors, arrays)
+        values = []
+        for name in signature.constants:
+            value = constants[name]
+            values.append(unwrap(value) if hasattr(value, "shape") else value)
+        outs = [o if o is None else unwrap(o) for o in listed(out)]
+        active = None if rows is None else unwrap(rows)
+        return Given(call, signature, arrays, values, outs, active, row_start, neighbor, geometry)
+
+    def text(self, given: Given) -> LoopText:
         """Source of a call's loop, before it is written."""
-        call = bound.call
-        dimension = bound.geometry[3] if bound.geometry else 0
+        call, signature = given.call, given.signature
+        dimension = given.geometry[3] if given.geometry else 0
+        arrays = dict(zip(signature.symbols, given.arrays, strict=True))
+        constants = dict(zip(signature.constants, given.constants, strict=True))
 
         def value(role: str, symbol: str) -> Any:
-            return (bound.constants if role == "constant" else bound.arrays).get(symbol)
+            return (constants if role == "constant" else arrays).get(symbol)
 
         def arguments(roles: tuple) -> tuple:
             return tuple(
@@ -264,69 +158,206 @@ class Loops:
                 for name, role, symbol in roles
             )
 
-        outputs = tuple(None if o is None else array_kind(o) for o in bound.outs)
+        outputs = tuple(None if o is None else array_kind(o) for o in given.outs)
         loop = Loop(
-            call.shape, self.precision, call.function, arguments(bound.roles), outputs,
-            bound.reduce, bound.rows is not None, call.finish, arguments(bound.finish_roles),
-            bound.geometry, bound.combine,
+            call.shape, self.precision, call.function, arguments(signature.roles), outputs,
+            signature.reduce, given.rows is not None, call.finish,
+            arguments(signature.finish_roles), given.geometry, signature.combine,
         )  # fmt: skip
-        return self.loop_text(loop)
+        return self.launcher.text(loop)
 
-    def compiled(self, bound: Bound) -> Compiled:
-        """Generate, cache and load the loop of a new key."""
-        if any(how not in (None, "sum", "max", "min") for how in bound.reduce):
+    def _ready(self, given: Given) -> Ready:
+        """Generate, cache and load the loop of new kinds."""
+        signature = given.signature
+        if any(how not in (None, "sum", "max", "min") for how in signature.reduce):
             raise ValueError('reduce takes None, "sum", "max" or "min"')
-        if any(how not in ("sum", "max", "min") for how in bound.combine):
+        if any(how not in ("sum", "max", "min") for how in signature.combine):
             raise ValueError('combine takes "sum", "max" or "min"')
-        arrays = [*bound.arrays.items(), *((f"out {k}", o) for k, o in enumerate(bound.outs))]
-        for name, array in [*arrays, *bound.constants.items()]:
+        self._refuse_precision(given)
+        text = self.text(given)
+        module = cache.load(text.written())
+        compiled = Compiled(
+            module.block, module.loop, tuple(text.arrays), tuple(text.tables),
+            tuple(text.reals.values()), tuple(text.whole.values()),
+            tuple([how for how in signature.reduce if how is not None]), self.real,
+            text.unit.watched(),
+        )  # fmt: skip
+        places = {name: k for k, name in enumerate(signature.constants)}
+        values = given.constants
+        if given.geometry is not None:
+            places["period"], values = len(values), [*values, ()]
+
+        def numbers(names: tuple[tuple[str, int], ...]) -> tuple[tuple[int, int], ...]:
+            found = [(places[name], component) for name, component in names]
+            return tuple((k, c if isinstance(values[k], tuple | list) else -1) for k, c in found)
+
+        arrays = [signature.symbols.index(symbol) for symbol in compiled.arrays]
+        split = self.launcher.split
+        return Ready(
+            compiled, tuple((k, split(given.arrays[k].shape[:-1])) for k in arrays),
+            tuple((k, split(o.shape[:-1])) for k, o in enumerate(given.outs) if o is not None),
+            tuple(places[name] for name in compiled.tables),
+            numbers(compiled.reals), numbers(compiled.whole),
+        )  # fmt: skip
+
+    def _refuse_precision(self, given: Given) -> None:
+        """Raise ValueError where real numbers are not of the backend's precision."""
+        signature = given.signature
+        named = [
+            *zip(signature.symbols, given.arrays, strict=True),
+            *((f"out {k}", o) for k, o in enumerate(given.outs)),
+            *zip(signature.constants, given.constants, strict=True),
+        ]
+        for name, array in named:
             if getattr(array, "ndim", 0) == 0 or array.dtype.kind != "f":
                 continue
-            is_pair = ("pair", name) in [(role, symbol) for _, role, symbol in bound.roles]
+            is_pair = ("pair", name) in [(role, symbol) for _, role, symbol in signature.roles]
             if array.dtype != self.real and not (is_pair and array.dtype == np.float32):
                 raise ValueError(f"{name} is {array.dtype}, the backend {self.precision}")
-        text = self.text(bound)
-        module = cache.load(text.written())
-        return Compiled(
-            module.block, module.loop, tuple(text.arrays), tuple(text.tables),
-            tuple(text.reals.values()), tuple(text.whole.values()), text.unit.watched(),
-        )  # fmt: skip
-
-    def _launch(self, compiled: Compiled, bound: Bound) -> Launch:
-        """The loop with the arrays of a call."""
-        rows = bound.count()
-        arrays = [] if bound.rows is None else [*components(bound.rows)]
-        constants = bound.constants
-        neighbors = bound.call.neighbors
-        if neighbors is not None:
-            for array in (neighbors.row_start, neighbors.neighbor):
-                arrays += components(self.unwrap(array))
-            constants = constants | {"period": neighbors.period}
-        for symbol in compiled.arrays:
-            arrays += components(bound.arrays[symbol])
-        for name in compiled.tables:
-            arrays += components(constants[name])
-        for out in bound.outs:
-            if out is not None:
-                arrays += components(out)
-        return self.launched(compiled, arrays, constants, bound, rows)
-
-    def launched(
-        self, compiled: Compiled, arrays: list, constants: dict[str, Any], bound: Bound, rows: int
-    ) -> Launch:
-        """The loop with the components of its arrays, in order, and its constants."""
-        return Launch(
-            compiled, arrays, constants, rows=rows, thread_count=self.threads, real=self.real,
-            reductions=bound.reductions(),
-        )  # fmt: skip
 
 
-def _listed(value: Any) -> tuple | list:
-    return value if isinstance(value, tuple | list) else (value,)
+def _geometry(signature: Signature, neighbors: Any, arrays: list[Any]) -> tuple:
+    """Kernel, mean, periodic axes and dimension, as far as they are asked for."""
+    dimension = 0
+    if signature.apart:
+        dimension = arrays[signature.symbols.index("x")].shape[0]
+    return (
+        neighbors.kernel if signature.kernel else None,
+        neighbors.mean if signature.mean else None,
+        _periodic(tuple(neighbors.period or ()), dimension),
+        dimension,
+    )
 
 
-def _check(name: str, array: np.ndarray, length: int) -> None:
-    if array.shape[-1] < length:
-        raise ValueError(f"{name} has {array.shape[-1]} entries, {length} are needed")
-    if array.size and array.strides[-1] != array.itemsize:
-        raise ValueError(f"{name} is not contiguous along its last axis")
+@lru_cache(maxsize=256)
+def _periodic(period: tuple[float, ...], dimension: int) -> tuple[bool, ...]:
+    return tuple([bool(width) for width in period or (0.0,) * dimension])
+
+
+def _checked(given: Given, launcher: Launcher) -> tuple[int, tuple]:
+    """Number of rows, after checking the lengths of all arrays, and their kinds.
+
+    Raises:
+        ValueError: an array is too short or of the wrong type, or read while it is written.
+    """
+    call, signature, arrays, constants, outs, active, row_start, neighbor, geometry = given
+    kinds: list[Any] = [geometry]
+    lengths = []
+    for array in arrays:
+        dtype, shape, strides = _layout(array)
+        kinds += (dtype, shape[:-1], strides[-1])
+        lengths.append(shape[-1])
+    written = []
+    for out in outs:
+        if out is None:
+            kinds.append(None)
+            continue
+        dtype, shape, strides = _layout(out)
+        kinds += (dtype, shape[:-1], strides[-1])
+        written.append(shape[-1])
+    kinds += map(fingerprint, constants)
+    total = pairs = 0
+    if row_start is not None:
+        rows, total, pairs = _list_size(call, row_start, neighbor, launcher.last(row_start))
+    elif written:
+        rows = written[0]
+    elif len(set(lengths)) == 1:
+        rows = lengths[0]
+    else:
+        raise ValueError(f"{call.function.__name__}(): fields of lengths {set(lengths)}")
+    needed = (rows, total, pairs)
+    for place, need, name in signature.needs:
+        if lengths[place] < needed[need]:
+            _refuse_length(name, lengths[place], needed[need])
+    least = pairs if call.shape == "pair_values" else rows
+    for k, out in enumerate(outs):
+        if out is None:
+            continue
+        if out.shape[-1] < least:
+            _refuse_length(f"out {k}", out.shape[-1], least)
+        for place, name in signature.neighbors:
+            if arrays[place] is out:
+                raise ValueError(f"out is also read at neighbors, as {name}")
+    if active is not None:
+        rows = _active(active, rows, launcher)
+    return rows, tuple(kinds)
+
+
+def _list_size(call: Call, row_start: Any, neighbor: Any, pairs: int) -> tuple[int, int, int]:
+    """Rows, particles and pairs of a list."""
+    if row_start.dtype != _OFFSET or neighbor.dtype != _INDEX:
+        raise ValueError(
+            f"row_start must be uint64 and neighbor uint32, not {row_start.dtype} and"
+            f" {neighbor.dtype}"
+        )
+    rows = row_start.size - 1
+    support = call.neighbors.support
+    total = rows if support is None else support.shape[-1]
+    if pairs > neighbor.size or total < rows:
+        raise ValueError(f"{pairs} pairs, {neighbor.size} stored; {total} particles")
+    return rows, total, pairs
+
+
+def _active(active: Any, rows: int, launcher: Launcher) -> int:
+    """Number of active rows."""
+    if active.dtype != _INDEX:
+        raise ValueError(f"rows must be of kind index (uint32), not {active.dtype}")
+    if active.size and (largest := launcher.largest(active)) >= rows:
+        raise ValueError(f"row {largest} of {rows}")
+    return active.size
+
+
+def _refuse_length(name: str, length: int, needed: int) -> None:
+    raise ValueError(f"{name} has {length} entries, {needed} are needed")
+
+
+def _refuse_strides(given: Given) -> None:
+    """Raise ValueError where an array is not contiguous along its last axis."""
+    outs = {f"out {k}": out for k, out in enumerate(given.outs) if out is not None}
+    arrays = dict(zip(given.signature.symbols, given.arrays, strict=True))
+    for name, array in (arrays | outs).items():
+        if array.size and array.strides[-1] != array.itemsize:
+            raise ValueError(f"{name} is not contiguous along its last axis")
+
+
+def _arguments(given: Given, ready: Ready, rows: int) -> Bound:
+    """The arguments of a loop in its order."""
+    arguments: list[Any] = [] if given.rows is None else [given.rows]
+    if given.row_start is not None:
+        arguments += (given.row_start, given.neighbor)
+    constants = given.constants
+    _append(arguments, given.arrays, ready.arrays)
+    for k in ready.tables:
+        arguments.append(constants[k])
+    _append(arguments, given.outs, ready.outs)
+    if given.geometry is not None:
+        constants = [*constants, given.call.neighbors.period]
+    reals = _numbers(constants, ready.reals, ready.compiled.real)
+    whole = _numbers(constants, ready.whole, _WHOLE)
+    if reals is not None:
+        arguments.append(reals)
+    if whole is not None:
+        arguments.append(whole)
+    return Bound(ready.compiled, rows, arguments, reals, whole, given.outs)
+
+
+def _append(arguments: list[Any], arrays: list[Any], places: tuple) -> None:
+    """Add the components of the arrays at some places."""
+    for k, split in places:
+        if split is None:
+            arguments.append(arrays[k])
+        else:
+            arguments += split(arrays[k])
+
+
+def _numbers(
+    constants: list[Any], places: tuple[tuple[int, int], ...], kind: np.dtype
+) -> np.ndarray | None:
+    """Constants as one array, filled one by one, which for so few takes half the time."""
+    if not places:
+        return None
+    values = np.empty(len(places), kind)
+    for k, (place, component) in enumerate(places):
+        value = constants[place]
+        values[k] = value if component < 0 else value[component]
+    return values

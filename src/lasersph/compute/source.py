@@ -82,7 +82,7 @@ class SourceUnit:
 
 def is_current(watched: tuple[tuple[AnyObject, str, AnyObject], ...]) -> bool:
     """Whether every watched name still means the same object."""
-    return all(space.get(name) is value for space, name, value in watched)
+    return not [name for space, name, value in watched if space.get(name) is not value]
 
 
 def constant(value: AnyObject) -> Number | Group | None:

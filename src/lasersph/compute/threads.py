@@ -5,6 +5,8 @@ call of 15 us take 8 ms.
 """
 
 import os
+from collections.abc import Callable
+from functools import cache
 
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
@@ -32,6 +34,12 @@ def chosen(threads: int | None) -> int:
 
 def use(count: int) -> None:
     """Number of threads of the next loops."""
+    _setter()(count)
+
+
+@cache
+def _setter() -> Callable[[int], None]:
+    """Numba's function; an import at every loop would cost as much as setting."""
     from numba import set_num_threads
 
-    set_num_threads(count)
+    return set_num_threads

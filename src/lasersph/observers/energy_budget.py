@@ -1,11 +1,12 @@
 """Where the energy of the light went, and how well the balance closes.
 
-    incident - reflected = absorbed = stored + lost + removed + discarded
+    incident - reflected - transmitted = absorbed = stored + lost + removed + discarded
 
-`lost` leaves through boundaries (negative where heat comes in), `removed` with evaporated
-material, `discarded` is what the plateau rule `clip` cuts off. The imbalance is the difference
-between the two ends of this line divided by the absorbed energy; in a run without light, by the
-heat that came in through boundaries or was stored.
+`transmitted` is the light that met nothing because a hole had been burnt through. `lost` leaves
+through boundaries (negative where heat comes in), `removed` with evaporated material, `discarded`
+is what the plateau rule `clip` cuts off. The imbalance is the difference between the two ends of
+this line divided by the absorbed energy; in a run without light, by the heat that came in through
+boundaries or was stored.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ TERMS: tuple[str, ...] = (
     "incident",
     "absorbed",
     "reflected",
+    "transmitted",
     "stored",
     "lost",
     "removed",
@@ -62,8 +64,8 @@ class EnergyBudget:
 
 
 def relative_imbalance(terms: dict[str, float]) -> float:
-    """|incident - reflected - stored - lost - removed - discarded| / absorbed."""
-    absorbed = terms["incident"] - terms["reflected"]
+    """|incident - reflected - transmitted - stored - lost - removed - discarded| / absorbed."""
+    absorbed = terms["incident"] - terms["reflected"] - terms["transmitted"]
     gone = terms["stored"] + terms["lost"] + terms["removed"] + terms["discarded"]
     scale = absorbed if absorbed > 0.0 else max(abs(terms["stored"]), abs(terms["lost"]))
     return abs(absorbed - gone) / scale if scale > 0.0 else 0.0

@@ -3,9 +3,10 @@
 A cell counts as fluid where its melt fraction reaches a level: 1 (completely fluid; the size of
 the pool in the paper), 0.5 (which depends least on the cell size) or anything above 0. The depth
 is that of the lower face of the deepest fluid cell below the original surface; the width is that
-of the surface cells that hang together with the hottest one, doubled where half a period is
-computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5] Surface cells meet half way
-between their particles, also where these move: at rest sizes are whole cells.
+of the surface cells that hang together with the hottest one, doubled where half a period or half
+a spot is computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5] Surface cells meet
+half way between their particles, also where these move: at rest sizes are whole cells. What has
+been ejected belongs to no pool.
 
 Left out: pools that wrap around a periodic boundary, and the second lateral direction in 3-D (the
 width is taken along x through the hottest surface cell).
@@ -17,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.observers.ablation_view import EJECTED
 from lasersph.observers.peak import Peak, Span
 from lasersph.observers.view import View, deepest, hottest_surface_cell, lower_faces
 
@@ -41,7 +43,7 @@ class MeltPool:
 
     def observe(self, view: View) -> dict[str, float]:
         """Sizes of the pool at this step [m]; 0 where nothing is fluid."""
-        fraction = view.melt_fraction
+        fraction = remaining_fraction(view)
         largest = float(np.max(fraction))
         faces = lower_faces(view) if largest > 0.0 else np.zeros(0)
         sizes: dict[str, float] = {}
@@ -93,6 +95,13 @@ class MeltPool:
         self.end_time = state["end_time"]
 
 
+def remaining_fraction(view: View) -> np.ndarray:
+    """Melt fraction of what has not been ejected, (n,); 0 of what has."""
+    if view.ablation is None or view.ablation.ejected_count == 0:
+        return view.melt_fraction
+    return np.where(view.ablation.stage < EJECTED, view.melt_fraction, 0.0)
+
+
 def is_fluid(fraction: np.ndarray, least: float) -> np.ndarray:
     """Where a melt fraction reaches a level of `LEVELS`."""
     return fraction > 0.0 if least == 0.0 else fraction >= least
@@ -118,8 +127,9 @@ def pool_width(view: View, least: float) -> float:
     total = float(edge[last + 1] - edge[first])
     if least == HALF:
         total += _beyond_edge(view, row, first, first - 1) + _beyond_edge(view, row, last, last + 1)
-    on_symmetry_plane = first == 0 or last == row.size - 1
-    return total * (view.symmetry_factor if on_symmetry_plane else 1)
+    mirrors = (True, True) if view.symmetry_factor == 2 else view.halves_spot
+    is_half = (first == 0 and mirrors[0]) or (last == row.size - 1 and mirrors[1])
+    return 2.0 * total if is_half else total
 
 
 def cell_edges(view: View, row: np.ndarray) -> np.ndarray:

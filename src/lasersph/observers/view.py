@@ -27,8 +27,10 @@ class View:
         surface: indices of the particles of the surface layer; where particles move, of those
             that lie at the surface now.
         symmetry_factor: 2 where half a period is computed, else 1; multiplies widths.
-        energy: incident, absorbed, reflected, stored, lost, removed, discarded since the start,
-            in `ENERGY_UNITS`; lost and removed leave, stored stays.
+        halves_spot: whether the axis of a resting spot lies on the lower or the upper end of x, so
+            that its other half is not computed.
+        energy: incident, absorbed, reflected, transmitted, stored, lost, removed, discarded since
+            the start, in `ENERGY_UNITS`; lost and removed leave, stored stays.
         iterations: iterations of this step, by solver part.
         limit: name of the limit that bound the time step.
         solidus, liquidus, vaporization: corner temperatures of the material [K], None where it
@@ -51,6 +53,7 @@ class View:
     vapor_fraction: np.ndarray
     surface: np.ndarray
     symmetry_factor: int = 1
+    halves_spot: tuple[bool, bool] = (False, False)
     energy: dict[str, float] = field(default_factory=dict)
     iterations: dict[str, int] = field(default_factory=dict)
     limit: str = ""

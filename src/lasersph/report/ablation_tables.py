@@ -18,6 +18,9 @@ CITED_SPEEDS = (
     "380-450 m/s [AlShaer 2017]; 167, 640, 1110 m/s at the edge, on average and in the center"
     " [Hamadi, as cited there]; 750 m/s [Rajendran, as cited there]"
 )
+CITED_ACCELERATIONS = (
+    "1.4·10¹¹ m/s² [AlShaer 2017]; 10⁸ m/s² eject without melting [Tam 1992, as cited there]"
+)
 
 
 def crater(summary: dict[str, Any]) -> Rows:
@@ -137,6 +140,11 @@ def estimates(summary: dict[str, Any]) -> Rows:
         ("surface at its end without phase change, (A.1)",
          entry("_K", heat["surface_temperature_K"]), "–"),
     ]  # fmt: skip
+    if "surface_temperature_last_K" in heat:
+        rows.append(
+            ("the same at the end of the last pulse, on the axis, (A.3)",
+             entry("_K", heat["surface_temperature_last_K"]), "–")
+        )  # fmt: skip
     if "surface_temperature_disc_K" in heat:
         lost = f"{shown(100.0 * heat['lateral_loss_relative'], 2)} % less rise"
         rows.append(
@@ -151,6 +159,10 @@ def estimates(summary: dict[str, Any]) -> Rows:
         both = (vapor["effusion_velocity_m_s"], vapor["mean_normal_velocity_m_s"])
         text = " and ".join(f"{shown(v)} m/s" for v in both)
         rows.append(("vapor at the boiling point: effusion, and eq. (6)", text, CITED_SPEEDS))
+    found = [life["acceleration_m_s2"] for life in summary.get("traces", {}).values()]
+    largest = max((value for value in found if value is not None), default=None)
+    rows.append(("largest acceleration of a traced particle", acceleration(largest),
+                 CITED_ACCELERATIONS))  # fmt: skip
     return rows
 
 

@@ -23,7 +23,16 @@ def crater(summary: dict[str, Any]) -> list[str]:
         f"The ejecta left between {quantity(ejecta['start_s'], 's')} and"
         f" {quantity(ejecta['end_s'], 's')}, at {quantity(ejecta['speed_mean_m_s'], 'm/s', 3)} on"
         f" average, and carried {shown(share, 3)} % of the absorbed energy away.",
+        *hole(summary["energy"]),
     ]
+
+
+def hole(energy: dict[str, Any]) -> list[str]:
+    """Light that went through where the metal was gone; nothing where there was none."""
+    if not energy["transmitted_J"]:
+        return []
+    share = 100.0 * energy["transmitted_J"] / energy["incident_J"]
+    return [f"Of the light {shown(share, 3)} % went through a hole burnt into the metal."]
 
 
 def limits_of(summary: dict[str, Any]) -> list[str]:

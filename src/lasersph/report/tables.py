@@ -13,6 +13,7 @@ MELT_LEVELS = (("completely fluid (f_m = 1)", ""), ("half molten", "_half"), ("a
 ENERGY_NAMES = {
     "incident": "incident light",
     "reflected": "reflected",
+    "transmitted": "through holes in the metal",
     "absorbed": "absorbed",
     "stored": "in the metal at the end",
     "lost": "lost through boundaries",
@@ -123,6 +124,8 @@ def energy(summary: dict[str, Any]) -> Rows:
     rows: Rows = []
     for name, text in ENERGY_NAMES.items():
         value = terms[f"{name}_J"]
+        if name == "transmitted" and not value:
+            continue
         share = f"{shown(100.0 * value / incident)} %" if incident > 0.0 else "–"
         rows.append((text, quantity(value, terms["unit"]), share))
     imbalance = shown(terms["imbalance_relative"], 3)

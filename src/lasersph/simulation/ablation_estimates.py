@@ -12,7 +12,7 @@ from typing import Any
 
 from lasersph.analytic.half_space import pulse_train_temperature, thermal_penetration
 from lasersph.case import Case
-from lasersph.lasers import GaussianBeam, Laser, TopHatBeam
+from lasersph.lasers import GaussianBeam, Laser, SquarePulse, TopHatBeam
 from lasersph.materials import Material
 from lasersph.physics.ablation_estimates import (
     PHASE_EXPLOSION,
@@ -87,7 +87,13 @@ def conduction(case: Case, laser: Laser, reflectivity: float) -> dict[str, float
         "absorbed_flux_W_m2": given["flux"],
         "surface_temperature_K": cold + rise,
     }
-    radius = radius_of(laser)
+    radius, pulse = radius_of(laser), laser.pulse
+    if isinstance(pulse, SquarePulse) and pulse.count > 1 and pulse.period is not None:
+        train = {"count": pulse.count, "off_time": pulse.period - duration, "disc_radius": radius}
+        last = (pulse.count - 1) * pulse.period + duration
+        found["surface_temperature_last_K"] = cold + float(
+            pulse_train_temperature(0.0, last, **train, **given)
+        )
     if radius is not None:
         disc = float(pulse_train_temperature(0.0, duration, disc_radius=radius, **given))
         found["surface_temperature_disc_K"] = cold + disc

@@ -12,6 +12,7 @@ from lasersph.case import Case
 from lasersph.observers.ablation_view import AblationView
 from lasersph.observers.view import View
 from lasersph.physics.ejection import EJECTED
+from lasersph.simulation.spot_edges import halves_spot
 from lasersph.solvers.ablation.solver import Ablation
 
 
@@ -44,6 +45,7 @@ def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> Vie
         vapor_fraction=backend.look(level.f_v)[:count],
         surface=_surface(solver, count),
         symmetry_factor=case.domain.symmetry_factor,
+        halves_spot=halves_spot(case),
         energy=dict(state.energy),
         iterations=solver.iterations,
         limit=limit,

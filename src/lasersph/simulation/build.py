@@ -16,6 +16,7 @@ from lasersph.simulation.ablation_view import ablation_view_of
 from lasersph.simulation.build_ablation import ablation
 from lasersph.simulation.build_flow import with_flow
 from lasersph.simulation.flow_view import flow_view_of
+from lasersph.simulation.spot_edges import halves_spot
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.ablation.solver import Ablation
 from lasersph.solvers.conduction.body import SUPPORT, assemble
@@ -160,6 +161,7 @@ def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
         vapor_fraction=backend.look(state.vapor_fraction),
         surface=surface,
         symmetry_factor=case.domain.symmetry_factor,
+        halves_spot=halves_spot(case),
         energy=dict(state.energy),
         iterations=solver.iterations,
         limit=limit,

@@ -20,7 +20,7 @@ from lasersph.solvers.ablation.departure import Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
 from lasersph.solvers.ablation.exposure import Exposure
-from lasersph.solvers.ablation.layout import Layout, lay_out
+from lasersph.solvers.ablation.layout import Layout, Start, lay_out
 from lasersph.solvers.ablation.matter import Matter
 from lasersph.solvers.ablation.numbers import Numbers
 from lasersph.solvers.ablation.pairs import Pairs
@@ -48,20 +48,27 @@ def has_latent_heats(case: Case) -> bool:
 
 def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
     """The solver of a case whose matter moves."""
-    settings, material = case.solver, case.material
+    settings = case.solver
     assert isinstance(settings, AblationSettings)
-    curve = material.caloric_curve(
-        case.initial_temperature, settings.plateau, phase_change=has_latent_heats(case)
-    )
     layout, start = lay_out(
         layers,
         case.boundaries,
         case.vessel or Vessel(),
         case.motion or Rest(),
-        density=material.density_reference,
+        density=case.material.density_reference,
         temperature=case.initial_temperature,
         sound_speed=settings.sound_speed,
         gravity=settings.gravity,
+    )
+    return solver_of(case, backend, layout, start)
+
+
+def solver_of(case: Case, backend: Backend, layout: Layout, start: Start) -> Ablation:
+    """The solver of a case for particles that start where they have been laid out."""
+    settings, material = case.solver, case.material
+    assert isinstance(settings, AblationSettings)
+    curve = material.caloric_curve(
+        case.initial_temperature, settings.plateau, phase_change=has_latent_heats(case)
     )
     shape = kernel(case.particles.kernel, layout.dimension)
     ratio = case.particles.support_ratio or SUPPORT[case.particles.kernel]

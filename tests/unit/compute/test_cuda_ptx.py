@@ -49,8 +49,9 @@ def finish(total_0, total_1, T, rate):
 
 def pair_sum(precision):
     """Assembly of a pair sum with a periodic axis, a kernel function and a reduction."""
-    from lasersph.compute.cuda_launch import CudaLoops
-    from lasersph.compute.loops import Bound, Call
+    from lasersph.compute.cuda_launch import CudaLauncher
+    from lasersph.compute.loops import Loops
+    from lasersph.compute.signature import Call
 
     real = np.dtype(precision)
     offset, index, field = np.zeros(4, np.uint64), np.zeros(6, np.uint32), np.zeros(3, real)
@@ -62,8 +63,8 @@ def pair_sum(precision):
         "pair_sum", flow, neighbors, {"T": field}, (np.zeros(3, real), None), None, finish,
         (None, "max"), {"rate": 2.0},
     )  # fmt: skip
-    loops = CudaLoops(precision, 1, lambda array: array)
-    text = loops.text(Bound(call, lambda array: array, loops.roles))
+    loops = Loops(precision, CudaLauncher(1), lambda array: array)
+    text = loops.text(loops.given(call))
     kernel = cache.load(text.written()).loop
     given = {
         "row_start": offset,

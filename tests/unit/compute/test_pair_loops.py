@@ -292,6 +292,46 @@ def test_errors(backend):
         backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out)
 
 
+def waved(T, period):
+    return T * period
+
+
+def test_same_call_with_other_arrays(backend):
+    """Whatever was checked at one call is checked at the next: lengths, rows, kinds, lists."""
+    neighbors, T, out = three(backend), backend.asarray([1.0, 2, 5]), backend.zeros(3)
+    g = backend.asarray([1.0, 2, 3, 4])
+    rows = backend.asarray([0, 2], "index")
+
+    def call():
+        return backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out, rows=rows)
+
+    call()
+    backend.copy(backend.asarray([0, 3], "index"), rows)
+    with pytest.raises(ValueError, match="row 3 of 3"):
+        call()
+    backend.fill(rows, 1)
+    full, T = T, backend.head(T, 2)
+    with pytest.raises(ValueError, match=r"T_[ij] has 2 entries, 3 are needed"):
+        call()
+    T, out = full, full
+    with pytest.raises(ValueError, match="out is also read at neighbors"):
+        call()
+    out = backend.zeros((2, 3))
+    with pytest.raises(ValueError, match="result 0 has shape"):
+        call()
+    out = backend.zeros(3)
+    backend.copy(backend.asarray([0, 1, 3, 9], "offset"), neighbors.row_start)
+    with pytest.raises(ValueError, match="9 pairs, 4 stored"):
+        call()
+
+
+def test_constant_named_like_the_period(backend):
+    """A loop without geometry takes the caller's number of that name."""
+    out = backend.zeros(3)
+    backend.pointwise(waved, {"T": backend.asarray([1.0, 2, 5])}, out, period=2.0)
+    assert backend.to_host(out).tolist() == [2.0, 4.0, 10.0]
+
+
 def test_overhead():
     """A repeated call on ten particles costs less than 60 us (best of many: others may run)."""
     from time import perf_counter

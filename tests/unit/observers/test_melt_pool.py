@@ -1,9 +1,11 @@
 """Melt pool sizes worked by hand on small lattices."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import synthetic_ablation
 
 from lasersph.observers import MeltPool, View
 from lasersph.observers.melt_pool import pool_width
@@ -85,6 +87,33 @@ def test_pool_away_from_the_symmetry_planes_is_whole():
     """A pool inside the half period is not doubled."""
     view = view_of([[0.0, 1.0, 1.0, 0.0, 0.0]], symmetry=2)
     assert pool_width(view, 1.0) == pytest.approx(20e-9)
+
+
+@pytest.mark.parametrize(
+    ("row", "halves_spot", "width"),
+    [
+        ([1.0, 1.0, 0.6, 0.0, 0.0], (True, False), 40e-9),
+        ([0.0, 0.0, 0.6, 1.0, 1.0], (False, True), 40e-9),
+        ([0.0, 0.0, 0.6, 1.0, 1.0], (True, False), 20e-9),
+        ([0.0, 1.0, 1.0, 0.0, 0.0], (True, True), 20e-9),
+    ],
+)
+def test_half_a_spot_is_doubled(row, halves_spot, width):
+    """A pool at the end of x on which the axis of the spot lies is half a pool."""
+    view = replace(view_of([row], symmetry=1), halves_spot=halves_spot)
+    assert pool_width(view, 1.0) == pytest.approx(width)
+
+
+def test_ejecta_are_no_pool():
+    """What flies stays molten, but the pool ends when the body is solid."""
+    early, late = synthetic_ablation.view_at(8e-9, 16, 2), synthetic_ablation.view_at(2e-8, 40, 2)
+    solid = late.ablation.stage >= 2
+    late = replace(late, melt_fraction=solid.astype(float))
+    pool = MeltPool(2)
+    assert pool.observe(early)["melt_depth_m"] > 0.0
+    assert pool.observe(late)["melt_depth_m"] == 0.0
+    assert pool.summary()["melt"]["end_s"] == early.time
+    assert pool.summary()["melt"]["molten_at_end"] is False
 
 
 def test_no_width_in_one_dimension():

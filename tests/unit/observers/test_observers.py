@@ -58,9 +58,9 @@ def test_rates_and_corner_temperatures(views):
 
 
 def test_energy_budget_by_hand(views):
-    """10 in, 6 reflected, 3 stored, 0.5 lost, 0.4 removed, 0.1 discarded closes; one less does
-    not."""
-    terms = {"incident": 10.0, "reflected": 6.0, "absorbed": 4.0}
+    """10 in, 4 reflected, 2 transmitted, 3 stored, 0.5 lost, 0.4 removed, 0.1 discarded closes; one
+    less does not."""
+    terms = {"incident": 10.0, "reflected": 4.0, "transmitted": 2.0, "absorbed": 4.0}
     terms |= {"stored": 3.0, "lost": 0.5, "removed": 0.4, "discarded": 0.1}
     budget = EnergyBudget(2)
     row = budget.observe(replace(views[0], energy=terms))

@@ -60,4 +60,25 @@ def test_estimates_of_a_case():
     assert found["vapor"]["mean_normal_velocity_m_s"] == pytest.approx(731.7, abs=0.2)
     assert found["left_out"]["phase_explosion_from_K"] == pytest.approx(7200.0)
     assert found["left_out"]["recoil_from_K"] is None
+    assert "surface_temperature_last_K" not in found["conduction"]
     assert ablation_estimates(load_case("stefan")) == {}
+
+
+def test_last_pulse_of_a_train():
+    """Under a wide beam 2 q / k sqrt(D / pi) [sqrt(t) - sqrt(t - t_p) + sqrt(t_p)] at the end of
+    the second of two pulses; on the axis of a disc less."""
+    from lasersph.simulation.ablation_estimates import conduction
+
+    train = 'laser.pulse={kind="square", duration="10 ns", count=2, period="40 ns"}'
+    wide = load_case("ablation-depth", [train])
+    q = 0.25 * 1e5 / 1e-8
+    roots = np.sqrt(5e-8) - np.sqrt(4e-8) + np.sqrt(1e-8)
+    D = wide.material.diffusivity_reference
+    expected = 300.0 + 2.0 * q / 167.0 * np.sqrt(D / np.pi) * roots
+    assert wide.laser is not None
+    found = conduction(wide, wide.laser, 0.75)["surface_temperature_last_K"]
+    assert found == pytest.approx(expected, rel=1e-6)
+    beam = 'laser.beam={kind="top-hat", radius="1 um"}'
+    spot = load_case("ablation-depth", [train, beam, "solver.dimensions=2"])
+    assert spot.laser is not None
+    assert conduction(spot, spot.laser, 0.75)["surface_temperature_last_K"] < 0.95 * expected

@@ -8,7 +8,7 @@ import synthetic_ablation
 from lasersph.case import load_case
 from lasersph.observers import Trace, ablation_observers
 from lasersph.plots import animation, style
-from lasersph.report import ablation_tables, ablation_words, write_report
+from lasersph.report import ablation_tables, ablation_words, tables, write_report
 from lasersph.report.words import notes_of, verdict
 from lasersph.simulation.ablation_estimates import ablation_estimates
 
@@ -30,6 +30,18 @@ def test_words_about_a_crater(summary):
     assert "a crater 800 nm deep at the axis and 4.012 µm wide" in text
     assert re.search(r"left between 3 ns and 9 ns, at 400 m/s on average, and carried \d", text)
     assert "this run leaves out" not in text
+
+
+def test_words_and_rows_about_a_hole(summary):
+    """Light that went through is said, with its share of the light; without a hole nothing is."""
+    energy = summary["energy"]
+    through = {**energy, "transmitted_J": 0.25 * energy["incident_J"]}
+    assert "25 % went through a hole" in ablation_words.crater({**summary, "energy": through})[-1]
+    assert ("through holes in the metal", "25 %") in [
+        (name, share) for name, _, share in tables.energy({"energy": through})
+    ]
+    assert "hole" not in verdict(summary)
+    assert not any("holes" in row[0] for row in tables.energy(summary))
 
 
 def test_what_is_left_out(summary):
@@ -68,6 +80,8 @@ def test_tables_with_units(summary):
     ((name, *_, acceleration, pressure),) = ablation_tables.traces(summary)
     assert (name, acceleration, pressure) == ("center", "8·10¹¹ m/s²", "200 kPa")
     assert any("24.4 nm" in row for row in ablation_tables.estimates(summary))
+    *_, (_, largest, cited) = ablation_tables.estimates(summary)
+    assert largest == acceleration and "10⁸" in cited and "1.4·10¹¹" in cited
     assert len(ablation_tables.left_out(summary)) == 3
 
 

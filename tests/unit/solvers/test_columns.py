@@ -102,7 +102,7 @@ def test_all_light_is_absorbed(backend, dimension, name):
     assert found.incident == pytest.approx(beam_energy(found), rel=1e-12)
     assert found.absorbed == pytest.approx((1.0 - R) * beam_energy(found), rel=1e-12)
     assert deposit.sum() == pytest.approx(found.absorbed, rel=1e-12)
-    assert found.missed == 0.0 and deposit.min() >= 0.0
+    assert found.transmitted == 0.0 and deposit.min() >= 0.0
 
 
 @pytest.mark.parametrize("name", SURFACES)
@@ -143,16 +143,16 @@ def test_what_has_left_is_transparent(backend):
     below = np.flatnonzero(position[1] < -DX)
     found, deposit = columns_of(backend, position, rows=below)
     assert not deposit[position[1] > -DX].any()
-    assert found.missed == 0.0
+    assert found.transmitted == 0.0
     np.testing.assert_allclose(found.tops(), -DX)
 
 
-def test_light_through_a_hole_is_missed(backend):
-    """Columns without any particle pass their light on to nowhere, and say so."""
+def test_light_through_a_hole_is_transmitted(backend):
+    """Columns without any particle let their light through, and say so."""
     position = block(2)
     rows = np.flatnonzero(position[0] > 0.0)
     found, deposit = columns_of(backend, position, rows=rows)
-    assert found.missed == pytest.approx(0.5 * found.incident, rel=1e-12)
+    assert found.transmitted == pytest.approx(0.5 * found.incident, rel=1e-12)
     assert deposit.sum() == pytest.approx((1.0 - R) * 0.5 * found.incident, rel=1e-12)
     assert np.isnan(found.tops()).sum() == SIDE / 2
 

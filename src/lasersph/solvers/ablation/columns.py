@@ -48,8 +48,8 @@ class Columns:
 
     Attributes:
         center: (dim - 1, columns) [m]. width: along each axis [m]. incident: light of the step on
-            all columns [J]; absorbed: what of it was; missed: what met no particle. up: against the
-            beam, a unit vector. rows: the particles that are met.
+            all columns [J]; absorbed: what of it was; transmitted: what met no particle.
+            up: against the beam, a unit vector. rows: the particles that are met.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class Columns:
         self.backend, self.laser, self.spacing = backend, laser, spacing
         self.dimension = len(bounds) + 1
         self.deposit = deposit
-        self.incident = self.absorbed = self.missed = 0.0
+        self.incident = self.absorbed = self.transmitted = 0.0
         counts = [max(1, round((high - low) / spacing)) for low, high in bounds]
         self._shape = (*counts, 1, 1)[:2]
         self._wraps = (*(float(wraps) for wraps in periodic), 0.0, 0.0)[:2]
@@ -211,13 +211,13 @@ class Columns:
         return self._absorptivity * float(np.max(density)) / (end - start)
 
     def shine(self, start: float, end: float) -> None:
-        """Fix the light from `start` to `end` [s]; sets `incident` and `missed`."""
+        """Fix the light from `start` to `end` [s]; sets `incident` and `transmitted`."""
         backend = self.backend
         upper = self._lower + self.width[:, None]
         density = self.laser.energy_density(self._lower, upper, start, end)
         energy = density * np.prod(self.width)
         self.incident = float(energy.sum())
-        self.missed = float(energy[~self._is_met].sum())
+        self.transmitted = float(energy[~self._is_met].sum())
         backend.copy(backend.asarray(np.append(energy, 0.0)), self._energy)
         self._pour(self._energy)
 

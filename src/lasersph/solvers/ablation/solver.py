@@ -166,7 +166,7 @@ class Ablation:
         matter, state = self.body, self.state
         rule = self._prepare(step)
         rows = self.rows
-        incident, absorbed = self._shine(step)
+        light = self._shine(step)
         rule.evaluate(matter.now, step, rows)
         rule.move(matter.half, matter.now, 0.5 * step, rows)
         matter.refresh(matter.half, rows)
@@ -174,7 +174,7 @@ class Ablation:
         stored = rule.foresee(step, rows)
         rule.move(matter.now, matter.half, step, rows)
         matter.refresh(matter.now, rows)
-        state.add(incident, absorbed, stored, lost * step)
+        state.add(light | {"stored": stored, "lost": lost * step})
         state.time, state.time_step = state.time + step, step
         self._leave(step)
         self._fly(step)
@@ -233,14 +233,19 @@ class Ablation:
             self.columns.sort(matter.now.x, matter.stage, rows)
         self._surface_known = True
 
-    def _shine(self, step: float) -> tuple[float, float]:
-        """Light of the step: what falls on the surface and what of it is absorbed [J]."""
-        if self.columns is None:
-            return 0.0, 0.0
-        time = self.state.time
-        self.columns.shine(time, time + step)
-        self.columns.absorb(self.body.now.T)
-        return self.columns.incident, self.columns.absorbed
+    def _shine(self, step: float) -> dict[str, float]:
+        """Light of the step: where what falls on the surface goes [J], by ENERGIES."""
+        columns, time = self.columns, self.state.time
+        if columns is None:
+            return {}
+        columns.shine(time, time + step)
+        columns.absorb(self.body.now.T)
+        return {
+            "incident": columns.incident,
+            "absorbed": columns.absorbed,
+            "transmitted": columns.transmitted,
+            "reflected": columns.incident - columns.absorbed - columns.transmitted,
+        }
 
     def _enter(self) -> None:
         """Let the middle of the step know what is computed, and its neighbors."""

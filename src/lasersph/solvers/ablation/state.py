@@ -51,14 +51,10 @@ class AblationState:
         self.acceleration = numbers["acceleration"]
         self.is_balanced, self.gone = bool(numbers["is_balanced"]), int(numbers["gone"])
 
-    def add(self, incident: float, absorbed: float, stored: float, lost: float) -> None:
-        """Count the energies of a step [J]."""
-        energy = self.energy
-        energy["incident"] += incident
-        energy["absorbed"] += absorbed
-        energy["reflected"] += incident - absorbed
-        energy["stored"] += stored
-        energy["lost"] += lost
+    def add(self, exchanged: dict[str, float]) -> None:
+        """Count the energies of a step [J], by ENERGIES; what is missing is 0."""
+        for name, value in exchanged.items():
+            self.energy[name] += value
 
     def leave(self, departure: Departure) -> None:
         """Count what left in a step."""

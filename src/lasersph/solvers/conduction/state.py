@@ -9,7 +9,9 @@ from lasersph.compute.backend import Backend
 from lasersph.physics.phase_change import state as state_of
 from lasersph.solvers.conduction.body import Body
 
-ENERGIES = ("incident", "absorbed", "reflected", "stored", "lost", "removed", "discarded")
+ENERGIES = (
+    "incident", "absorbed", "reflected", "transmitted", "stored", "lost", "removed", "discarded",
+)  # fmt: skip
 
 
 class NotConverged(RuntimeError):

@@ -1,0 +1,137 @@
+"""What the names in a call decide, before any array is looked at.
+
+Calls of one place in the program have the same functions and the same names of fields and
+constants, so that roles, missing and unknown names are worked out once for all of them. Their
+arrays are new at each call, and are checked at each call.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from lasersph.compute.arguments import pair_roles, parameter_names
+
+NEEDS = ("row", "neighbor", "pair")
+"""Roles of an array: with an entry for each row, each particle, each pair."""
+
+
+class Call(NamedTuple):
+    """One call of a loop shape, as the caller wrote it."""
+
+    shape: str
+    function: Callable
+    neighbors: Any
+    fields: Mapping[str, Any]
+    out: Any
+    rows: Any
+    finish: Callable | None
+    reduce: Any
+    constants: dict[str, Any]
+    combine: Any = None
+
+
+class Signature:
+    """Arguments of the loops of all calls with the same functions and names.
+
+    Attributes:
+        roles, finish_roles: (name, role, symbol) of each argument.
+        fields: symbols of the fields that are read. position, support: whether those of the
+            neighbor list are, as x and l; their places come after the fields'.
+        symbols: all of these in order. needs: (place among them, place in `NEEDS` of what it must
+            have entries for, name of the argument). neighbors: (place, name) of those that are
+            read at neighbors.
+        constants: names. reduce, combine: for each result.
+        geometry: whether the loop depends on the list's period. apart: and on the dimension.
+            kernel, mean: and on these.
+        loops: compiled loops by the kinds of arrays and constants.
+    """
+
+    def __init__(self, call: Call) -> None:
+        self.roles = _bound(call, call.function, _roles(call.shape, call.function))
+        self.finish_roles: tuple = ()
+        if call.finish is not None:
+            self.finish_roles = _bound(call, call.finish, _roles("finish", call.finish))
+        arguments = (*self.roles, *self.finish_roles)
+        self.constants = _once(name for name, role, _ in arguments if role == "constant")
+        extra = sorted(set(call.constants) - set(self.constants))
+        if extra:
+            raise ValueError(f"{call.function.__name__}() has no argument {', '.join(extra)}")
+        self.reduce = () if call.reduce is None else tuple(listed(call.reduce))
+        self.combine = () if call.combine is None else tuple(listed(call.combine))
+        self._place(call, [one for one in arguments if one[1] in NEEDS])
+        self.loops: dict[Any, Any] = {}
+
+    def _place(self, call: Call, arrays: list[tuple[str, str, str]]) -> None:
+        """Decide where each array comes from and how long it must be."""
+        wanted = {name for name, role, _ in self.roles if role == "geometry"}
+        symbols = _once(symbol for _, _, symbol in arrays)
+        read = {symbol for _, role, symbol in self.roles if role in ("row", "neighbor")}
+        self.apart = bool(wanted - {"l_ij"})
+        weighted = bool(wanted & {"l_ij", "W_ij", "dW_ij"})
+        self.geometry = bool(wanted)
+        self.kernel = bool(wanted & {"W_ij", "dW_ij"})
+        self.mean = bool(wanted - {"x_ij", "r_ij"})
+        self.position = self.apart or ("x" in read and "x" not in call.fields)
+        self.support = weighted or ("l" in read and "l" not in call.fields)
+        given = {"x": self.position, "l": self.support}
+        self.fields = tuple([symbol for symbol in symbols if not given.get(symbol)])
+        self.symbols = (*self.fields, *(symbol for symbol in given if given[symbol]))
+        needs = {(role, symbol): name for name, role, symbol in arrays}
+        for symbol in given if self.geometry else ():
+            if symbol in self.symbols:
+                needs["neighbor", symbol] = symbol
+        self.needs = tuple(
+            (self.symbols.index(symbol), NEEDS.index(role), name)
+            for (role, symbol), name in needs.items()
+            if role != "row" or ("neighbor", symbol) not in needs
+        )
+        self.neighbors = tuple(
+            (self.symbols.index(symbol), name)
+            for name, role, symbol in self.roles
+            if role == "neighbor"
+        )
+
+
+def listed(value: Any) -> tuple | list:
+    """A single value as a tuple of one."""
+    return value if isinstance(value, tuple | list) else (value,)
+
+
+def _once(names: Any) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(names))
+
+
+def _roles(shape: str, function: Callable) -> tuple:
+    """(name, role, symbol) of a function's arguments; "bare" is a field or a constant."""
+    if shape in ("pair_sum", "pair_values"):
+        return pair_roles(function)
+    return tuple(
+        (name, "total" if shape == "finish" and _is_total(name) else "bare", name)
+        for name in parameter_names(function)
+    )
+
+
+def _is_total(name: str) -> bool:
+    return name.partition("_")[0] == "total"
+
+
+def _bound(call: Call, function: Callable, roles: tuple) -> tuple:
+    """The roles, bare names decided.
+
+    Raises:
+        ValueError: a field or a constant is missing.
+    """
+    bound = []
+    for name, role, symbol in roles:
+        if role == "bare":
+            role = "row" if name in call.fields else "constant"
+        if role == "constant" and name not in call.constants:
+            raise ValueError(f"{function.__name__}() needs a value for {name}")
+        if role in NEEDS and symbol not in call.fields and symbol not in ("x", "l"):
+            known = ", ".join(sorted(call.fields)) or "none"
+            raise ValueError(
+                f"{function.__name__}() needs field {symbol} for {name}; given: {known}"
+            )
+        bound.append((name, role, symbol))
+    return tuple(bound)

@@ -1,0 +1,21 @@
+"""Whether a spot lies on an edge of the block, so that half of it or a quarter is computed."""
+
+from __future__ import annotations
+
+from math import isclose
+
+from lasersph.case import Case
+
+SAME = 1e-9
+"""Share of the width by which an axis may miss the edge."""
+
+
+def halves_spot(case: Case) -> tuple[bool, bool]:
+    """Whether the axis of a resting spot lies on the lower and on the upper end of x."""
+    laser, dimensions = case.laser, case.solver.dimensions
+    if laser is None or laser.path is not None or laser.beam.area is None or dimensions == 1:
+        return False, False
+    (low, high), *_ = case.domain.lateral(dimensions)
+    near = SAME * (high - low)
+    x = laser.position[0]
+    return isclose(x, low, abs_tol=near), isclose(x, high, abs_tol=near)
