@@ -10,8 +10,16 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from lasersph.cli.arguments import CaseName, Out, Quick, Settings, Threads
-from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal, WrongCommand
+from lasersph.cli.arguments import (
+    Backend,
+    CaseName,
+    Out,
+    Quick,
+    Settings,
+    Threads,
+    refuse_backend,
+)
+from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal
 
 if TYPE_CHECKING:
     from lasersph.case import Case
@@ -23,10 +31,6 @@ Resume = Annotated[
 ]
 Precision = Annotated[
     Literal["float64", "float32"], typer.Option("--precision", help="Of the computation.")
-]
-Backend = Annotated[
-    Literal["cpu", "cuda"],
-    typer.Option("--backend", help="Where to compute: the processor or a CUDA graphics card."),
 ]
 Figures = Annotated[bool, typer.Option(help="Draw the figures and write report.html at the end.")]
 
@@ -76,8 +80,7 @@ def run(
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
     from lasersph.case import load_case
 
-    if backend != "cpu" and threads is not None:
-        raise WrongCommand("--threads is for --backend cpu")
+    refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
     folder = out or RUNS / loaded.name
     command = ["lasersph", "run", case, "--out", str(folder), "--resume"]

@@ -212,8 +212,8 @@ def test_validate(monkeypatch, capsys):
     """Tables and JSON of every validation; exit code 1 where one did not pass."""
     folders = []
 
-    def fake(name, folder, *, quick, threads):
-        folders.append((str(folder), quick, threads))
+    def fake(name, folder, *, quick, threads, backend):
+        folders.append((str(folder), quick, threads, backend))
         return FakeReport(name)
 
     monkeypatch.setattr("lasersph.validation.names", lambda: ("good", "bad"))
@@ -221,12 +221,13 @@ def test_validate(monkeypatch, capsys):
     monkeypatch.setattr("lasersph.validation.validate", fake)
     assert said(capsys, "validate", "--list") == "good  A?\nbad   B?\n"
     assert "1 of 1 passed" in said(capsys, "validate", "good", "good", "--quick")
-    assert folders == [("runs/validation/good", True, None)]
+    assert folders == [("runs/validation/good", True, None, "cpu")]
     text = said(capsys, "validate", "--json", "all.json", "--out", "v", "--threads", "1", code=1)
     assert "table of bad" in text and "not passed: bad" in text
-    assert folders[1:] == [("v/good", False, 1), ("v/bad", False, 1)]
+    assert folders[1:] == [("v/good", False, 1, "cpu"), ("v/bad", False, 1, "cpu")]
     content = json.loads(Path("all.json").read_text())
     assert content["passed"] is False and content["schema_version"] == 1
+    assert content["backend"] == "cpu"
     assert list(content["validations"]) == ["good", "bad"]
     assert main(["validate", "goood"]) == 2
     assert 'do you mean "good"' in capsys.readouterr().err
@@ -234,14 +235,25 @@ def test_validate(monkeypatch, capsys):
     assert "cannot write none/all.json" in capsys.readouterr().err
 
 
-def test_run_without_a_graphics_card(tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["run", "stefan"],
+        ["run", "stefan", "--resume"],
+        ["converge", "stefan", "--spacing", "1um,2um,4um", "--json", "all.json"],
+        ["threshold", "dlip-steel", "--of", "melt", "--json", "all.json"],
+        ["spot", "ablation-depth", "--fluence", "5J/cm2,10J/cm2,20J/cm2", "--json", "all.json"],
+        ["validate", "kernels", "--json", "all.json"],
+    ],
+)
+def test_no_graphics_card(command, tmp_path, monkeypatch, capsys):
     """`--backend cuda` without a card, or with threads: one line, exit code 2, nothing written."""
 
     def no_card():
         raise cuda_device.NoDevice("--backend cuda: no CUDA device found")
 
     monkeypatch.setattr(cuda_device, "checked", no_card)
-    command = ["run", "stefan", "--backend", "cuda", "--out", str(tmp_path / "run")]
+    command = [*command, "--backend", "cuda", "--out", "out"]
     assert main(command) == 2
     assert capsys.readouterr().err == "lasersph: --backend cuda: no CUDA device found\n"
     assert main([*command, "--threads", "2"]) == 2
