@@ -17,6 +17,7 @@ from lasersph.simulation.run import Stopped, run
 pytestmark = pytest.mark.skipif("cuda" not in backends(), reason="no CUDA device or simulator")
 COLUMN = (*HEATED_BLOCK, "solver.dimensions=1", "domain.depth=4 um", "particles.spacing=0.5um",
           "laser.fluence=40 J/cm^2")  # fmt: skip
+DEEP = ("domain.depth=16 um",)
 RELATIVE = {"float64": 1e-10, "float32": 1e-4}
 """Largest difference over the largest value of a field."""
 
@@ -53,8 +54,17 @@ def ablation(backend):
     return solver, ("position", "velocity", "density", "enthalpy", "stage")
 
 
+def sleeping(backend):
+    """A column of aluminium of which most sleeps, and more wakes as heat comes down."""
+    _, solver = moving("sound-wave", *COLUMN, *DEEP, backend=backend)
+    awake = solver.region.awake_count
+    moving_steps(solver, steps=10)
+    assert awake < solver.region.awake_count < solver.body.count
+    return solver, ("position", "velocity", "density", "enthalpy", "stage", "awake")
+
+
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-@pytest.mark.parametrize("make", [heat, flow, ablation])
+@pytest.mark.parametrize("make", [heat, flow, ablation, sleeping])
 def test_steps(make, precision):
     """Steps end in the CPU's fields, but for the order of the card's sums."""
     if precision == "float32" and make is not heat and IS_SIMULATED:
