@@ -71,8 +71,11 @@ class Backend:
         """Copy as a NumPy array."""
         return np.array(self.unwrap(array))
 
-    def look(self, array: Any) -> np.ndarray:
-        """The array for reading, until the next loop; not copied where it lies in this memory."""
+    def look(self, array: Any) -> Any:
+        """The array for reading, until the next loop; not copied where it lies in this memory.
+
+        Elsewhere it is copied only as far as it is looked at; to NumPy it is an array.
+        """
         host = self.unwrap(array).view()
         host.flags.writeable = False
         return host

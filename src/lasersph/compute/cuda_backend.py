@@ -17,6 +17,12 @@ from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import THREADS, start
 from lasersph.compute.cuda_launch import CudaLauncher
 from lasersph.compute.cuda_search import CudaSearch
+from lasersph.compute.far_array import FarArray
+
+
+def twice(value):
+    """The value, to be reduced in two ways."""
+    return value, value
 
 
 class CudaBackend(Backend):
@@ -70,11 +76,16 @@ class CudaBackend(Backend):
         """Copy as a NumPy array."""
         return self.unwrap(array).to_host()
 
-    def look(self, array: Any) -> np.ndarray:
-        """Copy for reading."""
-        host = self.to_host(array)
-        host.flags.writeable = False
-        return host
+    def look(self, array: Any) -> Any:
+        """The array for reading, until the next loop; copied as far as it is looked at."""
+        return FarArray(self, self.unwrap(array))
+
+    def extremes(self, array: Any, rows: Any = None) -> tuple[float, float]:
+        """Least and largest element (n,), of some rows or all; NaN where there is one."""
+        least, most = self.pointwise(
+            twice, {"value": array}, (None, None), rows=rows, reduce=("min", "max")
+        )
+        return least, most
 
     def single(self, array: Any) -> Any:
         """Copy in float32, which loops of any precision may read per pair; itself if it is."""

@@ -19,8 +19,6 @@ from lasersph.compute.cuda_scan import cuda_scan_text
 from lasersph.compute.search import Grid, grid, refuse_escape, refuse_short_period, refuse_support
 from lasersph.compute.splice import PairRows
 
-_LEAST_AND_MOST = (None, None), ("min", "max")
-
 
 class _Level(NamedTuple):
     """Particles whose supports lie within a power of two."""
@@ -29,11 +27,6 @@ class _Level(NamedTuple):
     high: np.ndarray
     largest: float
     count: int
-
-
-def twice(value):
-    """The value, to be reduced in two ways."""
-    return value, value
 
 
 def level_of(support, smallest):
@@ -114,7 +107,7 @@ class CudaSearch:
             return backend.zeros(1, "offset"), backend.zeros(0, "index")
         low, high = self._corners(position, None)
         self._refuse_escape(position, low, high, lower, upper)
-        smallest, largest = self._ends(support, None)
+        smallest, largest = self.backend.extremes(support, None)
         if not (smallest > 0.0 and np.isfinite(largest)):
             refuse_support(support.to_host())
         if count == 0:
@@ -174,18 +167,12 @@ class CudaSearch:
 
     # --- parts of the search --------------------------------------------------------------------
 
-    def _ends(self, values: CudaArray, rows: CudaArray | None) -> tuple[float, float]:
-        """Least and largest value; NaN where there is one."""
-        none, how = _LEAST_AND_MOST
-        least, most = self.backend.pointwise(twice, {"value": values}, none, rows=rows, reduce=how)
-        return least, most
-
     def _corners(
         self, position: CudaArray, rows: CudaArray | None
     ) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper corner of the box around particles [m]."""
         axes = range(position.shape[0])
-        ends = [self._ends(position.component(k), rows) for k in axes]
+        ends = [self.backend.extremes(position.component(k), rows) for k in axes]
         low, high = np.array(ends, self.backend.real).T
         return low, high
 
@@ -231,7 +218,7 @@ class CudaSearch:
         levels = []
         for k in used:
             rows = backend.rows_where(number, float(k))
-            highest = self._ends(support, rows)[1]
+            highest = self.backend.extremes(support, rows)[1]
             levels.append(level(*self._corners(position, rows), highest, int(counts[k])))
         names = np.zeros(most, np.uint32)
         names[used] = np.arange(used.size)

@@ -13,6 +13,7 @@ from lasersph.compute import cuda_device
 TESTS = Path(__file__).parents[2]
 FILES = ("unit/compute/test_strict_arrays.py", "unit/compute/test_pair_loops.py",
          "unit/compute/test_search.py", "unit/compute/test_splice.py",
+         "unit/compute/test_looking.py",
          "laws/test_cuda_backend.py")  # fmt: skip
 
 
