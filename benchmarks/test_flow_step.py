@@ -1,19 +1,18 @@
 """Which part of a step of a melt pool takes the time, and how far it is from memory bandwidth.
 
 Steel at 0.5 J/cm2 while it flows, 54 ns, by the lines of `MeltPool.step`. The floor of a pass over
-the pairs of the block is the time to read 12 bytes of each, value and neighbor, at the bandwidth of
-summing a large array; a step has some passes a line, one an iteration of the pressure and of the
-viscosity, and on the whole body's pairs one an iteration of the heat. 8 nm takes half a minute, the
-published 3.97 nm some minutes. Run: pytest benchmarks/test_flow_step.py -s
+the pairs of the block is the time to read 12 bytes of each, value and neighbor, at the bandwidth
+that `lasersph benchmark` measures; a step has some passes a line, one an iteration of the pressure
+and of the viscosity, and on the whole body's pairs one an iteration of the heat. 8 nm takes half a
+minute, the published 3.97 nm some minutes. Run: pytest benchmarks/test_flow_step.py -s
 """
 
 from time import perf_counter
 
-import numpy as np
-import pair_functions as functions
 import pytest
 
 from lasersph import compute
+from lasersph.benchmark.ceilings import bandwidth
 from lasersph.case import load_case
 from lasersph.simulation.build import build
 from lasersph.solvers.melt_pool.solver import MeltPool
@@ -58,17 +57,6 @@ def clocked(solver):
         found = getattr(solver, owner) if owner else solver
         setattr(found, method, timed(name, getattr(found, method)))
     return times
-
-
-def bandwidth(backend):
-    """Read bandwidth [B/s] of summing an array of 256 MiB."""
-    large = backend.asarray(np.ones(2**25))
-    reads = []
-    for _ in range(7):
-        begin = perf_counter()
-        backend.pointwise(functions.same, {"a": large}, None, reduce="sum")
-        reads.append(perf_counter() - begin)
-    return 8.0 * large.shape[0] / min(reads)
 
 
 @pytest.mark.parametrize("spacing", [8.0, 3.97])

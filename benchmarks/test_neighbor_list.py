@@ -5,20 +5,16 @@ import pair_functions as functions
 import setting
 
 from lasersph import compute
+from lasersph.benchmark.counting import CountingBackend
+from lasersph.benchmark.loops import list_build
 from lasersph.compute import search
 
 
 def test_million(benchmark):
     """1M particles with l = 2.9 spacings (90 neighbors): within 1.0 s on two threads."""
-    backend = compute.cpu(threads=2)
-    cube = setting.jittered_cube(backend, 100)
-
-    def build():
-        return search.neighbor_list(
-            backend, cube.position, cube.support, 10**6, mean=functions.arithmetic_mean
-        )
-
-    benchmark.pedantic(build, rounds=7, warmup_rounds=2)
+    backend = CountingBackend(2)
+    build = list_build(backend, setting.jittered_cube(backend, 100))
+    benchmark.pedantic(build.run, rounds=7, warmup_rounds=2)
     print(f"\n1M particles: {benchmark.stats.stats.min:.2f} s")
     assert benchmark.stats.stats.min <= 1.0
 

@@ -4,16 +4,16 @@ Half an elliptic pool under a mirrored surface, as wide and deep as the publishe
 finest particles, displaced from a lattice. Compared are the preconditioner of the package, the
 diagonal alone in the same conjugate gradients, and the published matrix with BiCGStab and its
 diagonal. The floor is the time to read each pair once, 12 bytes of value and neighbor, at the
-bandwidth of summing a large array. Run: pytest benchmarks/test_pressure.py -s
+bandwidth that `lasersph benchmark` measures. Run: pytest benchmarks/test_pressure.py -s
 """
 
 from time import perf_counter
 
 import numpy as np
-import pair_functions as functions
 import pytest
 
 from lasersph import compute
+from lasersph.benchmark.ceilings import bandwidth
 from lasersph.particles.neighbors import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
@@ -123,13 +123,7 @@ def test_pressure(name):
 
     unknowns = int((pool.role == 1).sum() + (pool.role == 2).sum())
     pairs = backend.to_host(pool.neighbors.neighbor).size
-    large = backend.asarray(np.ones(8 * pairs))
-    reads = []
-    for _ in range(5):
-        start = perf_counter()
-        backend.pointwise(functions.same, {"a": large}, None, reduce="sum")
-        reads.append(perf_counter() - start)
-    floor = min(reads) * 12.0 / 64.0
+    floor = 12.0 * pairs / bandwidth(backend)
     each = time / outcome.iterations
     print(
         f"\n{name}: {unknowns} unknowns, {pairs} pairs; set-up {1e3 * min(set_up):.1f} ms;"

@@ -103,6 +103,13 @@ def test_import_starts_no_backend():
     assert not loaded_by("import lasersph") & {"numba", "matplotlib", "h5py", "pint", "scipy"}
 
 
+@pytest.mark.parametrize("case", ["dlip-steel", "ablation-depth", "natural-convection"])
+def test_a_case_is_read_without_what_only_runs_need(case):
+    """SciPy, the loops, plots and files take longer to load than all else that reads a case."""
+    loaded = loaded_by(f"import lasersph\nlasersph.load_case({case!r})")
+    assert not loaded & {"numba", "matplotlib", "h5py", "scipy"}
+
+
 def processor_seconds(*command: str) -> float:
     """Processor time of a command [s], which other programs on the machine hardly change."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -8,13 +8,16 @@ from scipy.interpolate import RegularGridInterpolator
 from lasersph.analytic.taylor_green import TaylorGreen
 from lasersph.case import load_case
 from lasersph.validation import (
+    dlip_aluminium,
     dlip_flow,
+    dlip_steel,
     lid_driven_cavity,
     marangoni_layer,
     natural_convection,
     taylor_green,
 )
 from lasersph.validation.dlip_flow_reference import FLOWS
+from lasersph.validation.dlip_reference import METALS
 from lasersph.validation.lid_driven_cavity_reference import center_line
 
 
@@ -174,6 +177,28 @@ def test_size_against_no_flow():
     for width, good in ((2.0079e-6, True), (2.009e-6, False), (None, False)):
         rows = dlip_flow.size_rows("x", flow, pool(width), still, plan)
         assert [row.verdict for row in rows] == [good, True, True, True]
+
+
+@pytest.mark.parametrize("module", [dlip_steel, dlip_aluminium])
+def test_every_case_of_a_validation_is_sound(module, monkeypatch, tmp_path):
+    """In full as in short: hours of computing never end at a case that is refused."""
+    names = []
+
+    def load(case, settings, _, label):
+        load_case(case, settings)
+        names.append(label)
+        return MadeUp(summary={"melt": {}})
+
+    monkeypatch.setattr(dlip_flow, "computed", load)
+    label = module.__name__.rpartition("dlip_")[2]
+    metal, flow = METALS[label], FLOWS[label]
+    for plan in (module.FULL, module.QUICK):
+        for plateau in plan.plateaus:
+            for fluence in plan.fluences:
+                dlip_flow.run_one(tmp_path, metal, plan, fluence, plateau)
+        dlip_flow.run_one(tmp_path, metal, plan, flow.fluence, "hold", marangoni=False)
+    dlip_flow.experiment_rows(tmp_path, metal, flow, module.FULL)
+    assert len(set(names)) == 2 * len(module.FULL.fluences) + 1 + 2 + 2
 
 
 def test_number_of_a_summary():

@@ -18,13 +18,14 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import erfc
 
 Array = NDArray[np.float64]
 
 
 def ierfc(x: ArrayLike) -> Array:
     """First integral of erfc: ierfc(x) = exp(-x^2)/sqrt(pi) - x erfc(x)."""
+    from scipy.special import erfc  # takes as long to load as all else that reads a case
+
     x = np.asarray(x, dtype=float)
     return np.exp(-(x**2)) / np.sqrt(np.pi) - x * erfc(x)
 

@@ -16,15 +16,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import get_lapack_funcs
 
 Array = NDArray[np.float64]
 
-solve_tridiagonal: Any = get_lapack_funcs("gtsv", dtype=np.float64)
+
+@cache
+def tridiagonal_solver() -> Any:
+    """LAPACK's dgtsv, which takes as long to load as all else that reads a case."""
+    from scipy.linalg import get_lapack_funcs
+
+    return get_lapack_funcs("gtsv", dtype=np.float64)
 
 
 @dataclass(frozen=True)
@@ -212,7 +218,8 @@ class _Block:
         diagonal = capacity + slope * (np.hstack([g, zero]) + np.hstack([zero, g]))
         lower = np.hstack([-g * slope[:, :-1], zero]).ravel()[:-1]
         upper = np.hstack([-g * slope[:, 1:], zero]).ravel()[:-1]
-        *_, change, info = solve_tridiagonal(lower, diagonal.ravel(), upper, -r.ravel())
+        solve = tridiagonal_solver()
+        *_, change, info = solve(lower, diagonal.ravel(), upper, -r.ravel())
         if info != 0:
             raise ArithmeticError(f"tridiagonal solve failed (LAPACK dgtsv info {info})")
         return change.reshape(r.shape)

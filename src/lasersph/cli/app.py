@@ -11,6 +11,7 @@ from lasersph.cli import (
     cases,
     exporting,
     material,
+    measuring,
     results,
     running,
     studies,
@@ -38,6 +39,7 @@ app.command(rich_help_panel="Many runs")(studies.converge)
 app.command(rich_help_panel="Many runs")(studies.threshold)
 app.command(rich_help_panel="Many runs")(studies.spot)
 app.command(rich_help_panel="Many runs")(validating.validate)
+app.command(rich_help_panel="Program")(measuring.benchmark)
 app.command("cache", rich_help_panel="Program")(cache.cache)
 
 

@@ -19,7 +19,6 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
-from scipy.special import erf
 
 from lasersph.reading import Length, Model
 
@@ -151,6 +150,8 @@ class GaussianBeam(Model):
 
     def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
         """Mean of f over each cell, shape (n,): a product of differences of erf."""
+        from scipy.special import erf  # takes as long to load as all else that reads a case
+
         low, high = plane_cells(lower, upper, axis)
         low, high = low * np.sqrt(2.0) / self.radius, high * np.sqrt(2.0) / self.radius
         mean = np.ones(lower.shape[1])

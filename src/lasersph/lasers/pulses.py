@@ -15,7 +15,6 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
-from scipy.special import erf
 
 from lasersph.reading import Count, Model, Time
 
@@ -191,6 +190,8 @@ class GaussianPulse(PulseTrain):
 
     def share_until(self, time: Array) -> Array:
         """Share of the first pulse's energy delivered until each time."""
+        from scipy.special import erf  # takes as long to load as all else that reads a case
+
         return 0.5 * (1.0 + erf((time - self.center) / (np.sqrt(2.0) * self.sigma)))
 
 

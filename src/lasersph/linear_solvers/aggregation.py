@@ -19,7 +19,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 CELL = 0.8
 """Cell width over the support radius: some three particles."""
@@ -61,8 +60,14 @@ def coarsen(
     Args:
         position: (dim, n). support: (n,) [m]. row_start: (n + 1,), neighbor, weight: (pairs,).
     """
+    from scipy import sparse  # many runs need no multigrid, and it takes half a second to load
+
     graph: Any = sparse.csr_array(
-        (weight.astype(np.float64), neighbor.astype(np.int32), row_start.astype(np.int64)),
+        (
+            weight.astype(np.float64, copy=False),
+            neighbor.astype(np.int32),
+            row_start.astype(np.int64),
+        ),
         shape=(support.size, support.size),
     )
     levels: list[Aggregates] = []

@@ -211,7 +211,7 @@ class Multigrid:
         self.backend, self.operator, self._step = backend, operator, 0.0
         pairs = first.neighbors
         host = [pairs.position, pairs.support, pairs.row_start, pairs.neighbor, first.weights]
-        self.levels = [_Level(backend, a) for a in coarsen(*(backend.to_host(v) for v in host))]
+        self.levels = [_Level(backend, a) for a in coarsen(*(backend.look(v) for v in host))]
         self._C = backend.zeros(count)
         if not self.levels:
             return

@@ -112,7 +112,7 @@ def surface_speeds(
     axes.set_ylim(bottom=0.0)
     where = "one spacing below the surface" if "below" in column else "at the surface"
     name = time_axis(runs[0].history)[1]
-    style.label(axes, name, f"largest speed {where} [m/s]", title=title)
+    style.label(axes, name, f"largest speed\n{where} [m/s]", title=title)
     style.legend_above(figure, axes, columns=5)
     return figure
 
@@ -135,9 +135,9 @@ def speed_extrema(
         axes.plot(time, inner, color=color, linewidth=1.8, label=text)
     show_all_flowing(axes, runs)
     axes.set_ylim(bottom=0.0)
-    text = "surface speed [m/s]; full: inner extremum, dashed: outer"
-    style.label(axes, time_axis(runs[0].history)[1], text, title=title)
-    axes.yaxis.label.set_fontsize(9)
+    for line, text in (("-", "inner extremum"), ("--", "outer extremum")):
+        axes.plot([], [], line, color=style.GRAY, label=text)
+    style.label(axes, time_axis(runs[0].history)[1], "surface speed [m/s]", title=title)
     style.legend_above(figure, axes, columns=5)
     return figure
 

@@ -280,7 +280,7 @@ def experiment_rows(out_dir: Path, metal: Metal, flow: Flow, plan: Plan) -> list
     """The measurements of Fig. 12 beside runs at their period and fluence."""
     period, fluence, measured = flow.experiment
     more = (f'laser.beam={{kind="interference", period="{period} um"}}',
-            f"domain.width={period} um")  # fmt: skip
+            f"domain.width={period} um", "probes=[]")  # fmt: skip
     name = f"period {period} um, {fluence} J/cm2"
     rows = []
     for plateau in plan.plateaus:

@@ -187,11 +187,14 @@ def draw(
             longest = max(longest, float(history["time_s"][-1]))
             axes[0].semilogy(history["time_s"], energy / energy[0], line, color=style.COLORS[k],
                              label=word)  # fmt: skip
-            axes[1].plot(one.times, 100.0 * one.errors, line, color=style.COLORS[k])
+            axes[1].semilogy(one.times, 100.0 * one.errors, line, color=style.COLORS[k])
     time = np.linspace(0.0, longest, 50)
     exact = vortices.kinetic_energy(time) / vortices.kinetic_energy(0.0)
     axes[0].semilogy(time, exact, "--", color=style.GRAY, label="exact")
     style.label(axes[0], "time [s]", "kinetic energy / initial [1]", title="(a)")
     style.label(axes[1], "time [s]", "error of velocities [% of largest]", title="(b)")
+    # A run that bursts leaves the picture: the others are to be told apart.
+    axes[0].set_ylim(0.1 * exact[-1], 2.0)
+    axes[1].set_ylim(0.1, 100.0)
     style.legend(axes[0])
     return style.save(figure, out_dir / "taylor-green.png")

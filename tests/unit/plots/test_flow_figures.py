@@ -170,8 +170,9 @@ def test_colors_reach_the_coldest_of_a_box(box):
 def test_runs_together(pool):
     """One color a run; outer extrema dashed, inner ones full."""
     axes = speed_extrema([pool, pool], ["a", "b"]).axes[0]
-    assert [line.get_linestyle() for line in axes.lines] == ["--", "-", "--", "-"]
-    assert axes.get_ylabel().startswith("surface speed [m/s]")
+    assert [line.get_linestyle() for line in axes.lines] == ["--", "-", "--", "-", "-", "--"]
+    assert [line.get_label() for line in axes.lines[4:]] == ["inner extremum", "outer extremum"]
+    assert axes.get_ylabel() == "surface speed [m/s]"
 
 
 def test_animation_is_a_gif_of_the_life_of_the_pool(pool, box, monkeypatch):

@@ -1,0 +1,79 @@
+"""What the machine can do at most: bytes, operations and divisions per second.
+
+Bandwidth is that of a = b + s c on arrays far larger than the caches, 32 B an entry: two read, one
+written, and its line fetched before. Arithmetic is that of multiplications and additions on
+numbers in registers, which a processor with fused multiply-add does in pairs. Divisions and roots
+have a unit of their own, several times slower.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from lasersph.benchmark.counting import CountingBackend
+from lasersph.benchmark.functions import chains, quotients, triad
+from lasersph.benchmark.hot_loop import seconds
+from lasersph.benchmark.least import Least
+from lasersph.compute.backend import Backend
+
+LARGE, SMALL, ROUNDS = 2**23, 2**16, 7
+"""Entries of each array beyond the caches, of each within them per thread, and repetitions."""
+LAUNCHES = 20
+
+
+@dataclass(frozen=True)
+class Ceilings:
+    """Of some threads together: bandwidth [B/s], arithmetic [operations/s], divisions [1/s]."""
+
+    threads: int
+    bandwidth: float
+    arithmetic: float
+    divisions: float
+
+    def floors(self, least: Least) -> dict[str, float]:
+        """Least time [s] of each kind of work; the longest counts, as all is done together."""
+        return {
+            "memory": least.traffic / self.bandwidth,
+            "arithmetic": least.operations / self.arithmetic,
+            "division": least.divisions / self.divisions,
+        }
+
+
+def ceilings(backend: CountingBackend, large: int = LARGE) -> Ceilings:
+    """Measure all three."""
+    return Ceilings(
+        backend.threads,
+        bandwidth(backend, large),
+        _rate(backend, chains, lambda least: least.operations),
+        _rate(backend, quotients, lambda least: least.divisions),
+    )
+
+
+def bandwidth(backend: Backend, large: int = LARGE) -> float:
+    """Bytes per second [B/s] between memory and processor."""
+    b, c, out = (backend.zeros(large) for _ in range(3))
+    for array, value in ((b, 1.0), (c, 2.0), (out, 0.0)):
+        backend.fill(array, value)
+    move = backend.prepare(triad, {"b": b, "c": c}, out, s=0.5)
+
+    def run() -> int:
+        move()
+        return 1
+
+    return (b.nbytes + c.nbytes + 2.0 * out.nbytes) / seconds(run, ROUNDS)
+
+
+def _rate(backend: CountingBackend, function: Callable, of: Callable[[Least], float]) -> float:
+    """What a function of numbers in the caches does per second, of one kind."""
+    fields = {name: backend.zeros(SMALL * backend.threads) for name in "abc"}
+    for name, value in (("a", 0.1), ("b", 0.99), ("c", 0.01)):
+        backend.fill(fields[name], value)
+    launch = backend.prepare(function, fields, None, reduce="sum")
+
+    def run() -> int:
+        for _ in range(LAUNCHES):
+            launch()
+        return LAUNCHES
+
+    return of(backend.least(launch)) / seconds(run, ROUNDS)

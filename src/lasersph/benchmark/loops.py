@@ -1,0 +1,90 @@
+"""The hot loops that are no linear solver: pair sums, neighbor list, enthalpy, shifting."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.benchmark.counting import CountingBackend
+from lasersph.benchmark.functions import found, right_hand_side
+from lasersph.benchmark.hot_loop import HotLoop
+from lasersph.benchmark.least import Least
+from lasersph.compute import search
+from lasersph.compute.backend import Backend
+from lasersph.materials import load_material
+from lasersph.particles.neighbors import NeighborList
+from lasersph.physics.phase_change import state
+from lasersph.sph.shifting import repulsion_terms, shift
+
+METAL = "steel-304"
+
+
+def pair_sum(backend: Backend, neighbors: NeighborList) -> HotLoop:
+    """Right-hand side of weakly compressible SPH: momentum and continuity in one pass."""
+    dimension, count = neighbors.position.shape
+    rng = np.random.default_rng(2)
+    fields = {"v": backend.asarray(rng.random((dimension, count)))}
+    fields |= {name: backend.asarray(1.0 + rng.random(count)) for name in ("rho", "p", "m")}
+    out = (backend.zeros((dimension, count)), backend.zeros(count))
+
+    def run() -> int:
+        backend.pair_sum(right_hand_side, neighbors, fields, out, mu=1e-3)
+        return 1
+
+    return HotLoop(f"pair sum {dimension}-D", count, run)
+
+
+def list_build(backend: CountingBackend, neighbors: NeighborList) -> HotLoop:
+    """Search for all pairs; only those that are found count as looked at."""
+    dimension, count = neighbors.position.shape
+
+    def run() -> int:
+        search.neighbor_list(
+            backend, neighbors.position, neighbors.support, count, mean=neighbors.mean
+        )
+        return 1
+
+    read = neighbors.position.nbytes + neighbors.support.nbytes
+    written = neighbors.row_start.nbytes + neighbors.neighbor.nbytes
+    values = backend.zeros(neighbors.neighbor.shape[0], "flag")
+    tests = backend.least(lambda: backend.pair_values(found, neighbors, {}, values))
+    least = Least(read + 2.0 * written, tests.operations)
+    return HotLoop(f"neighbor list {dimension}-D", count, run, least)
+
+
+def enthalpy_update(backend: Backend, count: int) -> HotLoop:
+    """Temperature, heat potential, melt and vapor fraction from the enthalpy."""
+    curve = load_material(METAL).caloric_curve(300.0)
+    tables: dict[str, Any] = {
+        "h_nodes": backend.asarray(curve.enthalpy),
+        "T_nodes": backend.asarray(curve.temperature),
+        "P_nodes": backend.asarray(curve.potential),
+        "m_nodes": backend.asarray(curve.melt_fraction),
+        "v_nodes": backend.asarray(curve.vapor_fraction),
+    }
+    highest = float(curve.enthalpy[-1])
+    h = backend.asarray(np.random.default_rng(3).uniform(0.0, highest, count))
+    out = tuple(backend.zeros(count) for _ in range(4))
+
+    def run() -> int:
+        backend.pointwise(state, {"h": h}, out, **tables)
+        return 1
+
+    return HotLoop("enthalpy update", count, run)
+
+
+def shifting(backend: Backend, neighbors: NeighborList) -> HotLoop:
+    """Displacement that keeps particles from clustering."""
+    dimension, count = neighbors.position.shape
+    fields = {name: backend.asarray(np.ones(count)) for name in ("is_fluid", "at_face")}
+    out, normal = backend.zeros((dimension, count)), (0.0,) * (dimension - 1) + (1.0,)
+
+    def run() -> int:
+        backend.pair_sum(
+            repulsion_terms, neighbors, fields, out, finish=shift, normal=normal,
+            scale=0.01, limit=0.1,
+        )  # fmt: skip
+        return 1
+
+    return HotLoop(f"shifting {dimension}-D", count, run)

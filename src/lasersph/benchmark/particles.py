@@ -1,0 +1,33 @@
+"""Particles that are measured with: off a lattice, sorted by cell, with their neighbor list."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute import search
+from lasersph.compute.backend import Backend
+from lasersph.particles.neighbors import NeighborList
+from lasersph.particles.support import arithmetic
+
+
+def jittered(backend: Backend, edge: int, kernel: Any, support: float = 2.9) -> NeighborList:
+    """edge^dim particles near a lattice of spacing 1 m, with all their pairs.
+
+    Args:
+        kernel: as `sph.kernels.kernel`; decides the dimension. support: radius [m].
+    """
+    axis, dimension = np.arange(edge, dtype=float), kernel.dimension
+    lattice = np.meshgrid(*(axis,) * dimension, indexing="ij")
+    position = np.array([x.ravel() for x in lattice[::-1]])
+    position += 0.2 * np.random.default_rng(1).random(position.shape)
+    order = backend.to_host(search.cell_order(backend, backend.asarray(position), support))
+    sorted_position = backend.asarray(position[:, order])
+    reach = backend.asarray(np.full(edge**dimension, support))
+    row_start, neighbor = search.neighbor_list(
+        backend, sorted_position, reach, edge**dimension, mean=arithmetic
+    )
+    return NeighborList(
+        row_start, neighbor, sorted_position, reach, kernel, arithmetic, (0.0,) * dimension
+    )

@@ -1,0 +1,109 @@
+"""The hot loops of the linear solvers: product, iterations, preconditioners."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from lasersph.benchmark.functions import flow
+from lasersph.benchmark.hot_loop import HotLoop
+from lasersph.compute.backend import Backend
+from lasersph.linear_solvers.bicgstab import BiCGStab
+from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
+from lasersph.linear_solvers.grid_correction import GridCorrection
+from lasersph.linear_solvers.matrix import PairMatrix
+from lasersph.linear_solvers.multigrid import Multigrid
+from lasersph.particles.neighbors import NeighborList
+
+ITERATIONS = 20
+STEP, STIFF_STEP = 0.1, 10.0
+"""s of C + s G with C = 1: of heat without multigrid, and with it."""
+
+
+def product(backend: Backend, neighbors: NeighborList, weights) -> HotLoop:
+    """Sparse matrix times vector, as heat flows through assembled conductances."""
+    count = neighbors.position.shape[1]
+    fields, out = {"g_ij": weights, "T": _noise(backend, count)}, backend.zeros(count)
+
+    def run() -> int:
+        backend.pair_sum(flow, neighbors, fields, out)
+        return 1
+
+    return HotLoop("matrix times vector", count, run)
+
+
+def conjugate_gradient(backend: Backend, operator: PairOperator) -> HotLoop:
+    """An iteration with Jacobi's preconditioner, weights rounded to float32 as heat uses it."""
+    count = operator.pull.shape[0]
+    solver = ConjugateGradient(backend, operator, count, rounds=True)
+    b, ones = _noise(backend, count), backend.asarray(np.ones(count))
+
+    def run() -> int:
+        return solver.solve(b, ones, ones, STEP, residual=0.0, max_iterations=ITERATIONS)
+
+    return HotLoop("CG iteration", count, run)
+
+
+def bicgstab(backend: Backend, neighbors: NeighborList, entries, diagonal) -> HotLoop:
+    """An iteration with Jacobi's preconditioner; two products."""
+    count = neighbors.position.shape[1]
+    solver = BiCGStab(backend, PairMatrix(neighbors, entries, diagonal))
+    b = _noise(backend, count)
+
+    def run() -> int:
+        backend.fill(solver.solution, 0.0)
+        return solver.solve(b, residual=0.0, max_iterations=ITERATIONS).iterations
+
+    return HotLoop("BiCGStab iteration", count, run)
+
+
+def multigrid_cycle(backend: Backend, operator: PairOperator) -> HotLoop | None:
+    """Preconditioner of heat beside Jacobi's; None where particles are too few."""
+    count = operator.pull.shape[0]
+    multigrid = Multigrid(backend, operator, operator, count)
+    if not multigrid.levels:
+        return None
+    ones = backend.asarray(np.ones(count))
+    multigrid.prepare(ones, ones, STIFF_STEP)
+    r, z = _noise(backend, count), backend.zeros(count)
+
+    def run() -> int:
+        multigrid.correct(r, z, ones)
+        return 1
+
+    return HotLoop("multigrid cycle", count, run)
+
+
+def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
+    """Preconditioner of the pressure equation, in 2-D."""
+    count = neighbors.position.shape[1]
+    correction = GridCorrection(backend, count, float(neighbors.support[0]))
+    ones, none = backend.asarray(np.ones(count)), backend.zeros(count)
+    correction.prepare(neighbors.position, ones, ones, none)
+    r, z = _noise(backend, count), backend.zeros(count)
+
+    def run() -> int:
+        correction.correct(r, diagonal, ones, z)
+        return 1
+
+    return HotLoop("pressure grid cycle", count, run)
+
+
+def hot_solves(backend: Backend, neighbors: NeighborList) -> Iterator[HotLoop]:
+    """Those above on a list of pairs in 2-D; each is made when it is asked for."""
+    count = neighbors.position.shape[1]
+    weights = backend.asarray(np.ones(neighbors.neighbor.shape[0]))
+    degree = backend.asarray(np.diff(backend.to_host(neighbors.row_start).astype(float)))
+    operator = PairOperator(neighbors, weights, backend.zeros(count), degree)
+    yield product(backend, neighbors, weights)
+    yield conjugate_gradient(backend, operator)
+    yield bicgstab(backend, neighbors, weights, backend.asarray(degree + 1.0))
+    multigrid = multigrid_cycle(backend, operator)
+    if multigrid is not None:
+        yield multigrid
+    yield grid_cycle(backend, neighbors, degree)
+
+
+def _noise(backend: Backend, count: int):
+    return backend.asarray(np.random.default_rng(4).standard_normal(count))

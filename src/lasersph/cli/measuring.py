@@ -1,0 +1,86 @@
+"""`lasersph benchmark`: how near the hot loops come to what this machine can do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lasersph.cli.arguments import Threads
+from lasersph.cli.failures import WrongCommand
+
+SCHEMA_VERSION = 1
+FEWEST = 100
+Sizes = Annotated[str, typer.Option("--sizes", metavar="N,N,...", help="Numbers of particles.")]
+Json = Annotated[
+    Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers as JSON as well.")
+]
+
+
+def benchmark(
+    sizes: Sizes = "50000,400000", threads: Threads = None, json_file: Json = None
+) -> None:
+    """Time each hot loop beside the least time that memory and arithmetic allow here.
+
+    Other programs on the machine make the numbers wrong.
+    """
+    wanted = _numbers(sizes)
+    _refuse_more_than_there_is(wanted)
+    from lasersph.benchmark.ceilings import Ceilings
+    from lasersph.benchmark.measure import measure
+    from lasersph.benchmark.table import as_dict, ceilings_line, growth, table
+    from lasersph.cli.tables import aligned
+
+    limits, loops = [], []
+
+    def report(one) -> None:
+        if isinstance(one, Ceilings):
+            limits.append(one)
+            print(ceilings_line(one), flush=True)
+        else:
+            loops.append(one)
+
+    measure(wanted, threads, report=report)
+    print(f"\n{max(wanted)} particles; numbers are per particle and pass")
+    print(aligned(table(loops), header=True))
+    if len(wanted) > 1:
+        print(f"\ntime per particle with {limits[-1].threads} threads")
+        print(aligned(growth(loops), header=True))
+    if json_file is not None:
+        _write(json_file, as_dict(limits, loops))
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    """Different sizes from a list with commas, in order."""
+    try:
+        numbers = sorted({int(word) for word in text.split(",")})
+    except ValueError:
+        numbers = []
+    if not numbers or numbers[0] < FEWEST:
+        raise WrongCommand(
+            f"--sizes {text}: give whole numbers from {FEWEST} on, e.g. 50000,400000"
+        )
+    return tuple(numbers)
+
+
+def _refuse_more_than_there_is(sizes: tuple[int, ...]) -> None:
+    """Say what the largest size needs, or that it is more than the machine has."""
+    from lasersph.benchmark.measure import memory
+    from lasersph.case.size import in_words, machine_memory
+
+    needed, there = memory(max(sizes)), machine_memory()
+    if needed > there:
+        raise WrongCommand(
+            f"{max(sizes)} particles need up to {in_words(needed)} of memory,"
+            f" this machine has {in_words(there)}"
+        )
+    print(f"needs up to {in_words(needed)} of memory", flush=True)
+
+
+def _write(file: Path, numbers: dict) -> None:
+    import lasersph
+    from lasersph.output.atomic import replace_json
+
+    head = {"schema_version": SCHEMA_VERSION, "lasersph": lasersph.__version__}
+    replace_json(file, head | numbers)
