@@ -34,9 +34,8 @@ MARGIN = 0.5
 MAX_ITERATIONS = 1000
 HALF_CELL = 2.0
 """Conductance of a face to particles half a spacing away, over that of two particles [1]."""
-ENTRY, ROW = 8, 13 * 8
-"""Bytes of an iteration: rounded weight and neighbor of each pair; of each row its start, and 8
-vectors read and 5 written by the two loops."""
+ROW = 19 * 8
+"""Bytes of vectors that an iteration reads and writes for each row, beside the stored weights."""
 
 
 def weight_of(g_ij):
@@ -95,7 +94,7 @@ class Sheet:
         self.operator = PairOperator(neighbors, weights, on.asarray(pull), total)
         self.temperature = on.asarray(np.full(count, COLD))
         self._ones, self._heat, self._r = ones, on.asarray(heat), on.zeros(count)
-        self.solver = ConjugateGradient(on, self.operator, count, rounds=True)
+        self.solver = ConjugateGradient(on, self.operator, count, rounds=True, rests=True)
         self.iterations, self.allowed = 0, 0.0
 
     def _fields(self) -> dict[str, Any]:
@@ -145,8 +144,9 @@ def implicit(workplace: Workplace) -> Measurement:
     wall, processor = timed(step, workplace)
     if step.residual() > 1.0:
         raise RuntimeError(f"the residual is {step.residual():.2f} times what is allowed")
-    entries = step.operator.weights.shape[0]
-    traffic = ENTRY * entries + ROW * step.count
+    entries, factors = step.operator.weights.shape[0], step.solver.factors
+    assert factors is not None
+    traffic = factors.pairs.stored + ROW * step.count
     floor = traffic / read_bandwidth(on, workplace, 8 * entries)
     iterations = step.iterations / ((workplace.segments + 1) * workplace.steps)
     detail = {
