@@ -55,6 +55,13 @@ def test_what_has_left_acts_on_nothing():
     assert not a.any()
 
 
+def test_listed_but_out_of_reach():
+    """Where the kernel has no slope a pair counts for nothing, not even for the next step."""
+    drho, a, q, mu = pair_rates(**PAIR | {"dW_ij": 0.0}, **FLOW)
+    assert (drho, q, mu) == (0.0, 0.0, 0.0)
+    assert not a.any()
+
+
 def test_two_things_that_conduct_nothing():
     """0 / 0 is no heat, not NaN."""
     assert pair_rates(**PAIR | {"k_i": 0.0, "k_j": 0.0}, **FLOW)[2] == 0.0

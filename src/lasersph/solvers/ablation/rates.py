@@ -31,6 +31,7 @@ def pair_rates(
 
     The fourth root of the sum of the last bounds the largest |mu_ij| from above, with which
     [Alshaer2017, eq. (31)] limits the step; a maximum would keep the loop from being vectorized.
+    Neighbors beyond the support count for nothing, so that steps do not depend on the skin.
 
     Args:
         v: velocity [m/s]. rho: density [kg/m^d]. P: pressure [Pa]. M: acting mass [kg].
@@ -43,7 +44,7 @@ def pair_rates(
     mu_ij = closing_speed(v_ij, x_ij, r_ij, h_s)
     alpha = alpha_between(f_m_i, f_m_j, alpha_solid, alpha_liquid)
     Pi_ij = viscous_term(mu_ij, alpha, c_0, rho_i, rho_j)
-    acts = 1.0 if M_j > 0.0 else 0.0
+    acts = 1.0 if M_j * dW_ij < 0.0 else 0.0
     return (
         density_rate(rho_i, rho_j, M_j, v_ij, x_ij, r_ij, dW_ij),
         pair_acceleration(M_j, P_i, P_j, rho_i, rho_j, Pi_ij, x_ij, r_ij, dW_ij),
