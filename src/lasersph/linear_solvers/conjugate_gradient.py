@@ -5,11 +5,13 @@
 on the particles whose mask is 1; the others keep 0. All vectors stay on the backend, products and
 dot products are fused into the loops. Symmetric positive definite for g_ij = g_ji >= 0, C > 0.
 
-The preconditioner is Jacobi's, whose iterations grow with the root of the stiffness
-s max(sum_j g_ij / C_i); where that exceeds `STIFF`, `multigrid` corrects it and they do not. An
-iteration reads the weights once, and takes as long as that: q = A p follows from A z, so that the
-product is summed in the same loop that turns the direction, and inexact Newton iterations may read
-weights rounded to float32.
+The preconditioner follows the stiffness s max(sum_j g_ij / C_i). Up to `FACTORED` it is that of
+`incomplete_factors`, whose iterations grow with its fourth root, as long as particles that are said
+to rest have not moved: arranging their pairs takes as long as some thirty iterations.
+Else it is Jacobi's, whose iterations grow with the root of the stiffness; where that exceeds
+`STIFF`, `multigrid` corrects it and they do not. Any iteration reads the weights once, and takes as
+long as that: q = A p follows from A z, so that the product is summed in the same loop that turns
+the direction, and inexact Newton iterations may read weights rounded to float32.
 Reference: [Saad2003], Algorithm 9.1.
 """
 
@@ -19,10 +21,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.sweeps import ordered_pairs
+from lasersph.linear_solvers.incomplete_factors import IncompleteFactors
 from lasersph.linear_solvers.multigrid import Multigrid
 
 STIFF = 20.0
-"""Stiffness above which setting up and applying multigrid costs less than it saves."""
+"""Stiffness above which setting up and applying multigrid costs less than it saves Jacobi."""
+FACTORED = 100.0
+"""Stiffness up to which incomplete factors take less time than multigrid."""
 
 VECTORS = ("x", "r", "z", "p", "q", "d")
 
@@ -83,13 +89,21 @@ class ConjugateGradient:
     Args:
         rounds: read the weights in float32. The solution is then that of weights which are off
             by up to 6e-8 of themselves.
+        rests: the pairs and weights that the operator has now are worth arranging. The factors are
+            used until it is given others.
 
     Attributes:
-        solution: (n,) x after `solve`.
+        solution: (n,) x after `solve`. factors: incomplete factors, where a solve has used them.
     """
 
     def __init__(
-        self, backend: Backend, operator: PairOperator, count: int, *, rounds: bool = False
+        self,
+        backend: Backend,
+        operator: PairOperator,
+        count: int,
+        *,
+        rounds: bool = False,
+        rests: bool = False,
     ) -> None:
         self.backend, self.operator, self.rounds = backend, operator, rounds
         self._first, self._used = replace(operator), replace(operator, weights=None)
@@ -103,6 +117,8 @@ class ConjugateGradient:
         )  # fmt: skip
         self._multigrid: Multigrid | None = None
         self._is_set_up = False
+        self._given: tuple = (operator.neighbors, operator.weights) if rests else ()
+        self.factors: IncompleteFactors | None = None
 
     def solve(
         self,
@@ -122,13 +138,18 @@ class ConjugateGradient:
         Args:
             renews: False keeps the multigrid of an earlier solve, whose C and mask were similar.
         """
-        self._bind()
         self._is_set_up = self._is_set_up and not renews
-        v, operator = self._v, self._used
+        v, operator = self._v, self.operator
         fields = {"C": C, "S": operator.total, "a": operator.pull, "mask": mask, "b": b}
         out = (*[v[name] for name in VECTORS], None, None, None)
         reduce = (None,) * len(VECTORS) + ("sum", "sum", "max")
         rz, error, stiffest = self.backend.pointwise(start, fields, out, reduce=reduce, s=s)
+        factors = self._factored() if stiffest <= FACTORED and error > residual else None
+        if factors:
+            return factors.solve(
+                C, operator.pull, mask, s, residual=residual, max_iterations=max_iterations
+            )
+        self._bind()
         multigrid = self._prepared(C, mask, s) if stiffest > STIFF else None
         if multigrid:
             rz = multigrid.correct(v["r"], v["z"], mask)
@@ -147,6 +168,27 @@ class ConjugateGradient:
             beta = rz / before
         return iterations
 
+    def _factored(self) -> IncompleteFactors | None:
+        """Incomplete factors of the pairs that the solver was made with, while they stay."""
+        if not self._given:
+            return self.factors
+        now = (self.operator.neighbors, self.operator.weights)
+        if any(a is not b for a, b in zip(now, self._given, strict=True)):
+            self._given, self.factors = (), None
+        elif self.factors is None:
+            pairs = ordered_pairs(self.backend, now[0], self._weights())
+            if pairs is None:
+                self._given = ()
+            else:
+                count = self.solution.shape[0]
+                self.factors = IncompleteFactors(self.backend, pairs, self._v, count)
+        return self.factors
+
+    def _weights(self) -> Any:
+        """Weights as they are read."""
+        weights = self.operator.weights
+        return self.backend.single(weights) if self.rounds else weights
+
     def _bind(self) -> None:
         """Take the pairs and weights that the operator has now."""
         operator, used, v = self.operator, self._used, self._v
@@ -154,8 +196,7 @@ class ConjugateGradient:
         if self._bound and all(a is b for a, b in zip(now, self._bound, strict=True)):
             return
         self._bound = now
-        used.neighbors = operator.neighbors
-        used.weights = self.backend.single(operator.weights) if self.rounds else operator.weights
+        used.neighbors, used.weights = operator.neighbors, self._weights()
         self._turn = self.backend.prepare(
             neighbor, v | {"g_ij": used.weights}, (v["p"], v["q"], None),
             neighbors=used.neighbors, finish=turn, reduce=(None, None, "sum"), beta=0.0, s=0.0,

@@ -10,6 +10,11 @@ def arithmetic(l_i, l_j):
     return 0.5 * (l_i + l_j)
 
 
+def common(l_i, l_j):
+    """Support radius where all particles have the same [m]: that of a neighbor is not even read."""
+    return l_i
+
+
 def graded(l_i, l_j):
     """Support radius between particles of layers graded by q = 7/9 [m] [Demuth2020, eq. (63)].
 

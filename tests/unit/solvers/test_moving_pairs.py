@@ -51,12 +51,21 @@ def test_pairs_are_found_anew_only_when_particles_have_moved():
     stir(drift, 100.0)
     go(drift, steps=1)
     first, renewed = drift.pairs.now, 0
-    assert drift.pairs.margin == pytest.approx(0.3e-6)
+    assert 1e-9 < drift.pairs.margin <= 0.3e-6
     for _ in range(40):
         go(drift, steps=1)
         renewed += drift.pairs.now is not first
         first = drift.pairs.now
     assert 2 <= renewed <= 20
+
+
+def test_skin_grows_with_the_way():
+    """s^2 = 1.5 way l / d, but twice the way at least and what the case allows at most."""
+    _, solver = moving("sound-wave", *DRIFTING_BLOCK)
+    pairs, spacing = solver.pairs, solver.body.layout.spacing
+    for way, skin in ((1e-7, 1e-6), (1e-3, (1.5e-3 * 3.0 / 2.0) ** 0.5), (0.1, 0.3), (0.15, 0.3)):
+        pairs.renew(way * spacing)
+        assert pairs.margin == pytest.approx(skin * spacing)
 
 
 def test_list_holds_every_pair_in_reach():

@@ -25,7 +25,7 @@ import numpy as np
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
-from lasersph.particles.support import arithmetic
+from lasersph.particles.support import common
 from lasersph.physics.ejection import EJECTED, GONE
 
 LEAST_RISE = 1e-11
@@ -75,6 +75,11 @@ def of_tile(tile, marks):
 def numbered(place, numbers):
     """Number of the particle at a place among those near what is awake."""
     return numbers[place]
+
+
+def length_of(row, start):
+    """Number of neighbors in a row of a list."""
+    return start[row + 1] - start[row]
 
 
 class ActiveRegion:
@@ -187,6 +192,7 @@ class ActiveRegion:
         self._edge = self._particles_in(edge)
         self._near = self._particles_in(self._around(awake, 1))
         self.rows = self._particles_in(awake)
+        self._numbers = backend.asarray(np.arange(self._near.shape[0]), "index")
         is_awake = backend.zeros(self._near.shape[0])
         backend.gather(self._mark, self._near, is_awake)
         self._wanted = backend.rows_where(is_awake, 1.0)
@@ -247,20 +253,21 @@ class ActiveRegion:
         backend = self.backend
         if self.rows is None:
             return search.neighbor_list(
-                backend, place, reach, self.count, mean=arithmetic, period=self.period
+                backend, place, reach, self.count, mean=common, period=self.period
             )
         near, size = self._near, self._near.shape[0]
         x, support = backend.zeros((len(self._shape), size)), backend.zeros(size)
         backend.gather(place, near, x)
         backend.gather(reach, near, support)
         start, local = search.neighbor_list(
-            backend, x, support, size, mean=arithmetic, period=self.period, wanted=self._wanted
+            backend, x, support, size, mean=common, period=self.period, wanted=self._wanted
         )
         neighbor = backend.zeros(local.shape[0], "index")
         backend.pointwise(numbered, {"place": local}, neighbor, numbers=near)
         counts = backend.zeros(self.count, "index")
-        rows_of = np.diff(backend.look(start).astype(np.int64))
-        backend.scatter(backend.asarray(rows_of, "index"), near, counts)
+        lengths = backend.zeros(size, "index")
+        backend.pointwise(length_of, {"row": self._numbers}, lengths, start=start)
+        backend.scatter(lengths, near, counts)
         row_start = backend.zeros(self.count + 1, "offset")
         backend.exclusive_scan(counts, row_start)
         return row_start, neighbor

@@ -1,9 +1,9 @@
 """`Pairs`: who is near whom, found anew once particles have moved far enough.
 
 A list holds all pairs within the support and a skin. It is good while twice the way of the fastest
-condensed particle is shorter than the skin; what leaves only parts from its neighbors. Where
-nothing moves the skin is a millionth of a spacing: a pair that enters the support by less than that
-weighs 1e-12 of its neighbors.
+condensed particle is shorter than the skin; what leaves only parts from its neighbors. The slower
+the particles, the thinner the skin. Where nothing moves it is a millionth of a spacing: a pair that
+enters the support by less than that weighs 1e-12 of its neighbors.
 """
 
 from __future__ import annotations
@@ -15,13 +15,15 @@ from typing import Any
 from lasersph.compute import search
 from lasersph.compute.vectors import dot, vector
 from lasersph.particles.neighbors import NeighborList
-from lasersph.particles.support import arithmetic
+from lasersph.particles.support import common
 from lasersph.physics.ejection import CONDENSED
 from lasersph.solvers.ablation.matter import Matter
 from lasersph.sph.kernels import Kernel
 
 LEAST_SKIN = 1e-6
 """In spacings."""
+LIST_COST = 1.5
+"""Time to find the pairs over that of a sum over them."""
 
 Finder = Callable[[Any, Any], tuple[Any, Any]]
 """From places (dim, N) and supports (N,) to row_start and neighbor."""
@@ -65,6 +67,7 @@ class Pairs:
     """Neighbor lists of the start and of the middle of a step.
 
     Attributes:
+        skin: thickest skin [m].
         listed: (dim, N) places when the pairs were found [m]. margin: skin of the list [m], 0
             before the first. now, half: the list with the positions of either level.
     """
@@ -80,6 +83,7 @@ class Pairs:
         self.margin = 0.0
         self._reach = backend.zeros(matter.total)
         self._finder = finder or self._all
+        self._support = float(backend.look(matter.support)[0])
         self._low = tuple(lower for lower, _upper in matter.layout.bounds)
 
     def is_stale(self, way: float, rows: Any = None) -> bool:
@@ -105,9 +109,21 @@ class Pairs:
             backend.pointwise(within, fields, matter.now.x, rows=rows, low=self._low, width=period)
         fields = {"x": matter.now.x, "x_listed": self.listed, "opaque": matter.opaque}
         backend.pointwise(placed, fields, self.listed, rows=rows)
-        least = LEAST_SKIN * matter.layout.spacing
-        self.margin = least if 2.0 * way < least else self.skin
+        self.margin = self._skin_for(way)
         self.find()
+
+    def _skin_for(self, way: float) -> float:
+        """The skin [m] with which steps and lists cost least together.
+
+        With a skin s a sum over the pairs takes (1 + s / l)^d times as long, and a list lasts
+        s / (2 way) steps of two sums each; s^2 = LIST_COST way l / d makes the whole least.
+        """
+        layout = self.matter.layout
+        least = LEAST_SKIN * layout.spacing
+        if 2.0 * way < least:
+            return least
+        best = sqrt(LIST_COST * way * self._support / layout.dimension)
+        return min(max(best, 2.0 * way), self.skin)
 
     def find(self) -> None:
         """Find the pairs of the listed places."""
@@ -116,7 +132,7 @@ class Pairs:
         row_start, neighbor = self._finder(self.listed, self._reach)
         self.now, self.half = (
             NeighborList(
-                row_start, neighbor, level.x, matter.support, self.kernel, arithmetic,
+                row_start, neighbor, level.x, matter.support, self.kernel, common,
                 matter.layout.period,
             )
             for level in (matter.now, matter.half)
@@ -125,6 +141,6 @@ class Pairs:
     def _all(self, place: Any, reach: Any) -> tuple[Any, Any]:
         """Pairs of all particles."""
         return search.neighbor_list(
-            self.matter.backend, place, reach, self.matter.total, mean=arithmetic,
+            self.matter.backend, place, reach, self.matter.total, mean=common,
             period=self.matter.layout.period,
         )  # fmt: skip

@@ -44,8 +44,8 @@ class AblationSettings(Model):
     )
     skin: Annotated[float, Field(gt=0, le=2)] = Field(
         default=0.3,
-        description="how much further than their support particles look for neighbors once they "
-        "move, in spacings",
+        description="how much further than their support moving particles look for neighbors at "
+        "most, in spacings; slow ones look less far",
     )
     sleep: bool = Field(
         default=True,

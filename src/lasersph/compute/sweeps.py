@@ -1,0 +1,203 @@
+"""Sweeps: sums over the neighbors that a sweep has passed already, with what it gave them.
+
+    v_i = function(sum_j g_ij v_j, fields at i),    j before i
+
+is what solving with a triangular matrix asks for; a sweep backward sums over the j after i. Blocks
+of rows are colored so that blocks of one color see nothing of each other: they go side by side, a
+color after the other, the rows of a block in their order. Which row is before which follows from
+the list alone, and so do the bits of the result, for any number of threads.
+
+Pairs are stored as tiles: four rows in a row share the particles that any of them sees, so that a
+value is fetched once for four weights in place of one. That takes half as much time for a pair and
+half as many weights again, most of which are zeros, as long as rows that follow each other lie
+close to each other; for rows in any order, and in memory other than the processor's, there are no
+sweeps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from lasersph.compute import cache, threads
+from lasersph.compute.arguments import parameter_names
+from lasersph.compute.backend import Backend
+from lasersph.compute.sweep_text import ROWS, TILES, sweep_text
+
+BLOCK = 8192
+"""Rows of a block: where blocks meet, sweeps pass on less, but few blocks leave threads idle."""
+FILL = 3.0
+"""Most weights stored, over pairs."""
+
+
+class Tiles(NamedTuple):
+    """What the chunks see on one side, host arrays.
+
+    Attributes:
+        start: (chunks + 1,), of those after in reverse order of the chunks. column: (columns,)
+            particles. value: (columns, rows of a chunk) weights.
+    """
+
+    start: np.ndarray
+    column: np.ndarray
+    value: np.ndarray
+
+
+class OrderedPairs:
+    """Weights of pairs, arranged for sweeps.
+
+    Attributes:
+        colors: numbers of the blocks of each color. sides: tiles before and after the chunks.
+        inner: (chunks, 6) weights between the rows of a chunk.
+        total, after: (n,) sums of all weights of a row but g_ii, and of those after it.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        colors: list[np.ndarray],
+        sides: list[Tiles],
+        inner: np.ndarray,
+        total: Any,
+        after: Any,
+    ) -> None:
+        self.backend, self.colors, self.sides, self.inner = backend, colors, sides, inner
+        self.total, self.after = total, after
+
+    @property
+    def stored(self) -> int:
+        """Bytes of weights and columns that a sweep forward and one backward read."""
+        sides = sum(tiles.column.nbytes + tiles.value.nbytes for tiles in self.sides)
+        return sides + 2 * self.inner.nbytes
+
+    def prepare(
+        self,
+        function: Callable,
+        fields: Mapping[str, Any],
+        out: Sequence[Any],
+        *,
+        backward: bool = False,
+        reduces: int = 0,
+        **constants: float,
+    ) -> Sweep:
+        """A sweep bound to its arrays; calling it with some constants runs it.
+
+        Args:
+            function: plain function of `total`, the sum, of fields at i and of constants, by name.
+                Its first result is what neighbors read; it may also be a field, read before that.
+            out: array of each result but of those that are summed over the rows, the last ones.
+            reduces: how many are.
+        """
+        return Sweep(self, function, fields, out, constants, backward=backward, reduces=reduces)
+
+
+class Sweep:
+    """A sweep with its arrays; called with the numbers that have changed, it runs."""
+
+    def __init__(
+        self,
+        pairs: OrderedPairs,
+        function: Callable,
+        fields: Mapping[str, Any],
+        out: Sequence[Any],
+        constants: Mapping[str, float],
+        *,
+        backward: bool,
+        reduces: int,
+    ) -> None:
+        backend, count = pairs.backend, pairs.total.shape[0]
+        roles = _roles(function, fields, constants)
+        text, _ = sweep_text(
+            backend.precision, function, roles, reduces, len(out), backward=backward
+        )
+        self._module: ModuleType = cache.load(text)
+        read = [backend.unwrap(fields[name]) for name in roles if roles[name] == "field"]
+        arrays = [*(backend.unwrap(array) for array in out), *read]
+        for array in arrays:
+            if array.shape != (count,) or array.dtype != backend.real:
+                raise ValueError(f"{array.dtype}{array.shape}; ({count},) is asked for")
+        self._colors = pairs.colors[::-1] if backward else pairs.colors
+        self._names = [name for name in roles if roles[name] == "constant"]
+        self._numbers = np.array([constants[name] for name in self._names], backend.real)
+        blocks = sum(blocks.size for blocks in pairs.colors)
+        self._partial = np.zeros((blocks, reduces), backend.real)
+        self._arguments = (
+            np.uint64(BLOCK), np.uint64(count), self._partial, *pairs.sides[backward],
+            pairs.inner, *arrays, self._numbers,
+        )  # fmt: skip
+        self._threads = backend.threads
+
+    def __call__(self, **constants: float) -> tuple[float, ...]:
+        """Run; returns the sums over the rows."""
+        for name, value in constants.items():
+            self._numbers[self._names.index(name)] = value
+        threads.use(self._threads)
+        for blocks in self._colors:
+            if blocks.size == 1:
+                self._module.block(blocks[0], *self._arguments)
+            else:
+                self._module.loop(blocks, *self._arguments)
+        return tuple(np.add.reduce(self._partial, dtype=np.float64).tolist())
+
+
+def ordered_pairs(backend: Backend, neighbors: Any, weights: Any) -> OrderedPairs | None:
+    """Pairs arranged for sweeps; None where they would not pay.
+
+    Args:
+        neighbors: list whose neighbors all have rows; j in the row of i where i in that of j.
+        weights: (pairs,) g_ij, stored in their precision. A pair that is listed twice is summed.
+    """
+    row_start, neighbor = backend.unwrap(neighbors.row_start), backend.unwrap(neighbors.neighbor)
+    if not isinstance(neighbor, np.ndarray) or not neighbor.size:
+        return None
+    module, size, count = cache.load(TILES), np.uint64(BLOCK), row_start.size - 1
+    touches = np.zeros((-(-count // BLOCK),) * 2, np.uint8)
+    module.touching(size, row_start, neighbor, touches)
+    color = _coloring(touches)
+    chunks = -(-count // ROWS)
+    columns = np.zeros((2, chunks), np.uint64)
+    module.count_columns(size, color, row_start, neighbor, columns)
+    if ROWS * int(columns.sum()) > FILL * neighbor.size:
+        return None
+    host = backend.unwrap(weights)
+    inner = np.zeros((chunks, ROWS * (ROWS - 1) // 2), host.dtype)
+    total, after = (np.zeros(count, backend.real) for _ in range(2))
+    sides = []
+    for side, lengths in enumerate((columns[0], columns[1, ::-1])):
+        start = np.concatenate([np.zeros(1, np.uint64), np.cumsum(lengths, dtype=np.uint64)])
+        stored = int(start[-1])
+        tiles = Tiles(start, np.empty(stored, np.uint32), np.empty((stored, ROWS), host.dtype))
+        module.fill(
+            np.uint64(side), size, color, row_start, neighbor, host, *tiles, inner, total, after
+        )
+        sides.append(tiles)
+    colors = [np.flatnonzero(color == k) for k in range(int(color.max()) + 1)]
+    sums = backend.wrap(total), backend.wrap(after)
+    return OrderedPairs(backend, colors, sides, inner, *sums)
+
+
+def _roles(function: Callable, fields: Mapping, constants: Mapping) -> dict[str, str]:
+    """Where each argument comes from.
+
+    Raises:
+        ValueError: a missing field or constant.
+    """
+    roles = {}
+    for name in parameter_names(function):
+        if name != "total" and name not in fields and name not in constants:
+            raise ValueError(f"{function.__name__}() needs {name}")
+        roles[name] = "total" if name == "total" else "field" if name in fields else "constant"
+    return roles
+
+
+def _coloring(touches: np.ndarray) -> np.ndarray:
+    """Smallest color of each block, in turn, that no block that it touches has."""
+    joined = (touches | touches.T) > 0
+    color = np.zeros(joined.shape[0], np.int64)
+    for b in range(1, color.size):
+        taken = set(color[:b][joined[b, :b]].tolist())
+        color[b] = min(set(range(len(taken) + 1)) - taken)
+    return color
