@@ -67,7 +67,7 @@ def test_bytes_of_a_list():
 
 def test_memory():
     """No loop takes more than is said before it starts, also while its list is made."""
-    backend, count = CountingBackend(1), 20000
+    backend, count = CountingBackend(1), 60000
     for loop in _loops(backend, count):
         loop.run()
     del loop
