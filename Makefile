@@ -52,7 +52,9 @@ $(VENV)/.run: pyproject.toml | $(VENV)/bin/python
 	@touch $@
 
 $(VENV)/.%: pyproject.toml | $(VENV)/bin/python
-	$(PIP) install --quiet --editable '.[$(subst check,check$(comma)test,$*)]'
+	$(PIP) install --quiet --editable '.[$(subst check,check$(comma)test,$*)$(if $(filter test check,$*),$(GPU))]'
 	@touch $@
 
 comma := ,
+# Tests of the CUDA backend need no graphics card, but its compiler, which there is for Linux.
+GPU := $(if $(filter Linux,$(shell uname -s)),$(comma)gpu)

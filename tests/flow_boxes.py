@@ -39,16 +39,20 @@ def box(backend=None, **settings):
     return build(box_case(**settings), backend or compute.cpu(threads=1))[1]
 
 
+def pool_case(*settings):
+    """Case of a `pool`."""
+    common = ("solver.kind=melt-pool", "particles.spacing=125nm", "particles.fine_depth=1.25um",
+              "time.step=50ps")  # fmt: skip
+    return load_case("dlip-steel", (*common, *settings))
+
+
 def pool(molten, *settings, backend=None, hot=2500.0, cold=1500.0, slope=0.0):
     """Steel at 125 nm, 20 columns of half a period, liquid where `molten(x, z)`, else solid.
 
     Args:
         hot, cold: temperatures [K]; slope: of the hot one along x [K/m].
     """
-    common = ("solver.kind=melt-pool", "particles.spacing=125nm", "particles.fine_depth=1.25um",
-              "time.step=50ps")  # fmt: skip
-    case = load_case("dlip-steel", (*common, *settings))
-    solver = build(case, backend or compute.cpu(threads=1))[1]
+    solver = build(pool_case(*settings), backend or compute.cpu(threads=1))[1]
     x, z = place_of(solver)
     curve = solver.body.curve
     rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])

@@ -108,8 +108,16 @@ def test_a_folder_that_is_no_run_is_kept(tmp_path):
 
 def test_threads_of_a_validation(tmp_path):
     """Runs use as many threads as asked for."""
-    with runs.threads(1):
+    with runs.computing(1):
         assert runs.computed("stefan", SHORT, tmp_path, "one").summary["threads"] == 1
+
+
+def test_runs_of_backends_are_told_apart():
+    """What one backend computed is not taken for the other's."""
+    case = load_case("stefan", SHORT)
+    with runs.computing(None, "cuda"):
+        other = runs.fingerprint(case)
+    assert other != runs.fingerprint(case) and "backend cuda" in other
 
 
 @pytest.mark.validate

@@ -8,7 +8,7 @@ from typing import Any
 
 from lasersph.benchmark.least import Least, least_of
 from lasersph.compute.backend import Backend
-from lasersph.compute.launch import Bound, Launch
+from lasersph.compute.launch import Bound, Launch, Launcher
 from lasersph.compute.loops import Loops
 from lasersph.compute.signature import Call
 
@@ -18,7 +18,7 @@ class CountingBackend(Backend):
 
     def __init__(self, threads: int | None) -> None:
         super().__init__(threads, "float64")
-        self._loops = _CountedLoops(self.precision, self.threads, self.unwrap)
+        self._loops = _CountedLoops(self.precision, self.launcher(), self.unwrap)
 
     def least(self, run: Callable[[], Any]) -> Least:
         """Run `run` once; returns the sum over its loops, called, prepared or recorded."""
@@ -56,7 +56,7 @@ class _CountedLoops(Loops):
         return super().run(call)
 
     def prepared(self, call: Call) -> Launch:
-        return _CountedLaunch(self._bound(call), self.threads, partial(self._tell, call))
+        return _CountedLaunch(self._bound(call), self.launcher, partial(self._tell, call))
 
     def recorded(self, run: Callable[[], None]) -> Callable[[], None]:
         self._calls = calls = []
@@ -79,8 +79,8 @@ class _CountedLoops(Loops):
 class _CountedLaunch(Launch):
     """A launch that tells of each run."""
 
-    def __init__(self, bound: Bound, thread_count: int, tell: Callable[[], None]) -> None:
-        super().__init__(bound, thread_count)
+    def __init__(self, bound: Bound, launcher: Launcher, tell: Callable[[], None]) -> None:
+        super().__init__(bound, launcher)
         self._tell = tell
 
     def __call__(self, **constants: Any) -> tuple[float, ...]:

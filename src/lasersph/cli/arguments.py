@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
+
+from lasersph.cli.failures import WrongCommand
 
 CaseName = Annotated[
     str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")
@@ -23,4 +25,23 @@ Quick = Annotated[bool, typer.Option("--quick", help="Four times coarser, to see
 Threads = Annotated[
     int | None, typer.Option("--threads", min=1, metavar="N", help="Default: all processors.")
 ]
+Backend = Annotated[
+    Literal["cpu", "cuda"],
+    typer.Option("--backend", help="Where to compute: the processor or a CUDA graphics card."),
+]
 RunFolder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of a run.")]
+
+
+def refuse_backend(backend: str, threads: int | None) -> None:
+    """Refuse a graphics card that is not there, or threads for one, before anything is written.
+
+    Raises:
+        WrongCommand: threads are asked for. NoDevice: see `compute.cuda_device`.
+    """
+    if backend != "cuda":
+        return
+    if threads is not None:
+        raise WrongCommand("--threads is for --backend cpu")
+    from lasersph.compute import cuda_device
+
+    cuda_device.checked()

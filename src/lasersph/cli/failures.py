@@ -60,6 +60,10 @@ def _described(error: Exception) -> tuple[str, int]:
         return f"{' '.join(text.split()).rstrip('.')}; see lasersph --help", WRONG
     if type(error).__name__ == "Abort":
         return "interrupted", INTERRUPTED
+    from lasersph.compute.cuda_device import NoDevice
+
+    if isinstance(error, NoDevice):
+        return str(error), WRONG
     from lasersph.reading import CaseError
 
     if isinstance(error, CaseError):

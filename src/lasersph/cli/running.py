@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from lasersph.cli.arguments import CaseName, Out, Quick, Settings, Threads
+from lasersph.cli.arguments import (
+    Backend,
+    CaseName,
+    Out,
+    Quick,
+    Settings,
+    Threads,
+    refuse_backend,
+)
 from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal
 
 if TYPE_CHECKING:
@@ -66,18 +74,21 @@ def run(
     quick: Quick = False,
     threads: Threads = None,
     precision: Precision = "float64",
+    backend: Backend = "cpu",
     figures: Figures = True,
 ) -> None:
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
     from lasersph.case import load_case
 
+    refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
     folder = out or RUNS / loaded.name
     command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
     command += [word for setting in settings or () for word in ("--set", setting)]
     command += ["--quick"] if quick else []
     command += ["--precision", precision] if precision != "float64" else []
-    options = {"resume": resume, "threads": threads, "precision": precision}
+    command += ["--backend", backend] if backend != "cpu" else []
+    options = {"resume": resume, "threads": threads, "precision": precision, "backend": backend}
     result = _compute(loaded, folder, shlex.join(command), options)
     _tell(result)
     if figures:

@@ -8,7 +8,15 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from lasersph.cli.arguments import CaseName, Out, Quick, Settings, Threads
+from lasersph.cli.arguments import (
+    Backend,
+    CaseName,
+    Out,
+    Quick,
+    Settings,
+    Threads,
+    refuse_backend,
+)
 from lasersph.cli.failures import WrongCommand
 from lasersph.cli.tables import aligned
 
@@ -44,19 +52,21 @@ def converge(
     out: Out = None,
     settings: Settings = None,
     threads: Threads = None,
+    backend: Backend = "cpu",
     json_file: Json = None,
 ) -> None:
     """Run a case at several spacings: order and uncertainty of every number of its summary."""
     from lasersph import studies
     from lasersph.case import load_case
 
+    refuse_backend(backend, threads)
     wanted = [_length(text) for text in spacing.split(",") if text.strip()]
     if len(set(wanted)) < 3:
         raise WrongCommand("--spacing: an order needs three different spacings, e.g. 32nm,16nm,8nm")
     loaded = load_case(case, settings or ())
     _refuse_missing_folder(json_file)
     folder = _new_folder(out or Path("runs") / f"{loaded.name}-converge")
-    found = studies.converge(loaded, wanted, folder, run=_runner(threads), report=_report)
+    found = studies.converge(loaded, wanted, folder, run=_runner(threads, backend), report=_report)
     print(aligned(found.table(), header=True))
     _write(json_file, found.as_dict())
 
@@ -68,6 +78,7 @@ def threshold(
     settings: Settings = None,
     quick: Quick = False,
     threads: Threads = None,
+    backend: Backend = "cpu",
     tolerance: Tolerance = 0.01,
     json_file: Json = None,
 ) -> None:
@@ -77,6 +88,7 @@ def threshold(
     from lasersph import studies
     from lasersph.case import load_case
 
+    refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
     if loaded.laser is None:
         raise WrongCommand(f"{loaded.name} has no laser, so no threshold")
@@ -88,7 +100,7 @@ def threshold(
     _refuse_missing_folder(json_file)
     folder = _new_folder(out or Path("runs") / f"{loaded.name}-threshold")
     found = studies.threshold(
-        loaded, of, folder, tolerance=tolerance, run=_runner(threads), report=_report
+        loaded, of, folder, tolerance=tolerance, run=_runner(threads, backend), report=_report
     )
     print(_answer(found))
     _write(json_file, asdict(found))
@@ -101,6 +113,7 @@ def spot(
     settings: Settings = None,
     quick: Quick = False,
     threads: Threads = None,
+    backend: Backend = "cpu",
     json_file: Json = None,
 ) -> None:
     """Ablate with a Gaussian spot at several fluences: threshold from D^2 over ln F, efficiency."""
@@ -109,12 +122,15 @@ def spot(
     from lasersph.plots import style
     from lasersph.plots.spot_threshold import spot_threshold_figure
 
+    refuse_backend(backend, threads)
     wanted = [_fluence(text) for text in fluence.split(",") if text.strip()]
     loaded = load_case(case, settings or (), quick=quick)
     if reason := studies.no_spot(loaded, wanted):
         raise WrongCommand(f"{loaded.name}: {reason}")
     folder = _new_folder(out or Path("runs") / f"{loaded.name}-spot")
-    found = studies.spot_threshold(loaded, wanted, folder, run=_runner(threads), report=_report)
+    found = studies.spot_threshold(
+        loaded, wanted, folder, run=_runner(threads, backend), report=_report
+    )
     print(aligned(found.table(), header=True))
     print(found.answer())
     _write(json_file, found.as_dict())
@@ -168,10 +184,10 @@ def _refuse_missing_folder(file: Path | None) -> None:
         raise WrongCommand(f"--json: there is no folder {file.parent}")
 
 
-def _runner(threads: int | None) -> Any:
+def _runner(threads: int | None, backend: str) -> Any:
     from lasersph.simulation import run
 
-    return lambda case, folder: run(case, folder, threads=threads)
+    return lambda case, folder: run(case, folder, threads=threads, backend=backend)
 
 
 def _report(line: str) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from lasersph.cli.arguments import Out, Threads
+from lasersph.cli.arguments import Backend, Out, Threads, refuse_backend
 from lasersph.cli.failures import FAILED
 
 SCHEMA_VERSION = 1
@@ -29,6 +29,7 @@ def validate(
     quick: Short = False,
     only_list: OnlyList = False,
     threads: Threads = None,
+    backend: Backend = "cpu",
 ) -> None:
     """Compute published cases; print published, reference and computed numbers with verdicts.
 
@@ -41,15 +42,17 @@ def validate(
         print(aligned(validation.titles().items()))
         return
     wanted = _known(names or [], validation.names())
+    refuse_backend(backend, threads)
     if json_file is not None:
-        _write(json_file, {})
+        _write(json_file, backend, {})
     reports: dict[str, dict[str, Any]] = {}
     for name in wanted:
-        report = validation.validate(name, (out or RUNS) / name, quick=quick, threads=threads)
+        folder = (out or RUNS) / name
+        report = validation.validate(name, folder, quick=quick, threads=threads, backend=backend)
         print(report.table(), end="\n\n", flush=True)
         reports[name] = report.as_dict()
         if json_file is not None:
-            _write(json_file, reports)
+            _write(json_file, backend, reports)
     failed = [name for name, report in reports.items() if not report["passed"]]
     print(f"{len(reports) - len(failed)} of {len(reports)} passed")
     if failed:
@@ -69,7 +72,7 @@ def _known(names: list[str], known: tuple[str, ...]) -> list[str]:
     return list(dict.fromkeys(names or known))
 
 
-def _write(file: Path, reports: dict[str, dict[str, Any]]) -> None:
+def _write(file: Path, backend: str, reports: dict[str, dict[str, Any]]) -> None:
     """All reports so far; long validations leave what they have when they are stopped."""
     import lasersph
     from lasersph.output.atomic import replace_json
@@ -77,6 +80,7 @@ def _write(file: Path, reports: dict[str, dict[str, Any]]) -> None:
     content = {
         "schema_version": SCHEMA_VERSION,
         "lasersph": lasersph.__version__,
+        "backend": backend,
         "passed": bool(reports) and all(report["passed"] for report in reports.values()),
         "validations": reports,
     }

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from lasersph.compute.backend import Backend
+    from lasersph.compute.cuda_backend import CudaBackend
     from lasersph.compute.strict_backend import StrictBackend
 
-__all__ = ["cpu", "strict"]
+__all__ = ["cpu", "cuda", "strict"]
 
 
 def cpu(threads: int | None = None, precision: str = "float64") -> Backend:
@@ -24,6 +25,20 @@ def cpu(threads: int | None = None, precision: str = "float64") -> Backend:
     from lasersph.compute.backend import Backend
 
     return Backend(threads, precision)
+
+
+def cuda(precision: str = "float64") -> CudaBackend:
+    """Backend on a graphics card.
+
+    Raises:
+        NoDevice: there is no card, or numba-cuda is missing.
+    """
+    from lasersph.compute import cuda_device
+
+    cuda_device.checked()
+    from lasersph.compute.cuda_backend import CudaBackend
+
+    return CudaBackend(precision)
 
 
 def strict(threads: int | None = None, precision: str = "float64") -> StrictBackend:

@@ -15,6 +15,7 @@ from operator import itemgetter
 import numpy as np
 
 from lasersph.compute.generate import Argument
+from lasersph.compute.opaque_array import OpaqueArray
 
 GEOMETRY = ("x_ij", "r_ij", "l_ij", "W_ij", "dW_ij")
 _REALS = (float, np.floating)
@@ -67,7 +68,7 @@ def constant_kind(name: str, value):
         return "constant", ("real", ())
     if isinstance(value, _WHOLE):
         return "constant", ("int", ())
-    if isinstance(value, np.ndarray) and value.ndim == 1:
+    if getattr(value, "ndim", 0) == 1:
         return "table", (array_kind(value)[0] + "-table", ())
     if (
         isinstance(value, tuple | list)
@@ -92,11 +93,14 @@ def argument_for(name: str, role: str, symbol: str, value, dimension: int) -> Ar
 
 def fingerprint(value) -> object:
     """Hashable that changes whenever the argument's kind does, cheap enough for every call."""
-    if type(value) is np.ndarray:
-        return (value.dtype.char, value.shape[:-1])
-    if type(value) is tuple or type(value) is list:
+    kind = type(value)
+    if kind is float or kind is int:
+        return kind
+    if kind is tuple or kind is list:
         return len(value)
-    return type(value)
+    if kind is np.ndarray or isinstance(value, OpaqueArray):
+        return (value.dtype.char, value.shape[:-1])
+    return kind
 
 
 def components(array: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from lasersph.compute import threads
 from lasersph.compute.arguments import components
-from lasersph.compute.launch import Launch
+from lasersph.compute.launch import Launch, Launcher
 from lasersph.compute.loops import Loops
 from lasersph.compute.signature import Call
 
@@ -20,8 +20,14 @@ class Backend:
     """Loops on the processor with a fixed number of threads and one precision.
 
     Attributes:
+        name: as asked for by --backend. device: what computes, None for the processor.
         real: NumPy type of kind "real". threads: number of threads of a loop.
+        search: what finds neighbors and splices lists; None for `search` and `splice` themselves.
     """
+
+    name = "cpu"
+    device: str | None = None
+    search: Any = None
 
     def __init__(self, threads_wanted: int | None, precision: str) -> None:
         if precision not in ("float64", "float32"):
@@ -29,7 +35,11 @@ class Backend:
         self.precision = precision
         self.real = np.dtype(precision)
         self.threads = threads.chosen(threads_wanted)
-        self._loops = Loops(self.precision, self.threads, self.unwrap)
+        self._loops = Loops(self.precision, self.launcher(), self.unwrap)
+
+    def launcher(self) -> Launcher:
+        """What runs the loops."""
+        return Launcher(self.threads)
 
     # --- arrays ---------------------------------------------------------------------------------
 
@@ -61,8 +71,11 @@ class Backend:
         """Copy as a NumPy array."""
         return np.array(self.unwrap(array))
 
-    def look(self, array: Any) -> np.ndarray:
-        """The array for reading, until the next loop; not copied where it lies in this memory."""
+    def look(self, array: Any) -> Any:
+        """The array for reading, until the next loop; not copied where it lies in this memory.
+
+        Elsewhere it is copied only as far as it is looked at; to NumPy it is an array.
+        """
         host = self.unwrap(array).view()
         host.flags.writeable = False
         return host

@@ -29,9 +29,9 @@ BLOCK = np.uint64({block})
 ROWS_ARE_LISTED = {listed}
 
 '''
-_START = {"sum": "real(0.0)", "max": "real(-np.inf)", "min": "real(np.inf)"}
+START = {"sum": "real(0.0)", "max": "real(-np.inf)", "min": "real(np.inf)"}
 """Values that change nothing when they are combined; also what a row without neighbors has."""
-_REDUCE = {
+REDUCE = {
     "sum": "{0} += {1}",
     "max": "{0} = {1} if ({1} > {0} or {1} != {1}) else {0}",
     "min": "{0} = {1} if ({1} < {0} or {1} != {1}) else {0}",
@@ -75,7 +75,14 @@ class Loop:
 
 
 class LoopText:
-    """Writes the file of one loop and records the order of the compiled function's arguments."""
+    """Writes the file of one loop and records the order of the compiled function's arguments.
+
+    Attributes:
+        HEAD: first lines of the file. INNER: decorator of the functions that the loop calls.
+    """
+
+    HEAD = _HEAD
+    INNER = f"@njit({OPTIONS})"
 
     def __init__(self, loop: Loop) -> None:
         self.loop = loop
@@ -114,9 +121,9 @@ class LoopText:
             lines.append("for p in range(row_start[i], row_start[i + ONE]):")
             lines += ["    " + line for line in inner]
         lines += after + store + reduces
-        head = _HEAD.format(precision=loop.precision, block=BLOCK, listed=loop.listed)
-        parts = [head, *(f"@njit({OPTIONS})\n{text}\n" for text in self.unit.texts)]
-        parts.append(self._block(starts, lines, ends))
+        head = self.HEAD.format(precision=loop.precision, block=BLOCK, listed=loop.listed)
+        parts = [head, *(f"{self.INNER}\n{text}\n" for text in self.unit.texts)]
+        parts.append(self.block(starts, lines, ends))
         return "\n".join(parts)
 
     def _combine(
@@ -129,11 +136,11 @@ class LoopText:
         for value, total, kind, how in zip(values, sums, items, combine, strict=True):
             pairs = zip(_names(kind, total), _names(kind, value), strict=True)
             for s, y in pairs:
-                rows.append(f"{s} = {_START[how]}")
+                rows.append(f"{s} = {START[how]}")
                 if how == "sum":
                     inner.append(f"{s} += real({y})")
                 else:
-                    inner += [f"{y} = real({y})", _REDUCE[how].format(s, y)]
+                    inner += [f"{y} = real({y})", REDUCE[how].format(s, y)]
 
     def _call(
         self, function: AnyObject, arguments: tuple[Argument, ...], rows: list, inner: list
@@ -268,14 +275,14 @@ class LoopText:
                 continue
             if items[k][1] != ():
                 raise ValueError(f"result {k} is no scalar and cannot be reduced")
-            starts.append(f"q{k} = {_START[how]}")
+            starts.append(f"q{k} = {START[how]}")
             updates.append(f"e{k} = real({values[k]})")
-            updates.append(_REDUCE[how].format(f"q{k}", f"e{k}"))
+            updates.append(REDUCE[how].format(f"q{k}", f"e{k}"))
             ends.append(f"partial[{len(ends)}, number] = q{k}")
         return starts, updates, ends
 
-    def parameters(self) -> list[str]:
-        """Names of the arrays that the compiled functions take, in order."""
+    def array_parameters(self) -> list[str]:
+        """Names of the arrays of particles and pairs that the compiled functions take, in order."""
         names = ["rows"] if self.loop.listed else []
         if self.loop.shape != "pointwise":
             names += ["row_start", "neighbor"]
@@ -283,11 +290,17 @@ class LoopText:
         names += [f"c_{name}" for name in self.tables]
         for k, kind in enumerate(self.loop.outputs):
             names += _names(kind, f"o_{k}") if kind is not None else []
+        return names
+
+    def parameters(self) -> list[str]:
+        """Names of all that the compiled functions take, in order."""
+        names = self.array_parameters()
         names += ["reals"] if self.reals else []
         names += ["whole"] if self.whole else []
         return names + (["partial"] if any(self.loop.reduce) else [])
 
-    def _block(self, starts: list[str], lines: list[str], ends: list[str]) -> str:
+    def block(self, starts: list[str], lines: list[str], ends: list[str]) -> str:
+        """Text of the compiled functions: before, for each and after the rows of a block."""
         names = ", ".join(self.parameters())
         body = [f"{name} = reals[{k}]" for k, name in enumerate(self.reals)]
         body += [f"{name} = whole[{k}]" for k, name in enumerate(self.whole)]

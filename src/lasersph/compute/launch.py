@@ -1,18 +1,20 @@
-"""A loop bound to its arrays, ready to be run again with other numbers."""
+"""A loop bound to its arrays, and what runs it: once, or again with other numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from operator import methodcaller
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from lasersph.compute import threads
-from lasersph.compute.generate import BLOCK
+from lasersph.compute.arguments import splitter
+from lasersph.compute.generate import BLOCK, LoopText
 
-_TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
-_EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
+TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
+EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
 _FIRST = np.uint64(0)
 _count = lru_cache(maxsize=1024)(np.uint64)  # making one takes as long as looking up five
 
@@ -41,7 +43,7 @@ class Bound(NamedTuple):
 
     Attributes:
         arguments: rows, lists, fields, tables, outputs and numbers, in the order of the loop's.
-        reals, whole: the numbers among them.
+        reals, whole: the numbers among them. outs: the outputs as a whole, None if not stored.
     """
 
     compiled: Compiled
@@ -49,33 +51,57 @@ class Bound(NamedTuple):
     arguments: list[Any]
     reals: np.ndarray | None
     whole: np.ndarray | None
-
-    def partial(self) -> np.ndarray:
-        """Room for what each block reduces, one row a reduction."""
-        blocks = -(-self.rows // BLOCK)
-        return np.empty((len(self.compiled.reductions), blocks), self.compiled.real)
+    outs: list[Any]
 
 
-def run(bound: Bound, partial: np.ndarray | None, thread_count: int) -> tuple[float, ...]:
-    """Run a loop; returns the reductions."""
-    compiled, rows, arguments, _, _ = bound
-    reductions = compiled.reductions
-    if rows == 0:
-        return tuple([_EMPTY[how] for how in reductions])
-    if partial is not None:
-        arguments = [*arguments, partial]
-    if rows <= BLOCK:
-        compiled.block(_FIRST, _count(rows), *arguments)
-    else:
-        threads.use(thread_count)
-        compiled.loop(-(-rows // BLOCK), _count(rows), *arguments)
-    if partial is None:
-        return ()
-    if rows <= BLOCK:
-        parts = zip(reductions, partial[:, 0].tolist(), strict=True)
-        return tuple([0.0 + part if how == "sum" else part for how, part in parts])
+class Launcher:
+    """All that loops need to know of where they run: here the processor, on NumPy's arrays.
+
+    Attributes:
+        text: writes the loops. split: see `splitter`. last: the last element of an array.
+    """
+
+    text: type[LoopText] = LoopText
+    split: Callable = staticmethod(splitter)
+    last: Callable = staticmethod(methodcaller("item", -1))
+
+    def __init__(self, threads: int) -> None:
+        self.threads = threads
+
+    def largest(self, rows: Any) -> int:
+        """The largest of some row numbers."""
+        return int(np.maximum.reduce(rows))
+
+    def partial(self, bound: Bound) -> Any:
+        """Room for what each block reduces, one row a reduction; None without reductions."""
+        count = len(bound.compiled.reductions)
+        return np.empty((count, -(-bound.rows // BLOCK)), bound.compiled.real) if count else None
+
+    def run(self, bound: Bound, partial: Any) -> tuple[float, ...]:
+        """Run a loop; returns the reductions."""
+        compiled, rows, arguments, _, _, _ = bound
+        reductions = compiled.reductions
+        if rows == 0:
+            return tuple([EMPTY[how] for how in reductions])
+        if partial is not None:
+            arguments = [*arguments, partial]
+        if rows <= BLOCK:
+            compiled.block(_FIRST, _count(rows), *arguments)
+        else:
+            threads.use(self.threads)
+            compiled.loop(-(-rows // BLOCK), _count(rows), *arguments)
+        if partial is None:
+            return ()
+        if rows <= BLOCK:
+            parts = zip(reductions, partial[:, 0].tolist(), strict=True)
+            return tuple([0.0 + part if how == "sum" else part for how, part in parts])
+        return totals(reductions, partial)
+
+
+def totals(reductions: tuple[str, ...], partial: Any) -> tuple[float, ...]:
+    """What the rows of `partial` reduce to."""
     pairs = zip(reductions, partial, strict=True)
-    return tuple([float(_TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])
+    return tuple([float(TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])
 
 
 class Launch:
@@ -85,9 +111,9 @@ class Launch:
         bound: with numbers that no other launch has.
     """
 
-    def __init__(self, bound: Bound, thread_count: int) -> None:
-        self._bound, self._thread_count = bound, thread_count
-        self._partial = bound.partial() if bound.compiled.reductions else None
+    def __init__(self, bound: Bound, launcher: Launcher) -> None:
+        self._bound, self._launcher = bound, launcher
+        self._partial = launcher.partial(bound)
         self._places: dict[str, list[tuple[Any, int, int]]] = {}
         compiled = bound.compiled
         for names, values in ((compiled.reals, bound.reals), (compiled.whole, bound.whole)):
@@ -97,7 +123,7 @@ class Launch:
     @property
     def reduces(self) -> bool:
         """Whether a run returns numbers."""
-        return self._partial is not None
+        return bool(self._bound.compiled.reductions)
 
     def __call__(self, **constants: Any) -> tuple[float, ...]:
         """Run; returns the reductions.
@@ -108,4 +134,4 @@ class Launch:
         for name, value in constants.items():
             for values, k, component in self._places[name]:
                 values[k] = value[component] if isinstance(value, tuple | list) else value
-        return run(self._bound, self._partial, self._thread_count)
+        return self._launcher.run(self._bound, self._partial)

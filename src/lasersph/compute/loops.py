@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lasersph.compute import cache, source
-from lasersph.compute.arguments import argument_for, array_kind, fingerprint, splitter
+from lasersph.compute.arguments import argument_for, array_kind, fingerprint
 from lasersph.compute.generate import Loop, LoopText
-from lasersph.compute.launch import Bound, Compiled, Launch, run
+from lasersph.compute.launch import Bound, Compiled, Launch, Launcher
 from lasersph.compute.signature import Call, Signature, listed
 
 _layout = attrgetter("dtype", "shape", "strides")
@@ -27,7 +27,7 @@ _INDEX, _OFFSET, _WHOLE = np.dtype(np.uint32), np.dtype(np.uint64), np.dtype(np.
 
 
 class Given(NamedTuple):
-    """Arrays and constants of one call, in the order of its signature, as NumPy arrays.
+    """Arrays and constants of one call, in the order of its signature, as the launcher takes them.
 
     Attributes:
         row_start, neighbor: the list, None without. geometry: kernel, mean, periodic axes and
@@ -36,10 +36,10 @@ class Given(NamedTuple):
 
     call: Call
     signature: Signature
-    arrays: list[np.ndarray]
+    arrays: list[Any]
     constants: list[Any]
-    outs: list[np.ndarray | None]
-    rows: np.ndarray | None
+    outs: list[Any]
+    rows: Any
     row_start: Any
     neighbor: Any
     geometry: tuple | None
@@ -64,19 +64,18 @@ class Ready(NamedTuple):
 class Loops:
     """All loops of one backend, found by signature and kinds."""
 
-    def __init__(self, precision: str, threads: int, unwrap: Callable[[Any], np.ndarray]) -> None:
-        self.precision, self.threads, self.unwrap = precision, threads, unwrap
+    def __init__(self, precision: str, launcher: Launcher, unwrap: Callable[[Any], Any]) -> None:
+        self.precision, self.launcher, self.unwrap = precision, launcher, unwrap
         self.real = np.dtype(precision)
         self._signatures: dict[Any, Signature] = {}
         self._record: list[Launch] | None = None
 
     def run(self, call: Call) -> tuple[float, ...]:
         """Launch the loop of a call; returns the reductions."""
-        bound = self._bound(call)
+        bound, launcher = self._bound(call), self.launcher
         if self._record is None:
-            partial = bound.partial() if bound.compiled.reductions else None
-            return run(bound, partial, self.threads)
-        launch = Launch(bound, self.threads)
+            return launcher.run(bound, launcher.partial(bound))
+        launch = Launch(bound, launcher)
         if launch.reduces:
             raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
         self._record.append(launch)
@@ -84,7 +83,7 @@ class Loops:
 
     def prepared(self, call: Call) -> Launch:
         """The loop of a call, bound to its arrays."""
-        return Launch(self._bound(call), self.threads)
+        return Launch(self._bound(call), self.launcher)
 
     def recorded(self, run: Callable[[], None]) -> Callable[[], None]:
         """Run `run`; returns a function that launches the same loops once more."""
@@ -104,8 +103,8 @@ class Loops:
 
     def _bound(self, call: Call) -> Bound:
         """The loop of a call with its arguments, all checked."""
-        given = self._given(call)
-        rows, key = _checked(given)
+        given = self.given(call)
+        rows, key = _checked(given, self.launcher)
         loops = given.signature.loops
         ready = loops.get(key)
         if ready is None or not source.is_current(ready.compiled.watched):
@@ -113,7 +112,7 @@ class Loops:
             ready = loops[key] = self._ready(given)
         return _arguments(given, ready, rows)
 
-    def _given(self, call: Call) -> Given:
+    def given(self, call: Call) -> Given:
         """Arrays and constants that the call's signature asks for."""
         shape, function, neighbors, fields, out, rows, finish, reduce, constants, combine = call
         names = (
@@ -143,7 +142,7 @@ class Loops:
         active = None if rows is None else unwrap(rows)
         return Given(call, signature, arrays, values, outs, active, row_start, neighbor, geometry)
 
-    def _text(self, given: Given) -> LoopText:
+    def text(self, given: Given) -> LoopText:
         """Source of a call's loop, before it is written."""
         call, signature = given.call, given.signature
         dimension = given.geometry[3] if given.geometry else 0
@@ -165,7 +164,7 @@ class Loops:
             signature.reduce, given.rows is not None, call.finish,
             arguments(signature.finish_roles), given.geometry, signature.combine,
         )  # fmt: skip
-        return LoopText(loop)
+        return self.launcher.text(loop)
 
     def _ready(self, given: Given) -> Ready:
         """Generate, cache and load the loop of new kinds."""
@@ -175,7 +174,7 @@ class Loops:
         if any(how not in ("sum", "max", "min") for how in signature.combine):
             raise ValueError('combine takes "sum", "max" or "min"')
         self._refuse_precision(given)
-        text = self._text(given)
+        text = self.text(given)
         module = cache.load(text.written())
         compiled = Compiled(
             module.block, module.loop, tuple(text.arrays), tuple(text.tables),
@@ -193,9 +192,10 @@ class Loops:
             return tuple((k, c if isinstance(values[k], tuple | list) else -1) for k, c in found)
 
         arrays = [signature.symbols.index(symbol) for symbol in compiled.arrays]
+        split = self.launcher.split
         return Ready(
-            compiled, tuple((k, splitter(given.arrays[k].shape[:-1])) for k in arrays),
-            tuple((k, splitter(o.shape[:-1])) for k, o in enumerate(given.outs) if o is not None),
+            compiled, tuple((k, split(given.arrays[k].shape[:-1])) for k in arrays),
+            tuple((k, split(o.shape[:-1])) for k, o in enumerate(given.outs) if o is not None),
             tuple(places[name] for name in compiled.tables),
             numbers(compiled.reals), numbers(compiled.whole),
         )  # fmt: skip
@@ -209,14 +209,14 @@ class Loops:
             *zip(signature.constants, given.constants, strict=True),
         ]
         for name, array in named:
-            if not isinstance(array, np.ndarray) or array.dtype.kind != "f":
+            if getattr(array, "ndim", 0) == 0 or array.dtype.kind != "f":
                 continue
             is_pair = ("pair", name) in [(role, symbol) for _, role, symbol in signature.roles]
             if array.dtype != self.real and not (is_pair and array.dtype == np.float32):
                 raise ValueError(f"{name} is {array.dtype}, the backend {self.precision}")
 
 
-def _geometry(signature: Signature, neighbors: Any, arrays: list[np.ndarray]) -> tuple:
+def _geometry(signature: Signature, neighbors: Any, arrays: list[Any]) -> tuple:
     """Kernel, mean, periodic axes and dimension, as far as they are asked for."""
     dimension = 0
     if signature.apart:
@@ -234,7 +234,7 @@ def _periodic(period: tuple[float, ...], dimension: int) -> tuple[bool, ...]:
     return tuple([bool(width) for width in period or (0.0,) * dimension])
 
 
-def _checked(given: Given) -> tuple[int, tuple]:
+def _checked(given: Given, launcher: Launcher) -> tuple[int, tuple]:
     """Number of rows, after checking the lengths of all arrays, and their kinds.
 
     Raises:
@@ -258,7 +258,7 @@ def _checked(given: Given) -> tuple[int, tuple]:
     kinds += map(fingerprint, constants)
     total = pairs = 0
     if row_start is not None:
-        rows, total, pairs = _list_size(call, row_start, neighbor)
+        rows, total, pairs = _list_size(call, row_start, neighbor, launcher.last(row_start))
     elif written:
         rows = written[0]
     elif len(set(lengths)) == 1:
@@ -279,18 +279,18 @@ def _checked(given: Given) -> tuple[int, tuple]:
             if arrays[place] is out:
                 raise ValueError(f"out is also read at neighbors, as {name}")
     if active is not None:
-        rows = _active(active, rows)
+        rows = _active(active, rows, launcher)
     return rows, tuple(kinds)
 
 
-def _list_size(call: Call, row_start: np.ndarray, neighbor: np.ndarray) -> tuple[int, int, int]:
+def _list_size(call: Call, row_start: Any, neighbor: Any, pairs: int) -> tuple[int, int, int]:
     """Rows, particles and pairs of a list."""
     if row_start.dtype != _OFFSET or neighbor.dtype != _INDEX:
         raise ValueError(
             f"row_start must be uint64 and neighbor uint32, not {row_start.dtype} and"
             f" {neighbor.dtype}"
         )
-    rows, pairs = row_start.size - 1, row_start.item(-1)
+    rows = row_start.size - 1
     support = call.neighbors.support
     total = rows if support is None else support.shape[-1]
     if pairs > neighbor.size or total < rows:
@@ -298,12 +298,12 @@ def _list_size(call: Call, row_start: np.ndarray, neighbor: np.ndarray) -> tuple
     return rows, total, pairs
 
 
-def _active(active: np.ndarray, rows: int) -> int:
+def _active(active: Any, rows: int, launcher: Launcher) -> int:
     """Number of active rows."""
     if active.dtype != _INDEX:
         raise ValueError(f"rows must be of kind index (uint32), not {active.dtype}")
-    if active.size and int(np.maximum.reduce(active)) >= rows:
-        raise ValueError(f"row {int(active.max())} of {rows}")
+    if active.size and (largest := launcher.largest(active)) >= rows:
+        raise ValueError(f"row {largest} of {rows}")
     return active.size
 
 
@@ -338,7 +338,7 @@ def _arguments(given: Given, ready: Ready, rows: int) -> Bound:
         arguments.append(reals)
     if whole is not None:
         arguments.append(whole)
-    return Bound(ready.compiled, rows, arguments, reals, whole)
+    return Bound(ready.compiled, rows, arguments, reals, whole, given.outs)
 
 
 def _append(arguments: list[Any], arrays: list[Any], places: tuple) -> None:

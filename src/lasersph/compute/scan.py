@@ -109,7 +109,7 @@ def sort_text(precision: str, dimension: int) -> str:
         for k in range(dimension)
     ]
     index = ("c0", "c1 * shape[0] + c0", "(c2 * shape[1] + c1) * shape[0] + c0")[dimension - 1]
-    lines = _indented(2, [*cell, f"c = np.uint64({index})"])
+    lines = indented(2, [*cell, f"c = np.uint64({index})"])
     return _file(precision, _SORT, cell_index=lines)
 
 
@@ -122,18 +122,22 @@ def scan_text(precision: str, dimension: int, mean: Callable, periodic: tuple[bo
     """Text of the module with `scan` and `scan_blocks`."""
     unit = SourceUnit()
     name, _ = unit.add(mean, (("real", ()), ("real", ())))
+    loops, depth = images(dimension, periodic)
     text = _file(
         precision,
         _SCAN,
         mean="\n".join(f"@njit({OPTIONS})\n{text}\n" for text in unit.texts),
-        load_targets=_indented(2, [f"x{k} = targets[{k}, i]" for k in range(dimension)]),
-        images=_indented(3, _images(dimension, periodic)),
+        load_targets=indented(2, [f"x{k} = targets[{k}, i]" for k in range(dimension)]),
+        images=indented(3, loops) + "\n" + indented(3 + depth, _pieces(dimension, periodic)),
     )
     return text.replace("f__mean_of(", f"{name}(")
 
 
-def _images(dimension: int, periodic: tuple[bool, ...]) -> list[str]:
-    """Loops over the periodic images of the target and over rows of cells."""
+def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:
+    """Loops over the periodic images of the target and over rows of cells, and their depth.
+
+    Inside, `first` to `last` are the candidates of a row of cells.
+    """
     lines: list[str] = []
     depth = 0
 
@@ -170,28 +174,38 @@ def _images(dimension: int, periodic: tuple[bool, ...]) -> list[str]:
     put(f"base = cells + np.uint64(({row}) * shape[level, 0])")
     put("first = member + np.uint64(starts[base + np.uint64(a0)])")
     put("last = member + np.uint64(starts[base + np.uint64(b0) + ONE])")
-    put("if place + (last - first) > capacity:")
-    put("    return np.uint64(0xFFFFFFFFFFFFFFFF)")
-    put("for piece in range(first, last, PIECE):")
-    depth += 1
-    put("length = min(last - piece, PIECE)")
-    put("for q in range(length):")
-    depth += 1
-    put("k = piece + q")
-    for k in range(dimension):
-        shift = f" + shift{k}" if periodic[k] else ""
-        put(f"d{k} = (x{k} - sorted_position[{k}, k]){shift}")
-    put("square = " + " + ".join(f"d{k} * d{k}" for k in range(dimension)))
-    put("limit = f__mean_of(li, sorted_support[k])")
-    put("near[q] = ONE if square < limit * limit else ZERO")
-    depth -= 1
-    put("for q in range(length):")
-    depth += 1
-    put("j = order[piece + q]")
-    put("scratch[slot, place] = j")
-    put("place += near[q] & np.uint64(np.uint64(j) != i)")
-    return lines
+    return lines, depth
 
 
-def _indented(level: int, lines: list[str]) -> str:
+def _pieces(dimension: int, periodic: tuple[bool, ...]) -> list[str]:
+    """Tests of the candidates from `first` to `last`, piece by piece."""
+    position = [f"sorted_position[{k}, k]" for k in range(dimension)]
+    return [
+        "if place + (last - first) > capacity:",
+        "    return np.uint64(0xFFFFFFFFFFFFFFFF)",
+        "for piece in range(first, last, PIECE):",
+        "    length = min(last - piece, PIECE)",
+        "    for q in range(length):",
+        "        k = piece + q",
+        *("        " + line for line in distance(position, periodic)),
+        "        near[q] = ONE if square < limit * limit else ZERO",
+        "    for q in range(length):",
+        "        j = order[piece + q]",
+        "        scratch[slot, place] = j",
+        "        place += near[q] & np.uint64(np.uint64(j) != i)",
+    ]
+
+
+def distance(position: list[str], periodic: tuple[bool, ...]) -> list[str]:
+    """Lines for the squared distance to candidate k and the limit of that pair."""
+    differences = [
+        f"d{k} = (x{k} - {text})" + (f" + shift{k}" if periodic[k] else "")
+        for k, text in enumerate(position)
+    ]
+    squares = " + ".join(f"d{k} * d{k}" for k in range(len(position)))
+    return [*differences, f"square = {squares}", "limit = f__mean_of(li, sorted_support[k])"]
+
+
+def indented(level: int, lines: list[str]) -> str:
+    """Lines of a block at a level of indentation."""
     return "\n".join("    " * level + line for line in lines)

@@ -29,6 +29,14 @@ class EscapedParticle(ValueError):
     """A particle is not finite or left the box."""
 
 
+class Grid(NamedTuple):
+    """Cells per axis, (dim,), of all axes together, and the inverse of their edge [1/m]."""
+
+    shape: np.ndarray
+    cells: int
+    inverse: Any
+
+
 class _Cells(NamedTuple):
     """Levels of cells: one row or entry per level; cells and members are concatenated."""
 
@@ -66,6 +74,8 @@ def cell_order(
     """
     if not cell_size > 0.0:
         raise ValueError(f"cell_size must be positive, not {cell_size}")
+    if backend.search is not None:
+        return backend.search.cell_order(position, cell_size, lower, upper)
     host = backend.unwrap(position)
     refuse_escape(host, lower, upper)
     count = host.shape[1]
@@ -116,14 +126,18 @@ def neighbor_list(
         raise ValueError(f"{count} rows, {total} particles, {reach.shape[0]} supports")
     if total >= 2**32 - 1:
         raise ValueError(f"{total} particles; a list holds fewer than 2^32 - 1")
+    if backend.search is not None:
+        return backend.search.neighbor_list(
+            host, reach, count, mean=mean, lower=lower, upper=upper, period=period,
+            wanted=None if wanted is None else backend.unwrap(wanted),
+        )  # fmt: skip
     refuse_escape(host, lower, upper)
     if total and not (np.isfinite(reach).all() and reach.min() > 0.0):
-        bad = int(np.flatnonzero(~(np.isfinite(reach) & (reach > 0.0)))[0])
-        raise ValueError(f"support of particle {bad} is {reach[bad]} m; it must be positive")
+        refuse_support(reach)
     row_start = np.zeros(count + 1, dtype=np.uint64)
     if count == 0:
         return backend.wrap(row_start), backend.wrap(np.zeros(0, dtype=np.uint32))
-    _refuse_short_period(host, widths, float(mean(reach.max(), reach.max())))
+    refuse_short_period(np.ptp(host, axis=1), widths, float(mean(reach.max(), reach.max())))
     periodic = tuple(bool(width) for width in widths)
     module = cache.load(scan_text(backend.precision, dimension, mean, periodic))
     sort = cache.load(sort_text(backend.precision, dimension)).sort
@@ -231,18 +245,23 @@ def _sorted(
     order: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, Any]:
     """Sort members by cell into `order`; first member per cell, cells per axis, 1 / size."""
+    found = grid(low, high, size, members.size, position.dtype)
+    start = np.empty(found.cells + 1, dtype=np.uint32)
+    cell = np.empty(members.size, dtype=np.uint32)
+    sort(position, members, low, found.inverse, found.shape, cell, start, order)
+    return start, found.shape, found.inverse
+
+
+def grid(low: np.ndarray, high: np.ndarray, size: float, members: int, real: np.dtype) -> Grid:
+    """Cells of an edge of `size` [m] in a box, or larger where there are few members."""
     width = (high - low).astype(float)
     while True:
         shape = np.floor(width / size) + 1.0
-        if np.prod(shape) <= _CELLS_PER_PARTICLE * members.size + 64:
+        if np.prod(shape) <= _CELLS_PER_PARTICLE * members + 64:
             break
         size *= 1.25
     shape = shape.astype(np.int64)
-    inverse = position.dtype.type(1.0 / size)
-    start = np.empty(int(np.prod(shape)) + 1, dtype=np.uint32)
-    cell = np.empty(members.size, dtype=np.uint32)
-    sort(position, members, low, inverse, shape, cell, start, order)
-    return start, shape, inverse
+    return Grid(shape, int(np.prod(shape)), real.type(1.0 / size))
 
 
 def refuse_escape(
@@ -271,7 +290,18 @@ def _box(corner: np.ndarray) -> str:
     return "(" + ", ".join(f"{x:.6g}" for x in corner) + ")"
 
 
-def _refuse_short_period(position: np.ndarray, widths: np.ndarray, reach: float) -> None:
+def refuse_support(support: np.ndarray) -> None:
+    """Raise ValueError for the first support, host array (n,) [m], that is not positive."""
+    bad = int(np.flatnonzero(~(np.isfinite(support) & (support > 0.0)))[0])
+    raise ValueError(f"support of particle {bad} is {support[bad]} m; it must be positive")
+
+
+def refuse_short_period(extent: np.ndarray, widths: np.ndarray, reach: float) -> None:
+    """Raise ValueError where the period `widths` [m] of an axis is too short.
+
+    Args:
+        extent: of the particles along each axis [m]. reach: longest distance of a pair [m].
+    """
     for k, width in enumerate(widths):
         if width == 0.0:
             continue
@@ -280,8 +310,8 @@ def _refuse_short_period(position: np.ndarray, widths: np.ndarray, reach: float)
                 f"period {width:.6g} m of axis {k} must be longer than twice the reach"
                 f" {reach:.6g} m of a particle; use more particles per period"
             )
-        extent = float(position[k].max() - position[k].min())
-        if extent > width:
+        if extent[k] > width:
             raise ValueError(
-                f"particles span {extent:.6g} m along axis {k}, more than its period {width:.6g} m"
+                f"particles span {extent[k]:.6g} m along axis {k},"
+                f" more than its period {width:.6g} m"
             )

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lasersph.compute import cache
+from lasersph.compute import cache, threads
 from lasersph.compute.backend import Backend
 from lasersph.compute.generate import OPTIONS
 
@@ -76,17 +76,17 @@ def splice(backend: Backend, first: PairRows, chosen: Any, rest: PairRows) -> Pa
     Raises:
         ValueError: `chosen` is not of that kind and length, or the lists hold different reals.
     """
-    from numba import set_num_threads
-
-    set_num_threads(backend.threads)
     start, neighbor, values = (backend.unwrap(part) for part in first)
     kept, kept_neighbor, kept_values = (backend.unwrap(part) for part in rest)
     mark = backend.unwrap(chosen)
     count = kept.size - 1
     if mark.dtype != np.uint8 or mark.size != count or values.dtype != kept_values.dtype:
         raise ValueError(f"{mark.size} {mark.dtype} marks for {count} rows of {kept_values.dtype}")
+    if backend.search is not None:
+        return backend.search.splice(first, mark, rest)
     if start.size - 1 < count and mark[start.size - 1 :].any():
         raise ValueError(f"a row is chosen beyond the {start.size - 1} of the first list")
+    threads.use(backend.threads)
     module = cache.load(_TEXT)
     row_start = np.empty(count + 1, np.uint64)
     module.lengths(count, mark, start, kept, row_start)

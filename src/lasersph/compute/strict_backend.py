@@ -11,70 +11,17 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.opaque_array import OpaqueArray
 
 
-class StrictArray:
-    """Array that only its backend can read; knows its shape and type."""
+class StrictArray(OpaqueArray):
+    """Array of the processor's memory that only its backend can read."""
 
     __slots__ = ("_host",)
-    __hash__ = object.__hash__
 
     def __init__(self, host: np.ndarray) -> None:
+        super().__init__(host.shape, host.dtype)
         self._host = host
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Shape of the array."""
-        return self._host.shape
-
-    @property
-    def dtype(self) -> np.dtype:
-        """Type of the elements."""
-        return self._host.dtype
-
-    @property
-    def ndim(self) -> int:
-        """Number of axes."""
-        return self._host.ndim
-
-    @property
-    def size(self) -> int:
-        """Number of elements."""
-        return self._host.size
-
-    def __repr__(self) -> str:
-        return f"StrictArray(shape={self.shape}, dtype={self.dtype})"
-
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        _refuse(f"np.{ufunc.__name__}")
-
-    def __array_function__(self, function: Any, types: Any, args: Any, kwargs: Any) -> Any:
-        _refuse(f"np.{function.__name__}")
-
-    def __array__(self, *args: Any, **options: Any) -> Any:
-        _refuse("conversion to a NumPy array")
-
-
-def _refuse(what: str) -> None:
-    raise TypeError(
-        f"{what} on a backend's array; use the backend's loops, or backend.to_host() in output"
-    )
-
-
-def _refusing(name: str) -> Any:
-    def refuse(self: StrictArray, *args: Any) -> Any:
-        _refuse(f"operator {name}")
-
-    return refuse
-
-
-_OPERATORS = (
-    "add sub mul truediv floordiv mod pow matmul radd rsub rmul rtruediv rfloordiv rmod rpow"
-    " rmatmul iadd isub imul itruediv ifloordiv imod ipow neg pos abs invert and or xor lt le gt"
-    " ge eq ne getitem setitem len iter bool float int contains"
-)
-for _name in _OPERATORS.split():
-    setattr(StrictArray, f"__{_name}__", _refusing(_name))
 
 
 class StrictBackend(Backend):

@@ -33,7 +33,9 @@ def computation(summary: dict[str, Any]) -> Rows:
         ("steps", f"{summary['steps']:,}".replace(",", " ")),
         ("wall time", duration(summary["wall_time_s"])),
     ]
-    if "threads" in summary:
+    if summary.get("device"):
+        rows.append(("device, precision", f"{summary['device']}, {summary['precision']}"))
+    elif "threads" in summary:
         rows.append(("threads, precision", f"{summary['threads']}, {summary['precision']}"))
     return rows
 

@@ -15,7 +15,7 @@ from lasersph.physics.heating import COLDEST, HOTTEST
 from lasersph.simulation.ablation_view import ablation_view_of
 from lasersph.simulation.build_ablation import ablation
 from lasersph.simulation.build_flow import with_flow
-from lasersph.simulation.flow_view import flow_view_of
+from lasersph.simulation.flow_view import flow_view_of, taking
 from lasersph.simulation.spot_edges import halves_spot
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.ablation.solver import Ablation
@@ -135,9 +135,11 @@ def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
     body, state, backend = solver.body, solver.state, solver.body.backend
     count, surface = body.count, body.filling.surface
     position, flow = body.filling.position[:, :count], None
-    melt_fraction = backend.look(state.melt_fraction)
+    take = taking(case, backend)
+    melt_fraction = take(state.melt_fraction)
     if isinstance(solver, MeltPool):
-        position, flow = backend.look(solver.position), flow_view_of(case, solver)
+        flow = flow_view_of(case, solver)
+        position = take(solver.position)
         if flow.surface.size:
             surface = flow.surface
         elif flow.box:
@@ -155,10 +157,10 @@ def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
         position=position,
         width=body.filling.width[:, :count],
         volume=body.filling.volume[:count],
-        temperature=backend.look(state.temperature),
-        enthalpy=backend.look(state.enthalpy),
+        temperature=take(state.temperature),
+        enthalpy=take(state.enthalpy),
         melt_fraction=melt_fraction,
-        vapor_fraction=backend.look(state.vapor_fraction),
+        vapor_fraction=take(state.vapor_fraction),
         surface=surface,
         symmetry_factor=case.domain.symmetry_factor,
         halves_spot=halves_spot(case),

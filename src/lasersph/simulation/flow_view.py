@@ -1,11 +1,18 @@
-"""What observers see of a flow: host copies from the solver."""
+"""What observers see of a flow: arrays where they lie, those of a closed box as copies.
+
+The observer of a box looks at some states later than the step after which it is shown them.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from lasersph.boundaries.settings import FLUX, HELD
 from lasersph.case import Case
+from lasersph.compute.backend import Backend
 from lasersph.observers.flow_view import FlowView
 from lasersph.physics.evaporation import (
     STANDARD_ATMOSPHERE,
@@ -18,28 +25,33 @@ from lasersph.solvers.time_step import ROUNDING
 SIDES = ("left", "right", "bottom", "surface")
 
 
+def taking(case: Case, backend: Backend) -> Callable[[Any], Any]:
+    """What fetches an array of the solver."""
+    return backend.look if case.flow is None else backend.to_host
+
+
 def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
-    """Host copies of the flow."""
+    """The flow for observers."""
     flow, lid, backend = solver.flow, solver.domain.lid, solver.backend
+    take = taking(case, backend)
     liquid, material = flow.liquid, case.material
-    position = backend.to_host(solver.position)
-    velocity = backend.to_host(flow.velocity)
-    pressure = backend.to_host(flow.pressure)
+    position, velocity = take(solver.position), take(flow.velocity)
+    pressure = take(flow.pressure)
     surface = np.zeros(0, np.int64)
     temperature = gradient = speed = np.zeros(0)
     if lid is not None:
         lid.find_surface(solver.position)
-        found = np.flatnonzero(backend.to_host(lid.at_surface) == 1.0)
+        found = np.asarray(backend.look(backend.rows_where(lid.at_surface, 1.0)), np.int64)
         surface = found[np.argsort(position[0, found], kind="stable")]
-        temperature = backend.to_host(solver.state.temperature)[surface]
+        temperature = backend.look(solver.state.temperature)[surface]
         if solver.fluid_count > 0.0 and flow.current_block is not None:
-            temperature = backend.to_host(lid.temperature)[surface]
+            temperature = backend.look(lid.temperature)[surface]
         gradient = np.gradient(temperature, position[0, surface])
         if solver.fluid_count > 0.0 and flow.current_block is not None:
-            flowing = backend.to_host(solver.roles.active)[surface] > 0.0
-            gradient = np.where(flowing, backend.to_host(lid.gradient)[surface], gradient)
-        flows = backend.to_host(solver.roles.fluid)[surface]
-        reach = 0.5 * backend.to_host(lid.reach)[surface]
+            flowing = backend.look(solver.roles.active)[surface] > 0.0
+            gradient = np.where(flowing, backend.look(lid.gradient)[surface], gradient)
+        flows = backend.look(solver.roles.fluid)[surface]
+        reach = 0.5 * backend.look(lid.reach)[surface]
         speed = velocity[0, surface] + flows * reach
     T = material.flow_temperature
     has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
@@ -52,7 +64,7 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
     return FlowView(
         velocity=velocity,
         pressure=pressure,
-        flows=backend.to_host(solver.roles.fluid) > 0.0,
+        flows=backend.look(solver.roles.fluid) > 0.0,
         surface=surface,
         surface_temperature=temperature,
         surface_gradient=gradient,

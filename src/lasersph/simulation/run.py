@@ -66,6 +66,7 @@ def run(
     resume: bool = False,
     threads: int | None = None,
     precision: str = "float64",
+    backend: str = "cpu",
     progress: Progress | None = None,
     should_stop: Callable[[], bool] = lambda: False,
 ) -> Result:
@@ -75,19 +76,21 @@ def run(
         out: folder of the run; must be new or empty unless `resume`.
         resume: continue from the last checkpoint in `out`; from the start where there is none.
         threads: None takes all processors. precision: "float64" or "float32".
+        backend: "cpu", or "cuda" for a graphics card. Either continues what the other began.
         should_stop: asked after each step; True writes a checkpoint and raises `Stopped`.
 
     Raises:
         CaseError: too large for this machine. FolderRefused, OutputError: see `output`.
+        NoDevice: no graphics card for backend "cuda".
         NotConverged: a step does not converge however small; the last checkpoint is kept.
     """
     refuse_if_too_large(case)
-    backend = compute.cpu(threads, precision)
+    device = compute.cuda(precision) if backend == "cuda" else compute.cpu(threads, precision)
     folder, checkpoint = _open(case, out, resume, precision)
     try:
         if folder.is_complete:
             return Result(folder.path, folder.summary)
-        layers, solver = build(case, backend)
+        layers, solver = build(case, device)
         loop = _Loop(case, layers, solver, folder)
         loop.begin(checkpoint)
         loop.go(progress, should_stop)
@@ -136,6 +139,7 @@ class _Loop:
 
     def __init__(self, case: Case, layers: Layers, solver: Solver, folder: RunFolder) -> None:
         self.case, self.layers, self.solver, self.folder = case, layers, solver, folder
+        self._backend = solver.body.backend
         self.observers = _observers(case, tuple(solver.iterations))
         self.snapshots = SnapshotSchedule(case.output.snapshots, case.time.end)
         self.steps, self.limit, self.wall_before = 0, "", 0.0
@@ -145,7 +149,7 @@ class _Loop:
         """Start at rest, or where the checkpoint left off."""
         if checkpoint is None:
             self.folder.log(f"{self.case.name}: {self.solver.body.count} particles")
-            self.folder.events.append("started", time=0.0, step=0)
+            self.folder.events.append("started", time=0.0, step=0, backend=self._backend.name)
             self._observe()
             return
         scalars = checkpoint.scalars
@@ -155,7 +159,9 @@ class _Loop:
         self.observers.restore(scalars["observers"])
         self.snapshots.restore(scalars["snapshots"])
         self.folder.log(f"resumed at step {self.steps}, {checkpoint.time:.6g} s")
-        self.folder.events.append("resumed", time=checkpoint.time, step=self.steps)
+        self.folder.events.append(
+            "resumed", time=checkpoint.time, step=self.steps, backend=self._backend.name
+        )
 
     def go(self, progress: Progress | None, should_stop: Callable[[], bool]) -> None:
         """Step until the end of the case."""
@@ -210,8 +216,10 @@ class _Loop:
             "time_s": state.time,
             "is_steady": self.solver.is_steady,
             "wall_time_s": self._wall_time(),
-            "precision": str(body.backend.real),
-            "threads": body.backend.threads,
+            "backend": self._backend.name,
+            "device": self._backend.device,
+            "precision": str(self._backend.real),
+            "threads": self._backend.threads,
             **self.observers.summary(),
             "dimensionless": dimensionless(self.case),
         }
@@ -235,7 +243,7 @@ class _Loop:
         self.folder.particles.append(view.time, view.position, snapshot_fields(view), units=UNITS)
 
     def _save(self) -> None:
-        state, backend = self.solver.state, self.solver.body.backend
+        state, backend = self.solver.state, self._backend
         self.folder.save_checkpoint(
             step=self.steps,
             time=state.time,

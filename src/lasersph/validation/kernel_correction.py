@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erfc
 
-from lasersph import compute
 from lasersph.compute.backend import Backend
 from lasersph.sph import correction, schwaiger
 from lasersph.sph.kernels import kernel
@@ -27,6 +26,7 @@ from lasersph.sph.laplacian import diffusion
 from lasersph.validation.correction_figures import draw
 from lasersph.validation.lattices import all_pairs
 from lasersph.validation.report import Report
+from lasersph.validation.runs import backend_of_loops
 from lasersph.validation.verdict import Row, at_most, claimed, judged, shown
 
 Array = NDArray[np.float64]
@@ -89,7 +89,7 @@ TABLE = {
 
 def run(out_dir: Path, *, quick: bool = False) -> Report:
     """All numbers and Figs. 3-8; `quick` changes nothing, it takes seconds."""
-    line = Line(compute.cpu(threads=1))
+    line = Line(backend_of_loops())
     results = {f.name: line.derivatives(f) for f in FUNCTIONS}
     errors = {f.name: l2_errors(f, results[f.name]) for f in FUNCTIONS}
     rows = [*table_rows(line, results), *l2_rows(errors), *claims(errors)]

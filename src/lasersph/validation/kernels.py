@@ -18,7 +18,6 @@ from typing import get_args
 
 import numpy as np
 
-from lasersph import compute
 from lasersph.compute.backend import Backend
 from lasersph.particles.lattice import KernelName
 from lasersph.plots import style
@@ -27,6 +26,7 @@ from lasersph.sph.gradient import symmetric_gradient
 from lasersph.sph.kernels import Kernel, kernel
 from lasersph.validation.lattices import all_pairs, cubic_lattice
 from lasersph.validation.report import Report
+from lasersph.validation.runs import backend_of_loops
 from lasersph.validation.verdict import Row, at_most, judged
 
 TITLE = "Kernels: conditions (32)-(38) and skew-adjointness of gradient (46) and divergence (47)"
@@ -40,7 +40,7 @@ NAMES: tuple[KernelName, ...] = get_args(KernelName)
 
 def run(out_dir: Path, *, quick: bool = False) -> Report:
     """Check all kernels; `quick` checks skew-adjointness with the quintic spline only."""
-    backend = compute.cpu(threads=2)
+    backend = backend_of_loops()
     rows: list[Row] = []
     for name in NAMES:
         for dimension in (1, 2, 3):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from lasersph.reading import CaseError, nearest
 from lasersph.validation.report import Report
-from lasersph.validation.runs import threads as using_threads
+from lasersph.validation.runs import computing
 
 MODULES = {
     "kernels": "kernels",
@@ -45,7 +45,12 @@ def titles() -> dict[str, str]:
 
 
 def validate(
-    name: str, out_dir: str | Path, *, quick: bool = False, threads: int | None = None
+    name: str,
+    out_dir: str | Path,
+    *,
+    quick: bool = False,
+    threads: int | None = None,
+    backend: str = "cpu",
 ) -> Report:
     """Run one validation and draw its figures into `out_dir`.
 
@@ -53,15 +58,15 @@ def validate(
 
     Args:
         quick: shortened, with tolerances as stated in its rows; still judged.
-        threads: of each run; None takes all processors.
+        threads: of each run; None takes all processors. backend: "cpu" or "cuda".
 
     Raises:
-        CaseError: no such validation; says the nearest name.
+        CaseError: no such validation; says the nearest name. NoDevice: no graphics card.
     """
     folder = Path(out_dir)
     module = _module(name)
     folder.mkdir(parents=True, exist_ok=True)
-    with using_threads(threads):
+    with computing(threads, backend):
         return module.run(folder, quick=quick)
 
 

@@ -16,7 +16,9 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
+from lasersph import compute
 from lasersph.case import Case, load_case
+from lasersph.compute.backend import Backend
 from lasersph.output import Run, open_run
 from lasersph.reading import CaseError
 from lasersph.simulation import run
@@ -25,17 +27,25 @@ from lasersph.solvers.conduction.state import NotConverged
 LOOK_ONLY = ("cli", "plots", "report", "studies", "validation")
 """Rooms whose sources no run depends on."""
 NUMERICS = ("numba", "numpy", "scipy")
-_threads: ContextVar[int | None] = ContextVar("threads of the runs of a validation", default=None)
+_where: ContextVar[tuple[int | None, str]] = ContextVar(
+    "threads and backend of a validation", default=(None, "cpu")
+)
 
 
 @contextmanager
-def threads(count: int | None) -> Iterator[None]:
-    """Within this context runs use `count` threads; None takes all processors."""
-    token = _threads.set(count)
+def computing(threads: int | None, backend: str = "cpu") -> Iterator[None]:
+    """Within this context validations compute there; threads None takes all processors."""
+    token = _where.set((threads, backend))
     try:
         yield
     finally:
-        _threads.reset(token)
+        _where.reset(token)
+
+
+def backend_of_loops() -> Backend:
+    """Backend for loops that a validation runs itself."""
+    threads, backend = _where.get()
+    return compute.cuda() if backend == "cuda" else compute.cpu(threads)
 
 
 def computed(case_name: str, overrides: Sequence[str], out_dir: Path, label: str) -> Run:
@@ -54,7 +64,8 @@ def computed(case_name: str, overrides: Sequence[str], out_dir: Path, label: str
         _remove(folder)
         folder.mkdir(parents=True)
         made_by.write_text(maker, encoding="utf-8")
-    run(case, folder, resume=True, threads=_threads.get())
+    threads, backend = _where.get()
+    run(case, folder, resume=True, threads=threads, backend=backend)
     return open_run(folder)
 
 
@@ -69,9 +80,9 @@ def to_failure(
 
 
 def fingerprint(case: Case) -> str:
-    """What a run depends on: the case, the sources that compute it and the versions below them."""
+    """What a run depends on: case, sources that compute it, versions below them, where it runs."""
     versions = " ".join(f"{name} {version(name)}" for name in NUMERICS)
-    return f"case {case.hash()}\nsources {_sources()}\n{versions}\n"
+    return f"case {case.hash()}\nsources {_sources()}\n{versions}\nbackend {_where.get()[1]}\n"
 
 
 @cache

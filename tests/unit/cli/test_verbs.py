@@ -13,6 +13,7 @@ import pytest
 import lasersph
 from lasersph.case import available_cases
 from lasersph.cli import main
+from lasersph.compute import cuda_device
 
 PROGRAM = "import sys; from lasersph.cli import main; sys.exit(main())"
 SMALL = ["--set", "particles.spacing=2um", "--set", "time.end=200ns", "--set", "time.step=5ns"]
@@ -225,8 +226,8 @@ def test_validate(monkeypatch, capsys):
     """Tables and JSON of every validation; exit code 1 where one did not pass."""
     folders = []
 
-    def fake(name, folder, *, quick, threads):
-        folders.append((str(folder), quick, threads))
+    def fake(name, folder, *, quick, threads, backend):
+        folders.append((str(folder), quick, threads, backend))
         return FakeReport(name)
 
     monkeypatch.setattr("lasersph.validation.names", lambda: ("good", "bad"))
@@ -234,14 +235,41 @@ def test_validate(monkeypatch, capsys):
     monkeypatch.setattr("lasersph.validation.validate", fake)
     assert said(capsys, "validate", "--list") == "good  A?\nbad   B?\n"
     assert "1 of 1 passed" in said(capsys, "validate", "good", "good", "--quick")
-    assert folders == [("runs/validation/good", True, None)]
+    assert folders == [("runs/validation/good", True, None, "cpu")]
     text = said(capsys, "validate", "--json", "all.json", "--out", "v", "--threads", "1", code=1)
     assert "table of bad" in text and "not passed: bad" in text
-    assert folders[1:] == [("v/good", False, 1), ("v/bad", False, 1)]
+    assert folders[1:] == [("v/good", False, 1, "cpu"), ("v/bad", False, 1, "cpu")]
     content = json.loads(Path("all.json").read_text())
     assert content["passed"] is False and content["schema_version"] == 1
+    assert content["backend"] == "cpu"
     assert list(content["validations"]) == ["good", "bad"]
     assert main(["validate", "goood"]) == 2
     assert 'do you mean "good"' in capsys.readouterr().err
     assert main(["validate", "good", "--json", "none/all.json"]) == 1
     assert "cannot write none/all.json" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["run", "stefan"],
+        ["run", "stefan", "--resume"],
+        ["converge", "stefan", "--spacing", "1um,2um,4um", "--json", "all.json"],
+        ["threshold", "dlip-steel", "--of", "melt", "--json", "all.json"],
+        ["spot", "ablation-depth", "--fluence", "5J/cm2,10J/cm2,20J/cm2", "--json", "all.json"],
+        ["validate", "kernels", "--json", "all.json"],
+    ],
+)
+def test_no_graphics_card(command, tmp_path, monkeypatch, capsys):
+    """`--backend cuda` without a card, or with threads: one line, exit code 2, nothing written."""
+
+    def no_card():
+        raise cuda_device.NoDevice("--backend cuda: no CUDA device found")
+
+    monkeypatch.setattr(cuda_device, "checked", no_card)
+    command = [*command, "--backend", "cuda", "--out", "out"]
+    assert main(command) == 2
+    assert capsys.readouterr().err == "lasersph: --backend cuda: no CUDA device found\n"
+    assert main([*command, "--threads", "2"]) == 2
+    assert capsys.readouterr().err == "lasersph: --threads is for --backend cpu\n"
+    assert not any(tmp_path.iterdir())

@@ -77,6 +77,11 @@ def numbered(place, numbers):
     return numbers[place]
 
 
+def length_of(row, start):
+    """Number of neighbors in a row of a list."""
+    return start[row + 1] - start[row]
+
+
 class ActiveRegion:
     """Which particles are computed.
 
@@ -187,6 +192,7 @@ class ActiveRegion:
         self._edge = self._particles_in(edge)
         self._near = self._particles_in(self._around(awake, 1))
         self.rows = self._particles_in(awake)
+        self._numbers = backend.asarray(np.arange(self._near.shape[0]), "index")
         is_awake = backend.zeros(self._near.shape[0])
         backend.gather(self._mark, self._near, is_awake)
         self._wanted = backend.rows_where(is_awake, 1.0)
@@ -259,8 +265,9 @@ class ActiveRegion:
         neighbor = backend.zeros(local.shape[0], "index")
         backend.pointwise(numbered, {"place": local}, neighbor, numbers=near)
         counts = backend.zeros(self.count, "index")
-        rows_of = np.diff(backend.look(start).astype(np.int64))
-        backend.scatter(backend.asarray(rows_of, "index"), near, counts)
+        lengths = backend.zeros(size, "index")
+        backend.pointwise(length_of, {"row": self._numbers}, lengths, start=start)
+        backend.scatter(lengths, near, counts)
         row_start = backend.zeros(self.count + 1, "offset")
         backend.exclusive_scan(counts, row_start)
         return row_start, neighbor

@@ -1,0 +1,213 @@
+"""Backend on a graphics card: the CPU backend's arrays, copies and sorts in its memory.
+
+Loops come from the same pair functions (`cuda_text`). Work is queued in order; only what returns
+numbers to the host waits for it. Orders and neighbors are not compared with the lengths of what
+they index.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute import cuda_device, cuda_kernels
+from lasersph.compute.backend import Backend
+from lasersph.compute.cuda_array import CudaArray
+from lasersph.compute.cuda_device import THREADS, start
+from lasersph.compute.cuda_launch import CudaLauncher
+from lasersph.compute.cuda_search import CudaSearch
+from lasersph.compute.far_array import FarArray
+
+
+def twice(value):
+    """The value, to be reduced in two ways."""
+    return value, value
+
+
+class CudaBackend(Backend):
+    """Loops on the first graphics card in one precision.
+
+    Attributes:
+        device: name of the card.
+
+    Raises:
+        NoDevice: there is none, or numba-cuda is missing.
+    """
+
+    name = "cuda"
+
+    def __init__(self, precision: str) -> None:
+        self.device = cuda_device.checked()
+        super().__init__(1, precision)
+        self.search = CudaSearch(self)
+
+    def launcher(self) -> CudaLauncher:
+        """What runs the loops."""
+        return CudaLauncher(self.threads)
+
+    # --- arrays ---------------------------------------------------------------------------------
+
+    def wrap(self, array: Any) -> CudaArray:
+        """Array as the caller sees it; host data are copied."""
+        return array if type(array) is CudaArray else CudaArray.from_host(array)
+
+    def unwrap(self, array: Any) -> Any:
+        """The array, whose components are the kernels' arguments.
+
+        Raises:
+            TypeError: it does not come from this backend.
+        """
+        if type(array) is not CudaArray:
+            raise TypeError(f"{type(array).__name__} given; make it with backend.asarray()")
+        return array
+
+    def empty(self, shape: int | tuple[int, ...], dtype: Any) -> CudaArray:
+        """Array with undefined elements."""
+        return CudaArray.of_shape(shape, np.dtype(dtype))
+
+    def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> CudaArray:
+        """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
+        array = self.empty(shape, self.kind(kind))
+        self.fill(array, 0)
+        return array
+
+    def to_host(self, array: Any) -> np.ndarray:
+        """Copy as a NumPy array."""
+        return self.unwrap(array).to_host()
+
+    def look(self, array: Any) -> Any:
+        """The array for reading, until the next loop; copied as far as it is looked at."""
+        return FarArray(self, self.unwrap(array))
+
+    def extremes(self, array: Any, rows: Any = None) -> tuple[float, float]:
+        """Least and largest element (n,), of some rows or all; NaN where there is one."""
+        least, most = self.pointwise(
+            twice, {"value": array}, (None, None), rows=rows, reduce=("min", "max")
+        )
+        return least, most
+
+    def single(self, array: Any) -> Any:
+        """Copy in float32, which loops of any precision may read per pair; itself if it is."""
+        source = self.unwrap(array)
+        if source.dtype == np.float32:
+            return array
+        out = self.empty(source.shape, np.float32)
+        count = source.shape[-1]
+        for a, b in zip(source.parts, out.parts, strict=True):
+            start(cuda_kernels.cast, count, np.uint64(count), a, b)
+        return out
+
+    def copy(self, source: Any, destination: Any) -> None:
+        """Copy all elements of `source` into `destination` of the same shape."""
+        first, second = self.unwrap(source), self.unwrap(destination)
+        if first.shape != second.shape:
+            raise ValueError(f"copy of shape {first.shape} into shape {second.shape}")
+        count = first.shape[-1]
+        for a, b in zip(first.parts, second.parts, strict=True):
+            start(cuda_kernels.cast, count, np.uint64(count), a, b)
+        second.changed()
+
+    def fill(self, array: Any, value: float) -> None:
+        """Set all elements."""
+        target = self.unwrap(array)
+        count = target.shape[-1]
+        for part in target.parts:
+            start(cuda_kernels.fill, count, np.uint64(count), part, target.dtype.type(value))
+        target.changed()
+
+    def head(self, array: Any, count: int) -> CudaArray:
+        """View of the first `count` particles of (n,), (dim, n) or (dim, dim, n)."""
+        source = self.unwrap(array)
+        if not 0 <= count <= source.shape[-1]:
+            raise ValueError(f"the first {count} of {source.shape[-1]} particles")
+        return source.head(count)
+
+    def gather(self, source: Any, order: Any, out: Any) -> None:
+        """out[..., k] = source[..., order[k]]."""
+        self._move(cuda_kernels.gather, "gather", source, order, out)
+
+    def scatter(self, source: Any, order: Any, out: Any) -> None:
+        """out[..., order[k]] = source[..., k]; the other elements keep their values."""
+        self._move(cuda_kernels.scatter, "scatter", source, order, out)
+
+    def _move(self, kernel: Any, verb: str, source: Any, order: Any, out: Any) -> None:
+        first, last, index = self.unwrap(source), self.unwrap(out), self.unwrap(order)
+        if first.dtype != last.dtype or first.shape[:-1] != last.shape[:-1]:
+            raise ValueError(f"{verb} between arrays of different kind")
+        if index.size > (last if verb == "gather" else first).shape[-1]:
+            raise ValueError(f"{verb} of {index.size} elements")
+        for a, b in zip(first.parts, last.parts, strict=True):
+            start(kernel, index.size, np.uint64(index.size), a, index.parts[0], b)
+        last.changed()
+
+    def exclusive_scan(self, counts: Any, out: Any) -> None:
+        """out[k] = counts[0] + ... + counts[k-1] for k = 0 ... n; out is "offset", length n + 1."""
+        first, last = self.unwrap(counts), self.unwrap(out)
+        if last.dtype != np.uint64 or last.size != first.size + 1:
+            raise ValueError("out must be of kind offset and one longer than counts")
+        self._scan(first.parts[0], first.size, last.parts[0])
+        last.changed()
+
+    def _scan(self, counts: Any, size: int, out: Any) -> None:
+        """Sums within pieces, of the pieces before each, and both together."""
+        start(cuda_kernels.fill, 1, np.uint64(1), out, np.uint64(0))
+        if size == 0:
+            return
+        pieces, count = -(-size // THREADS), np.uint64(size)
+        sums = self.empty(pieces, np.uint64).parts[0]
+        start(cuda_kernels.piece_sums, size, count, counts, out, sums)
+        if pieces > 1:
+            before = self.empty(pieces + 1, np.uint64).parts[0]
+            self._scan(sums, pieces, before)
+            start(cuda_kernels.add_piece_sums, size, count, before, out)
+
+    def rows_where(self, array: Any, value: float) -> CudaArray:
+        """Rows k in order, kind "index", whose array[k] is exactly `value`."""
+        source = self.unwrap(array)
+        size, count = source.size, np.uint64(source.size)
+        marks = self.empty(size, np.uint32)
+        # compared in double precision, which holds every number of every kind but huge offsets
+        start(
+            cuda_kernels.mark_equal, size, count, source.parts[0], np.float64(value), marks.parts[0]
+        )
+        place = self.empty(size + 1, np.uint64)
+        self.exclusive_scan(marks, place)
+        rows = self.empty(place.last(), np.uint32)
+        start(cuda_kernels.list_marked, size, count, marks.parts[0], place.parts[0], rows.parts[0])
+        return rows
+
+    def sort_by_key(self, keys: Any, key_count: int) -> CudaArray:
+        """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
+        self.count_by_key(keys, key_count)
+        size = keys.size
+        count, pieces = np.uint64(size), -(-size // THREADS)
+        now = self.unwrap(keys).parts[0]
+        order = self.empty(size, np.uint32)
+        start(cuda_kernels.number, size, count, order.parts[0])
+        for shift in range(0, max(key_count - 1, 0).bit_length(), cuda_kernels.DIGIT_BITS):
+            counts = self.zeros(cuda_kernels.DIGITS * pieces, "index")
+            place = self.empty(counts.size + 1, np.uint64)
+            digit = (np.uint64(shift), np.uint64(pieces))
+            start(cuda_kernels.count_digits, size, count, now, *digit, counts.parts[0])
+            self.exclusive_scan(counts, place)
+            after, moved = self.empty(size, np.uint32), self.empty(size, np.uint32)
+            start(
+                cuda_kernels.sort_digits, size, count, now, order.parts[0], *digit, place.parts[0],
+                after.parts[0], moved.parts[0],
+            )  # fmt: skip
+            now, order = after.parts[0], moved
+        return order
+
+    def count_by_key(self, keys: Any, key_count: int) -> CudaArray:
+        """How often each key 0 ... key_count - 1 occurs among index keys, kind "index"."""
+        source = self.unwrap(keys)
+        counts, beyond = self.zeros(key_count, "index"), self.zeros(1, "index")
+        start(
+            cuda_kernels.count_keys, source.size, np.uint64(source.size), source.parts[0],
+            np.uint64(key_count), counts.parts[0], beyond.parts[0],
+        )  # fmt: skip
+        key = int(beyond.to_host()[0])
+        if key or (key_count == 0 and source.size):
+            raise ValueError(f"key {key} is not below {key_count}")
+        return counts

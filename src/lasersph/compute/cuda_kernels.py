@@ -1,0 +1,211 @@
+"""Kernels of the graphics card that contain no physics: moving, running sums, sorting, splicing.
+
+Threads share the elements: thread t takes t, t + number of threads, ... Groups that work together
+take pieces of as many elements as they have threads. Every result is the same bits however the
+threads are scheduled: what is added by several at once is whole numbers.
+"""
+
+# pyright: reportAttributeAccessIssue=false, reportCallIssue=false, reportArgumentType=false
+# pyright: reportOptionalSubscript=false, reportIndexIssue=false, reportOperatorIssue=false
+# Numba's package says little about the types of what kernels may call.
+
+from __future__ import annotations
+
+import numpy as np
+from numba import cuda
+
+from lasersph.compute.cuda_device import THREADS
+
+ZERO = np.uint64(0)
+ONE = np.uint64(1)
+SIZE = np.uint64(THREADS)
+DIGITS = 16
+DIGIT_BITS = 4
+
+
+@cuda.jit(cache=True)
+def fill(count, array, value):
+    """array[k] = value."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        array[k] = value
+        k += step
+
+
+@cuda.jit(cache=True)
+def cast(count, source, out):
+    """out[k] = source[k] in another type."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        out[k] = source[k]
+        k += step
+
+
+@cuda.jit(cache=True)
+def number(count, out):
+    """out[k] = k."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        out[k] = np.uint32(k)
+        k += step
+
+
+@cuda.jit(cache=True)
+def largest(count, array, most):
+    """most[0] = largest of array and most[0]."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        cuda.atomic.max(most, 0, array[k])
+        k += step
+
+
+@cuda.jit(cache=True)
+def gather(count, source, order, out):
+    """out[k] = source[order[k]]."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        out[k] = source[np.uint64(order[k])]
+        k += step
+
+
+@cuda.jit(cache=True)
+def scatter(count, source, order, out):
+    """out[order[k]] = source[k]."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        out[np.uint64(order[k])] = source[k]
+        k += step
+
+
+@cuda.jit(cache=True)
+def piece_sums(count, counts, out, sums):
+    """out[k + 1] = sum of counts up to k within its piece; sums[m] that of piece m."""
+    shared = cuda.shared.array(THREADS, np.uint64)
+    thread = cuda.threadIdx.x
+    piece, step = np.uint64(cuda.blockIdx.x), np.uint64(cuda.gridDim.x)
+    while piece * SIZE < count:
+        k = piece * SIZE + np.uint64(thread)
+        shared[thread] = np.uint64(counts[k]) if k < count else ZERO
+        cuda.syncthreads()
+        reach = 1
+        while reach < THREADS:
+            before = shared[thread - reach] if thread >= reach else ZERO
+            cuda.syncthreads()
+            shared[thread] += before
+            cuda.syncthreads()
+            reach *= 2
+        if k < count:
+            out[k + ONE] = shared[thread]
+        if thread == THREADS - 1:
+            sums[piece] = shared[thread]
+        cuda.syncthreads()
+        piece += step
+
+
+@cuda.jit(cache=True)
+def add_piece_sums(count, before, out):
+    """out[k + 1] += before[m] of its piece m."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        out[k + ONE] += before[k // SIZE]
+        k += step
+
+
+@cuda.jit(cache=True)
+def mark_equal(count, array, value, marks):
+    """marks[k] = 1 where array[k] is exactly value, else 0."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        marks[k] = np.uint32(1) if array[k] == value else np.uint32(0)
+        k += step
+
+
+@cuda.jit(cache=True)
+def list_marked(count, marks, place, rows):
+    """Rows with a mark, in order; place is the running sum of marks."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        if marks[k]:
+            rows[place[k]] = np.uint32(k)
+        k += step
+
+
+@cuda.jit(cache=True)
+def count_keys(count, keys, key_count, counts, beyond):
+    """counts[key] is how often a key occurs; beyond[0] is the largest that is too large, or 0."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        key = np.uint64(keys[k])
+        if key < key_count:
+            cuda.atomic.add(counts, key, np.uint32(1))
+        else:
+            cuda.atomic.max(beyond, 0, np.uint32(key))
+        k += step
+
+
+@cuda.jit(cache=True)
+def count_digits(count, keys, shift, pieces, counts):
+    """counts[digit * pieces + m] is how often a digit occurs in piece m."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        digit = (np.uint64(keys[k]) >> shift) & np.uint64(DIGITS - 1)
+        cuda.atomic.add(counts, digit * pieces + k // SIZE, np.uint32(1))
+        k += step
+
+
+@cuda.jit(cache=True)
+def sort_digits(count, keys, order, shift, pieces, start, new_keys, new_order):
+    """Move keys and order to the places of their digits, those of equal digits in order."""
+    shared = cuda.shared.array(THREADS, np.uint64)
+    thread = cuda.threadIdx.x
+    piece, step = np.uint64(cuda.blockIdx.x), np.uint64(cuda.gridDim.x)
+    while piece * SIZE < count:
+        k = piece * SIZE + np.uint64(thread)
+        digit = np.uint64(DIGITS)
+        if k < count:
+            digit = (np.uint64(keys[k]) >> shift) & np.uint64(DIGITS - 1)
+        shared[thread] = digit
+        cuda.syncthreads()
+        if k < count:
+            place = np.uint64(start[digit * pieces + piece])
+            for before in range(thread):
+                if shared[before] == digit:
+                    place += ONE
+            new_keys[place] = keys[k]
+            new_order[place] = order[k]
+        cuda.syncthreads()
+        piece += step
+
+
+@cuda.jit(cache=True)
+def spliced_lengths(count, chosen, start, rows, kept, counts, beyond):
+    """Length of each row of a joined list; beyond[0] = 1 where a chosen row is not in the first."""
+    i, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while i < count:
+        if not chosen[i]:
+            counts[i] = np.uint32(kept[i + ONE] - kept[i])
+        elif i < rows:
+            counts[i] = np.uint32(start[i + ONE] - start[i])
+        else:
+            counts[i] = np.uint32(0)
+            cuda.atomic.max(beyond, 0, np.uint32(1))
+        i += step
+
+
+@cuda.jit(cache=True)
+def splice_rows(count, chosen, start, source, kept, kept_source, row_start, joined):
+    """Copy rows of one list where chosen, of another elsewhere, to their places."""
+    i, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while i < count:
+        base, length = row_start[i], row_start[i + ONE] - row_start[i]
+        if chosen[i]:
+            first = start[i]
+            for p in range(length):
+                q = np.uint64(p)
+                joined[base + q] = source[first + q]
+        else:
+            first = kept[i]
+            for p in range(length):
+                q = np.uint64(p)
+                joined[base + q] = kept_source[first + q]
+        i += step

@@ -1,0 +1,286 @@
+"""Cell sort, neighbor list and splicing on the graphics card; see `search` and `splice`.
+
+Levels and cells are those of the processor's search. Only what says how large the grid is goes to
+the host: corners, largest supports and numbers of pairs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import cuda
+
+from lasersph.compute import cache, cuda_kernels
+from lasersph.compute.cuda_array import CudaArray
+from lasersph.compute.cuda_device import start
+from lasersph.compute.cuda_scan import cuda_scan_text
+from lasersph.compute.search import Grid, grid, refuse_escape, refuse_short_period, refuse_support
+from lasersph.compute.splice import PairRows
+
+
+class _Level(NamedTuple):
+    """Particles whose supports lie within a power of two."""
+
+    low: np.ndarray
+    high: np.ndarray
+    largest: float
+    count: int
+
+
+def level_of(support, smallest):
+    """How many times a support can be halved before it is less than twice the smallest."""
+    ratio, level = support / smallest, 0
+    while ratio >= 2.0:
+        ratio, level = 0.5 * ratio, level + 1
+    return level
+
+
+def renumbered(level, number):
+    """Number of a level among those that have particles."""
+    return number[level]
+
+
+def cell_1(x, level, first_cell, inverse, low_0, shape_0):
+    """Cell of a particle on a line."""
+    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
+    return first_cell[level] + c0
+
+
+def cell_2(x, level, first_cell, inverse, low_0, low_1, shape_0, shape_1):
+    """Cell of a particle in a plane, the first axis fastest."""
+    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
+    c1 = min(int((x[1] - low_1[level]) * inverse[level]), shape_1[level] - 1)
+    return first_cell[level] + c1 * shape_0[level] + c0
+
+
+def cell_3(x, level, first_cell, inverse, low_0, low_1, low_2, shape_0, shape_1, shape_2):
+    """Cell of a particle in space, the first axis fastest."""
+    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
+    c1 = min(int((x[1] - low_1[level]) * inverse[level]), shape_1[level] - 1)
+    c2 = min(int((x[2] - low_2[level]) * inverse[level]), shape_2[level] - 1)
+    return first_cell[level] + (c2 * shape_1[level] + c1) * shape_0[level] + c0
+
+
+_CELL = {1: cell_1, 2: cell_2, 3: cell_3}
+
+
+class CudaSearch:
+    """Sorting and searching for one backend."""
+
+    def __init__(self, backend: Any) -> None:
+        self.backend = backend
+
+    def cell_order(
+        self,
+        position: CudaArray,
+        cell_size: float,
+        lower: Sequence[float] | None,
+        upper: Sequence[float] | None,
+    ) -> CudaArray:
+        """Order of the particles by cells of a grid; see `search.cell_order`."""
+        backend, count = self.backend, position.shape[1]
+        if count == 0:
+            return backend.zeros(0, "index")
+        low, high = self._corners(position, None)
+        self._refuse_escape(position, low, high, lower, upper)
+        found = grid(low, high, cell_size, count, backend.real)
+        key = self._cells(position, backend.zeros(count, "index"), [low], [found])
+        return backend.sort_by_key(key, found.cells)
+
+    def neighbor_list(
+        self,
+        position: CudaArray,
+        support: CudaArray,
+        count: int,
+        *,
+        mean: Callable[[float, float], float],
+        lower: Sequence[float] | None,
+        upper: Sequence[float] | None,
+        period: Sequence[float],
+        wanted: CudaArray | None,
+    ) -> tuple[CudaArray, CudaArray]:
+        """Row pointers and neighbors; see `search.neighbor_list`."""
+        backend, (dimension, total) = self.backend, position.shape
+        if total == 0:
+            return backend.zeros(1, "offset"), backend.zeros(0, "index")
+        low, high = self._corners(position, None)
+        self._refuse_escape(position, low, high, lower, upper)
+        smallest, largest = self.backend.extremes(support, None)
+        if not (smallest > 0.0 and np.isfinite(largest)):
+            refuse_support(support.to_host())
+        if count == 0:
+            return backend.zeros(1, "offset"), backend.zeros(0, "index")
+        widths = np.array(tuple(period) or (0.0,) * dimension, backend.real)
+        refuse_short_period(high - low, widths, float(mean(largest, largest)))
+        number, levels = self._levels(
+            position, support, (smallest, largest), (low, high), (lower, upper)
+        )
+        grids = [
+            grid(one.low, one.high, float(mean(one.largest, one.largest)), one.count, backend.real)
+            for one in levels
+        ]
+        key = self._cells(position, number, [one.low for one in levels], grids)
+        cells = sum(one.cells for one in grids)
+        order = backend.sort_by_key(key, cells)
+        starts = backend.empty(cells + 1, np.uint64)
+        backend.exclusive_scan(backend.count_by_key(key, cells), starts)
+        x, l_j = backend.zeros(position.shape), backend.zeros(total)
+        backend.gather(position, order, x)
+        backend.gather(support, order, l_j)
+        extent = max(*(np.abs([one.low, one.high]).max() for one in levels), widths.max())
+        slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + largest))
+        arguments = (
+            *self._targets(position, wanted).parts, support.parts[0], *x.parts, l_j.parts[0],
+            order.parts[0], starts.parts[0], cuda.to_device(_first_cells(grids)),
+            *self._tables(levels, grids), slack, cuda.to_device(widths),
+        )  # fmt: skip
+        periodic = tuple(bool(width) for width in widths)
+        text = cuda_scan_text(backend.precision, dimension, mean, periodic)
+        return self._scanned(cache.load(text).scan, count, arguments)
+
+    def splice(self, first: PairRows, chosen: CudaArray, rest: PairRows) -> PairRows:
+        """Rows of `first` where `chosen`, those of `rest` elsewhere; see `splice.splice`."""
+        backend, (begin, neighbor, values) = self.backend, first
+        kept, kept_neighbor, kept_values = rest
+        size = kept.size - 1
+        count, rows = np.uint64(size), np.uint64(begin.size - 1)
+        counts, beyond = backend.empty(size, np.uint32), backend.zeros(1, "index")
+        start(
+            cuda_kernels.spliced_lengths, size, count, chosen.parts[0], begin.parts[0], rows,
+            kept.parts[0], counts.parts[0], beyond.parts[0],
+        )  # fmt: skip
+        if beyond.to_host()[0]:
+            raise ValueError(f"a row is chosen beyond the {int(rows)} of the first list")
+        row_start = backend.empty(size + 1, np.uint64)
+        backend.exclusive_scan(counts, row_start)
+        joined = []
+        for ours, theirs in ((neighbor, kept_neighbor), (values, kept_values)):
+            out = backend.empty(row_start.last(), theirs.dtype)
+            start(
+                cuda_kernels.splice_rows, size, count, chosen.parts[0], begin.parts[0],
+                ours.parts[0], kept.parts[0], theirs.parts[0], row_start.parts[0], out.parts[0],
+            )  # fmt: skip
+            joined.append(out)
+        return PairRows(row_start, *joined)
+
+    # --- parts of the search --------------------------------------------------------------------
+
+    def _corners(
+        self, position: CudaArray, rows: CudaArray | None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Lower and upper corner of the box around particles [m]."""
+        axes = range(position.shape[0])
+        ends = [self.backend.extremes(position.component(k), rows) for k in axes]
+        low, high = np.array(ends, self.backend.real).T
+        return low, high
+
+    def _refuse_escape(
+        self,
+        position: CudaArray,
+        least: np.ndarray,
+        most: np.ndarray,
+        lower: Sequence[float] | None,
+        upper: Sequence[float] | None,
+    ) -> None:
+        """Raise EscapedParticle; positions are only fetched to name the particle."""
+        is_inside = np.isfinite(least).all() and np.isfinite(most).all()
+        is_inside = is_inside and (lower is None or (least >= np.asarray(lower)).all())
+        is_inside = is_inside and (upper is None or (most <= np.asarray(upper)).all())
+        if not is_inside:
+            refuse_escape(position.to_host(), lower, upper)
+
+    def _levels(
+        self,
+        position: CudaArray,
+        support: CudaArray,
+        ends: tuple[float, float],
+        corners: tuple[np.ndarray, np.ndarray],
+        box: tuple[Sequence[float] | None, Sequence[float] | None],
+    ) -> tuple[CudaArray, list[_Level]]:
+        """Level of each particle, and the levels that have particles."""
+        backend, real, total = self.backend, self.backend.real, support.size
+        number = backend.zeros(total, "index")
+
+        def level(low: np.ndarray, high: np.ndarray, largest: float, count: int) -> _Level:
+            lower, upper = box
+            low = low if lower is None else np.array(lower, real)
+            return _Level(low, high if upper is None else np.array(upper, real), largest, count)
+
+        smallest, largest = ends
+        if largest < 2.0 * smallest:
+            return number, [level(*corners, largest, total)]
+        backend.pointwise(level_of, {"support": support}, number, smallest=smallest)
+        most = int(np.frexp(largest / smallest)[1]) + 1
+        counts = backend.to_host(backend.count_by_key(number, most))
+        used = np.flatnonzero(counts)
+        levels = []
+        for k in used:
+            rows = backend.rows_where(number, float(k))
+            highest = self.backend.extremes(support, rows)[1]
+            levels.append(level(*self._corners(position, rows), highest, int(counts[k])))
+        names = np.zeros(most, np.uint32)
+        names[used] = np.arange(used.size)
+        numbers = backend.asarray(names, "index")
+        backend.pointwise(renumbered, {"level": number}, number, number=numbers)
+        return number, levels
+
+    def _cells(
+        self, position: CudaArray, number: CudaArray, low: list[np.ndarray], grids: list[Grid]
+    ) -> CudaArray:
+        """Cell of each particle; those of a level follow those of the level before."""
+        backend = self.backend
+        tables: dict[str, Any] = {
+            "first_cell": backend.asarray(_first_cells(grids), "offset"),
+            "inverse": backend.asarray([one.inverse for one in grids]),
+        }
+        for k in range(position.shape[0]):
+            tables[f"low_{k}"] = backend.asarray([corner[k] for corner in low])
+            tables[f"shape_{k}"] = backend.asarray([one.shape[k] for one in grids], "index")
+        key = backend.zeros(position.shape[1], "index")
+        cell = _CELL[position.shape[0]]
+        backend.pointwise(cell, {"x": position, "level": number}, key, **tables)
+        return key
+
+    def _targets(self, position: CudaArray, wanted: CudaArray | None) -> CudaArray:
+        """Positions of the wanted particles; the others lie where nothing is near."""
+        if wanted is None:
+            return position
+        targets = self.backend.zeros(position.shape)
+        self.backend.fill(targets, np.inf)
+        if wanted.size:
+            some = self.backend.zeros((position.shape[0], wanted.size))
+            self.backend.gather(position, wanted, some)
+            self.backend.scatter(some, wanted, targets)
+        return targets
+
+    def _tables(self, levels: list[_Level], grids: list[Grid]) -> tuple:
+        """low, high, inverse, shape and largest of the levels on the device."""
+        real = self.backend.real
+        columns = (
+            np.array([one.low for one in levels], real),
+            np.array([one.high for one in levels], real),
+            np.array([one.inverse for one in grids], real),
+            np.array([one.shape for one in grids], np.int64),
+            np.array([one.largest for one in levels], real),
+        )
+        return tuple(cuda.to_device(column) for column in columns)
+
+    def _scanned(self, scan: Any, count: int, arguments: tuple) -> tuple[CudaArray, CudaArray]:
+        """Count the neighbors, then store them."""
+        backend, rows = self.backend, np.uint64(count)
+        counts, nothing = backend.zeros(count, "index"), backend.zeros(1, "index")
+        row_start = backend.zeros(count + 1, "offset")
+        places = (row_start.parts[0], counts.parts[0])
+        start(scan, count, rows, *arguments, *places, nothing.parts[0], False)
+        backend.exclusive_scan(counts, row_start)
+        neighbor = backend.empty(row_start.last(), np.uint32)
+        start(scan, count, rows, *arguments, *places, neighbor.parts[0], True)
+        return row_start, neighbor
+
+
+def _first_cells(grids: list[Grid]) -> np.ndarray:
+    """Number of the first cell of each level."""
+    cells = np.cumsum([0, *(one.cells for one in grids)])
+    return cells[:-1].astype(np.uint64)

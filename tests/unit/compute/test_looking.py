@@ -1,0 +1,72 @@
+"""What `look` gives of an array: NumPy's array to read, copied only as far as it is looked at."""
+
+import numpy as np
+import pytest
+
+ROWS = np.array([3, 0, -1, 3])
+SCALAR = [4, -2, ROWS, np.zeros(0, np.int64), slice(None, 3), slice(1, 4), slice(None, None, 2),
+          (Ellipsis, slice(None, 2)), np.array([True, False, False, True, True])]  # fmt: skip
+VECTOR = [1, -1, slice(None, 1), (0, 2), (-1, ROWS), (slice(None), ROWS), (slice(None, 1), ROWS),
+          (slice(None), slice(None, 3)), (1, slice(None, 3)), (Ellipsis, slice(None, 3)),
+          (slice(None), 2), (slice(None, 1), slice(None, 2)), (1, slice(1, 3))]  # fmt: skip
+
+
+@pytest.fixture
+def scalar():
+    """Five numbers."""
+    return np.array([3.0, -1.0, 4.0, 1.0, 5.0])
+
+
+@pytest.fixture
+def vector():
+    """Five vectors."""
+    return np.arange(10.0).reshape(2, 5) ** 1.5
+
+
+def same(found, expected):
+    """Whether they are the same numbers in the same shape."""
+    return np.shape(found) == np.shape(expected) and np.array_equal(np.asarray(found), expected)
+
+
+def test_parts(backend, scalar, vector):
+    """Every index means what it means to NumPy."""
+    for index in SCALAR:
+        assert same(backend.look(backend.asarray(scalar))[index], scalar[index]), index
+    for index in VECTOR:
+        assert same(backend.look(backend.asarray(vector))[index], vector[index]), index
+
+
+def test_whole(backend, scalar, vector):
+    """Sums, comparisons, extremes and methods are NumPy's, and nothing can be written."""
+    seen, arrows = backend.look(backend.asarray(scalar)), backend.look(backend.asarray(vector))
+    assert np.max(seen) == 5.0 and seen.min() == -1.0 and float(seen.max()) == 5.0
+    assert np.max(arrows) == vector.max() and same(np.min(arrows, axis=1), vector.min(axis=1))
+    assert np.max(seen, where=seen < 4.5, initial=0.0) == 4.0
+    assert same(2.0 * seen - 1.0, 2.0 * scalar - 1.0) and same(seen > 2.0, scalar > 2.0)
+    assert same(np.sum(arrows * arrows, axis=0), np.sum(vector * vector, axis=0))
+    assert same(seen.astype(np.float32), scalar.astype(np.float32))
+    assert same(np.where(seen > 2.0, seen, 0.0), np.where(scalar > 2.0, scalar, 0.0))
+    assert (arrows.shape, arrows.ndim, seen.size, len(seen)) == ((2, 5), 2, 5, 5)
+    with pytest.raises((ValueError, TypeError)):
+        seen[0] = 1.0
+    with pytest.raises(IndexError):
+        seen[np.array([5])]
+
+
+def test_no_more_than_looked_at(backend, scalar, vector, monkeypatch):
+    """From a card come listed particles and extremes without the rest, and never what is old."""
+    if backend.name != "cuda":
+        pytest.skip("arrays of this backend lie in the host's memory")
+    from lasersph.compute.cuda_array import CudaArray
+
+    sizes, to_host = [], CudaArray.to_host
+    monkeypatch.setattr(CudaArray, "to_host", lambda a: sizes.append(a.size) or to_host(a))
+    array = backend.asarray(scalar)
+    seen, arrows = backend.look(array), backend.look(backend.asarray(vector))
+    assert seen.max() == 5.0 and seen[:4].max() == 4.0 and sizes == []
+    assert same(arrows[1, :4][ROWS[:2]], vector[1, :4][ROWS[:2]]) and sizes == [2]
+    assert np.sum(seen) + np.sum(seen) == 24.0 and sizes == [2, 5]
+    stale = backend.look(array)
+    backend.fill(array, 0.0)
+    with pytest.raises(RuntimeError, match="after it had been written"):
+        stale.max()
