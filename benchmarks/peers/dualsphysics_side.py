@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 import subprocess
+from collections import deque
 from itertools import pairwise
 from pathlib import Path
 from string import Template
@@ -16,7 +17,7 @@ from time import perf_counter
 import same_particles as particles
 from dualsphysics_files import write_particles
 from measurement import Measurement, middle
-from workplace import CASES, PeerFailed, Program, Workplace
+from workplace import CASES, LAST_LINES, PeerFailed, Program, Workplace
 
 GAMMA = 7.0
 """Exponent of Tait's equation of state [1]."""
@@ -73,7 +74,7 @@ def _processor_time(process: int) -> float:
 
 def _run(command: list[str], folder: Path, threads: int) -> Segments:
     """Run it and look at the clocks whenever it says that a segment has ended."""
-    segments, last = [], ""
+    segments, last = [], deque[str](maxlen=LAST_LINES)
     libraries = str(Path(command[0]).parent)  # of a release, which lie beside its program
     variables = {"OMP_NUM_THREADS": str(threads), "LD_LIBRARY_PATH": libraries}
     with subprocess.Popen(
@@ -84,9 +85,9 @@ def _run(command: list[str], folder: Path, threads: int) -> Segments:
             steps = steps_done(line)
             if steps is not None:
                 segments.append((steps, perf_counter(), _processor_time(process.pid)))
-            last = line.strip() or last
+            last += [line.strip()] if line.strip() else []
     if process.returncode:
-        raise PeerFailed(f"DualSPHysics ended with {process.returncode}: {last}")
+        raise PeerFailed(f"DualSPHysics ended with {process.returncode}: " + " | ".join(last))
     return segments
 
 
