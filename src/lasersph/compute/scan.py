@@ -19,7 +19,7 @@ import math
 import numpy as np
 from numba import njit
 
-from lasersph.compute.spread import spread
+from lasersph.compute.spread import spread_blocks
 
 real = np.{precision}
 ZERO = np.uint64(0)

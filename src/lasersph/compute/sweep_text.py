@@ -20,7 +20,7 @@ import math
 import numpy as np
 from numba import njit
 
-from lasersph.compute.spread import spread
+from lasersph.compute.spread import spread_blocks
 
 ZERO = np.uint64(0)
 ONE = np.uint64(1)

@@ -11,7 +11,7 @@ HEAD = """
 import numpy as np
 from numba import njit
 
-from lasersph.compute.spread import spread
+from lasersph.compute.spread import spread_blocks
 
 ONE = np.uint64(1)
 
@@ -19,7 +19,7 @@ ONE = np.uint64(1)
 @njit(cache=True)
 def loop(begin, end, threads, visits, limit):
     if end - begin > ONE:
-        spread()
+        spread_blocks()
         return
     if begin >= limit:
         raise ValueError("beyond the limit")
