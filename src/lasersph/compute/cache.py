@@ -1,8 +1,8 @@
 """Folder of generated loops: one Python file per loop, named by the hash of its whole text.
 
-The text holds every function, constant and option that the loop's result depends on but `spread_blocks`,
-whose text enters the hash, so a file never goes stale: an edit gives another name. Numba keeps the
-machine code beside it in `__pycache__`. The folder is $LASERSPH_CACHE, else
+The text holds every function, constant and option that the loop's result depends on but
+`spread_blocks`, whose text enters the hash, so a file never goes stale: an edit gives another name.
+Numba keeps the machine code beside it in `__pycache__`. The folder is $LASERSPH_CACHE, else
 $XDG_CACHE_HOME/lasersph, else ~/.cache/lasersph, else, where that is not writable, a folder of this
 user below the system's temporary folder.
 """
