@@ -183,10 +183,8 @@ def _scanned(
     module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray, room: Room
 ) -> np.ndarray:
     """Scan groups of blocks into scratch, growing it where it is too short, and join them."""
-    from numba import set_num_threads
-
-    set_num_threads(backend.threads)
-    store = cache.load(store_text()).store_blocks
+    store = cache.load(store_text()).store
+    threads = np.uint64(backend.threads)
     blocks, group = -(-count // BLOCK), 8 * backend.threads
     scratch = room.for_group(min(group, blocks), _PLACES_PER_ROW * min(BLOCK, count))
     ends = np.empty(count, dtype=np.uint64)
@@ -195,10 +193,9 @@ def _scanned(
     filled = begin = 0
     while begin < blocks:
         end = min(begin + group, blocks)
-        if blocks == 1:
-            used[0] = module.scan(np.uint64(0), *arguments, scratch, ends)
-        else:
-            module.scan_blocks(begin, end, *arguments, scratch, ends, used)
+        start = np.uint64(begin)
+        share = (start, np.uint64(end), threads, start)
+        module.scan(*share, used, *arguments, scratch, ends)
         counts = used[: end - begin]
         if counts.max() > scratch.shape[1]:
             scratch = room.for_group(scratch.shape[0], 2 * scratch.shape[1])
@@ -207,7 +204,7 @@ def _scanned(
         before, filled = filled, filled + int(counts.sum())
         if filled > neighbor.size:  # memory that is never written costs nothing
             neighbor = room.lengthen(before, filled + (blocks - end) * int(counts.max()))
-        store(begin, end, np.uint64(count), bases, scratch, ends, row_start, neighbor)
+        store(*share, np.uint64(count), bases, scratch, ends, row_start, neighbor)
         begin = end
     return neighbor[:filled]
 
