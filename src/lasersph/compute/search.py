@@ -37,6 +37,33 @@ class Grid(NamedTuple):
     inverse: Any
 
 
+class Room:
+    """Memory that lists take one after the other: untouched pages cost as much as finding pairs.
+
+    A list that was found in a room is lost when the next one is found in it.
+
+    Attributes:
+        neighbor: neighbors of the list, and room for more. scratch: (blocks, places) of a group.
+    """
+
+    def __init__(self) -> None:
+        self.neighbor = np.empty(0, dtype=np.uint32)
+        self.scratch = np.empty((0, 0), dtype=np.uint32)
+
+    def for_group(self, blocks: int, places: int) -> np.ndarray:
+        """Scratch for at least so many blocks of rows and places for the neighbors of each."""
+        if self.scratch.shape[0] < blocks or self.scratch.shape[1] < places:
+            self.scratch = np.empty((blocks, places), dtype=np.uint32)
+        return self.scratch
+
+    def lengthen(self, kept: int, length: int) -> np.ndarray:
+        """Room for a list of a length, whose first entries are kept."""
+        if length > self.neighbor.size:
+            before, self.neighbor = self.neighbor, np.empty(length, dtype=np.uint32)
+            self.neighbor[:kept] = before[:kept]
+        return self.neighbor
+
+
 class _Cells(NamedTuple):
     """Levels of cells: one row or entry per level; cells and members are concatenated."""
 
@@ -98,6 +125,7 @@ def neighbor_list(
     upper: Sequence[float] | None = None,
     period: Sequence[float] = (),
     wanted: Any = None,
+    room: Room | None = None,
 ) -> tuple[Any, Any]:
     """Neighbors of the first `count` particles among all.
 
@@ -110,6 +138,7 @@ def neighbor_list(
         lower, upper: box [m] that no particle may leave; None for no limit.
         period: width of the box per axis [m], 0.0 where not periodic; () for no periodic axis.
         wanted: rows that are to be found, kind "index"; the others stay empty. None for all.
+        room: where the list is put, in place of the last one there; None for memory of its own.
 
     Returns:
         row_start, kind "offset", shape (count + 1,), and neighbor, kind "index".
@@ -146,22 +175,21 @@ def neighbor_list(
     slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(reach.max())))
     targets = host if wanted is None else _only(host, backend.unwrap(wanted))
     arguments = (np.uint64(count), targets, reach, *cells, slack, widths)
-    neighbor = _scanned(module, backend, arguments, count, row_start)
+    neighbor = _scanned(module, backend, arguments, count, row_start, room or Room())
     return backend.wrap(row_start), backend.wrap(neighbor)
 
 
 def _scanned(
-    module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray
+    module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray, room: Room
 ) -> np.ndarray:
     """Scan groups of blocks into scratch, growing it where it is too short, and join them."""
     store = cache.load(store_text()).store
     threads = np.uint64(backend.threads)
     blocks, group = -(-count // BLOCK), 8 * backend.threads
-    places = _PLACES_PER_ROW * min(BLOCK, count)
-    scratch = np.empty((min(group, blocks), places), dtype=np.uint32)
+    scratch = room.for_group(min(group, blocks), _PLACES_PER_ROW * min(BLOCK, count))
     ends = np.empty(count, dtype=np.uint64)
     used = np.empty(group, dtype=np.uint64)
-    neighbor = np.empty(0, dtype=np.uint32)
+    neighbor = room.neighbor
     filled = begin = 0
     while begin < blocks:
         end = min(begin + group, blocks)
@@ -170,18 +198,15 @@ def _scanned(
         module.scan(*share, used, *arguments, scratch, ends)
         counts = used[: end - begin]
         if counts.max() > scratch.shape[1]:
-            scratch = np.empty((scratch.shape[0], 2 * scratch.shape[1]), dtype=np.uint32)
+            scratch = room.for_group(scratch.shape[0], 2 * scratch.shape[1])
             continue
         bases = np.uint64(filled) + np.cumsum(counts, dtype=np.uint64) - counts
         before, filled = filled, filled + int(counts.sum())
         if filled > neighbor.size:  # memory that is never written costs nothing
-            longer = np.empty(filled + (blocks - end) * int(counts.max()), dtype=np.uint32)
-            longer[:before] = neighbor[:before]
-            neighbor = longer
+            neighbor = room.lengthen(before, filled + (blocks - end) * int(counts.max()))
         store(*share, np.uint64(count), bases, scratch, ends, row_start, neighbor)
         begin = end
-    neighbor.resize(filled, refcheck=False)
-    return neighbor
+    return neighbor[:filled]
 
 
 def _only(position: np.ndarray, wanted: np.ndarray) -> np.ndarray:

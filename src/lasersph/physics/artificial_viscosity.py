@@ -17,13 +17,13 @@ SOFTENING = 0.01
 """Share of h^2 added to r_ij^2."""
 
 
-def closing_speed(v_ij, x_ij, r_ij, h):
+def closing_speed(v_ij, x_ij, h):
     """mu_ij [m/s], negative where the particles approach.
 
     Args:
-        v_ij: v_i - v_j [m/s]. x_ij: x_i - x_j [m]. r_ij: distance [m]. h: smoothing length [m].
+        v_ij: v_i - v_j [m/s]. x_ij: x_i - x_j [m]. h: smoothing length [m].
     """
-    return h * dot(v_ij, x_ij) / (r_ij * r_ij + SOFTENING * h * h)
+    return h * dot(v_ij, x_ij) / (dot(x_ij, x_ij) + SOFTENING * h * h)
 
 
 def alpha_between(f_i, f_j, alpha_solid, alpha_liquid):

@@ -12,11 +12,11 @@ from __future__ import annotations
 from lasersph.compute.vectors import dot
 
 
-def density_rate(rho_i, rho_j, m_j, v_ij, x_ij, r_ij, dW_ij):
-    """Term of d rho_i/dt [kg/(m^d s)]: rho_i m_j / rho_j v_ij . grad W_ij.
+def density_rate(rho_i, V_j, v_ij, x_ij, r_ij, dW_ij):
+    """Term of d rho_i/dt [kg/(m^d s)]: rho_i V_j v_ij . grad W_ij.
 
     Args:
-        rho: density [kg/m^d]. m_j: mass [kg]. v_ij: v_i - v_j [m/s]. x_ij: x_i - x_j [m].
+        rho_i: density [kg/m^d]. V_j: volume [m^d]. v_ij: v_i - v_j [m/s]. x_ij: x_i - x_j [m].
         r_ij: distance [m]. dW_ij: dW/dr [1/m^(d+1)].
     """
-    return rho_i * m_j / rho_j * dot(v_ij, x_ij) * dW_ij / r_ij
+    return rho_i * V_j * dot(v_ij, x_ij) * dW_ij / r_ij

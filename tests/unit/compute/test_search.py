@@ -144,3 +144,26 @@ def test_cell_order(backend):
     assert backend.to_host(search.cell_order(backend, backend.zeros((2, 0)), 1.0)).size == 0
     fine = search.cell_order(backend, backend.asarray(x), 1e-9)
     assert sorted(backend.to_host(fine).tolist()) == [0, 1, 2, 3, 4]
+
+
+def test_lists_in_one_room(backend):
+    """Each of them is what it would be in memory of its own, also where it is longer or shorter."""
+    room, rng = search.Room(), np.random.default_rng(4)
+    for count, reach in ((20, 0.3), (40, 0.6), (30, 0.2)):
+        x, support = rng.random((2, count)), np.full(count, reach)
+        found = rows_of(backend, x, support, count, room=room)
+        alone = rows_of(backend, x, support, count)
+        assert [row.tolist() for row in found] == [row.tolist() for row in alone]
+
+
+def test_a_room_is_used_again(backend):
+    """The second list lies where the first one lay."""
+    if backend.search is not None:
+        pytest.skip("lists on the graphics card have memory of their own")
+    room, x = search.Room(), backend.asarray(np.random.default_rng(5).random((3, 50)))
+    places = []
+    for reach in (0.3, 0.2):
+        support = backend.asarray(np.full(50, reach))
+        _, neighbor = search.neighbor_list(backend, x, support, 50, mean=mean, room=room)
+        places.append(backend.unwrap(neighbor).ctypes.data)
+    assert places == [room.neighbor.ctypes.data] * 2

@@ -113,6 +113,7 @@ class ActiveRegion:
         self.tile = backend.zeros(self.count, "index")
         self._find_tiles(position, self.tile)
         self._largest = 0.0
+        self._room = search.Room()
         self._mark = backend.zeros(self.count)
         self.fields = {"awake": backend.zeros(int(np.prod(self._shape)))}
         self._wake(self._around(self._tiles_of(position, awake), WAKING_REACH))
@@ -253,8 +254,9 @@ class ActiveRegion:
         backend = self.backend
         if self.rows is None:
             return search.neighbor_list(
-                backend, place, reach, self.count, mean=common, period=self.period
-            )
+                backend, place, reach, self.count, mean=common, period=self.period,
+                room=self._room,
+            )  # fmt: skip
         near, size = self._near, self._near.shape[0]
         x, support = backend.zeros((len(self._shape), size)), backend.zeros(size)
         backend.gather(place, near, x)

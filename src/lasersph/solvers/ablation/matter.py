@@ -20,7 +20,10 @@ HOTTEST = 5e4
 
 @dataclass(frozen=True)
 class Level:
-    """Fields at one time, (N,) and (dim, N): x, v, rho, h, and what follows from them."""
+    """Fields at one time, (N,) and (dim, N): x, v, rho, h, and what follows from them.
+
+    V_a: acting volume, see `rates`.
+    """
 
     x: Any
     v: Any
@@ -32,12 +35,13 @@ class Level:
     k: Any
     P: Any
     V: Any
+    V_a: Any
 
     @classmethod
     def empty(cls, backend: Backend, dimension: int, total: int) -> Level:
         """All zero."""
         vectors = [backend.zeros((dimension, total)) for _ in range(2)]
-        return cls(*vectors, *(backend.zeros(total) for _ in range(8)))
+        return cls(*vectors, *(backend.zeros(total) for _ in range(9)))
 
 
 class Matter:
@@ -45,7 +49,7 @@ class Matter:
 
     Attributes:
         now, half: fields at the start and in the middle of the step. m: mass [kg per (3 - d)
-            lengths]. M: acting mass. support: [m]. stage: of the life of each particle.
+            lengths]. support: [m]. stage: of the life of each particle.
         conducts: 1, or 0 of walls without heat. opaque: 1 of what has not been ejected.
         E: light absorbed in the step [J]. left_at: time of leaving [s], 0 before. p_v: vapor
             pressure at leaving [Pa].
@@ -76,9 +80,7 @@ class Matter:
         stage[self.count :] = WALL
         self.stage = backend.asarray(stage)
         self.conducts = backend.asarray(start.conducts)
-        self.M, self.opaque, self.E, self.left_at, self.p_v = (
-            backend.zeros(total) for _ in range(5)
-        )
+        self.opaque, self.E, self.left_at, self.p_v = (backend.zeros(total) for _ in range(4))
         T, k = material.table("conductivity", 1.0, HOTTEST)
         self._tables = {
             "h_nodes": backend.asarray(curve.enthalpy),
@@ -107,7 +109,7 @@ class Matter:
     def fields(self, level: Level | None = None) -> dict[str, Any]:
         """Arrays by symbol, those of `level` or of the start of the step."""
         return vars(level or self.now) | {
-            "m": self.m, "M": self.M, "l": self.support, "stage": self.stage,
+            "m": self.m, "l": self.support, "stage": self.stage,
             "opaque": self.opaque, "conducts": self.conducts, "E": self.E,
             "left_at": self.left_at, "p_v": self.p_v,
         }  # fmt: skip
@@ -118,7 +120,7 @@ class Matter:
             "h": level.h, "rho": level.rho, "m": self.m, "stage": self.stage,
             "conducts": self.conducts,
         }  # fmt: skip
-        out = (level.T, level.f_m, level.f_v, level.k, level.P, level.V, self.M, self.opaque)
+        out = (level.T, level.f_m, level.f_v, level.k, level.P, level.V, level.V_a, self.opaque)
         self.backend.pointwise(derived, fields, out, rows=rows, **self._tables, **self._constants)
 
     def enter(self, rows: Any) -> None:

@@ -81,7 +81,7 @@ class Pairs:
         self.listed = backend.zeros(matter.now.x.shape)
         backend.copy(matter.now.x, self.listed)
         self.margin = 0.0
-        self._reach = backend.zeros(matter.total)
+        self._reach, self._room = backend.zeros(matter.total), search.Room()
         self._finder = finder or self._all
         self._support = float(backend.look(matter.support)[0])
         self._low = tuple(lower for lower, _upper in matter.layout.bounds)
@@ -142,5 +142,5 @@ class Pairs:
         """Pairs of all particles."""
         return search.neighbor_list(
             self.matter.backend, place, reach, self.matter.total, mean=common,
-            period=self.matter.layout.period,
+            period=self.matter.layout.period, room=self._room,
         )  # fmt: skip

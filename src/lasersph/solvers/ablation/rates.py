@@ -5,9 +5,9 @@
     dh_i/dt    = (sum of `laplacian.conduction` + Q_i - A_i q(T_i)) / m_i [Alshaer2017, eq. (27)]
 
 Q_i is the light that the particle absorbs and A_i q(T_i) what its open area loses. The first two
-sums run over particles with an acting mass M: what leaves the surface is vapor, far thinner than
-the particle that stands for it, and neither pulls nor is pulled. Leaving particles still conduct.
-Viscous work is not turned into heat, as in the paper.
+sums run over particles with an acting volume V_a: what leaves the surface is vapor, far thinner
+than the particle that stands for it, and neither pulls nor is pulled. Leaving particles still
+conduct. Viscous work is not turned into heat, as in the paper.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from lasersph.sph.laplacian import conduction, weight
 
 
 def pair_rates(
-    v_i, v_j, rho_i, rho_j, P_i, P_j, M_j, V_i, V_j, T_i, T_j, k_i, k_j, f_m_i, f_m_j,
+    v_i, v_j, rho_i, rho_j, P_i, P_j, V_a_j, V_i, V_j, T_i, T_j, k_i, k_j, f_m_i, f_m_j,
     x_ij, r_ij, dW_ij, h_s, c_0, alpha_solid, alpha_liquid, factor,
 ):  # fmt: skip
     """Terms of d rho/dt [kg/(m^d s)], dv/dt [m/s^2], heat [W], and mu_ij^4 [m^4/s^4].
@@ -34,20 +34,20 @@ def pair_rates(
     Neighbors beyond the support count for nothing, so that steps do not depend on the skin.
 
     Args:
-        v: velocity [m/s]. rho: density [kg/m^d]. P: pressure [Pa]. M: acting mass [kg].
-        V: volume [m^d]. T: temperature [K]. k: conductivity, 0 of what conducts nothing [W/(m K)].
-        f_m: melt fraction [1]. x_ij: x_i - x_j [m]. r_ij: distance [m]. dW_ij: dW/dr [1/m^(d+1)].
-        h_s: smoothing length [m]. c_0: [m/s]. alpha_solid, alpha_liquid: artificial viscosity.
-        factor: of the conduction weights [1].
+        v: velocity [m/s]. rho: density [kg/m^d]. P: pressure [Pa]. V: volume [m^d].
+        V_a: acting volume [m^d]. T: temperature [K]. k: conductivity [W/(m K)], 0 of what
+        conducts nothing. f_m: melt fraction [1]. x_ij: x_i - x_j [m]. r_ij: distance [m].
+        dW_ij: dW/dr [1/m^(d+1)]. h_s: smoothing length [m]. c_0: [m/s]. alpha_solid,
+        alpha_liquid: artificial viscosity. factor: of the conduction weights [1].
     """
     v_ij = v_i - v_j
-    mu_ij = closing_speed(v_ij, x_ij, r_ij, h_s)
+    mu_ij = closing_speed(v_ij, x_ij, h_s)
     alpha = alpha_between(f_m_i, f_m_j, alpha_solid, alpha_liquid)
     Pi_ij = viscous_term(mu_ij, alpha, c_0, rho_i, rho_j)
-    acts = 1.0 if M_j * dW_ij < 0.0 else 0.0
+    acts = 1.0 if V_a_j * dW_ij < 0.0 else 0.0
     return (
-        density_rate(rho_i, rho_j, M_j, v_ij, x_ij, r_ij, dW_ij),
-        pair_acceleration(M_j, P_i, P_j, rho_i, rho_j, Pi_ij, x_ij, r_ij, dW_ij),
+        density_rate(rho_i, V_a_j, v_ij, x_ij, r_ij, dW_ij),
+        pair_acceleration(V_a_j, P_i, P_j, rho_i, rho_j, Pi_ij, x_ij, r_ij, dW_ij),
         factor * conduction(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij),
         acts * mu_ij**4,
     )
@@ -100,7 +100,7 @@ def derived(
     """What follows from enthalpy, density and stage.
 
     Returns temperature [K], melt and vapor fraction [1], conductivity [W/(m K)], pressure [Pa],
-    volume [m^d], acting mass [kg] and 1 for what has not been ejected.
+    volume and acting volume [m^d], and 1 for what has not been ejected.
 
     Args:
         conducts: 1, or 0 for walls that let no heat pass. h_nodes ... v_nodes: of
@@ -114,7 +114,8 @@ def derived(
     melted = max(f_m, 1.0 if melts_at <= T else 0.0)
     k = opaque * conducts * interpolate(T, k_T, k_nodes)
     P = acts * condensed_pressure(rho, rho_0, c_0, has_tension)
-    return T, melted, f_v, k, P, m / rho, acts * m, opaque
+    V = m / rho
+    return T, melted, f_v, k, P, V, acts * V, opaque
 
 
 def moved(x, v, rho, h, stage, v_then, a, drho, dh, dt):
