@@ -157,7 +157,7 @@ class FarArray(NDArrayOperatorsMixin):
             return one.components() if one.shape == self.shape and one.dtype in known else None
         if isinstance(one, int | float | np.integer | np.floating):
             return [one.item() if isinstance(one, np.generic) else one] * number
-        if isinstance(one, np.ndarray) and one.shape == self.shape and one.strides[-1] == 0:
+        if isinstance(one, np.ndarray) and _is_even(one, self.shape):
             return [float(row[0]) for row in np.atleast_2d(one)]
         return None
 
@@ -238,6 +238,13 @@ class FarArray(NDArrayOperatorsMixin):
         order = self._backend.asarray(np.where(rows < 0, rows + count, rows), "index")
         self._backend.gather(array, order, out)
         return out.to_host().astype(self.dtype, copy=False)
+
+
+def _is_even(host: np.ndarray, shape: tuple[int, ...]) -> bool:
+    """Whether each component of a host array has one value for all particles."""
+    if host.shape == shape:
+        return host.strides[-1] == 0
+    return len(shape) > 1 and host.shape == (*shape[:-1], 1)
 
 
 def _near(one: Any) -> Any:

@@ -77,6 +77,29 @@ def place(a: Any, v: Any, **options: Any) -> Any:
     return NotImplemented if options or np.ndim(v) or a.ndim != 1 else np.count_nonzero(a < v)
 
 
+def first_smallest(a: Any, **options: Any) -> Any:
+    """As `np.argmin` of a scalar."""
+    if options or not _is_number(a) or a.ndim > 1:
+        return NotImplemented
+    return numbers(a <= smallest(a))[0]
+
+
+def partition(a: Any, kth: int, **options: Any) -> Any:
+    """As the first part of `np.argpartition`: what is not larger than some value beyond the kth."""
+    if options or not _is_number(a) or a.ndim > 1:
+        return NotImplemented
+    low, high = smallest(a), largest(a)
+    if not high < np.inf:
+        return NotImplemented
+    reach = (high - low) * (kth + 1) / a.size
+    near = a <= low + reach
+    while count(near) <= kth:
+        reach *= 2.0
+        near = a <= low + reach
+    rows = numbers(near)
+    return rows[np.argpartition(a[rows], kth)]
+
+
 def shape(a: Any) -> tuple[int, ...]:
     """As `np.shape`."""
     return a.shape
@@ -88,5 +111,6 @@ def _is_mask(a: Any) -> bool:
 
 FUNCTIONS: dict[Any, Callable] = {
     np.max: largest, np.min: smallest, np.sum: total, np.any: is_any, np.count_nonzero: count,
-    np.flatnonzero: numbers, np.searchsorted: place, np.shape: shape,
+    np.flatnonzero: numbers, np.searchsorted: place, np.argmin: first_smallest,
+    np.argpartition: partition, np.shape: shape,
 }  # fmt: skip
