@@ -90,6 +90,9 @@ class Backend:
         """Host array that never changes, for reading beside what `look` gives."""
         return host
 
+    def wait(self) -> None:
+        """Return when everything that was started is done, as it is here."""
+
     def single(self, array: Any) -> Any:
         """Copy in float32, which loops of any precision may read per pair; itself if it is."""
         host = self.unwrap(array)

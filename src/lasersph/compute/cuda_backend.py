@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numba import cuda
 
 from lasersph.compute import cuda_connected, cuda_device, cuda_kernels
 from lasersph.compute.backend import Backend
@@ -103,6 +104,10 @@ class CudaBackend(Backend):
         copy = self.empty(source.shape, source.dtype)
         self.copy(source, copy)
         return self.look(copy)
+
+    def wait(self) -> None:
+        """Return when the card has done everything that was started."""
+        cuda.synchronize()
 
     def single(self, array: Any) -> Any:
         """Copy in float32, which loops of any precision may read per pair; itself if it is."""
