@@ -16,12 +16,18 @@ from lasersph.case import load_case
 from lasersph.compute.cuda_device import IS_SIMULATED
 from lasersph.simulation.build import build, view_of
 from lasersph.simulation.run import Stopped, _observers, run
+from lasersph.solvers.ablation.solver import Ablation
+from lasersph.solvers.conduction.solver import Conduction
+from lasersph.solvers.melt_pool.solver import MeltPool
 
 pytestmark = pytest.mark.skipif("cuda" not in backends(), reason="no CUDA device or simulator")
 COLUMN = (*HEATED_BLOCK, "solver.dimensions=1", "domain.depth=4 um", "particles.spacing=0.5um",
           "laser.fluence=40 J/cm^2")  # fmt: skip
 SHALLOW = ("particles.spacing=312.5nm", "particles.fine_depth=0.7um", "domain.depth=1.5um")
 DEEP = ("domain.depth=16 um",)
+LONGEST, NODES, TILES = 8, 25, 10
+"""Longest array that a step copies to the host: otherwise; of the nodes of a preconditioner's
+coarsest grid in a box of 8 x 8; of the tiles of matter that wakes."""
 RELATIVE = {"float64": 1e-10, "float32": 1e-4}
 """Largest difference over the largest value of a field."""
 
@@ -83,29 +89,69 @@ def sleeping(backend):
     return case, solver, ("position", "velocity", "density", "enthalpy", "stage", "awake")
 
 
-def history_row(case, solver):
-    """Numbers that the observers of a run see.
+def history_row(case, solver, copies):
+    """Numbers that the observers of a run see, not at first: then some find their way.
 
     But energies, differences of larger ones, and iterations: a card has other preconditioners.
     """
     observers = _observers(case, tuple(solver.iterations))
-    row = observers.observe(view_of(case, solver, 1, "end"))
+    observers.observe(view_of(case, solver, 1, "end"))
+    look = copies.watched(lambda: observers.observe(view_of(case, solver, 1, "end")))
     left_out = ("limit", "energy", "iterations")
-    return {name: value for name, value in row.items() if not name.startswith(left_out)}
+    return {name: value for name, value in look().items() if not name.startswith(left_out)}
+
+
+class Copies:
+    """Lengths of the arrays that come to the host while it watches."""
+
+    def __init__(self, monkeypatch):
+        from lasersph.compute.cuda_array import CudaArray
+
+        self.sizes, self.is_watching, to_host = [], False, CudaArray.to_host
+
+        def seen(array):
+            if self.is_watching:
+                self.sizes.append(array.shape[-1])
+            return to_host(array)
+
+        monkeypatch.setattr(CudaArray, "to_host", seen)
+        for kind in (Conduction, MeltPool, Ablation):
+            monkeypatch.setattr(kind, "step", self.watched(kind.step))
+
+    def watched(self, function):
+        """The function, which is watched."""
+
+        def run(*arguments):
+            self.is_watching = True
+            try:
+                return function(*arguments)
+            finally:
+                self.is_watching = False
+
+        return run
 
 
 @pytest.mark.parametrize("precision", ["float64", "float32"])
 @pytest.mark.parametrize("make", [heat, flow, melt_pool, ablation, sleeping])
-def test_steps(make, precision):
-    """Steps end in the CPU's fields, and are seen as its, but for the order of the card's sums."""
+def test_steps(make, precision, monkeypatch):
+    """Steps end in the CPU's fields, and are seen as its, but for the order of the card's sums.
+
+    Neither a step nor what observers see of it copies a field to the host: nothing as long as the
+    particles are many, in a step no more than the coarsest grid of a preconditioner.
+    """
     if precision == "float32" and make is not heat and IS_SIMULATED:
         pytest.skip("takes the simulator long")
-    found, rows = [], []
+    found, rows, copies = [], [], Copies(monkeypatch)
     for backend in (compute.cpu(1, precision), compute.cuda(precision)):
         case, solver, names = make(backend)
+        longest = {flow: NODES, sleeping: TILES}.get(make, LONGEST)
+        assert max(copies.sizes, default=0) <= longest < solver.body.count or make is ablation
+        copies.sizes.clear()
         fields = [backend.to_host(solver.fields[name]).astype(float) for name in names]
         found.append((solver.state.time, *fields))
-        rows.append(history_row(case, solver))
+        rows.append(history_row(case, solver, copies))
+        assert max(copies.sizes, default=0) < solver.body.count
+        copies.sizes.clear()
     (time, *expected), (other, *fields) = found
     assert other == pytest.approx(time, rel=RELATIVE[precision])
     if precision == "float64":

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from lasersph.benchmark.counting import CountingBackend
 from lasersph.benchmark.functions import chains, quotients, triad
@@ -24,12 +25,16 @@ LAUNCHES = 20
 
 @dataclass(frozen=True)
 class Ceilings:
-    """Of some threads together: bandwidth [B/s], arithmetic [operations/s], divisions [1/s]."""
+    """Of some threads together: bandwidth [B/s], arithmetic [operations/s], divisions [1/s].
+
+    device: name of the graphics card whose they are, None for the processor.
+    """
 
     threads: int
     bandwidth: float
     arithmetic: float
     divisions: float
+    device: str | None = None
 
     def floors(self, least: Least) -> dict[str, float]:
         """Least time [s] of each kind of work; the longest counts, as all is done together."""
@@ -42,11 +47,12 @@ class Ceilings:
 
 def ceilings(backend: CountingBackend, large: int = LARGE) -> Ceilings:
     """Measure all three."""
+    count = SMALL * backend.threads
     return Ceilings(
         backend.threads,
         bandwidth(backend, large),
-        _rate(backend, chains, lambda least: least.operations),
-        _rate(backend, quotients, lambda least: least.divisions),
+        rate(backend, backend, chains, lambda least: least.operations, count),
+        rate(backend, backend, quotients, lambda least: least.divisions, count),
     )
 
 
@@ -59,21 +65,35 @@ def bandwidth(backend: Backend, large: int = LARGE) -> float:
 
     def run() -> int:
         move()
+        backend.wait()
         return 1
 
-    return (b.nbytes + c.nbytes + 2.0 * out.nbytes) / seconds(run, ROUNDS)
+    # a card does not fetch the line that it writes
+    passes = 4.0 if backend.device is None else 3.0
+    return passes * large * backend.real.itemsize / seconds(run, ROUNDS)
 
 
-def _rate(backend: CountingBackend, function: Callable, of: Callable[[Least], float]) -> float:
-    """What a function of numbers in the caches does per second, of one kind."""
-    fields = {name: backend.zeros(SMALL * backend.threads) for name in "abc"}
-    for name, value in (("a", 0.1), ("b", 0.99), ("c", 0.01)):
-        backend.fill(fields[name], value)
-    launch = backend.prepare(function, fields, None, reduce="sum")
+def rate(
+    backend: Backend,
+    counting: CountingBackend,
+    function: Callable,
+    of: Callable[[Least], float],
+    count: int,
+) -> float:
+    """What a function of `count` numbers does per second, of one kind, as `counting` counts it."""
+
+    def fields_on(where: Backend, size: int) -> dict[str, Any]:
+        fields = {name: where.zeros(size) for name in "abc"}
+        for name, value in (("a", 0.1), ("b", 0.99), ("c", 0.01)):
+            where.fill(fields[name], value)
+        return fields
+
+    launch = backend.prepare(function, fields_on(backend, count), None, reduce="sum")
+    one = counting.prepare(function, fields_on(counting, 1), None, reduce="sum")
 
     def run() -> int:
         for _ in range(LAUNCHES):
             launch()
         return LAUNCHES
 
-    return of(backend.least(launch)) / seconds(run, ROUNDS)
+    return count * of(counting.least(one)) / seconds(run, ROUNDS)

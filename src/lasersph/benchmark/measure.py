@@ -13,6 +13,7 @@ from lasersph.benchmark.hot_loop import HotLoop, seconds
 from lasersph.benchmark.least import Least
 from lasersph.benchmark.particles import jittered
 from lasersph.benchmark.solves import hot_solves
+from lasersph.compute.backend import Backend
 from lasersph.sph.kernels import kernel
 
 KERNEL = "wendland-c2"
@@ -78,22 +79,27 @@ def measure(
         limits = ceilings(backend, large)
         report(limits)
         for size in sorted(sizes) if count == most else (max(sizes),):
-            for loop in _loops(backend, size):
+            for loop in loops_of(backend, size):
                 report(_measured(backend, loop, limits))
                 del loop  # its arrays, before the next one makes its own
 
 
-def _measured(backend: CountingBackend, loop: HotLoop, limits: Ceilings) -> Measured:
+def least_of_loop(backend: CountingBackend, loop: HotLoop) -> Least:
+    """What a loop must move and compute, per particle and pass."""
     least = loop.least
     if least is None:
         passes = loop.run()
         least = backend.least(loop.run).times(1.0 / passes)
-    least = least.times(1.0 / loop.count)
+    return least.times(1.0 / loop.count)
+
+
+def _measured(backend: CountingBackend, loop: HotLoop, limits: Ceilings) -> Measured:
+    least = least_of_loop(backend, loop)
     time = seconds(loop.run, ROUNDS) / loop.count
     return Measured(loop.name, loop.count, limits.threads, least, limits.floors(least), time)
 
 
-def _loops(backend: CountingBackend, size: int) -> Iterator[HotLoop]:
+def loops_of(backend: Backend, size: int) -> Iterator[HotLoop]:
     """All loops in 2-D, then those that differ in 3-D; each is made when it is asked for."""
     for dimension in (2, 3):
         edge = max(2, round(size ** (1.0 / dimension)))

@@ -78,7 +78,7 @@ def multigrid_cycle(backend: Backend, operator: PairOperator) -> HotLoop | None:
 def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
     """Preconditioner of the pressure equation, in 2-D."""
     count = neighbors.position.shape[1]
-    correction = GridCorrection(backend, count, float(neighbors.support[0]))
+    correction = GridCorrection(backend, count, float(backend.look(neighbors.support)[0]))
     ones, none = backend.asarray(np.ones(count)), backend.zeros(count)
     correction.prepare(neighbors.position, ones, ones, none)
     r, z = _noise(backend, count), backend.zeros(count)
@@ -94,11 +94,12 @@ def hot_solves(backend: Backend, neighbors: NeighborList) -> Iterator[HotLoop]:
     """Those above on a list of pairs in 2-D; each is made when it is asked for."""
     count = neighbors.position.shape[1]
     weights = backend.asarray(np.ones(neighbors.neighbor.shape[0]))
-    degree = backend.asarray(np.diff(backend.to_host(neighbors.row_start).astype(float)))
+    degrees = np.diff(backend.to_host(neighbors.row_start).astype(float))
+    degree = backend.asarray(degrees)
     operator = PairOperator(neighbors, weights, backend.zeros(count), degree)
     yield product(backend, neighbors, weights)
     yield conjugate_gradient(backend, operator)
-    yield bicgstab(backend, neighbors, weights, backend.asarray(degree + 1.0))
+    yield bicgstab(backend, neighbors, weights, backend.asarray(degrees + 1.0))
     multigrid = multigrid_cycle(backend, operator)
     if multigrid is not None:
         yield multigrid

@@ -13,8 +13,9 @@ HEADER = (
 
 def ceilings_line(limits: Ceilings) -> str:
     """One line for a number of threads."""
+    where = limits.device or f"{limits.threads} thread{'s' if limits.threads > 1 else ''}"
     return (
-        f"{limits.threads} thread{'s' if limits.threads > 1 else ''}:"
+        f"{where}:"
         f" {1e-9 * limits.bandwidth:.1f} GB/s, per second {1e-9 * limits.arithmetic:.1f} billion"
         f" multiplications and additions, {1e-9 * limits.divisions:.2f} billion divisions"
     )
@@ -66,6 +67,7 @@ def as_dict(limits: list[Ceilings], loops: list[Measured]) -> dict[str, list[dic
         "ceilings": [
             {
                 "threads": one.threads,
+                "device": one.device,
                 "bandwidth_B_s": one.bandwidth,
                 "arithmetic_operations_s": one.arithmetic,
                 "divisions_s": one.divisions,

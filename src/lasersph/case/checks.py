@@ -14,7 +14,7 @@ from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
     in_words,
-    machine_memory,
+    memories,
     size_of,
 )
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
@@ -44,20 +44,21 @@ def problems_of(case: Case) -> list[tuple[str, str]]:
     ]
 
 
-def refuse_if_too_large(case: Case) -> None:
-    """Refuse a case whose particles do not fit into the memory of this machine.
+def refuse_if_too_large(case: Case, backend: str = "cpu") -> None:
+    """Refuse a case whose particles do not fit into the memory of this machine, or of its card.
 
     Raises:
         CaseError: with the estimate, before anything is allocated.
+        NoDevice: the backend is "cuda" and there is no graphics card.
     """
     size = size_of(case)
-    memory = machine_memory()
-    if size.bytes > LARGEST_COST_SHARE * memory:
-        raise CaseError(
-            f"about {size} of memory, but this machine has {in_words(memory)}",
-            "take a coarser spacing or a smaller domain",
-            key="particles.spacing",
-        )
+    for words, memory in memories(backend):
+        if size.bytes > LARGEST_COST_SHARE * memory:
+            raise CaseError(
+                f"about {size} of memory, but {words.format(in_words(memory))}",
+                "take a coarser spacing or a smaller domain",
+                key="particles.spacing",
+            )
 
 
 def _domain(case: Case) -> Iterator[tuple[str, str]]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lasersph.case.sleeping import awake_share
+from lasersph.compute.cuda_device import free_memory
 from lasersph.particles import Domain, Lattice
 from lasersph.solvers.ablation.settings import AblationSettings
 
@@ -94,6 +95,18 @@ def machine_memory() -> float:
         return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
     except (AttributeError, OSError, ValueError):
         return math.inf
+
+
+def memories(backend: str) -> list[tuple[str, float]]:
+    """What a run must fit into, as words with a place for the number, and how much it is [bytes].
+
+    Raises:
+        NoDevice: the backend is "cuda" and there is no graphics card.
+    """
+    found = [("this machine has {}", machine_memory())]
+    if backend == "cuda":
+        found.append(("the graphics card has {} free", free_memory()))
+    return found
 
 
 def in_words(count: float) -> str:

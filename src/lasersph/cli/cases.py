@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lasersph.cli.arguments import CaseName, Quick, Settings, Threads
+from lasersph.cli.arguments import (
+    Backend,
+    CaseName,
+    Quick,
+    Settings,
+    Threads,
+    refuse_backend,
+)
 from lasersph.cli.tables import aligned
 
 if TYPE_CHECKING:
@@ -44,40 +51,47 @@ def schema() -> None:
 
 
 def check(
-    case: CaseName, settings: Settings = None, quick: Quick = False, threads: Threads = None
+    case: CaseName,
+    settings: Settings = None,
+    quick: Quick = False,
+    threads: Threads = None,
+    backend: Backend = "cpu",
 ) -> None:
     """Say what a run would need, before anything runs: particles, memory, steps, warnings."""
     from lasersph.case import load_case, refuse_if_too_large
-    from lasersph.case.size import in_words, machine_memory
+    from lasersph.case.size import in_words, memories
     from lasersph.compute.threads import chosen
     from lasersph.reading import CaseError
     from lasersph.simulation import forecast
 
+    refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
-    refuse_if_too_large(loaded)
+    refuse_if_too_large(loaded, backend)
     count = chosen(threads)
     expected = forecast(loaded, threads=count)
-    if expected.memory > machine_memory():
-        raise CaseError(
-            f"{expected.particles} particles need about {in_words(expected.memory)} of memory, "
-            f"but this machine has {in_words(machine_memory())}",
-            "take a coarser spacing or a smaller domain",
-            key="particles.spacing",
-        )
-    print(aligned(_rows(loaded, expected, count)))
+    for words, memory in memories(backend):
+        if expected.memory > memory:
+            raise CaseError(
+                f"{expected.particles} particles need about {in_words(expected.memory)} of memory, "
+                f"but {words.format(in_words(memory))}",
+                "take a coarser spacing or a smaller domain",
+                key="particles.spacing",
+            )
+    print(aligned(_rows(loaded, expected, count, backend)))
     for warning in expected.warnings:
         print(f"warning: {warning}")
     print("the case is right" + ("; think about the warnings" if expected.warnings else ""))
 
 
-def _rows(case: Case, expected: Forecast, threads: int) -> list[tuple[str, str]]:
-    from lasersph.case.size import in_words, machine_memory
+def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tuple[str, str]]:
+    from lasersph.case.size import in_words, memories
     from lasersph.observers import duration
     from lasersph.reading import show_quantity
 
     otherwise = "explicit" if case.solver.kind == "ablation" else "heat implicit"
     scheme = getattr(case.solver, "scheme", otherwise)
-    memory = f"{in_words(expected.memory)} of {in_words(machine_memory())}"
+    there = [words.format(in_words(most)) for words, most in memories(backend) if isfinite(most)]
+    time = f"roughly {duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}"
     rows = [
         ("case", case.title or case.name),
         ("material", case.material.title or case.material.name),
@@ -88,16 +102,14 @@ def _rows(case: Case, expected: Forecast, threads: int) -> list[tuple[str, str]]
             f"{show_quantity(expected.spacing, 'm')} down to "
             f"{show_quantity(expected.fine_depth, 'm')}",
         ),
-        ("memory", f"about {memory}"),
+        ("memory", ", ".join([f"about {in_words(expected.memory)}", *there])),
     ]
     for name, limit in sorted(expected.limits.items(), key=lambda item: item[1]):
         binds = "  <- binding" if name == expected.binding else ""
         shown = show_quantity(limit, "s") if isfinite(limit) else "none"
         rows.append((f"step limit: {name}", shown + binds))
     rows.append(("steps", f"about {expected.steps} to {show_quantity(case.time.end, 's')}"))
-    rows.append(
-        ("time", f"roughly {duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}")
-    )
+    rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
     if expected.flow is not None:
         rows.append(("expected speed", f"about {expected.flow.speed:.2g} m/s"))
     for name, length in (

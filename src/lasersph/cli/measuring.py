@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lasersph.cli.arguments import Threads
+from lasersph.cli.arguments import Backend, Threads, refuse_backend
 from lasersph.cli.failures import WrongCommand
 
 SCHEMA_VERSION = 1
@@ -19,14 +19,19 @@ Json = Annotated[
 
 
 def benchmark(
-    sizes: Sizes = "50000,400000", threads: Threads = None, json_file: Json = None
+    sizes: Sizes = "50000,400000",
+    threads: Threads = None,
+    json_file: Json = None,
+    backend: Backend = "cpu",
 ) -> None:
     """Time each hot loop beside the least time that memory and arithmetic allow here.
 
     Other programs on the machine make the numbers wrong.
     """
     wanted = _numbers(sizes)
-    _refuse_more_than_there_is(wanted)
+    refuse_backend(backend, threads)
+    _refuse_more_than_there_is(wanted, backend)
+    from lasersph.benchmark.card import measure_card
     from lasersph.benchmark.ceilings import Ceilings
     from lasersph.benchmark.measure import measure
     from lasersph.benchmark.table import as_dict, ceilings_line, growth, table
@@ -41,11 +46,15 @@ def benchmark(
         else:
             loops.append(one)
 
-    measure(wanted, threads, report=report)
+    if backend == "cuda":
+        measure_card(wanted, report=report)
+    else:
+        measure(wanted, threads, report=report)
     print(f"\n{max(wanted)} particles; numbers are per particle and pass")
     print(aligned(table(loops), header=True))
     if len(wanted) > 1:
-        print(f"\ntime per particle with {limits[-1].threads} threads")
+        where = "on the card" if backend == "cuda" else f"with {limits[-1].threads} threads"
+        print(f"\ntime per particle {where}")
         print(aligned(growth(loops), header=True))
     if json_file is not None:
         _write(json_file, as_dict(limits, loops))
@@ -64,17 +73,18 @@ def _numbers(text: str) -> tuple[int, ...]:
     return tuple(numbers)
 
 
-def _refuse_more_than_there_is(sizes: tuple[int, ...]) -> None:
-    """Say what the largest size needs, or that it is more than the machine has."""
+def _refuse_more_than_there_is(sizes: tuple[int, ...], backend: str) -> None:
+    """Say what the largest size needs, or that it is more than the machine or its card has."""
     from lasersph.benchmark.measure import memory
-    from lasersph.case.size import in_words, machine_memory
+    from lasersph.case.size import in_words, memories
 
-    needed, there = memory(max(sizes)), machine_memory()
-    if needed > there:
-        raise WrongCommand(
-            f"{max(sizes)} particles need up to {in_words(needed)} of memory,"
-            f" this machine has {in_words(there)}"
-        )
+    needed = memory(max(sizes))
+    for words, there in memories(backend):
+        if needed > there:
+            raise WrongCommand(
+                f"{max(sizes)} particles need up to {in_words(needed)} of memory,"
+                f" {words.format(in_words(there))}"
+            )
     print(f"needs up to {in_words(needed)} of memory", flush=True)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.compute import threads
+from lasersph.compute import connected, threads
 from lasersph.compute.arguments import components
 from lasersph.compute.launch import Launch, Launcher
 from lasersph.compute.loops import Loops
@@ -80,6 +80,19 @@ class Backend:
         host.flags.writeable = False
         return host
 
+    def snapshot(self, array: Any) -> Any:
+        """What `look` gives, of a copy that later loops do not change."""
+        copy = self.wrap(np.empty(array.shape, array.dtype))
+        self.copy(array, copy)
+        return self.look(copy)
+
+    def shown(self, host: np.ndarray) -> Any:
+        """Host array that never changes, for reading beside what `look` gives."""
+        return host
+
+    def wait(self) -> None:
+        """Return when everything that was started is done, as it is here."""
+
     def single(self, array: Any) -> Any:
         """Copy in float32, which loops of any precision may read per pair; itself if it is."""
         host = self.unwrap(array)
@@ -144,6 +157,17 @@ class Backend:
         """How often each key 0 ... key_count - 1 occurs among index keys, kind "index"."""
         host = self._keys(keys, key_count)
         return self.wrap(np.bincount(host, minlength=key_count).astype(np.uint32))
+
+    def first_connected(
+        self, filled: Any, columns: int, lines: int, wraps: tuple[bool, bool]
+    ) -> Any:
+        """Smallest number of a cell connected with each, kind "index"; see `connected`.
+
+        Args:
+            filled: (columns lines,) kind "index", not 0 where a cell is filled.
+        """
+        is_filled = self.unwrap(filled).reshape(columns, lines) > 0
+        return self.wrap(connected.first_connected(is_filled, wraps).astype(np.uint32))
 
     def _keys(self, keys: Any, key_count: int) -> np.ndarray:
         host = self.unwrap(keys)

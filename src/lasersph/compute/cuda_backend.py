@@ -10,8 +10,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numba import cuda
 
-from lasersph.compute import cuda_device, cuda_kernels
+from lasersph.compute import cuda_connected, cuda_device, cuda_kernels
 from lasersph.compute.backend import Backend
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import THREADS, start
@@ -41,6 +42,7 @@ class CudaBackend(Backend):
         self.device = cuda_device.checked()
         super().__init__(1, precision)
         self.search = CudaSearch(self)
+        self._shown: dict[Any, FarArray] = {}
 
     def launcher(self) -> CudaLauncher:
         """What runs the loops."""
@@ -80,12 +82,32 @@ class CudaBackend(Backend):
         """The array for reading, until the next loop; copied as far as it is looked at."""
         return FarArray(self, self.unwrap(array))
 
+    def shown(self, host: Any) -> Any:
+        """Host array that never changes, with a copy on the card; copied once."""
+        place = host.__array_interface__
+        key = place["data"], host.shape, host.strides
+        if key not in self._shown:
+            array = CudaArray.from_host(np.array(host, self.real, order="C"))
+            self._shown[key] = FarArray(self, array, whole=host)
+        return self._shown[key]
+
     def extremes(self, array: Any, rows: Any = None) -> tuple[float, float]:
         """Least and largest element (n,), of some rows or all; NaN where there is one."""
         least, most = self.pointwise(
             twice, {"value": array}, (None, None), rows=rows, reduce=("min", "max")
         )
         return least, most
+
+    def snapshot(self, array: Any) -> Any:
+        """What `look` gives, of a copy that later loops do not change."""
+        source = self.unwrap(array)
+        copy = self.empty(source.shape, source.dtype)
+        self.copy(source, copy)
+        return self.look(copy)
+
+    def wait(self) -> None:
+        """Return when the card has done everything that was started."""
+        cuda.synchronize()
 
     def single(self, array: Any) -> Any:
         """Copy in float32, which loops of any precision may read per pair; itself if it is."""
@@ -211,3 +233,17 @@ class CudaBackend(Backend):
         if key or (key_count == 0 and source.size):
             raise ValueError(f"key {key} is not below {key_count}")
         return counts
+
+    def first_connected(
+        self, filled: Any, columns: int, lines: int, wraps: tuple[bool, bool]
+    ) -> CudaArray:
+        """Smallest number of a cell connected with each, kind "index"; see `connected`."""
+        count = filled.size
+        first = self.empty(count, np.uint32)
+        start(cuda_kernels.number, count, np.uint64(count), first.parts[0])
+        start(
+            cuda_connected.join_touching, count, np.uint64(count), self.unwrap(filled).parts[0],
+            columns, lines, *wraps, first.parts[0],
+        )  # fmt: skip
+        start(cuda_connected.shorten, count, np.uint64(count), first.parts[0])
+        return first

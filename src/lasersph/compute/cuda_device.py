@@ -7,6 +7,7 @@ is then a thread of Python, so that there are few.
 from __future__ import annotations
 
 import importlib.util
+import math
 import os
 from typing import Any
 
@@ -44,6 +45,20 @@ def checked() -> str:
         )
     name = cuda.get_current_device().name
     return name.decode() if isinstance(name, bytes) else str(name)
+
+
+def free_memory() -> float:
+    """Memory of the card that nothing has taken [bytes]; infinite in the simulator.
+
+    Raises:
+        NoDevice: see `checked`.
+    """
+    checked()
+    if IS_SIMULATED:
+        return math.inf
+    from numba import cuda
+
+    return float(cuda.current_context().get_memory_info()[0])
 
 
 def groups(count: int, most: int = GROUPS) -> int:

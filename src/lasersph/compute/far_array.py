@@ -1,7 +1,8 @@
 """Array in a graphics card's memory as observers see it: copied as far as it is looked at.
 
-To NumPy it is an array that cannot be written. Listed particles, the first ones, components and
-the extremes of a scalar come without the rest; anything else copies the whole, once.
+To NumPy it is an array that cannot be written. Listed particles come without the rest; what the
+functions of `far_functions` make of arrays, numbers and host arrays of one value stays on the card;
+anything else copies the whole, once.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
+from lasersph.compute import far_functions, far_reductions
 from lasersph.compute.cuda_array import CudaArray
 
 _ALL = slice(None)
@@ -20,20 +22,27 @@ class FarArray(NDArrayOperatorsMixin):
     """What `look` gives of an array (n,), (dim, n) or (dim, dim, n) on a card.
 
     Args:
-        backend: whose array it is. array: not to be written while this is in use.
+        backend: whose array it is. array: not to be written while this is in use. is_truth:
+            whether its flags say yes or no. whole: the same on the host, where it is known.
 
     Raises:
         RuntimeError: when looked at after the array was written.
     """
 
-    def __init__(self, backend: Any, array: CudaArray) -> None:
+    def __init__(
+        self,
+        backend: Any,
+        array: CudaArray,
+        *,
+        is_truth: bool = False,
+        whole: np.ndarray | None = None,
+    ) -> None:
         self._backend, self._array = backend, array
         self._version = array.memory.version
-        self._whole: np.ndarray | None = None
+        self._whole = whole
         self._ends: tuple[float, float] | None = None
-        self.shape, self.dtype, self.ndim, self.size = (
-            array.shape, array.dtype, array.ndim, array.size,
-        )  # fmt: skip
+        self.shape, self.ndim, self.size = array.shape, array.ndim, array.size
+        self.dtype = np.dtype(bool) if is_truth else array.dtype
 
     # --- the whole ------------------------------------------------------------------------------
 
@@ -43,8 +52,23 @@ class FarArray(NDArrayOperatorsMixin):
         return whole.astype(dtype or self.dtype) if copy or is_other else whole
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        given = [one._fetched() if isinstance(one, FarArray) else one for one in inputs]
-        return getattr(ufunc, method)(*given, **options)
+        found = NotImplemented
+        if method == "__call__" and not options:
+            found = self._computed(ufunc, inputs)
+        if found is not NotImplemented:
+            return found
+        return getattr(ufunc, method)(*map(_near, inputs), **options)
+
+    def __array_function__(self, function: Any, types: Any, args: Any, kwargs: Any) -> Any:
+        if function is np.where and len(args) == 3:
+            found = self.elementwise(far_functions.chosen, args)
+        else:
+            reduction = far_reductions.FUNCTIONS.get(function)
+            found = NotImplemented if reduction is None else reduction(*args, **kwargs)
+        if found is not NotImplemented:
+            return found
+        named = {name: _near(one) for name, one in kwargs.items()}
+        return function(*map(_near, args), **named)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
@@ -57,13 +81,85 @@ class FarArray(NDArrayOperatorsMixin):
     def _fetched(self) -> np.ndarray:
         if self._whole is None:
             self._refuse_written()
-            self._whole = self._array.to_host()
+            self._whole = self._array.to_host().astype(self.dtype, copy=False)
             self._whole.flags.writeable = False
         return self._whole
 
     def _refuse_written(self) -> None:
         if self._array.memory.version != self._version:
             raise RuntimeError("an array was looked at after it had been written")
+
+    # --- on the card ----------------------------------------------------------------------------
+
+    @property
+    def is_truth(self) -> bool:
+        """Whether its elements say yes or no."""
+        return self.dtype == bool
+
+    @property
+    def is_known(self) -> bool:
+        """Whether the host has a copy."""
+        return self._whole is not None
+
+    def components(self) -> list[CudaArray]:
+        """The components (n,) of a scalar or vector.
+
+        Raises:
+            RuntimeError: the array has been written.
+        """
+        self._refuse_written()
+        return [self._array.component(k) for k in range(len(self._array.parts))]
+
+    def reduced(self, how: str) -> list[float]:
+        """The "sum", "max" or "min" of each component."""
+        run, value = self._backend.pointwise, far_functions.value
+        return [run(value, {"a": one}, (None,), reduce=(how,))[0] for one in self.components()]
+
+    def rows(self) -> CudaArray:
+        """Numbers of the elements of a scalar that say yes."""
+        (flags,) = self.components()
+        return self._backend.rows_where(flags, 1.0)
+
+    def elementwise(self, function: Any, inputs: Any, *, is_truth: bool = False) -> Any:
+        """Far array of a plain function of far arrays, numbers and host arrays of one value.
+
+        NotImplemented where there is anything else.
+        """
+        operands = [self._operand(one) for one in inputs]
+        if any(one is None for one in operands) or self.ndim > 2:
+            return NotImplemented
+        backend = self._backend
+        out = backend.empty(self.shape, np.uint8 if is_truth else backend.real)
+        for k in range(len(out.parts)):
+            names = function.__code__.co_varnames[: len(operands)]
+            values = {name: one[k] for name, one in zip(names, operands, strict=True)}
+            fields = {name: one for name, one in values.items() if isinstance(one, CudaArray)}
+            rest = {name: one for name, one in values.items() if name not in fields}
+            backend.pointwise(function, fields, out.component(k), **rest)
+        return FarArray(backend, out, is_truth=is_truth)
+
+    def _computed(self, ufunc: Any, inputs: Any) -> Any:
+        """What a function of NumPy gives; NotImplemented where it is not known here."""
+        far = [one for one in inputs if isinstance(one, FarArray)]
+        real = self._backend.real
+        if ufunc in far_functions.NUMBERS and any(one.dtype == real for one in far):
+            return self.elementwise(far_functions.NUMBERS[ufunc], inputs)
+        is_meant = ufunc not in far_functions.OF_TRUTHS or all(one.is_truth for one in far)
+        if ufunc in far_functions.TRUTHS and is_meant:
+            return self.elementwise(far_functions.TRUTHS[ufunc], inputs, is_truth=True)
+        return NotImplemented
+
+    def _operand(self, one: Any) -> list | None:
+        """Value of an operand for each component; None for what only the host can take."""
+        number = len(self._array.parts)
+        if isinstance(one, FarArray):
+            known = (self._backend.real, np.dtype(bool), np.dtype(np.uint32))
+            return one.components() if one.shape == self.shape and one.dtype in known else None
+        if isinstance(one, int | float | np.integer | np.floating):
+            return [one.item() if isinstance(one, np.generic) else one] * number
+        if isinstance(one, np.ndarray) and _is_even(one, self.shape):
+            return [float(row[0]) for row in np.atleast_2d(one)]
+        return None
 
     # --- parts of it ----------------------------------------------------------------------------
 
@@ -82,7 +178,7 @@ class FarArray(NDArrayOperatorsMixin):
     @property
     def _is_scalar(self) -> bool:
         real = self.dtype == self._backend.real
-        return self._whole is None and self.ndim == 1 and self.size > 0 and real
+        return not self.is_known and self.ndim == 1 and self.size > 0 and real
 
     def _extremes(self) -> tuple[float, float]:
         ends = self._ends
@@ -92,7 +188,7 @@ class FarArray(NDArrayOperatorsMixin):
         return ends
 
     def __getitem__(self, index: Any) -> Any:
-        if self._whole is not None or self.ndim > 2:
+        if self.ndim > 2:
             return self._fetched()[index]
         component, particles = self._split(index)
         array = self._array
@@ -102,7 +198,14 @@ class FarArray(NDArrayOperatorsMixin):
             return self._fetched()[index]
         if self._is_head(particles):
             stop = self.shape[-1] if particles.stop is None else min(particles.stop, self.shape[-1])
-            return FarArray(self._backend, array.head(stop))
+            whole = None if self._whole is None else self._whole[index]
+            view = array.head(stop)
+            return FarArray(self._backend, view, is_truth=self.is_truth, whole=whole)
+        if isinstance(particles, FarArray) and particles.is_truth:
+            particles = np.flatnonzero(particles)
+            index = particles if self.ndim == 1 else (component, particles)
+        if self.is_known:
+            return self._fetched()[index]
         if isinstance(particles, int | np.integer):
             return self._listed(array, np.array([particles]))[..., 0][()]
         if isinstance(particles, np.ndarray) and particles.dtype.kind in "iu":
@@ -131,7 +234,23 @@ class FarArray(NDArrayOperatorsMixin):
         count = self.shape[-1]
         if rows.size and not -count <= rows.min() <= rows.max() < count:
             raise IndexError(f"particles {rows.min()} to {rows.max()} of {count}")
-        out = self._backend.empty((*array.shape[:-1], rows.size), self.dtype)
+        out = self._backend.empty((*array.shape[:-1], rows.size), array.dtype)
         order = self._backend.asarray(np.where(rows < 0, rows + count, rows), "index")
         self._backend.gather(array, order, out)
-        return out.to_host()
+        return out.to_host().astype(self.dtype, copy=False)
+
+
+def _is_even(host: np.ndarray, shape: tuple[int, ...]) -> bool:
+    """Whether each component of a host array has one value for all particles."""
+    if host.shape == shape:
+        return host.strides[-1] == 0
+    return len(shape) > 1 and host.shape == (*shape[:-1], 1)
+
+
+def _near(one: Any) -> Any:
+    """A far array on the host, anything else as it is."""
+    if isinstance(one, FarArray):
+        return one._fetched()
+    if isinstance(one, list | tuple):
+        return type(one)(_near(part) for part in one)
+    return one

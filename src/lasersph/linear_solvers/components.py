@@ -2,8 +2,8 @@
 
 Particles are connected where they lie in the same or in touching cells (corners included) of width
 `CELL` times the support radius: always where closer than that, never where farther than
-2 sqrt(2) times as much, which for particles one spacing apart is contact. Cells are labeled on the
-host. Left out: one and three dimensions.
+2 sqrt(2) times as much, which for particles one spacing apart is contact. Left out: one and three
+dimensions.
 """
 
 from __future__ import annotations
@@ -50,11 +50,25 @@ def without_mean(p, component, means):
     return rest, rest * rest
 
 
-def is_member(component):
-    """1 where a particle belongs to a component."""
-    if component > 0:
-        return 1.0
-    return 0.0
+def part_of(cell, first):
+    """First cell of a particle's part; the number of cells where it has none."""
+    return first[cell] if cell < len(first) else cell
+
+
+def large(members):
+    """1 for the first cell of a part with enough particles."""
+    return 1 if members >= FEWEST else 0 * members
+
+
+def component_of(part, members, before):
+    """Component of a particle, 0 for none; and 1 where it belongs to one.
+
+    Args:
+        members: table of the parts' sizes. before: how many components come before each part.
+    """
+    if part + 1 < len(members) and members[part] >= FEWEST:
+        return before[part] + 1, 1.0
+    return 0 * part, 0.0
 
 
 class Components:
@@ -84,17 +98,21 @@ class Components:
         """
         backend, cells = self.backend, self._cells
         cells.place(position, mask)
-        cell = backend.to_host(cells.number)
-        members = np.bincount(cell, minlength=cells.count + 1)[:-1]
-        label = _labels(members.reshape(cells.x.cells, cells.z.cells) > 0, cells)
-        size = np.bincount(label, members)
-        size[0] = 0
-        is_large = size >= FEWEST
-        self.count = int(is_large.sum())
-        new = np.where(is_large, np.cumsum(is_large), 0)
-        number = np.append(new[label], 0)[cell]
-        backend.copy(backend.asarray(number, "index"), self.number)
-        backend.pointwise(is_member, {"component": self.number}, self.mask)
+        total, head = cells.count, backend.head
+        filled = head(backend.count_by_key(cells.number, total + 1), total)
+        first = backend.first_connected(
+            filled, cells.x.cells, cells.z.cells, (cells.x.wraps, cells.z.wraps)
+        )
+        backend.pointwise(part_of, {"cell": cells.number}, self.number, first=first)
+        members = backend.count_by_key(self.number, total + 1)
+        marks, before = backend.zeros(total, "index"), backend.zeros(total + 1, "offset")
+        backend.pointwise(large, {"members": head(members, total)}, marks)
+        backend.exclusive_scan(marks, before)
+        self.count = int(backend.look(before)[-1])
+        backend.pointwise(
+            component_of, {"part": self.number}, (self.number, self.mask), members=members,
+            before=before,
+        )  # fmt: skip
         self._bins = Bins(backend, self.number, self.count + 1)
         self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
         self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
@@ -114,23 +132,3 @@ class Components:
         fields = self._places if share is None else self._places | {"share": share}
         order, start = self._bins.order, self._bins.start
         self.backend.pointwise(function, fields, out, order=order, start=start, **arrays)
-
-
-def _labels(is_filled: np.ndarray, cells: Cells) -> np.ndarray:
-    """(cells,) label of each cell from 1 on, 0 where it is empty."""
-    from scipy import ndimage, sparse
-
-    labeled: Any = ndimage.label(is_filled, np.ones((3, 3)))
-    label = labeled[0]
-    for axis, wraps in ((0, cells.x.wraps), (1, cells.z.wraps)):
-        if not wraps:
-            continue
-        count = int(label.max(initial=0)) + 1
-        first, last = np.take(label, 0, axis), np.take(label, -1, axis)
-        touching = [(first, last), (first[1:], last[:-1]), (first[:-1], last[1:])]
-        pairs = np.hstack([np.stack(sides) for sides in touching])
-        pairs = pairs[:, (pairs > 0).all(axis=0)]
-        graph = sparse.coo_array((np.ones(pairs.shape[1]), pairs), shape=(count, count))
-        _, joined = sparse.csgraph.connected_components(graph, directed=False)
-        label = np.where(label > 0, joined[label] + 1, 0)
-    return label.ravel()

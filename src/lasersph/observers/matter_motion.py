@@ -34,7 +34,7 @@ class MatterMotion:
         """Values of the columns at this step."""
         seen = ablation_of(view)
         square = float(np.sum(seen.velocity * seen.velocity))
-        ends = np.max(view.position + 0.5 * view.width, axis=1)
+        ends = 0.5 * np.max(2.0 * view.position + view.width, axis=1)
         values = (
             0.5 * seen.particle_mass * square,
             seen.speed_max_condensed,

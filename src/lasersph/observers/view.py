@@ -80,9 +80,10 @@ def hottest_surface_cell(view: View) -> int:
 
 def lower_faces(view: View) -> np.ndarray:
     """Depth of the lower face of every cell below the original surface, (n,) [m]."""
-    return 0.5 * view.width[-1] - view.position[-1]
+    # the width as it is: where all cells are alike it takes no memory
+    return 0.5 * (view.width[-1] - 2.0 * view.position[-1])
 
 
 def deepest(faces: np.ndarray, chosen: np.ndarray) -> float:
     """Largest of some depths, those where `chosen` is true; 0 if none [m]."""
-    return float(np.max(faces, where=chosen, initial=0.0))
+    return max(float(np.max(np.where(chosen, faces, 0.0))), 0.0)

@@ -10,6 +10,7 @@ last four.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -48,7 +49,7 @@ class Filling:
     surface: NDArray[np.int64]
     above: NDArray[np.int64]
 
-    @property
+    @cached_property
     def volume(self) -> Array:
         """(N,) cell volumes [m^dim]."""
         return np.prod(self.width, axis=0)

@@ -134,7 +134,7 @@ def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
         return ablation_view_of(case, solver, step, limit)
     body, state, backend = solver.body, solver.state, solver.body.backend
     count, surface = body.count, body.filling.surface
-    position, flow = body.filling.position[:, :count], None
+    position, flow = backend.shown(body.filling.position[:, :count]), None
     take = taking(case, backend)
     melt_fraction = take(state.melt_fraction)
     if isinstance(solver, MeltPool):
@@ -155,8 +155,8 @@ def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
         step=step,
         time_step=state.time_step,
         position=position,
-        width=body.filling.width[:, :count],
-        volume=body.filling.volume[:count],
+        width=backend.shown(body.filling.width[:, :count]),
+        volume=backend.shown(body.filling.volume[:count]),
         temperature=take(state.temperature),
         enthalpy=take(state.enthalpy),
         melt_fraction=melt_fraction,

@@ -27,7 +27,7 @@ SIDES = ("left", "right", "bottom", "surface")
 
 def taking(case: Case, backend: Backend) -> Callable[[Any], Any]:
     """What fetches an array of the solver."""
-    return backend.look if case.flow is None else backend.to_host
+    return backend.look if case.flow is None else backend.snapshot
 
 
 def flow_view_of(case: Case, solver: MeltPool) -> FlowView:

@@ -80,11 +80,11 @@ def run(
         should_stop: asked after each step; True writes a checkpoint and raises `Stopped`.
 
     Raises:
-        CaseError: too large for this machine. FolderRefused, OutputError: see `output`.
+        CaseError: too large for this machine or its card. FolderRefused, OutputError: see `output`.
         NoDevice: no graphics card for backend "cuda".
         NotConverged: a step does not converge however small; the last checkpoint is kept.
     """
-    refuse_if_too_large(case)
+    refuse_if_too_large(case, backend)
     device = compute.cuda(precision) if backend == "cuda" else compute.cpu(threads, precision)
     folder, checkpoint = _open(case, out, resume, precision)
     try:

@@ -11,8 +11,8 @@ from lasersph.benchmark.loops import list_build
 from lasersph.benchmark.measure import (
     BYTES_PER_PARTICLE,
     Measured,
-    _loops,
     _numbers_of_threads,
+    loops_of,
     measure,
     memory,
 )
@@ -27,7 +27,7 @@ LOOPS = {
 }  # fmt: skip
 
 
-def test_all_loops():
+def test_allloops_of():
     """Every hot loop has a time, a floor and a row; a measurement has its three ceilings."""
     limits, loops = [], []
 
@@ -68,11 +68,11 @@ def test_bytes_of_a_list():
 def test_memory():
     """No loop takes more than is said before it starts, also while its list is made."""
     backend, count = CountingBackend(1), 60000
-    for loop in _loops(backend, count):
+    for loop in loops_of(backend, count):
         loop.run()
     del loop
     tracemalloc.start()
-    for loop in _loops(backend, count):
+    for loop in loops_of(backend, count):
         loop.run()
         del loop
     _, peak = tracemalloc.get_traced_memory()

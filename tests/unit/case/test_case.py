@@ -6,7 +6,7 @@ import math
 import pytest
 
 from lasersph.case import Case, available_cases, case_file, estimate, load_case, write_new_case
-from lasersph.case import checks as checks_module
+from lasersph.case import size as size_module
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.quick import quick_settings
 from lasersph.case.size import in_words
@@ -242,8 +242,20 @@ def test_size_by_hand():
 
 def test_case_larger_than_the_machine_is_refused(monkeypatch):
     """With the estimate and the memory of the machine, before anything is allocated."""
-    monkeypatch.setattr(checks_module, "machine_memory", lambda: 2.0**20)
+    monkeypatch.setattr(size_module, "machine_memory", lambda: 2.0**20)
     with pytest.raises(CaseError, match=r"particles, .* MiB of memory, but this machine has 1 MiB"):
         refuse_if_too_large(load_case("dlip-steel"))
-    monkeypatch.setattr(checks_module, "machine_memory", lambda: math.inf)
+    monkeypatch.setattr(size_module, "machine_memory", lambda: math.inf)
     refuse_if_too_large(load_case("dlip-steel"))
+
+
+def test_case_larger_than_the_graphics_card_is_refused(monkeypatch):
+    """Where a card is to compute, with what it has left; the machine's memory counts too."""
+    case = load_case("dlip-steel")
+    monkeypatch.setattr(size_module, "machine_memory", lambda: 2.0**60)
+    monkeypatch.setattr(size_module, "free_memory", lambda: 2.0**20)
+    with pytest.raises(CaseError, match=r"of memory, but the graphics card has 1 MiB free"):
+        refuse_if_too_large(case, "cuda")
+    refuse_if_too_large(case)
+    monkeypatch.setattr(size_module, "free_memory", lambda: 2.0**60)
+    refuse_if_too_large(case, "cuda")

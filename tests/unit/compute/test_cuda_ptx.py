@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from machine_code import assembly, newest_card
 
 from lasersph.compute import cache, cuda_device
 from lasersph.particles.support import arithmetic
@@ -14,29 +15,23 @@ pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("numba_cuda") is None or cuda_device.IS_SIMULATED,
     reason="needs numba-cuda (extra gpu), not simulated",
 )
-CAPABILITY = (9, 0)
 
 
 @pytest.fixture(autouse=True)
-def device(monkeypatch):
-    """Functions called by kernels are compiled for the newest cards, present or not."""
-    from numba.cuda import dispatcher
-
-    card = SimpleNamespace(compute_capability=CAPABILITY)
-    monkeypatch.setattr(dispatcher, "get_current_device", lambda: card)
+def device():
+    """The newest cards, present or not."""
+    with newest_card():
+        yield
 
 
 def ptx(kernel, *values):
     """Assembly of a kernel for arrays and numbers like these."""
     from numba import typeof, types
-    from numba.cuda import compile_ptx  # pyright: ignore[reportPrivateImportUsage]
 
-    kinds = [
+    return assembly(kernel, [
         types.Array(typeof(v).dtype, v.ndim, "C") if isinstance(v, np.ndarray) else typeof(v)
         for v in values
-    ]
-    text, _ = compile_ptx(kernel.py_func, tuple(kinds), cc=CAPABILITY)
-    return text
+    ])  # fmt: skip
 
 
 def flow(T_i, T_j, r_ij, dW_ij):

@@ -53,6 +53,40 @@ def test_whole(backend, scalar, vector):
         seen[np.array([5])]
 
 
+def test_computed(backend, scalar, vector):
+    """Functions, reductions and searches that a card does itself give what NumPy gives."""
+    seen, arrows = backend.look(backend.asarray(scalar)), backend.look(backend.asarray(vector))
+    is_high, is_low = seen >= 3.0, ~(seen > 1.0)
+    assert same(is_high, scalar >= 3.0) and same(is_high & (seen < 5.0), [1, 0, 1, 0, 0])
+    assert same(is_low | is_high, [1, 1, 1, 1, 1]) and np.any(is_low) and not np.any(seen > 9.0)
+    assert np.count_nonzero(is_high) == 3 and same(np.flatnonzero(is_low), [1, 3])
+    assert same(seen[is_high], [3.0, 4.0, 5.0]) and same(arrows[1][is_low], vector[1, [1, 3]])
+    assert same(arrows[:, is_low], vector[:, [1, 3]])
+    assert np.max(seen, where=is_low, initial=-7.0) == 1.0 and np.argmin(seen) == 1
+    assert np.min(seen, where=is_high, initial=9.0) == 3.0
+    assert np.max(seen, where=seen > 9.0, initial=0.0) == 0.0
+    assert same(np.sqrt(np.abs(-seen)) / 2.0, np.sqrt(np.abs(scalar)) / 2.0)
+    assert np.sum(arrows) == pytest.approx(vector.sum())
+    assert same(np.max(arrows, axis=1), vector.max(axis=1))
+    even = np.broadcast_to(np.array([[1.0], [2.0]]), (2, 5))
+    assert same(arrows + even, vector + even) and same(arrows - even[:, :1], vector - even)
+    assert same(arrows[0] * scalar, vector[0] * scalar)  # of the host, with a value for each
+    assert set(np.argpartition(seen, 1)[:2].tolist()) == {1, 3}
+    order = backend.look(backend.asarray([0, 2, 5, 9], "index"))
+    assert np.searchsorted(order, 5) == 2 and np.searchsorted(order, 10) == 4
+
+
+def test_shown_and_snapshot(backend, scalar, vector):
+    """A host array that never changes stands beside others; a snapshot outlives its array."""
+    widths = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
+    array = backend.asarray(vector)
+    seen, shown, kept = backend.look(array), backend.shown(widths), backend.snapshot(array)
+    assert same(seen[0] * shown, vector[0] * widths) and np.min(shown) == 1.0
+    assert same(shown[np.array([4, 0])], [5.0, 1.0]) and same(backend.shown(widths), widths)
+    backend.fill(array, 0.0)
+    assert same(kept, vector)
+
+
 def test_no_more_than_looked_at(backend, scalar, vector, monkeypatch):
     """From a card come listed particles and extremes without the rest, and never what is old."""
     if backend.name != "cuda":
@@ -65,7 +99,7 @@ def test_no_more_than_looked_at(backend, scalar, vector, monkeypatch):
     seen, arrows = backend.look(array), backend.look(backend.asarray(vector))
     assert seen.max() == 5.0 and seen[:4].max() == 4.0 and sizes == []
     assert same(arrows[1, :4][ROWS[:2]], vector[1, :4][ROWS[:2]]) and sizes == [2]
-    assert np.sum(seen) + np.sum(seen) == 24.0 and sizes == [2, 5]
+    assert np.cumsum(seen)[-1] + np.cumsum(seen)[-1] == 24.0 and sizes == [2, 5]
     stale = backend.look(array)
     backend.fill(array, 0.0)
     with pytest.raises(RuntimeError, match="after it had been written"):

@@ -1,28 +1,59 @@
 """Images of moving particles beyond the faces of a box, placed by hand."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from lasersph.particles.images import LOWER, MIRROR, OPEN, PERIODIC, UPPER, FacePair, images_of
+from lasersph.particles.images import (
+    LOWER,
+    MIRROR,
+    OPEN,
+    PERIODIC,
+    UPPER,
+    FacePair,
+    Images,
+    ways_of,
+)
 
 X, Z = (0.0, 1.0), (-1.0, 0.0)
 
 
-def images(position, *kinds, reach=0.3):
-    """Images of `position` in the unit box and their places; kinds of left, right, bottom, top."""
-    faces = (FacePair(kinds[0], kinds[1], *X), FacePair(kinds[2], kinds[3], *Z))
-    position = np.array(position, float).T
-    found = images_of(position, reach, faces)
-    return found, found.sign * position[:, found.source] + found.offset
+@pytest.fixture
+def images(backend):
+    """Finds the images of `position` in the unit box and their places.
+
+    Args of what it returns: kinds of left, right, bottom, top; `count` of the first particles that
+    have images.
+    """
+
+    def find(position, *kinds, reach=0.3, count=None):
+        faces = (FacePair(kinds[0], kinds[1], *X), FacePair(kinds[2], kinds[3], *Z))
+        position = np.array(position, float).T
+        count = count or position.shape[1]
+        found = Images(backend, count, reach, ways_of(faces))
+        found.find(backend.asarray(position))
+        source, way = (backend.to_host(part).astype(int) for part in (found.source, found.way))
+        assert found.total == source.size and source[:count].tolist() == list(range(count))
+        assert not way[:count].any() and way[count:].all()
+        sign, offset = (backend.to_host(part) for part in (found.sign, found.offset))
+        place = sign * position[:, source] + offset
+        assert np.array_equal(place[:, :count], position[:, :count])
+        return SimpleNamespace(
+            source=source[count:], sign=sign[:, count:], count=source.size - count,
+            crossed=found.ways.crossed[:, way[count:]],
+        ), place[:, count:]  # fmt: skip
+
+    return find
 
 
-def test_far_from_all_faces():
+def test_far_from_all_faces(images):
     """A particle in the middle has no image."""
     found, _ = images([(0.5, -0.5)], *[MIRROR] * 4)
     assert found.count == 0
 
 
-def test_mirror():
+def test_mirror(images):
     """x' = 2 x_face - x beyond the near face, the other coordinate kept; the far face has none."""
     found, place = images([(0.5, -0.5), (0.9, -0.4)], *[MIRROR] * 4)
     assert found.source.tolist() == [1]
@@ -31,7 +62,7 @@ def test_mirror():
     assert found.crossed[:, 0].tolist() == [UPPER, 0]
 
 
-def test_periodic():
+def test_periodic(images):
     """A particle near one side appears beyond the other; both ways for two particles."""
     found, place = images([(0.1, -0.5), (0.8, -0.5)], PERIODIC, PERIODIC, OPEN, OPEN)
     by_source = dict(zip(found.source.tolist(), place.T, strict=True))
@@ -42,7 +73,7 @@ def test_periodic():
     assert crossed == {0: UPPER, 1: LOWER}
 
 
-def test_open():
+def test_open(images):
     """Beyond an open face there is nothing."""
     found, place = images([(0.1, -0.9)], MIRROR, MIRROR, OPEN, MIRROR)
     assert place[:, 0] == pytest.approx([-0.1, -0.9])
@@ -50,7 +81,7 @@ def test_open():
     assert found.crossed[:, 0].tolist() == [LOWER, 0]
 
 
-def test_corner():
+def test_corner(images):
     """Near two faces: an image beyond each and one beyond both, which turns by 180 degrees."""
     found, place = images([(0.1, -0.2)], *[MIRROR] * 4)
     places = {tuple(np.round(p, 12)) for p in place.T}
@@ -60,7 +91,7 @@ def test_corner():
     assert found.sign[:, corner].tolist() == [-1.0, -1.0]
 
 
-def test_corner_of_a_period_and_a_mirror():
+def test_corner_of_a_period_and_a_mirror(images):
     """One period away and mirrored at the top at once."""
     found, place = images([(0.9, -0.1)], PERIODIC, PERIODIC, MIRROR, MIRROR)
     (corner,) = np.flatnonzero((found.crossed != 0).all(axis=0))
@@ -68,20 +99,27 @@ def test_corner_of_a_period_and_a_mirror():
     assert found.sign[:, corner].tolist() == [1.0, -1.0]
 
 
-def test_reach():
+def test_reach(images):
     """Strictly closer than `reach`: 0.29 has an image, 0.3 has none."""
     found, _ = images([(0.29, -0.5), (0.3, -0.5)], MIRROR, MIRROR, OPEN, OPEN)
     assert found.source.tolist() == [0]
 
 
-def test_box_narrower_than_the_reach():
+def test_box_narrower_than_the_reach(images):
     """A particle near both faces of a narrow box has an image beyond each."""
     _, place = images([(0.4, -0.5)], MIRROR, MIRROR, OPEN, OPEN, reach=0.8)
     assert sorted(place[0]) == pytest.approx([-0.4, 1.6])
 
 
-def test_one_and_three_dimensions():
-    """A corner of a cube has seven images, an end of a line one."""
-    faces = [FacePair(MIRROR, MIRROR, 0.0, 1.0)] * 3
-    assert images_of(np.full((3, 1), 0.1), 0.3, faces).count == 7
-    assert images_of(np.full((1, 1), 0.1), 0.3, faces[:1]).count == 1
+def test_order(images):
+    """Those of x come first, then those of z with their corners; of each way in the order of i."""
+    found, _ = images([(0.9, -0.9), (0.5, -0.5), (0.1, -0.9), (0.2, -0.6)], *[MIRROR] * 4)
+    ways = [*zip(*found.crossed.tolist(), found.source.tolist(), strict=True)]
+    left = [(LOWER, 0, 2), (LOWER, 0, 3), (UPPER, 0, 0)]
+    assert ways == [*left, (0, LOWER, 0), (0, LOWER, 2), (LOWER, LOWER, 2), (UPPER, LOWER, 0)]
+
+
+def test_first_particles_alone(images):
+    """Particles beyond the first ones have no images."""
+    found, _ = images([(0.5, -0.5), (0.1, -0.5), (0.2, -0.5)], *[MIRROR] * 4, count=2)
+    assert found.source.tolist() == [1]

@@ -34,8 +34,8 @@ BOXES = {
 def images_of(block):
     """Positions, sources, signs and offsets of the images on the host."""
     host = block.backend.to_host
-    parts = host(block.pairs.position), host(block.source), host(block.sign), host(block.offset)
-    return tuple(part[..., block.count :] for part in parts)
+    parts = block.pairs.position, block.source, block.images.sign, block.images.offset
+    return tuple(host(part)[..., block.count :] for part in parts)
 
 
 def test_images_follow_their_sources():

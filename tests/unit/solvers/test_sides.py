@@ -1,18 +1,20 @@
 """What images carry beyond each kind of side, for particles placed by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.flow_sides import FlowSides
-from lasersph.particles.images import MIRROR, OPEN, PERIODIC, images_of
+from lasersph.particles.images import MIRROR, OPEN, PERIODIC, ways_of
 from lasersph.solvers.melt_pool.sides import Sides
 
 BOX = ((0.0, 1.0), (-1.0, 0.0))
-REACH = 0.3
 V = np.array([2.0, 3.0])
 """Velocity of the source in all tests [m/s]."""
-NEAR = {"left": (0.1, -0.5), "right": (0.9, -0.5), "bottom": (0.5, -0.9), "surface": (0.5, -0.1)}
+NEAR = {"left": [(1, 0)], "right": [(2, 0)], "bottom": [(0, 1)], "surface": [(0, 2)]}
+"""Ways of the images of a particle near one side: faces crossed of either axis."""
 
 
 def sides_of(heat=None, **flow):
@@ -20,18 +22,26 @@ def sides_of(heat=None, **flow):
     return Sides(BOX, Boundaries(**(heat or {})), FlowSides.model_validate(flow), 300.0)
 
 
-def rules_at(sides, point):
-    """Rules of the images of one particle, and the faces that each of them crossed."""
-    position = np.array([point], float).T
-    images = images_of(position, REACH, sides.face_pairs(has_bottom=True))
-    return sides.rules(images, position), images.crossed
+def corner_of(across, along):
+    """Ways of the images of a particle near two faces."""
+    return [(across, 0), (0, along), (across, along)]
 
 
-def velocity_beyond(sides, point, corner=False):
+def rules_at(sides, chosen):
+    """Rules of images that came by the chosen ways, and the faces that each of them crossed."""
+    ways = ways_of(sides.face_pairs(has_bottom=True))
+    columns = [ways.crossed.T.tolist().index(list(way)) for way in chosen]
+    few = replace(
+        ways, sign=ways.sign[:, columns], offset=ways.offset[:, columns],
+        crossed=ways.crossed[:, columns],
+    )  # fmt: skip
+    return sides.rules(few), few.crossed
+
+
+def velocity_beyond(sides, ways):
     """S v + c of the image beyond one face, or of the one beyond two."""
-    rules, crossed = rules_at(sides, point)
-    (k,) = np.flatnonzero((crossed != 0).sum(axis=0) == (2 if corner else 1)) if corner else (0,)
-    return rules.factor[:, k] * V + rules.added[:, k]
+    rules, _ = rules_at(sides, ways)
+    return rules.factor[:, -1] * V + rules.added[:, -1]
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
@@ -76,18 +86,18 @@ def test_periodic():
 def test_corner_below_a_moving_lid():
     """Point symmetric as between walls at rest: the velocity of the lid ends at its corner."""
     sides = sides_of(surface={"kind": "moving-wall", "velocity": 5.0})
-    assert velocity_beyond(sides, (0.1, -0.1), corner=True) == pytest.approx(V)
+    assert velocity_beyond(sides, corner_of(1, 2)) == pytest.approx(V)
 
 
 def test_corner_of_two_walls_at_rest():
     """Point symmetric walls: S = +1 for both components."""
-    assert velocity_beyond(sides_of(), (0.1, -0.9), corner=True) == pytest.approx(V)
+    assert velocity_beyond(sides_of(), corner_of(1, 1)) == pytest.approx(V)
 
 
 def test_slope_of_a_stressed_surface():
     """Added beyond the surface, with the other sign beyond a side as well, nowhere else."""
     sides = sides_of(left="symmetry", surface="free-surface")
-    rules, crossed = rules_at(sides, (0.1, -0.1))
+    rules, crossed = rules_at(sides, corner_of(1, 2))
     slopes = {tuple(c): s for c, s in zip(crossed.T.tolist(), rules.slope, strict=True)}
     assert slopes == {(1, 0): 0.0, (0, 2): 1.0, (1, 2): -1.0}
 
@@ -137,12 +147,14 @@ def test_heated_face():
 
 
 def test_wave_of_a_held_surface():
-    """The image above x has the surface's temperature there: 300 + 10 cos(2 pi 0.5)."""
+    """The image above x has the surface's temperature there: 300 + 10 cos(2 pi x)."""
     wave = {"amplitude": 10.0, "period": 1.0}
     heat = {"surface": "fixed-temperature", "surface_temperature": 300.0,
             "surface_temperature_wave": wave}  # fmt: skip
-    rules, _ = rules_at(sides_of(heat, surface="free-surface"), NEAR["surface"])
-    assert rules.wall_temperature[0] == pytest.approx(290.0)
+    sides = sides_of(heat, surface="free-surface")
+    rules, _ = rules_at(sides, [*NEAR["surface"], *NEAR["bottom"]])
+    assert rules.varies.tolist() == [True, False] and rules.wall_temperature[0] == 300.0
+    assert sides.varying_temperature(np.array([0.5, 0.0])) == pytest.approx([290.0, 310.0])
 
 
 def test_corner_between_a_held_and_an_insulated_face():
@@ -151,7 +163,7 @@ def test_corner_between_a_held_and_an_insulated_face():
         ({"left": "fixed-temperature", "left_temperature": 310.0}, 310.0, [-1.0, 0.0]),
         ({"bottom": "fixed-temperature", "bottom_temperature": 290.0}, 290.0, [0.0, -1.0]),
     ):
-        rules, crossed = rules_at(sides_of(heat), (0.1, -0.9))
+        rules, crossed = rules_at(sides_of(heat), corner_of(1, 1))
         (corner,) = np.flatnonzero((crossed != 0).all(axis=0))
         assert (rules.held[corner], rules.wall_temperature[corner]) == (1.0, at)
         assert rules.normal[:, corner].tolist() == normal

@@ -21,9 +21,10 @@ import numpy as np
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, matmul, outer
-from lasersph.particles.images import LOWER, UPPER, images_of
+from lasersph.particles.images import LOWER, UPPER, Images, ways_of
 from lasersph.particles.neighbors import NeighborList
 from lasersph.solvers.conduction.body import Weighing
+from lasersph.solvers.melt_pool.near_melt import NearMelt
 from lasersph.solvers.melt_pool.sides import Sides
 
 SKIN = 1.02
@@ -72,6 +73,11 @@ def inner_weight(g_ij, held_j):
     return g_ij * (1.0 - held_j)
 
 
+def seen(value, base, sign):
+    """Number of a layer or its factor as images show it: base + sign * value."""
+    return base + sign * value
+
+
 def distance(r_ij):
     """Distance of a pair [m]."""
     return r_ij
@@ -111,6 +117,8 @@ class Block:
     Attributes:
         source: (M,) particle behind each of the block with images. pairs: NeighborList with the
             rows of the block, among all M. weights: (pairs,) g_ij [1] at the last positions.
+        images: how they came about. wanted: numbers of the particles whose rows were found,
+            is_wanted: (count,) 1 for them.
     """
 
     def __init__(
@@ -128,12 +136,64 @@ class Block:
         enthalpy: Callable[[np.ndarray], np.ndarray],
     ) -> None:
         self.backend, self.lattice, self.sides = backend, lattice, sides
-        self.layers, self.rows, self.count = layers, rows, count
-        self.bottom, self.has_bottom = bottom, has_bottom
+        self.layers, self.rows, self.count, self.has_bottom = layers, rows, count, has_bottom
         self.potential, self.enthalpy = potential, enthalpy
         self.volume = backend.asarray(lattice.volume[:count])
-        self.largest_support = float(lattice.support[:count].max())
+        support = lattice.support[:count]
+        self.largest_support = float(support.max())
         self.reach = SKIN * self.largest_support
+        self._own_support = backend.asarray(support), backend.asarray(SKIN * support)
+        (x, z), repeats = sides.box, sides.flow_kind("left") == "periodic"
+        self._sides = x, (max(z[0], bottom), z[1])
+        self._near_melt = NearMelt(backend, count, self._sides, self.reach, repeats=repeats)
+        self.images = Images(
+            backend, count, self.reach, ways_of(sides.face_pairs(has_bottom=has_bottom))
+        )
+        self._take_rules()
+        self._take_factors()
+
+    def _take_rules(self) -> None:
+        """Tables of what images carry."""
+        images = self.images
+        rules = self.sides.rules(images.ways)
+        self.has_walls = bool(rules.held.any() or rules.flux.any())
+        names = ("factor", "added", "slope", "held", "flux", "normal", "plane")
+        self._rules = {name: images.table(getattr(rules, name)) for name in names}
+        is_image = np.arange(images.ways.count) > 0
+        for name, values in self._wall_state(rules.wall_temperature).items():
+            self._rules[name] = images.table(is_image * values)
+        self._varies = images.table(rules.varies) if rules.varies.any() else None
+
+    def _wall_state(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
+        """Temperature, heat potential and enthalpy of walls."""
+        return {
+            "T_w": temperature,
+            "P_w": self.potential(temperature),
+            "wall_enthalpy": self.enthalpy(temperature),
+        }
+
+    def _take_factors(self) -> None:
+        """Layers and factors of the particles, and tables of how images show them.
+
+        Beyond surface and bottom the factors of `sph.second_moment` are mirrored, however deep the
+        layer is from which a particle came there.
+        """
+        backend, lattice, images = self.backend, self.lattice, self.images
+        layer, last = lattice.layer[: self.count], lattice.layers - 1
+        normal, lateral = lattice.weighing.factors(layer)
+        ends, _ = lattice.weighing.factors(np.array([-1, 0, last, last + 1]))
+        crossed = images.ways.crossed[1]
+        is_up, is_down = crossed == UPPER, crossed == LOWER
+        sign = images.table(np.where(is_up | is_down, -1.0, 1.0))
+        bases = {
+            "layer": -1.0 * is_up + (2.0 * last + 1.0) * is_down,
+            "normal": ends[:2].sum() * is_up + ends[2:].sum() * is_down,
+        }
+        self._factors = {
+            name: (backend.asarray(values), images.table(bases[name]), sign)
+            for name, values in (("layer", layer), ("normal", normal))
+        }
+        self._lateral = backend.asarray(lateral)
 
     def gather(self, field: Any) -> Any:
         """The field of all particles on the block with images: (..., n) to (..., M)."""
@@ -141,49 +201,35 @@ class Block:
         self.backend.gather(field, self.source, out)
         return out
 
-    def find_pairs(self, position: Any, wanted: np.ndarray) -> None:
+    def find_pairs(self, position: Any, wanted: Any) -> None:
         """Images of the particles at `position`, shape (2, n) [m], and pairs of the wanted ones.
 
         Args:
-            wanted: host array (count,), whether the row of a particle is to be found.
+            wanted: (count,) 1 where the row of a particle is to be found, else 0.
 
         Raises:
             EscapedParticle: a position is not finite or beyond the sides.
         """
-        backend, lattice, count = self.backend, self.lattice, self.count
-        self.wanted = backend.asarray(np.flatnonzero(wanted), "index")
-        host = backend.to_host(position)[:, :count]
-        images = images_of(host, self.reach, self.sides.face_pairs(has_bottom=self.has_bottom))
-        rules = self.sides.rules(images, host)
-        self.total = count + images.count
-        source = np.concatenate([np.arange(count), images.source])
-        self.source = backend.asarray(source, "index")
-        self.sign = backend.asarray(_padded(images.sign, count, 1.0))
-        self.offset = backend.asarray(_padded(images.offset, count, 0.0))
-        self.rules = {
-            name: backend.asarray(_padded(getattr(rules, name), count, rest))
-            for name, rest in (
-                ("factor", 1.0), ("added", 0.0), ("slope", 0.0), ("held", 0.0),
-                ("flux", 0.0), ("normal", 0.0), ("plane", 0.0),
-            )
-        }  # fmt: skip
-        T = rules.wall_temperature
-        self.has_walls = bool(np.any(rules.held) or np.any(rules.flux))
-        for name, values in (
-            ("T_w", T), ("P_w", self.potential(T)), ("wall_enthalpy", self.enthalpy(T))
-        ):  # fmt: skip
-            self.rules[name] = backend.asarray(_padded(values, count, 0.0))
-        support = lattice.support[source]
-        layer, normal, lateral = self._factors(source, images.crossed[1])
-        self.V = backend.asarray(lattice.volume[source])
-        self.support = backend.asarray(support)
-        self._weighing = {
-            "V": self.V, "layer": backend.asarray(layer), "normal": backend.asarray(normal),
-            "lateral": backend.asarray(lateral),
-        }  # fmt: skip
+        backend, lattice, images = self.backend, self.lattice, self.images
+        self.is_wanted, self.wanted = wanted, backend.rows_where(wanted, 1.0)
+        images.find(position)
+        self.total, self.source = images.total, images.source
+        self.rules = {name: images.of_way(table) for name, table in self._rules.items()}
+        self.V, (self.support, reach) = (
+            self.gather(self.volume), [self.gather(own) for own in self._own_support]
+        )  # fmt: skip
+        self._weighing = {"V": self.V, "lateral": self.gather(self._lateral)}
+        for name, (values, base, sign) in self._factors.items():
+            fields = {
+                "value": self.gather(values), "base": images.of_way(base),
+                "sign": images.of_way(sign),
+            }  # fmt: skip
+            backend.pointwise(seen, fields, fields["value"])
+            self._weighing[name] = fields["value"]
         place = self._place(position)
+        self._vary(place)
         row_start, neighbor = search.neighbor_list(
-            backend, place, backend.asarray(SKIN * support), count, mean=lattice.weighing.mean,
+            backend, place, reach, self.count, mean=lattice.weighing.mean,
             lower=self._corner(0), upper=self._corner(1), wanted=self.wanted,
         )  # fmt: skip
         self.pairs = NeighborList(
@@ -194,6 +240,21 @@ class Block:
         backend.gather(self.source, neighbor, self._folded)
         self.weights = backend.zeros(neighbor.shape[0])
         self._weigh()
+
+    def _vary(self, place: Any) -> None:
+        """State of the images beyond a face whose temperature varies along it.
+
+        Found on the host: it is that of few images, and curves of the material.
+        """
+        if self._varies is None:
+            return
+        backend = self.backend
+        rows = backend.rows_where(self.images.of_way(self._varies), 1.0)
+        chosen = backend.zeros((2, rows.shape[0]))
+        backend.gather(place, rows, chosen)
+        T = self.sides.varying_temperature(backend.to_host(chosen)[0])
+        for name, values in self._wall_state(T).items():
+            backend.scatter(backend.asarray(values), rows, self.rules[name])
 
     def move(self, position: Any) -> None:
         """The same pairs at other positions."""
@@ -235,7 +296,7 @@ class Block:
         """
         moved = self.gather(v)
         fields = {
-            "v": moved, "factor": self.sign, "slope": self.rules["slope"],
+            "v": moved, "factor": self.images.sign, "slope": self.rules["slope"],
             "reach": self.gather(reach),
         }  # fmt: skip
         self.backend.pointwise(
@@ -246,16 +307,14 @@ class Block:
     def tensor(self, M: Any) -> Any:
         """Tensors (2, 2, count) of the block on the block with images."""
         turned = self.gather(M)
-        fields = {"M": turned, "sign": self.sign}
+        fields = {"M": turned, "sign": self.images.sign}
         self.backend.pointwise(
             mirrored_tensor, fields, turned, e_x=(1.0, 0.0), e_z=(0.0, 1.0)
         )  # fmt: skip
         return turned
 
-    def touched(self, position: Any, fluid: Any) -> np.ndarray:
-        """Host array (count,): whether a particle is in reach of a fluid one, or nearly so.
-
-        Particles and their neighbors lie in cells as wide as the reach that touch each other.
+    def touched(self, position: Any, fluid: Any) -> Any:
+        """(count,) 1 for particles in reach of a fluid one, or nearly so; see `near_melt`.
 
         Args:
             position: (2, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
@@ -263,23 +322,7 @@ class Block:
         Raises:
             EscapedParticle: a position is not finite or beyond the sides.
         """
-        host = self.backend.to_host(position)[:, : self.count]
-        search.refuse_escape(host, self._corner(0), self._corner(1))
-        flows = self.backend.to_host(fluid)[: self.count] > 0.0
-        (x0, x1), _ = self.sides.box
-        corner = np.array([[x0 - 2.0 * self.reach], [self.bottom - 2.0 * self.reach]])
-        cell = ((host - corner) / self.reach).astype(np.int64)
-        shape = cell.max(axis=1) + 2
-        marks = np.zeros(shape, bool)
-        marks[cell[0, flows], cell[1, flows]] = True
-        for axis in (0, 1):
-            marks |= np.roll(marks, 1, axis) | np.roll(marks, -1, axis)
-        if self.sides.flow_kind("left") == "periodic":
-            width = round((x1 - x0) / self.reach) + 3
-            ends = [*range(5), *range(max(width - 4, 0), shape[0])]
-            near = marks[ends].any(axis=0)
-            marks[ends] |= near
-        return marks[cell[0], cell[1]]
+        return self._near_melt.find(position, fluid)
 
     def smallest_distance(self, position: Any, rows: Any) -> float:
         """Smallest distance from one of `rows` to another particle or image [m]."""
@@ -291,25 +334,9 @@ class Block:
 
     def _place(self, position: Any) -> Any:
         place = self.gather(position)
-        fields = {"x": place, "sign": self.sign, "offset": self.offset}
+        fields = {"x": place, "sign": self.images.sign, "offset": self.images.offset}
         self.backend.pointwise(mirrored, fields, place)
         return place
-
-    def _factors(self, source: np.ndarray, crossed: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Layer, running normal factor and lateral factor of particles and images.
-
-        Beyond surface and bottom the factors of `sph.second_moment` are mirrored, however deep the
-        layer is from which a particle came there.
-        """
-        lattice, last = self.lattice, self.lattice.layers - 1
-        layer = lattice.layer[source]
-        normal, lateral = lattice.weighing.factors(layer)
-        ends, _ = lattice.weighing.factors(np.array([-1, 0, last, last + 1]))
-        beyond = np.concatenate([np.zeros(self.count, np.uint8), crossed])
-        for end, mirror, ends_at in ((UPPER, -1, ends[:2]), (LOWER, 2 * last + 1, ends[2:])):
-            normal = np.where(beyond == end, ends_at.sum() - normal, normal)
-            layer = np.where(beyond == end, mirror - layer, layer)
-        return layer, normal, lateral
 
     def _weigh(self) -> None:
         weighing = self.lattice.weighing
@@ -320,11 +347,4 @@ class Block:
     def _corner(self, end: int) -> tuple[float, ...]:
         """Box that no particle and no image may leave [m]."""
         outward = -1.0 if end == 0 else 1.0
-        (x, z) = self.sides.box
-        bottom = max(z[0], self.bottom)
-        return tuple(pair[end] + outward * self.reach for pair in (x, (bottom, z[1])))
-
-
-def _padded(values: np.ndarray, count: int, rest: float) -> np.ndarray:
-    """Values of the images after `count` equal ones for the particles themselves."""
-    return np.concatenate([np.full((*values.shape[:-1], count), rest), values], axis=-1)
+        return tuple(pair[end] + outward * self.reach for pair in self._sides)

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from lasersph.compute.backend import Backend
 from lasersph.compute.splice import PairRows, splice
 from lasersph.solvers.conduction.body import Body
@@ -40,9 +38,7 @@ class HeatPairs:
         Rows of the margin below the block lack neighbors; nothing that moves touches them.
         """
         backend, body, pairs = self.backend, self.body, self.body.pairs
-        found = backend.to_host(block.wanted)
-        found = found[found < block.rows]
-        rows = backend.asarray(found, "index")
+        rows = backend.rows_where(backend.head(block.is_wanted, block.rows), 1.0)
         weights: Any = block.weights
         fields = {"g_ij": block.weights} | block.rules
         if block.has_walls:
@@ -51,12 +47,13 @@ class HeatPairs:
             weights = backend.zeros(block.weights.shape[0])
             backend.pair_values(inner_weight, block.pairs, fields, weights)
         backend.pair_sum(weight_of, block.pairs, {"g_ij": weights}, pairs.total, rows=rows)
-        chosen = np.zeros(body.count, np.uint8)
-        chosen[found] = 1
         backend.pointwise(marked, {"touched": self.touched}, self.touched, rows=rows)
+        chosen, ones = backend.zeros(body.count, "flag"), backend.zeros(rows.shape[0], "flag")
+        backend.fill(ones, 1)
+        backend.scatter(ones, rows, chosen)
         first = PairRows(block.pairs.row_start, block.folded().neighbor, weights)
         rest = PairRows(pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights)
-        joined = splice(backend, first, backend.asarray(chosen, "flag"), rest)
+        joined = splice(backend, first, chosen, rest)
         pairs.neighbors = replace(
             pairs.neighbors, row_start=joined.row_start, neighbor=joined.neighbor
         )

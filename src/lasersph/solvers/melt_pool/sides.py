@@ -23,23 +23,26 @@ from lasersph.boundaries import Boundaries
 from lasersph.boundaries.flow_sides import FlowSides
 from lasersph.boundaries.lid import FlatLid
 from lasersph.boundaries.settings import FLUX, HELD
-from lasersph.particles.images import LOWER, MIRROR, OPEN, PERIODIC, UPPER, FacePair, Images
+from lasersph.particles.images import LOWER, MIRROR, OPEN, PERIODIC, UPPER, FacePair, Ways
 
 Array = NDArray[np.float64]
 FACES = (("left", "right"), ("bottom", "surface"))
 """Names of the lower and the upper side along x and z."""
 ENDS = (LOWER, UPPER)
+WAVY = "surface"
+"""The side whose temperature may vary along it."""
 
 
 @dataclass(frozen=True)
 class ImageRules:
-    """What k images carry, host arrays.
+    """What images carry by the way they came about, host arrays.
 
     Attributes:
-        factor, added: (2, k) S and c [m/s]. slope: (k,) how often 2 d tau / eta is added to the
+        factor, added: (2, w) S and c [m/s]. slope: (w,) how often 2 d tau / eta is added to the
             tangential velocity, -1, 0 or 1.
-        held: (k,) 1 beyond a held face. wall_temperature: (k,) [K]. flux: (k,) into the body
-            [W/m^2]. normal: (2, k) outward, plane: (k,) place of the face along it [m].
+        held: (w,) 1 beyond a held face. wall_temperature: (w,) [K], its mean where it varies along
+            the face, as `varies` (w,) says. flux: (w,) into the body [W/m^2]. normal: (2, w)
+            outward, plane: (w,) place of the face along it [m].
     """
 
     factor: Array
@@ -47,6 +50,7 @@ class ImageRules:
     slope: Array
     held: Array
     wall_temperature: Array
+    varies: NDArray[np.bool_]
     flux: Array
     normal: Array
     plane: Array
@@ -98,34 +102,42 @@ class Sides:
         """Largest speed of a wall [m/s]."""
         return max(abs(self.wall_velocity(side)) for pair in FACES for side in pair)
 
-    def rules(self, images: Images, position: Array) -> ImageRules:
-        """Rules for images of particles at `position`, shape (2, n) [m]."""
-        count = images.count
+    def rules(self, ways: Ways) -> ImageRules:
+        """Rules for images that come about by these ways."""
+        count = ways.count
         slope, held, temperature = np.zeros(count), np.zeros(count), np.zeros(count)
         flux, normal, plane = np.zeros(count), np.zeros((2, count)), np.zeros(count)
-        place = images.sign * position[:, images.source] + images.offset
-        for axis, side, chosen, at, outward in self._crossings(images):
+        varies = np.zeros(count, bool)
+        for axis, side, chosen, at, outward in self._crossings(ways):
             if self.flow_kind(side) == "free-surface":
-                slope[chosen] = images.sign[1 - axis, chosen]
+                slope[chosen] = ways.sign[1 - axis, chosen]
                 flux[chosen] = FlatLid.heat_flux
-            self._heat(side, axis, chosen & (held == 0.0), place, held, temperature, flux)
+            kind, free = self.boundaries.kind_of(side), chosen & (held == 0.0)
+            if kind in HELD:
+                held[free] = 1.0
+                temperature[free] = self.boundaries.temperature_of(side, self.initial_temperature)
+                varies[free] = side == WAVY and self.boundaries.surface_temperature_wave is not None
+            elif kind == FLUX:
+                flux[free] = self.boundaries.flux_of(side)
             mine = chosen & ((np.abs(normal).sum(axis=0) == 0.0) | self._carries_heat(side))
             normal[:, mine] = 0.0
             normal[axis, mine], plane[mine] = outward, outward * at
-        factor, added = self._velocities(images)
-        return ImageRules(factor, added, slope, held, temperature, flux, normal, plane)
+        factor, added = self._velocities(ways)
+        return ImageRules(factor, added, slope, held, temperature, varies, flux, normal, plane)
 
-    def _crossings(
-        self, images: Images
-    ) -> Iterator[tuple[int, str, NDArray[np.bool_], float, float]]:
-        """Axis, side, images beyond it, its place [m] and -1 or 1, for all sides but periodic."""
+    def varying_temperature(self, x: Array) -> Array:
+        """Temperature of a face that varies along it, at places x [m], [K]."""
+        return self.boundaries.temperature_along(WAVY, x, self.initial_temperature)
+
+    def _crossings(self, ways: Ways) -> Iterator[tuple[int, str, NDArray[np.bool_], float, float]]:
+        """Axis, side, ways beyond it, its place [m] and -1 or 1, for all sides but periodic."""
         for axis, names in enumerate(FACES):
             for end, side, at in zip(ENDS, names, self.box[axis], strict=True):
-                chosen = images.crossed[axis] == end
+                chosen = ways.crossed[axis] == end
                 if self.flow_kind(side) != "periodic" and chosen.any():
                     yield axis, side, chosen, at, 1.0 if end == UPPER else -1.0
 
-    def _velocities(self, images: Images) -> tuple[Array, Array]:
+    def _velocities(self, ways: Ways) -> tuple[Array, Array]:
         """S and c.
 
         In a corner the rule for the tangential component comes before that for the normal one. The
@@ -133,8 +145,8 @@ class Sides:
         reversed, as an impermeable side asks for, its jump would empty the corner of particles.
         Half of the leak remains, which shrinks with the spacing.
         """
-        factor, added = np.ones((2, images.count)), np.zeros((2, images.count))
-        crossings = list(self._crossings(images))
+        factor, added = np.ones((2, ways.count)), np.zeros((2, ways.count))
+        crossings = list(self._crossings(ways))
         for axis, side, chosen, _, _ in crossings:
             if self.flow_kind(side) in ("no-slip", "moving-wall"):
                 factor[1 - axis, chosen] = -1.0
@@ -151,24 +163,3 @@ class Sides:
     def _carries_heat(self, side: str) -> bool:
         kind = self.boundaries.kind_of(side)
         return kind in HELD or kind == FLUX
-
-    def _heat(
-        self,
-        side: str,
-        axis: int,
-        chosen: NDArray[np.bool_],
-        place: Array,
-        held: Array,
-        temperature: Array,
-        flux: Array,
-    ) -> None:
-        """Temperature or flux of the chosen images beyond a side."""
-        kind = self.boundaries.kind_of(side)
-        if kind in HELD:
-            along = place[1 - axis, chosen]
-            held[chosen] = 1.0
-            temperature[chosen] = self.boundaries.temperature_along(
-                side, along, self.initial_temperature
-            )
-        elif kind == FLUX:
-            flux[chosen] = self.boundaries.flux_of(side)

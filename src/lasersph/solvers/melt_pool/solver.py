@@ -31,6 +31,11 @@ takes less its speeds have grown without bound."""
 FLOW_ARRAYS = ("position", "velocity", "pressure", "flowed", "touched")
 
 
+def either(a, b):
+    """1 where one of two marks is 1."""
+    return max(a, b)
+
+
 class MeltPool:
     """Solver of a run whose melt flows.
 
@@ -101,10 +106,9 @@ class MeltPool:
         for name in FLOW_ARRAYS:
             backend.copy(backend.asarray(arrays[name]), self.fields[name])
         self._restore_numbers(numbers)
-        touched = backend.to_host(self.pairs.touched) > 0.0
-        if touched.any():
+        if backend.rows_where(self.pairs.touched, 1.0).shape[0]:
             block = self.domain.block_for(self.position, self.roles)
-            block.find_pairs(self.position, touched[: block.count])
+            block.find_pairs(self.position, backend.head(self.pairs.touched, block.count))
             self.pairs.renew(block)
 
     def time_step_limits(self) -> dict[str, float]:
@@ -240,10 +244,12 @@ class MeltPool:
         self.roles.remember()
         self._has_moved = False
 
-    def _touched(self, block: Block, position: Any) -> np.ndarray:
-        """Rows whose neighbors move now, or have just come to rest."""
+    def _touched(self, block: Block, position: Any) -> Any:
+        """(count,) 1 for rows whose neighbors move now, or have just come to rest."""
         now = block.touched(position, self.roles.fluid)
-        return now | block.touched(self.position, self.roles.before)
+        fields = {"a": now, "b": block.touched(self.position, self.roles.before)}
+        self.backend.pointwise(either, fields, now)
+        return now
 
     def _measure(self) -> None:
         """What observers want to know of the step."""

@@ -1,0 +1,132 @@
+"""`NearMelt`: which particles of a block are in reach of a fluid one, or nearly so.
+
+Particles and their neighbors lie in cells as wide as the reach that touch each other, corners
+included. A cell is marked where it or one that touches it holds a fluid particle; on a period the
+columns near both ends share their marks.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute import search
+from lasersph.compute.backend import Backend
+
+AT_ENDS = 5
+"""Columns at either end of a period whose marks are shared: two outside, two of images, one."""
+
+
+def cell_of(x, fluid, low, high, corner, inverse, columns, lines):
+    """Cell of a particle; that of a fluid one, else the number of cells; 1 where it has escaped."""
+    is_across = x[0] >= low[0] and x[0] <= high[0]
+    if not (is_across and x[1] >= low[1] and x[1] <= high[1]):
+        return 0 * columns, columns * lines, 1.0
+    c = int((x[0] - corner[0]) * inverse)
+    m = int((x[1] - corner[1]) * inverse)
+    cell = c * lines + m
+    if fluid > 0.0:
+        return cell, cell, 0.0
+    return cell, columns * lines, 0.0
+
+
+def near_fluid(k, fluid_count, columns, lines):
+    """1 where a cell or one that touches it holds a fluid particle."""
+    c = k // lines
+    m = k % lines
+    for i in range(max(c - 1, 0), min(c + 2, columns)):
+        for j in range(max(m - 1, 0), min(m + 2, lines)):
+            if fluid_count[i * lines + j] > 0:
+                return 1.0
+    return 0.0
+
+
+def at_ends(k, marks, columns, lines, last):
+    """1 where a cell of line k in the first columns, or from the last ones on, has a mark."""
+    for i in range(AT_ENDS):
+        if marks[i * lines + k] > 0.0:
+            return 1.0
+    for i in range(last, columns):
+        if marks[i * lines + k] > 0.0:
+            return 1.0
+    return 0.0
+
+
+def shared(k, mark, line_marks, lines, last):
+    """Mark of a cell, which near the ends is that of its line."""
+    c = k // lines
+    if c < AT_ENDS or c >= last:
+        return line_marks[k % lines]
+    return mark
+
+
+def of_cell(cell, marks):
+    """Mark of a particle's cell."""
+    return marks[cell]
+
+
+class NearMelt:
+    """Cells around the first `count` particles.
+
+    Args:
+        sides: ((x0, x1), (z0, z1)) that particles may pass by `reach` [m]. period: whether those
+            along x repeat.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        count: int,
+        sides: tuple[tuple[float, float], tuple[float, float]],
+        reach: float,
+        *,
+        repeats: bool,
+    ) -> None:
+        self.backend, self.count, self.repeats = backend, count, repeats
+        self._low, self._high = (
+            tuple(pair[end] + outward * reach for pair in sides)
+            for end, outward in ((0, -1.0), (1, 1.0))
+        )
+        width = [int((high - low) / reach) + AT_ENDS for low, high in sides]
+        self._shape = {"columns": width[0], "lines": width[1]}
+        self._corner = tuple(low - 2.0 * reach for low, _ in sides)
+        self._inverse = 1.0 / reach
+        (x0, x1), _ = sides
+        self._last = max(round((x1 - x0) / reach) - 1, 0)
+        self._cells = {"k": backend.asarray(np.arange(width[0] * width[1]), "index")}
+        self._marks = backend.zeros(width[0] * width[1])
+        self._line_marks = backend.zeros(width[1])
+        self._cell, self._fluid_cell = (backend.zeros(count, "index") for _ in range(2))
+
+    def find(self, position: Any, fluid: Any) -> Any:
+        """(count,) 1 for particles in reach of a fluid one, else 0.
+
+        Args:
+            position: (2, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
+
+        Raises:
+            EscapedParticle: a position is not finite or beyond the sides.
+        """
+        backend, marks, cells = self.backend, self._marks, self._cells
+        place = backend.head(position, self.count)
+        (escaped,) = backend.pointwise(
+            cell_of, {"x": place, "fluid": backend.head(fluid, self.count)},
+            (self._cell, self._fluid_cell, None), reduce=(None, None, "max"), low=self._low,
+            high=self._high, corner=self._corner, inverse=self._inverse, **self._shape,
+        )  # fmt: skip
+        if escaped > 0.0:
+            search.refuse_escape(backend.to_host(place), self._low, self._high)
+        fluid_count = backend.count_by_key(self._fluid_cell, marks.shape[0] + 1)
+        backend.pointwise(near_fluid, cells, marks, fluid_count=fluid_count, **self._shape)
+        if self.repeats:
+            lines = {"lines": self._shape["lines"], "last": self._last}
+            backend.pointwise(
+                at_ends, {"k": backend.head(cells["k"], lines["lines"])}, self._line_marks,
+                marks=marks, columns=self._shape["columns"], **lines,
+            )  # fmt: skip
+            fields = cells | {"mark": marks}
+            backend.pointwise(shared, fields, marks, line_marks=self._line_marks, **lines)
+        found = backend.zeros(self.count)
+        backend.pointwise(of_cell, {"cell": self._cell}, found, marks=marks)
+        return found
