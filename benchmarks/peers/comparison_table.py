@@ -20,6 +20,7 @@ TITLES = {
 }
 AIMS = {
     ("wcsph", "LAMMPS"): 3.0,
+    ("wcsph", "DualSPHysics"): 2.0,
     ("heat-sum", "LAMMPS"): 4.0,
     ("heat-sum", "PySPH"): 8.0,
     ("implicit", "OpenFOAM"): 0.5,

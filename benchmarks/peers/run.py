@@ -15,6 +15,7 @@ import os
 import sys
 from pathlib import Path
 
+import dualsphysics_side
 import fipy_side
 import lammps_side
 import lasersph_side
@@ -31,7 +32,8 @@ ROOT = Path(__file__).parents[2]
 PROGRAMS = [
     side.PROGRAM
     for side in (
-        lasersph_side, lammps_side, pysph_side, splishsplash_side, openfoam_side, fipy_side,
+        lasersph_side, lammps_side, dualsphysics_side, pysph_side, splishsplash_side,
+        openfoam_side, fipy_side,
     )
 ]  # fmt: skip
 FULL = {"edge": 58, "sheet": 450, "segments": 5, "steps": 10}

@@ -36,6 +36,8 @@ WIDTH = 2.0 / 3.0
 """Spacing of the finest grid over the support radius."""
 COARSEST = 80
 """Grids are coarsened until there are at most as many nodes."""
+VANISHING = 1e-10
+"""Pivot of the exact inverse over the largest diagonal element, below which a node is left out."""
 DAMPING = 8.0 / 9.0
 """Of the Jacobi sweeps: it reduces all that the next grid does not resolve to a third."""
 
@@ -211,6 +213,7 @@ class GridCorrection:
 def _inverse(backend: Backend, level: Level) -> np.ndarray:
     """(n n,) inverse of K on the coarsest grid, with 0 in rows and columns of vanishing pivots.
 
+    Vanishing beside the largest: a node that particles touch by a rounding error has nothing else.
     Gauss and Jordan's elimination, stable without exchange for matrices that are not negative, in
     elementwise operations: a library's may depend on its number of threads.
     """
@@ -229,11 +232,11 @@ def _inverse(backend: Backend, level: Level) -> np.ndarray:
             g = stencil["aslant" if i and j else "across" if i else "along"] * s[k] * s[other[k]]
             K[k, other[k]] -= g
             K[k, k] += g
-    diagonal = np.diag(K).copy()
+    least = VANISHING * np.diag(K).max(initial=0.0)
     is_kept = np.ones(n, bool)
     for k in range(n):
         pivot = K[k, k]
-        if pivot <= 1e-10 * diagonal[k] or pivot == 0.0:
+        if pivot <= least:
             is_kept[k] = False
             continue
         K[k, k] = 1.0
