@@ -21,7 +21,7 @@ class ProgressDisplay:
         self._shown = 0
 
     def __enter__(self) -> Self:
-        """Nothing is shown before the first step."""
+        """Nothing is shown before a loop is compiled or the first step is done."""
         return self
 
     def __exit__(
@@ -47,6 +47,14 @@ class ProgressDisplay:
             self._shown = int(LINES * fraction)
             left = self._left(fraction)
             print(f"{100 * fraction:4.0f} %  {text}{left}", file=sys.stderr, flush=True)
+
+    def compiling(self) -> None:
+        """The first loop that no earlier run has left is about to be compiled."""
+        text = "compiling loops as they are needed, up to a minute in all; later runs find them"
+        if self._bar is not None:
+            self._bar.console.print(text)
+        else:
+            print(text, file=sys.stderr, flush=True)
 
     def _left(self, fraction: float) -> str:
         from lasersph.observers import duration

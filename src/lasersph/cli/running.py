@@ -99,15 +99,22 @@ def _compute(case: Case, folder: Path, again: str, options: dict[str, Any]) -> R
     """Run with progress; a signal ends it with a checkpoint and the way to go on."""
     from lasersph import simulation
     from lasersph.cli.progress import ProgressDisplay
+    from lasersph.compute.compiling import Compiling
     from lasersph.simulation.run import Stopped
 
     with StopSignals() as signals, ProgressDisplay() as progress:
         try:
-            return simulation.run(
-                case, folder, progress=progress, should_stop=signals.asked, **options
-            )
+            with Compiling(progress.compiling) as compiling:
+                result = simulation.run(
+                    case, folder, progress=progress, should_stop=signals.asked, **options
+                )
         except Stopped as stopped:
             raise StoppedBySignal(f"{stopped}; continue with: {again}", signals.code) from None
+    if compiling.loops:
+        print(
+            f"compiled {compiling.loops} loops, which later runs find, in {compiling.seconds:.0f} s"
+        )
+    return result
 
 
 def _tell(result: Result) -> None:

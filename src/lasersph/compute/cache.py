@@ -1,9 +1,10 @@
 """Folder of generated loops: one Python file per loop, named by the hash of its whole text.
 
-The text holds every function, constant and option that the loop's result depends on, so a file
-never goes stale: an edit gives another name. Numba keeps the machine code beside it in
-`__pycache__`. The folder is $LASERSPH_CACHE, else $XDG_CACHE_HOME/lasersph, else ~/.cache/lasersph,
-else, where that is not writable, a folder of this user below the system's temporary folder.
+The text holds every function, constant and option that the loop's result depends on but `spread`,
+whose text enters the hash, so a file never goes stale: an edit gives another name. Numba keeps the
+machine code beside it in `__pycache__`. The folder is $LASERSPH_CACHE, else
+$XDG_CACHE_HOME/lasersph, else ~/.cache/lasersph, else, where that is not writable, a folder of this
+user below the system's temporary folder.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from types import ModuleType
 from typing import Any
 
 _PREFIX = "loop_"
+_SPREAD = Path(__file__).with_name("spread.py")
 _loaded: dict[str, ModuleType] = {}
 
 
@@ -60,7 +62,7 @@ def load(text: str) -> ModuleType:
 
     Where the disk is full, the loop is compiled without being stored.
     """
-    digest = hashlib.sha256(text.encode()).hexdigest()[:24]
+    digest = hashlib.sha256(_spread() + text.encode()).hexdigest()[:24]
     folder = location()
     path = folder / f"{_PREFIX}{digest}.py"
     name = f"lasersph_{folder_key(folder)}_{path.stem}"
@@ -81,6 +83,12 @@ def load(text: str) -> ModuleType:
     for dispatcher in _dispatchers(module):
         _keep_going(dispatcher)
     return module
+
+
+@cache
+def _spread() -> bytes:
+    """Text of what loops call and do not hold."""
+    return _SPREAD.read_bytes()
 
 
 def _write(path: Path, text: str) -> None:

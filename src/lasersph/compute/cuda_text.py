@@ -72,7 +72,7 @@ class CudaLoopText(LoopText):
         partial = ["partial"] if any(self.loop.reduce) else []
         return [*self.array_parameters(), *self.reals, *self.whole, *partial]
 
-    def block(self, starts: list[str], lines: list[str], ends: list[str]) -> str:
+    def compiled(self, starts: list[str], lines: list[str], ends: list[str]) -> str:
         """Text of the kernel: before, for each and after the rows of a thread."""
         body = [*starts, "step = np.uint64(cuda.gridsize(1))", "k = np.uint64(cuda.grid(1))"]
         body += ["while k < count:", *("    " + line for line in [*lines, "k += step"])]
@@ -85,4 +85,4 @@ class CudaLoopText(LoopText):
             body += text.strip("\n").split("\n")
         names = ", ".join(["count", *self.parameters()])
         text = "\n    ".join([f"def loop({names}):", *body])
-        return f"@cuda.jit(cache=True)\n{text}\n\n\nblock = None\n"
+        return f"@cuda.jit(cache=True)\n{text}\n"

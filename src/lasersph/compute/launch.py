@@ -9,13 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lasersph.compute import threads
 from lasersph.compute.arguments import splitter
 from lasersph.compute.generate import BLOCK, LoopText
 
 TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
 EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
-_FIRST = np.uint64(0)
+_FIRST, _ONE = np.uint64(0), np.uint64(1)
 _count = lru_cache(maxsize=1024)(np.uint64)  # making one takes as long as looking up five
 
 
@@ -27,7 +26,6 @@ class Compiled(NamedTuple):
         reductions: "sum", "max", "min" in order. real: precision. watched: see `source.is_current`.
     """
 
-    block: Callable
     loop: Callable
     arrays: tuple[str, ...]
     tables: tuple[str, ...]
@@ -85,11 +83,8 @@ class Launcher:
             return tuple([EMPTY[how] for how in reductions])
         if partial is not None:
             arguments = [*arguments, partial]
-        if rows <= BLOCK:
-            compiled.block(_FIRST, _count(rows), *arguments)
-        else:
-            threads.use(self.threads)
-            compiled.loop(-(-rows // BLOCK), _count(rows), *arguments)
+        blocks = _ONE if rows <= BLOCK else _count(-(-rows // BLOCK))
+        compiled.loop(_FIRST, blocks, _count(self.threads), _count(rows), *arguments)
         if partial is None:
             return ()
         if rows <= BLOCK:

@@ -177,7 +177,7 @@ class Loops:
         text = self.text(given)
         module = cache.load(text.written())
         compiled = Compiled(
-            module.block, module.loop, tuple(text.arrays), tuple(text.tables),
+            module.loop, tuple(text.arrays), tuple(text.tables),
             tuple(text.reals.values()), tuple(text.whole.values()),
             tuple([how for how in signature.reduce if how is not None]), self.real,
             text.unit.watched(),

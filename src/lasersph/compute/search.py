@@ -154,10 +154,8 @@ def _scanned(
     module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray
 ) -> np.ndarray:
     """Scan groups of blocks into scratch, growing it where it is too short, and join them."""
-    from numba import set_num_threads
-
-    set_num_threads(backend.threads)
-    store = cache.load(store_text()).store_blocks
+    store = cache.load(store_text()).store
+    threads = np.uint64(backend.threads)
     blocks, group = -(-count // BLOCK), 8 * backend.threads
     places = _PLACES_PER_ROW * min(BLOCK, count)
     scratch = np.empty((min(group, blocks), places), dtype=np.uint32)
@@ -167,10 +165,9 @@ def _scanned(
     filled = begin = 0
     while begin < blocks:
         end = min(begin + group, blocks)
-        if blocks == 1:
-            used[0] = module.scan(np.uint64(0), *arguments, scratch, ends)
-        else:
-            module.scan_blocks(begin, end, *arguments, scratch, ends, used)
+        start = np.uint64(begin)
+        share = (start, np.uint64(end), threads, start)
+        module.scan(*share, used, *arguments, scratch, ends)
         counts = used[: end - begin]
         if counts.max() > scratch.shape[1]:
             scratch = np.empty((scratch.shape[0], 2 * scratch.shape[1]), dtype=np.uint32)
@@ -181,7 +178,7 @@ def _scanned(
             longer = np.empty(filled + (blocks - end) * int(counts.max()), dtype=np.uint32)
             longer[:before] = neighbor[:before]
             neighbor = longer
-        store(begin, end, np.uint64(count), bases, scratch, ends, row_start, neighbor)
+        store(*share, np.uint64(count), bases, scratch, ends, row_start, neighbor)
         begin = end
     neighbor.resize(filled, refcheck=False)
     return neighbor

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lasersph.compute import cache, threads
+from lasersph.compute import cache
 from lasersph.compute.arguments import parameter_names
 from lasersph.compute.backend import Backend
 from lasersph.compute.sweep_text import ROWS, TILES, sweep_text
@@ -31,6 +31,7 @@ BLOCK = 8192
 """Rows of a block: where blocks meet, sweeps pass on less, but few blocks leave threads idle."""
 FILL = 3.0
 """Most weights stored, over pairs."""
+_FIRST = np.uint64(0)
 
 
 class Tiles(NamedTuple):
@@ -136,18 +137,15 @@ class Sweep:
             np.uint64(BLOCK), np.uint64(count), self._partial, *self.tiles, self.inner, *arrays,
             self._numbers,
         )  # fmt: skip
-        self._threads = backend.threads
+        self._threads = np.uint64(backend.threads)
 
     def __call__(self, **constants: float) -> tuple[float, ...]:
         """Run; returns the sums over the rows."""
         for name, value in constants.items():
             self._numbers[self._names.index(name)] = value
-        threads.use(self._threads)
         for blocks in self._colors:
-            if blocks.size == 1:
-                self._module.block(blocks[0], *self._arguments)
-            else:
-                self._module.loop(blocks, *self._arguments)
+            share = (_FIRST, np.uint64(blocks.size), self._threads)
+            self._module.loop(*share, blocks, *self._arguments)
         return tuple(np.add.reduce(self._partial, dtype=np.float64).tolist())
 
 

@@ -5,8 +5,6 @@ call of 15 us take 8 ms.
 """
 
 import os
-from collections.abc import Callable
-from functools import cache
 
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
@@ -30,16 +28,3 @@ def chosen(threads: int | None) -> int:
         raise ValueError(f"threads must be at least 1, not {threads}")
     limit = min(available(), numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
     return limit if threads is None else min(threads, limit)
-
-
-def use(count: int) -> None:
-    """Number of threads of the next loops."""
-    _setter()(count)
-
-
-@cache
-def _setter() -> Callable[[int], None]:
-    """Numba's function; an import at every loop would cost as much as setting."""
-    from numba import set_num_threads
-
-    return set_num_threads

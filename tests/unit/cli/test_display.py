@@ -34,3 +34,14 @@ def test_bar_on_a_terminal(capsys):
         progress(5e-8, 1e-7, 7, 1234.0)
         progress(1e-7, 1e-7, 8, 1235.0)
     assert "step 8, 1235 K" in capsys.readouterr().err
+
+
+def test_compiling_is_said(capsys):
+    """A line of its own, above the bar where there is one already."""
+    with ProgressDisplay(is_terminal=False) as progress:
+        progress.compiling()
+    assert capsys.readouterr().err.startswith("compiling loops as they are needed")
+    with ProgressDisplay(is_terminal=True) as progress:
+        progress(5e-8, 1e-7, 7, 1234.0)
+        progress.compiling()
+    assert "compiling loops as they are needed" in capsys.readouterr().err

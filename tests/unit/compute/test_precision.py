@@ -42,8 +42,9 @@ def compiled(monkeypatch, tmp_path, loop, arguments):
     """LLVM text of a freshly compiled block."""
     monkeypatch.setenv("LASERSPH_CACHE", str(tmp_path))
     module = cache.load(LoopText(loop).written())
-    module.block(np.uint64(0), np.uint64(2), *arguments)
-    return "\n".join(module.block.inspect_llvm().values())
+    begin, end, threads, count = (np.uint64(k) for k in (0, 1, 1, 2))
+    module.loop(begin, end, threads, count, *arguments)
+    return "\n".join(module.loop.inspect_llvm().values())
 
 
 def lists():
