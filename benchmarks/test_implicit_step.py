@@ -3,7 +3,8 @@
 200 000 particles displaced from a lattice of spacing 1, D dt = 5, 43 neighbors each; the same
 equations are solved by both in turn, to 1e-8 of the right-hand side's sum of amounts. The floor of
 an iteration is the time to read its weights, neighbors and vectors at the bandwidth of summing a
-large array. Times are those of the processors. Run: pytest benchmarks/test_implicit_step.py -s
+large array. Times are those of the processors. From 40 000 to a million particles the iterations
+stay the same. Run: pytest benchmarks/test_implicit_step.py -s
 """
 
 from time import process_time
@@ -19,6 +20,8 @@ from lasersph.sph.kernels import kernel
 from lasersph.sph.laplacian import weight
 
 EDGE, SUPPORT, STEP, ROUNDS = 450, 3.75, 5.0, 9
+EDGES, MORE = (200, EDGE, 1000), 2
+"""Of sheets whose iterations are compared, and how many more the largest may take."""
 VECTORS = 19 * 8
 """Bytes of vectors that an iteration with factors reads and writes for a particle."""
 
@@ -28,10 +31,10 @@ def weight_of(g_ij):
     return g_ij
 
 
-def sheet(backend):
+def sheet(backend, edge):
     """Weights between the particles of a displaced square."""
-    count, shape = EDGE**2, kernel("quintic-spline", 2)
-    place = np.array(np.meshgrid(np.arange(EDGE), np.arange(EDGE)), float).reshape(2, -1)
+    count, shape = edge**2, kernel("quintic-spline", 2)
+    place = np.array(np.meshgrid(np.arange(edge), np.arange(edge)), float).reshape(2, -1)
     place += np.random.default_rng(1).uniform(-0.1, 0.1, place.shape)
     neighbors = find_neighbors(
         backend, backend.asarray(place), backend.asarray(np.full(count, SUPPORT)), count,
@@ -43,12 +46,18 @@ def sheet(backend):
     return PairOperator(neighbors, weights, backend.zeros(count), total)
 
 
+def right_side(edge):
+    """Long waves along the rows, and short ones."""
+    index = np.arange(edge**2)
+    return np.cos(index % edge * 0.02) + np.sin(index)
+
+
 def test_factors_halve_the_time():
     """At least 1.4 times as fast, with half the iterations at most."""
     backend = compute.cpu()
-    operator = sheet(backend)
+    operator = sheet(backend, EDGE)
     count = EDGE**2
-    ones, b = np.ones(count), np.cos(np.arange(count) % EDGE * 0.02) + np.sin(np.arange(count))
+    ones, b = np.ones(count), right_side(EDGE)
     solvers = {
         name: ConjugateGradient(backend, operator, count, rounds=True, rests=rests)
         for name, rests in (("Jacobi", False), ("factors", True))
@@ -79,3 +88,18 @@ def test_factors_halve_the_time():
     )
     assert 2 * iterations["factors"] <= iterations["Jacobi"]
     assert time["Jacobi"] >= 1.4 * time["factors"]
+
+
+def test_iterations_do_not_follow_the_size():
+    """The same number from 40 000 to a million particles."""
+    backend, iterations = compute.cpu(), {}
+    for edge in EDGES:
+        solver = ConjugateGradient(backend, sheet(backend, edge), edge**2, rounds=True, rests=True)
+        ones, b = np.ones(edge**2), right_side(edge)
+        residual = 1e-8 * float(np.abs(b).sum())
+        iterations[edge**2] = solver.solve(
+            b, ones, ones, STEP, residual=residual, max_iterations=200
+        )
+        assert solver.factors is not None
+    print(f"\niterations with factors by particles: {iterations}")
+    assert iterations[EDGES[-1] ** 2] <= iterations[EDGES[0] ** 2] + MORE

@@ -4,7 +4,8 @@ Half an elliptic pool under a mirrored surface, as wide and deep as the publishe
 finest particles, displaced from a lattice. Compared are the preconditioner of the package, the
 diagonal alone in the same conjugate gradients, and the published matrix with BiCGStab and its
 diagonal. The floor is the time to read each pair once, 12 bytes of value and neighbor, at the
-bandwidth that `lasersph benchmark` measures. Run: pytest benchmarks/test_pressure.py -s
+bandwidth that `lasersph benchmark` measures. Iterations are compared from a quarter to four times
+the unknowns of the largest pool, too. Run: pytest benchmarks/test_pressure.py -s
 """
 
 from time import perf_counter
@@ -24,6 +25,8 @@ from lasersph.sph.laplacian import weight
 SUPPORT = 3.75
 POOLS = {"steel": (330, 55), "aluminium": (450, 265), "thin": (250, 10)}
 TOLERANCE = 1e-4
+SCALES, MORE = (0.5, 1.0, 2.0), 3
+"""Of the largest pool, whose iterations are compared, and how many more the largest may take."""
 
 
 class Pool:
@@ -134,3 +137,18 @@ def test_pressure(name):
     assert max(outcome.residual, plain.residual, paper.residual) <= TOLERANCE
     assert outcome.iterations <= 15
     assert min(plain_time, paper_time) > (3.0 if unknowns > 10000 else 1.0) * time
+
+
+def test_iterations_do_not_follow_the_size():
+    """Aluminum's pool at half, once and twice the resolution: nearly the same number."""
+    backend, iterations = compute.cpu(threads=2), {}
+    for scale in SCALES:
+        pool = Pool(backend, *(round(scale * length) for length in POOLS["aluminium"]))
+        equation = PressureEquation(backend, pool.count, SUPPORT, tolerance=TOLERANCE)
+        equation.set_operator(pool.folded, pool.weights, pool.mask, pool.volume)
+        outcome = equation.solve(pool.b, backend.zeros(pool.count))
+        assert outcome.residual <= TOLERANCE
+        iterations[pool.count] = outcome.iterations
+    print(f"\niterations by particles: {iterations}")
+    counts = list(iterations.values())
+    assert counts[-1] <= counts[0] + MORE

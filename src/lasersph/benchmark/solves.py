@@ -6,8 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from lasersph.benchmark.counting import CountingBackend
 from lasersph.benchmark.functions import flow
 from lasersph.benchmark.hot_loop import HotLoop
+from lasersph.benchmark.sweeping import least_of_sweep
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.bicgstab import BiCGStab
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
@@ -43,6 +45,27 @@ def conjugate_gradient(backend: Backend, operator: PairOperator) -> HotLoop:
         return solver.solve(b, ones, ones, STEP, residual=0.0, max_iterations=ITERATIONS)
 
     return HotLoop("CG iteration", count, run)
+
+
+def factored_iteration(backend: CountingBackend, operator: PairOperator) -> HotLoop | None:
+    """An iteration with incomplete factors: two sweeps, each over half of the pairs.
+
+    A solve begins with two sweeps more, which set the factors and the first residual. None on a
+    card, which has none.
+    """
+    count = operator.pull.shape[0]
+    solver = ConjugateGradient(backend, operator, count, rounds=True, rests=True)
+    b, ones = _noise(backend, count), backend.asarray(np.ones(count))
+
+    def run() -> int:
+        return solver.solve(b, ones, ones, STEP, residual=0.0, max_iterations=ITERATIONS)
+
+    passes = run()
+    if solver.factors is None:
+        return None
+    back, forth = (least_of_sweep(sweep) for sweep in solver.factors.sweeps)
+    least = backend.least(run) + back.times(passes) + forth.times(passes + 2)
+    return HotLoop("CG iteration, factors", count, run, least.times(1.0 / passes))
 
 
 def bicgstab(backend: Backend, neighbors: NeighborList, entries, diagonal) -> HotLoop:
@@ -90,7 +113,7 @@ def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
     return HotLoop("pressure grid cycle", count, run)
 
 
-def hot_solves(backend: Backend, neighbors: NeighborList) -> Iterator[HotLoop]:
+def hot_solves(backend: CountingBackend, neighbors: NeighborList) -> Iterator[HotLoop]:
     """Those above on a list of pairs in 2-D; each is made when it is asked for."""
     count = neighbors.position.shape[1]
     weights = backend.asarray(np.ones(neighbors.neighbor.shape[0]))
@@ -99,6 +122,9 @@ def hot_solves(backend: Backend, neighbors: NeighborList) -> Iterator[HotLoop]:
     operator = PairOperator(neighbors, weights, backend.zeros(count), degree)
     yield product(backend, neighbors, weights)
     yield conjugate_gradient(backend, operator)
+    factored = factored_iteration(backend, operator)
+    if factored is not None:
+        yield factored
     yield bicgstab(backend, neighbors, weights, backend.asarray(degrees + 1.0))
     multigrid = multigrid_cycle(backend, operator)
     if multigrid is not None:

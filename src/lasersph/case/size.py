@@ -16,6 +16,7 @@ from lasersph.case.sleeping import awake_share
 from lasersph.compute.cuda_device import free_memory
 from lasersph.particles import Domain, Lattice
 from lasersph.solvers.ablation.settings import AblationSettings
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 if TYPE_CHECKING:
     from lasersph.case.case import Case
@@ -28,6 +29,8 @@ BYTES_PER_NEIGHBOR = 56
 """Index and weight, and their copies while the list is assembled."""
 BYTES_PER_MOVING_NEIGHBOR = 24
 """The same where matter moves: nothing is assembled."""
+BYTES_PER_FLOWING_NEIGHBOR = 100
+"""The same where a melt flows: weights of heat, viscosity and pressure."""
 ASSUMED_FINE_DEPTH = 2e-7
 USUAL_SUPPORT = {"quintic-spline": 3.75}
 
@@ -46,11 +49,19 @@ class Size:
 
 def size_of(case: Case) -> Size:
     """Estimated size of a case; where cold matter sleeps, only the rest has neighbors."""
-    if not isinstance(case.solver, AblationSettings):
-        return estimate(case.domain, case.particles, case.solver.dimensions)
-    support = reach(case.particles) * case.particles.spacing
-    each = BYTES_PER_MOVING_NEIGHBOR * awake_share(case, support)
+    each = bytes_per_neighbor(case)
+    if isinstance(case.solver, AblationSettings):
+        each *= awake_share(case, reach(case.particles) * case.particles.spacing)
     return estimate(case.domain, case.particles, case.solver.dimensions, bytes_per_neighbor=each)
+
+
+def bytes_per_neighbor(case: Case) -> float:
+    """Most memory that a particle takes for each neighbor with which it is computed [B]."""
+    if isinstance(case.solver, AblationSettings):
+        return BYTES_PER_MOVING_NEIGHBOR
+    if isinstance(case.solver, MeltPoolSettings):
+        return BYTES_PER_FLOWING_NEIGHBOR
+    return BYTES_PER_NEIGHBOR
 
 
 def reach(lattice: Lattice) -> float:

@@ -96,7 +96,12 @@ class OrderedPairs:
 
 
 class Sweep:
-    """A sweep with its arrays; called with the numbers that have changed, it runs."""
+    """A sweep with its arrays; called with the numbers that have changed, it runs.
+
+    Attributes:
+        function: of a row, with so many `arguments`. read, out: host arrays, (n,). tiles, inner:
+            weights that it reads.
+    """
 
     def __init__(
         self,
@@ -115,8 +120,11 @@ class Sweep:
             backend.precision, function, roles, reduces, len(out), backward=backward
         )
         self._module: ModuleType = cache.load(text)
-        read = [backend.unwrap(fields[name]) for name in roles if roles[name] == "field"]
-        arrays = [*(backend.unwrap(array) for array in out), *read]
+        self.function, self.arguments = function, len(roles)
+        self.read = [backend.unwrap(fields[name]) for name in roles if roles[name] == "field"]
+        self.out = [backend.unwrap(array) for array in out]
+        self.tiles, self.inner = pairs.sides[backward], pairs.inner
+        arrays = [*self.out, *self.read]
         for array in arrays:
             if array.shape != (count,) or array.dtype != backend.real:
                 raise ValueError(f"{array.dtype}{array.shape}; ({count},) is asked for")
@@ -126,8 +134,8 @@ class Sweep:
         blocks = sum(blocks.size for blocks in pairs.colors)
         self._partial = np.zeros((blocks, reduces), backend.real)
         self._arguments = (
-            np.uint64(BLOCK), np.uint64(count), self._partial, *pairs.sides[backward],
-            pairs.inner, *arrays, self._numbers,
+            np.uint64(BLOCK), np.uint64(count), self._partial, *self.tiles, self.inner, *arrays,
+            self._numbers,
         )  # fmt: skip
         self._threads = np.uint64(backend.threads)
 

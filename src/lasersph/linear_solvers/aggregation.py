@@ -103,7 +103,11 @@ def coarsen(
 
 
 def _cells(position: NDArray, width: NDArray) -> tuple[NDArray, NDArray]:
-    """Number of each particle's cell, and the width of each cell [m]."""
+    """Number of each particle's cell, and the width of each cell [m].
+
+    Cells are numbered in the order in which particles come upon them, so that sums over members and
+    values of aggregates are read from memory in the order of the particles.
+    """
     smallest = width.min()
     octave = np.floor(np.log2(width / smallest) + 1e-9).astype(np.int64)
     cell = smallest * 2.0**octave
@@ -112,7 +116,10 @@ def _cells(position: NDArray, width: NDArray) -> tuple[NDArray, NDArray]:
     _, first, parent = np.unique(
         np.vstack([octave, place]), axis=1, return_index=True, return_inverse=True
     )
-    return parent.ravel(), cell[first]
+    order = np.argsort(first)
+    number = np.empty_like(order)
+    number[order] = np.arange(order.size)
+    return number[parent.ravel()], cell[first[order]]
 
 
 def _energy(graph: Any, position: NDArray) -> float:

@@ -62,6 +62,9 @@ class IncompleteFactors:
 
     Args:
         vectors: x, r and p as they are at the start, and two for work, z and q.
+
+    Attributes:
+        sweeps: backward and forward, those of an iteration.
     """
 
     def __init__(
@@ -77,10 +80,10 @@ class IncompleteFactors:
             "F": pairs.after,
         }  # fmt: skip
         self._eliminate = pairs.prepare(forward, v | {"p": v["r"]}, [v["r"]], reduces=1, s=0.0)
-        self._backward = pairs.prepare(
-            backward, v, [v["t"], v["p"]], backward=True, beta=0.0, s=0.0
+        self.sweeps = (
+            pairs.prepare(backward, v, [v["t"], v["p"]], backward=True, beta=0.0, s=0.0),
+            pairs.prepare(forward, v, [v["w"]], reduces=1, s=0.0),
         )
-        self._forward = pairs.prepare(forward, v, [v["w"]], reduces=1, s=0.0)
         self._advance = backend.prepare(
             advance, v, (v["x"], v["r"], None, None), reduce=(None, None, "sum", "sum"),
             alpha=0.0, s=0.0,
@@ -94,10 +97,11 @@ class IncompleteFactors:
         self.backend.fill(self._t, 0.0)
         self._eliminate(s=s)  # r' from r
         rz, error = self._advance(alpha=0.0, s=s)
+        back, forth = self.sweeps
         iterations, beta = 0, 0.0
         while error > residual and iterations < max_iterations:
-            self._backward(beta=beta, s=s)
-            (pq,) = self._forward(s=s)
+            back(beta=beta, s=s)
+            (pq,) = forth(s=s)
             if pq <= 0.0:
                 break
             before = rz

@@ -8,7 +8,7 @@ from math import pi, sqrt
 import numpy as np
 
 from lasersph.case import Case
-from lasersph.case.size import BYTES_PER_MOVING_NEIGHBOR, BYTES_PER_NEIGHBOR, BYTES_PER_PARTICLE
+from lasersph.case.size import BYTES_PER_PARTICLE, bytes_per_neighbor
 from lasersph.case.sleeping import awake_share
 from lasersph.particles.layers import Layers
 from lasersph.reading import show_quantity
@@ -67,8 +67,7 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
     awake = awake_share(case, support_ratio(case) * layers.spacing)
     pairs = awake * layers.particle_count * _neighbors(case)
     is_moving = isinstance(case.solver, AblationSettings)
-    each = BYTES_PER_MOVING_NEIGHBOR if is_moving else BYTES_PER_NEIGHBOR
-    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * each
+    memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * bytes_per_neighbor(case)
     flow = None
     if isinstance(case.solver, MeltPoolSettings):
         flow = flow_forecast(case, layers.spacing, support_ratio(case) * layers.spacing)

@@ -22,8 +22,8 @@ from lasersph.sph.kernels import kernel
 
 LOOPS = {
     "pair sum 2-D", "pair sum 3-D", "neighbor list 2-D", "neighbor list 3-D", "enthalpy update",
-    "shifting 2-D", "shifting 3-D", "matrix times vector", "CG iteration", "BiCGStab iteration",
-    "multigrid cycle", "pressure grid cycle",
+    "shifting 2-D", "shifting 3-D", "matrix times vector", "CG iteration", "CG iteration, factors",
+    "BiCGStab iteration", "multigrid cycle", "pressure grid cycle",
 }  # fmt: skip
 
 

@@ -9,6 +9,8 @@ from lasersph.benchmark.counting import CountingBackend
 from lasersph.benchmark.functions import flow, right_hand_side, triad
 from lasersph.benchmark.least import Least
 from lasersph.benchmark.particles import jittered
+from lasersph.benchmark.sweeping import least_of_sweep
+from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
 from lasersph.sph.kernels import kernel
 
@@ -110,6 +112,24 @@ def test_iteration_of_conjugate_gradients(backend, neighbors):
     expected = 8.0 * pairs + 8.0 * (N + 1) + (9 + 4 + 2) * 8.0 * N
     assert two.traffic - one.traffic == expected
     assert 15.0 * N <= two.operations - one.operations - 2.0 * pairs <= 20.0 * N
+
+
+def scaled(total, b, s):
+    """Three operations and a division, the last for a value that is summed."""
+    x = (b + s * total) / s
+    return x, x * b
+
+
+def test_sweep(backend, neighbors):
+    """Weights and columns, one field read, one vector written; 3 operations and a sum a row."""
+    weights = np.ones(neighbors.neighbor.shape[0])
+    pairs = ordered_pairs(backend, neighbors, weights)
+    assert pairs is not None
+    sweep = pairs.prepare(scaled, {"b": np.ones(N)}, [np.zeros(N)], reduces=1, s=2.0)
+    least, tiles = least_of_sweep(sweep), pairs.sides[0]
+    stored = tiles.value.size + 6 * (N // 4)
+    assert least.traffic == 8.0 * stored + tiles.column.nbytes + tiles.start.nbytes + 24.0 * N
+    assert least.operations == 2.0 * stored + (3 + 1) * N and least.divisions == N
 
 
 def test_called_prepared_and_recorded_count_the_same(backend):

@@ -66,3 +66,17 @@ def test_flow_of_a_pool() -> None:
     assert heat.wall_time < found.wall_time < 4.0 * heat.wall_time
     at_rest = forecast(load_case("dlip-steel", [*settings, "solver.marangoni=false"])).flow
     assert at_rest is not None and at_rest.speed == 0.0
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "each"),
+    [
+        ("dlip-steel", ["solver.kind=conduction"], 56.0),
+        ("dlip-steel", [], 100.0),
+        ("dam-break", [], 24.0),
+    ],
+)
+def test_memory_by_solver(name, settings, each) -> None:
+    """400 B a particle, and for each pair more where a melt flows than where nothing is kept."""
+    found = forecast(load_case(name, settings))
+    assert found.memory == pytest.approx(400.0 * found.particles + each * found.pairs)

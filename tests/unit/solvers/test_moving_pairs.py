@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from moving_matter import DRIFTING_BLOCK, HEATED_BLOCK, go, host, moving, put, stir
 
+from lasersph.compute.search import EscapedParticle
 from lasersph.physics.ejection import CONDENSED, EJECTED, GONE, LEAVING
 from lasersph.solvers.ablation.flight import flown
 from lasersph.solvers.ablation.pairs import displaced, placed, within
@@ -126,3 +127,16 @@ def test_limits_by_name():
     limits = fixed.time_step_limits()
     assert set(limits) == {"end", "fixed step"}
     assert limits["fixed step"] == 5e-11
+
+
+def test_no_list_is_left_where_the_search_fails():
+    """A place that is no number: what is found next is found anew."""
+    _, solver = moving("sound-wave", *DRIFTING_BLOCK)
+    go(solver, steps=1)
+    assert solver.pairs.margin > 0.0
+    whole = host(solver, "position").copy()
+    put(solver, "position", whole + np.nan)
+    with pytest.raises(EscapedParticle):
+        solver.pairs.renew(0.0)
+    put(solver, "position", whole)
+    assert solver.pairs.is_stale(0.0)

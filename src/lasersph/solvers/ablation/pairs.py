@@ -128,7 +128,8 @@ class Pairs:
     def find(self) -> None:
         """Find the pairs of the listed places."""
         matter, backend = self.matter, self.matter.backend
-        backend.pointwise(reaching, {"support": matter.support}, self._reach, margin=self.margin)
+        margin, self.margin = self.margin, 0.0  # there is no list should the search fail
+        backend.pointwise(reaching, {"support": matter.support}, self._reach, margin=margin)
         row_start, neighbor = self._finder(self.listed, self._reach)
         self.now, self.half = (
             NeighborList(
@@ -137,6 +138,7 @@ class Pairs:
             )
             for level in (matter.now, matter.half)
         )  # fmt: skip
+        self.margin = margin
 
     def _all(self, place: Any, reach: Any) -> tuple[Any, Any]:
         """Pairs of all particles."""
