@@ -125,8 +125,9 @@ class FarArray(NDArrayOperatorsMixin):
 
         NotImplemented where there is anything else.
         """
-        operands = [self._operand(one) for one in inputs]
-        if any(one is None for one in operands) or self.ndim > 2:
+        found = [self._operand(one) for one in inputs]
+        operands = [one for one in found if one is not None]
+        if len(operands) < len(found) or self.ndim > 2:
             return NotImplemented
         backend = self._backend
         out = backend.empty(self.shape, np.uint8 if is_truth else backend.real)
