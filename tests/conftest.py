@@ -5,9 +5,34 @@ import tempfile
 
 import pytest
 
+SIMULATOR = pytest.StashKey()
+
 os.environ.setdefault(
     "LASERSPH_CACHE", os.path.join(tempfile.gettempdir(), f"lasersph-test-{os.getuid()}")
 )
+
+
+def pytest_collection_finish(session):
+    """Start the simulator's tests where they are asked for."""
+    import simulator_process
+
+    asked = any("simulated" in getattr(item, "fixturenames", ()) for item in session.items)
+    if asked and not session.config.option.collectonly and simulator_process.is_possible():
+        session.config.stash[SIMULATOR] = simulator_process.SimulatorProcess()
+
+
+def pytest_unconfigure(config):
+    """Leave no process behind."""
+    if SIMULATOR in config.stash:
+        config.stash[SIMULATOR].end()
+
+
+@pytest.fixture(scope="session")
+def simulated(pytestconfig):
+    """The tests in Numba's CUDA simulator, which run beside the others."""
+    if SIMULATOR not in pytestconfig.stash:
+        pytest.skip("needs numba-cuda (extra gpu), and not to be the simulator already")
+    return pytestconfig.stash[SIMULATOR]
 
 
 def backends():
