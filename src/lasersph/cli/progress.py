@@ -50,7 +50,7 @@ class ProgressDisplay:
 
     def compiling(self) -> None:
         """The first loop that no earlier run has left is about to be compiled."""
-        text = "compiling loops as they are needed, up to a minute in all; later runs find them"
+        text = "compiling loops as they are needed, about a minute in all; later runs find them"
         if self._bar is not None:
             self._bar.console.print(text)
         else:

@@ -1,15 +1,16 @@
 """Threads of the parallel loops, and the options that must be set before Numba starts.
 
 OpenMP's idle threads must sleep, not spin: where another process wants the core, spinning makes a
-call of 15 us take 8 ms. They first look around for as long as the next short loop takes to come,
-some 20 us: a thread that is woken for each of them stays on the core of the one that wakes it, and
-both share it.
+call of 15 us take 8 ms. They first turn a few times, until the next short loop has come: a thread
+that is woken for each of them stays on the core of the one that wakes it, and both share it. Who
+has chosen a policy gets that one.
 """
 
 import os
 
-os.environ.setdefault("OMP_WAIT_POLICY", "passive")
-os.environ.setdefault("GOMP_SPINCOUNT", "2000")
+if "OMP_WAIT_POLICY" not in os.environ:
+    os.environ["OMP_WAIT_POLICY"] = "passive"
+    os.environ.setdefault("GOMP_SPINCOUNT", "2000")
 
 
 def available() -> int:

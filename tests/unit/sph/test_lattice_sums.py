@@ -1,5 +1,6 @@
 """Sums over a lattice: second moments, thresholds of the free surface, fastest modes."""
 
+import numpy as np
 import pytest
 
 from lasersph.sph.divergence import SURFACE_THRESHOLD
@@ -43,3 +44,12 @@ def test_diffusive_limit(dimension, limit):
     """The midpoint rule bears 2 / L."""
     rate = diffusive_rate(kernel("cubic-spline", dimension), 3.0)
     assert 2.0 / rate == pytest.approx(limit, abs=5e-4)
+
+
+@pytest.mark.parametrize(("ratio", "error"), [(3.75, 0.37), (3.1, 0.255)])
+def test_gradient_of_a_wave(ratio, error):
+    """A wave sin kx has the slope k (1 - error k^2 dx^2) on a lattice; 1/6 for differences."""
+    (x, z), slope = lattice_neighbors(kernel("quintic-spline", 2), ratio)
+    weight, k = slope / np.hypot(x, z), 0.1
+    found = np.sum(weight * x * np.sin(k * x)) / np.sum(weight * x * x)
+    assert (1.0 - found / k) / k**2 == pytest.approx(error, abs=0.01)
