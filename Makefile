@@ -46,9 +46,11 @@ $(VENV)/bin/python:
 	  || { rm -rf $(VENV); echo "No virtual environment could be made: $(PYTHON) has neither venv nor" \
 	       "pip. On Debian: apt install python3-venv python3-pip" >&2; exit 1; }
 
-# A stamp per set of extras, renewed when the metadata changes.
+# A stamp per set of extras, renewed when the metadata changes. The loops of the case that is run are
+# compiled with the rest, by a coarse copy of it; later runs of any case find them.
 $(VENV)/.run: pyproject.toml | $(VENV)/bin/python
 	$(PIP) install --quiet --editable .
+	$(VENV)/bin/lasersph cache fill dlip-steel
 	@touch $@
 
 $(VENV)/.%: pyproject.toml | $(VENV)/bin/python

@@ -127,8 +127,6 @@ def _tell(result: Result) -> None:
 
 
 def _draw(folder: Path) -> None:
-    from lasersph.plots import draw_run
     from lasersph.report import write_report
 
-    draw_run(folder)
     print(f"open {write_report(folder)} in a browser")

@@ -122,8 +122,10 @@ class Backend:
         index = self.unwrap(order)
         if first.dtype != last.dtype or first.shape[:-1] != last.shape[:-1]:
             raise ValueError("gather between arrays of different kind")
+        if index.size and index.max() >= first.shape[-1]:
+            raise IndexError(f"particle {index.max()} of {first.shape[-1]}")
         for a, b in zip(components(first), components(last), strict=True):
-            np.take(a, index, out=b[: index.size], mode="clip" if index.size == 0 else "raise")
+            np.take(a, index, out=b[: index.size], mode="clip")  # others buffer what they write
 
     def scatter(self, source: Any, order: Any, out: Any) -> None:
         """out[..., order[k]] = source[..., k]; the other elements keep their values."""

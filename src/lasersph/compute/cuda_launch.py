@@ -35,7 +35,7 @@ class CudaLauncher(Launcher):
 
     def run(self, bound: Bound, partial: Any) -> tuple[float, ...]:
         """Run a loop; returns the reductions."""
-        compiled, rows, arguments, _, _, outs = bound
+        compiled, rows, _, arguments, _, _, outs = bound
         reductions = compiled.reductions
         if rows == 0:
             return tuple([EMPTY[how] for how in reductions])

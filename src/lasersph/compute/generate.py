@@ -14,7 +14,10 @@ from typing import Any as AnyObject
 from lasersph.compute.source import SourceUnit
 from lasersph.compute.values import Group, LoopSourceError, flat_parts, named, number_text
 
-BLOCK = 4096
+BLOCK = 512
+"""Rows of a block of a loop over pairs: few, so that threads share a pool of a thousand evenly."""
+POINTS = 4096
+"""Rows of a block where there are no pairs, so that a row takes some nanoseconds."""
 OPTIONS = 'fastmath={"reassoc", "contract", "arcp", "nsz"}, error_model="numpy"'
 INNER = f"@njit({OPTIONS}, no_cpython_wrapper=True, no_cfunc_wrapper=True)"
 """Decorator of functions that only compiled ones call: what Python would call is not compiled."""
@@ -81,6 +84,11 @@ class Loop:
     geometry: AnyObject = None
     combine: tuple[str, ...] = ()
 
+    @property
+    def block(self) -> int:
+        """Rows that are done one after the other."""
+        return POINTS if self.shape == "pointwise" else BLOCK
+
 
 class LoopText:
     """Writes the file of one loop and records the order of the compiled function's arguments.
@@ -129,7 +137,7 @@ class LoopText:
             lines.append("for p in range(row_start[i], row_start[i + ONE]):")
             lines += ["    " + line for line in inner]
         lines += after + store + reduces
-        head = self.HEAD.format(precision=loop.precision, block=BLOCK, listed=loop.listed)
+        head = self.HEAD.format(precision=loop.precision, block=loop.block, listed=loop.listed)
         parts = [head, *(f"{self.INNER}\n{text}\n" for text in self.unit.texts)]
         parts.append(self.compiled(starts, lines, ends))
         return "\n".join(parts)

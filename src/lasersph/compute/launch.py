@@ -10,10 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lasersph.compute.arguments import splitter
-from lasersph.compute.generate import BLOCK, LoopText
+from lasersph.compute.generate import LoopText
 
 TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
 EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
+SHARED = 50_000
+"""Rows or pairs from which on several threads take part: below that, waking a thread that sleeps
+takes longer than it saves."""
 _FIRST, _ONE = np.uint64(0), np.uint64(1)
 _count = lru_cache(maxsize=1024)(np.uint64)  # making one takes as long as looking up five
 
@@ -23,7 +26,8 @@ class Compiled(NamedTuple):
 
     Attributes:
         arrays, tables: symbols and names. reals, whole: (name, component) of each number.
-        reductions: "sum", "max", "min" in order. real: precision. watched: see `source.is_current`.
+        reductions: "sum", "max", "min" in order. real: precision. block: rows of a block.
+        watched: see `source.is_current`.
     """
 
     loop: Callable
@@ -33,6 +37,7 @@ class Compiled(NamedTuple):
     whole: tuple[tuple[str, int], ...]
     reductions: tuple[str, ...]
     real: np.dtype
+    block: int
     watched: tuple
 
 
@@ -40,12 +45,14 @@ class Bound(NamedTuple):
     """A loop with its arguments.
 
     Attributes:
+        visits: rows or, where there is a list, pairs that it visits, about.
         arguments: rows, lists, fields, tables, outputs and numbers, in the order of the loop's.
         reals, whole: the numbers among them. outs: the outputs as a whole, None if not stored.
     """
 
     compiled: Compiled
     rows: int
+    visits: int
     arguments: list[Any]
     reals: np.ndarray | None
     whole: np.ndarray | None
@@ -72,22 +79,24 @@ class Launcher:
 
     def partial(self, bound: Bound) -> Any:
         """Room for what each block reduces, one row a reduction; None without reductions."""
-        count = len(bound.compiled.reductions)
-        return np.empty((count, -(-bound.rows // BLOCK)), bound.compiled.real) if count else None
+        compiled = bound.compiled
+        count = len(compiled.reductions)
+        return np.empty((count, -(-bound.rows // compiled.block)), compiled.real) if count else None
 
     def run(self, bound: Bound, partial: Any) -> tuple[float, ...]:
         """Run a loop; returns the reductions."""
-        compiled, rows, arguments, _, _, _ = bound
-        reductions = compiled.reductions
+        compiled, rows, visits, arguments, _, _, _ = bound
+        reductions, block = compiled.reductions, compiled.block
         if rows == 0:
             return tuple([EMPTY[how] for how in reductions])
         if partial is not None:
             arguments = [*arguments, partial]
-        blocks = _ONE if rows <= BLOCK else _count(-(-rows // BLOCK))
-        compiled.loop(_FIRST, blocks, _count(self.threads), _count(rows), *arguments)
+        blocks = _ONE if rows <= block else _count(-(-rows // block))
+        threads = _ONE if visits < SHARED else _count(self.threads)
+        compiled.loop(_FIRST, blocks, threads, _count(rows), *arguments)
         if partial is None:
             return ()
-        if rows <= BLOCK:
+        if rows <= block:
             parts = zip(reductions, partial[:, 0].tolist(), strict=True)
             return tuple([0.0 + part if how == "sum" else part for how, part in parts])
         return totals(reductions, partial)

@@ -104,13 +104,13 @@ class Loops:
     def _bound(self, call: Call) -> Bound:
         """The loop of a call with its arguments, all checked."""
         given = self.given(call)
-        rows, key = _checked(given, self.launcher)
+        rows, visits, key = _checked(given, self.launcher)
         loops = given.signature.loops
         ready = loops.get(key)
         if ready is None or not source.is_current(ready.compiled.watched):
             _refuse_strides(given)
             ready = loops[key] = self._ready(given)
-        return _arguments(given, ready, rows)
+        return _arguments(given, ready, rows, visits)
 
     def given(self, call: Call) -> Given:
         """Arrays and constants that the call's signature asks for."""
@@ -180,7 +180,7 @@ class Loops:
             module.loop, tuple(text.arrays), tuple(text.tables),
             tuple(text.reals.values()), tuple(text.whole.values()),
             tuple([how for how in signature.reduce if how is not None]), self.real,
-            text.unit.watched(),
+            text.loop.block, text.unit.watched(),
         )  # fmt: skip
         places = {name: k for k, name in enumerate(signature.constants)}
         values = given.constants
@@ -234,8 +234,9 @@ def _periodic(period: tuple[float, ...], dimension: int) -> tuple[bool, ...]:
     return tuple([bool(width) for width in period or (0.0,) * dimension])
 
 
-def _checked(given: Given, launcher: Launcher) -> tuple[int, tuple]:
-    """Number of rows, after checking the lengths of all arrays, and their kinds.
+def _checked(given: Given, launcher: Launcher) -> tuple[int, int, tuple]:
+    """Number of rows, after checking the lengths of all arrays; about how many rows or pairs are
+    visited; and the kinds of the arrays.
 
     Raises:
         ValueError: an array is too short or of the wrong type, or read while it is written.
@@ -278,9 +279,11 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, tuple]:
         for place, name in signature.neighbors:
             if arrays[place] is out:
                 raise ValueError(f"out is also read at neighbors, as {name}")
+    listed = rows
     if active is not None:
         rows = _active(active, rows, launcher)
-    return rows, tuple(kinds)
+    visits = rows if row_start is None else pairs * rows // max(listed, 1)
+    return rows, visits, tuple(kinds)
 
 
 def _list_size(call: Call, row_start: Any, neighbor: Any, pairs: int) -> tuple[int, int, int]:
@@ -320,7 +323,7 @@ def _refuse_strides(given: Given) -> None:
             raise ValueError(f"{name} is not contiguous along its last axis")
 
 
-def _arguments(given: Given, ready: Ready, rows: int) -> Bound:
+def _arguments(given: Given, ready: Ready, rows: int, visits: int) -> Bound:
     """The arguments of a loop in its order."""
     arguments: list[Any] = [] if given.rows is None else [given.rows]
     if given.row_start is not None:
@@ -338,7 +341,7 @@ def _arguments(given: Given, ready: Ready, rows: int) -> Bound:
         arguments.append(reals)
     if whole is not None:
         arguments.append(whole)
-    return Bound(ready.compiled, rows, arguments, reals, whole, given.outs)
+    return Bound(ready.compiled, rows, visits, arguments, reals, whole, given.outs)
 
 
 def _append(arguments: list[Any], arrays: list[Any], places: tuple) -> None:

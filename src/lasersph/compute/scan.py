@@ -9,6 +9,8 @@ written and the place moves on only where its test holds and j != i.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+from typing import NamedTuple
 
 from lasersph.compute.generate import BLOCK, INNER, OUTER, SPREAD
 from lasersph.compute.source import SourceUnit
@@ -98,6 +100,14 @@ def _file(precision: str, text: str, **parts: str) -> str:
     )
 
 
+class ScanText(NamedTuple):
+    """Text of the module with `scan`, and the names that it was made from (`source.is_current`)."""
+
+    text: str
+    watched: tuple
+
+
+@cache
 def sort_text(precision: str, dimension: int) -> str:
     """Text of the module with `sort`."""
     cell = [
@@ -109,12 +119,15 @@ def sort_text(precision: str, dimension: int) -> str:
     return _file(precision, _SORT, cell_index=lines)
 
 
+@cache
 def store_text() -> str:
     """Text of the module with `store`."""
     return _file("float64", _STORE)
 
 
-def scan_text(precision: str, dimension: int, mean: Callable, periodic: tuple[bool, ...]) -> str:
+def scan_text(
+    precision: str, dimension: int, mean: Callable, periodic: tuple[bool, ...]
+) -> ScanText:
     """Text of the module with `scan`."""
     unit = SourceUnit()
     name, _ = unit.add(mean, (("real", ()), ("real", ())))
@@ -126,7 +139,7 @@ def scan_text(precision: str, dimension: int, mean: Callable, periodic: tuple[bo
         load_targets=indented(2, [f"x{k} = targets[{k}, i]" for k in range(dimension)]),
         images=indented(3, loops) + "\n" + indented(3 + depth, _pieces(dimension, periodic)),
     )
-    return text.replace("f__mean_of(", f"{name}(")
+    return ScanText(text.replace("f__mean_of(", f"{name}("), unit.watched())
 
 
 def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:

@@ -14,15 +14,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lasersph.compute import cache
+from lasersph.compute import cache, source
 from lasersph.compute.backend import Backend
 from lasersph.compute.generate import BLOCK
-from lasersph.compute.scan import scan_text, sort_text, store_text
+from lasersph.compute.scan import ScanText, scan_text, sort_text, store_text
 
 _CELLS_PER_REACH = 1.0
 _CELLS_PER_PARTICLE = 4
 _PLACES_PER_ROW = 256
 """At first; a list with more neighbors per particle is begun anew. Memory not written is free."""
+_scans: dict[tuple, ScanText] = {}
 
 
 class EscapedParticle(ValueError):
@@ -168,7 +169,7 @@ def neighbor_list(
         return backend.wrap(row_start), backend.wrap(np.zeros(0, dtype=np.uint32))
     refuse_short_period(np.ptp(host, axis=1), widths, float(mean(reach.max(), reach.max())))
     periodic = tuple(bool(width) for width in widths)
-    module = cache.load(scan_text(backend.precision, dimension, mean, periodic))
+    module = cache.load(_scan(backend.precision, dimension, mean, periodic).text)
     sort = cache.load(sort_text(backend.precision, dimension)).sort
     cells = _levels(sort, host, reach, mean, lower, upper)
     extent = max(float(np.abs(cells.low).max()), float(np.abs(cells.high).max()), widths.max())
@@ -179,13 +180,21 @@ def neighbor_list(
     return backend.wrap(row_start), backend.wrap(neighbor)
 
 
+def _scan(precision: str, dimension: int, mean: Callable, periodic: tuple[bool, ...]) -> ScanText:
+    """Text of the scan, written anew only where something that it was made from has changed."""
+    key = (precision, dimension, mean, periodic)
+    if key not in _scans or not source.is_current(_scans[key].watched):
+        _scans[key] = scan_text(*key)
+    return _scans[key]
+
+
 def _scanned(
     module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray, room: Room
 ) -> np.ndarray:
     """Scan groups of blocks into scratch, growing it where it is too short, and join them."""
     store = cache.load(store_text()).store
     threads = np.uint64(backend.threads)
-    blocks, group = -(-count // BLOCK), 8 * backend.threads
+    blocks, group = -(-count // BLOCK), 32 * backend.threads
     scratch = room.for_group(min(group, blocks), _PLACES_PER_ROW * min(BLOCK, count))
     ends = np.empty(count, dtype=np.uint64)
     used = np.empty(group, dtype=np.uint64)

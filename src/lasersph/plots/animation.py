@@ -169,7 +169,7 @@ class Scene:
         stretch = 1.0 if self.is_beside else stretch_of(self.frame)
         finish(figure, all_axes, flow, self.frame, unit, stretch)
         figure.draw_without_rendering()
-        figure.set_layout_engine("none")
+        figure.set_layout_engine(None)
 
     def renew(self, figure: Figure, flow: PlaneFlow) -> None:
         """Show another state in the panels of the first."""

@@ -164,8 +164,14 @@ def test_benchmark(capsys):
 
 
 def test_cache(capsys):
-    """Where the compiled loops are."""
+    """Where the compiled loops are; those of a case are compiled before it runs."""
     assert "loops" in said(capsys, "cache")
+    said(capsys, "cache", "fill", "stefan")
+    assert said(capsys, "cache", "fill", "stefan") == "stefan: compiled 0 loops in 0 s\n"
+    assert not Path("runs").exists()
+    for words in (["fill"], ["show", "stefan"]):
+        assert main(["cache", *words]) == 2
+        assert "lasersph cache fill" in capsys.readouterr().err
 
 
 def test_failures_are_one_line_and_debug_shows_the_traceback(monkeypatch, capsys):

@@ -5,7 +5,8 @@ import pytest
 
 from lasersph import compute
 from lasersph.compute import cache
-from lasersph.compute.generate import BLOCK
+from lasersph.compute.generate import POINTS
+from lasersph.compute.launch import SHARED
 
 HEAD = """
 import numpy as np
@@ -62,7 +63,7 @@ def test_compiled_once(monkeypatch, tmp_path):
     monkeypatch.setenv("LASERSPH_CACHE", str(tmp_path))
     for threads in (1, 2):
         backend = compute.cpu(threads)
-        for count in (10, 3 * BLOCK + 10):
+        for count in (10, POINTS + SHARED):
             T, out = backend.asarray(np.arange(float(count))), backend.zeros(count)
             backend.pointwise(doubled, {"T": T}, out)
             assert (backend.to_host(out) == 2.0 * np.arange(count)).all()

@@ -7,6 +7,7 @@ import pytest
 
 from lasersph import compute
 from lasersph.compute import search
+from lasersph.compute.launch import SHARED, Bound, Compiled, Launcher
 
 
 def flow(T_i, T_j, r_ij):
@@ -38,7 +39,9 @@ def results(threads, position, T):
     )  # fmt: skip
     out = (backend.zeros(count), None)
     sums = backend.pair_sum(flow, neighbors, {"T": T}, out, finish=squared, reduce=("min", "sum"))
-    dot = backend.pointwise(product, {"a": T, "b": T}, None, reduce="sum")
+    long = np.tile(T, 3)
+    assert min(neighbor.size, long.size) > SHARED
+    dot = backend.pointwise(product, {"a": long, "b": long}, None, reduce="sum")
     return row_start.tobytes(), neighbor.tobytes(), out[0].tobytes(), sums, dot
 
 
@@ -48,7 +51,20 @@ def test_bits_do_not_depend_on_threads():
     position, T = rng.random((2, 20_000)), rng.random(20_000)
     one = results(1, position, T)
     assert one == results(2, position, T)
-    assert one[4][0] == pytest.approx(float(np.dot(T, T)), rel=1e-13)
+    assert one[4][0] == pytest.approx(3.0 * float(np.dot(T, T)), rel=1e-13)
+
+
+def test_short_loops_take_one_thread():
+    """Threads are woken only by a loop that takes longer than that."""
+    seen = []
+
+    def loop(_begin, _end, threads, _count):
+        seen.append(int(threads))
+
+    compiled = Compiled(loop, (), (), (), (), (), np.dtype(float), 512, ())
+    for visits in (SHARED - 1, SHARED):
+        Launcher(2).run(Bound(compiled, 1000, visits, [], None, None, []), None)
+    assert seen == [1, 2]
 
 
 def test_number_of_threads():
