@@ -61,10 +61,10 @@ def test_pairs_are_found_anew_only_when_particles_have_moved():
 
 
 def test_skin_grows_with_the_way():
-    """s^2 = 1.2 way l / d, but twice the way at least and what the case allows at most."""
+    """s^2 = 1.5 way l / d, but twice the way at least and what the case allows at most."""
     _, solver = moving("sound-wave", *DRIFTING_BLOCK)
     pairs, spacing = solver.pairs, solver.body.layout.spacing
-    for way, skin in ((1e-7, 1e-6), (1e-3, (1.2e-3 * 3.0 / 2.0) ** 0.5), (0.1, 0.3), (0.15, 0.3)):
+    for way, skin in ((1e-7, 1e-6), (1e-3, (1.5e-3 * 3.0 / 2.0) ** 0.5), (0.1, 0.3), (0.15, 0.3)):
         pairs.renew(Stride(1.0, way * spacing, 0.0))
         assert pairs.margin == pytest.approx(skin * spacing)
 

@@ -25,8 +25,10 @@ from lasersph.sph.kernels import Kernel
 
 LEAST_SKIN = 1e-6
 """In spacings."""
-LIST_COST = 1.2
+LIST_COST = 1.5
 """Time to find the pairs over that of a sum over them."""
+WORTHWHILE = 0.5
+"""Relative motion of near particles over twice the way of the fastest below which to look at it."""
 
 Finder = Callable[[Any, Any], tuple[Any, Any]]
 """From places (dim, N) and supports (N,) to row_start and neighbor."""
@@ -93,7 +95,8 @@ class Pairs:
     Attributes:
         skin: thickest skin [m].
         listed: (dim, N) places when the pairs were found [m]. margin: skin of the list [m], 0
-            before the first. now, half: the list with the positions of either level.
+            before the first. is_compared: whether near particles are compared with each other
+            before it is given up. now, half: the list with the positions of either level.
     """
 
     def __init__(
@@ -104,7 +107,7 @@ class Pairs:
         self.skin = skin * matter.layout.spacing
         self.listed = backend.zeros(matter.now.x.shape)
         backend.copy(matter.now.x, self.listed)
-        self.margin = 0.0
+        self.margin, self.is_compared = 0.0, False
         self._reach, self._room = backend.zeros(matter.total), search.Room()
         self._finder = finder or self._all
         self._support = float(backend.look(matter.support)[0])
@@ -112,10 +115,7 @@ class Pairs:
         self._relative = RelativeMotion(matter, self.listed, self._support + self.skin)
 
     def is_stale(self, stride: Stride, rows: Any = None) -> bool:
-        """Whether particles may come nearer than listed in a step.
-
-        What sleeps beside `rows` is not looked at, so that then the fastest alone decides.
-        """
+        """Whether particles may come nearer than listed in a step."""
         if self.margin == 0.0:
             return True
         fields = {"x": self.matter.now.x, "x_listed": self.listed, "stage": self.matter.stage}
@@ -124,7 +124,7 @@ class Pairs:
         )
         nearer = 2.0 * (sqrt(max(square, 0.0)) + stride.way)
         is_far = nearer > self._relative.clear - self._support
-        if rows is None and self.margin < nearer and not is_far:
+        if self.is_compared and self.margin < nearer and not is_far:
             nearer = self._relative_way(stride)
         return nearer > self.margin
 
@@ -154,22 +154,29 @@ class Pairs:
 
         With a skin s a sum over the pairs takes (1 + s / l)^d times as long, and where particles
         come nearer by w in a step a list lasts s / w steps of two sums each;
-        s^2 = LIST_COST w l / (2 d) makes the whole least.
+        s^2 = LIST_COST w l / (2 d) makes the whole least. What sleeps beside `rows` is in no
+        tile, so that then the fastest alone decides.
         """
-        layout = self.matter.layout
+        layout, self.is_compared = self.matter.layout, False
         least, nearer = LEAST_SKIN * layout.spacing, 2.0 * stride.way
         if nearer < least:
             return least
         if rows is None:
-            nearer = min(nearer, self._relative_way(stride))
+            relative = self._relative_way(stride)
+            self.is_compared = relative < WORTHWHILE * nearer
+            nearer = relative if self.is_compared else nearer
         best = sqrt(0.5 * LIST_COST * nearer * self._support / layout.dimension)
         return min(max(best, nearer, least), self.skin)
 
-    def resume(self, margin: float) -> None:
-        """Find the pairs of the listed places again, with the skin [m] that they had."""
+    def carried(self) -> dict[str, float]:
+        """Numbers that survive a step beside the listed places."""
+        return {"margin": self.margin, "compared": float(self.is_compared)}
+
+    def resume(self, numbers: dict[str, float]) -> None:
+        """Find the pairs of the listed places again, with the numbers of `carried`."""
         self._relative.forget()
-        self.margin = margin
-        if margin > 0.0:
+        self.margin, self.is_compared = numbers["margin"], numbers["compared"] > 0.0
+        if self.margin > 0.0:
             self.find()
 
     def find(self) -> None:

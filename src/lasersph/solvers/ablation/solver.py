@@ -99,7 +99,7 @@ class Ablation:
 
     def carried(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        numbers = self.state.carried() | {"margin": self.pairs.margin}
+        numbers = self.state.carried() | self.pairs.carried()
         return numbers | ({} if self.region is None else self.region.carried())
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
@@ -112,7 +112,7 @@ class Ablation:
         self.body.refresh(self.body.now)
         self._enter()
         self._surface_known, self._resting.weights = False, None
-        self.pairs.resume(numbers["margin"])
+        self.pairs.resume(numbers)
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]; of flow only where something moves or is pushed."""
