@@ -6,8 +6,8 @@ their pairs were found, for each tile c and the tiles U up to `REACH` away from 
     bound^2 = max over c of sum_k max(max_U d_k - min_c d_k, max_c d_k - min_U d_k)^2
 
 No two particles of tiles up to `REACH` away have moved further from or to each other than that. In
-a flow that changes over many spacings it is a third of twice the longest way, which all others
-would need.
+a flow that changes over many spacings it is less than half of twice the longest way, which bounds
+all pairs.
 """
 
 from __future__ import annotations
