@@ -36,7 +36,7 @@ def crater_frames(run: Run, times: Iterable[float]) -> Iterator[Figure]:
         if k == 0:
             ejecta = draw_cut(axes, cut, frame, limits)
             figure.draw_without_rendering()
-            figure.set_layout_engine("none")
+            figure.set_layout_engine(None)
         else:
             axes.images[0].set_data(body_picture(cut, frame))
             for drawn in ejecta:

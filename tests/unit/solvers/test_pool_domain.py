@@ -1,7 +1,7 @@
 """Blocks that grow with the pool, and the pool that becomes too deep."""
 
 import pytest
-from flow_boxes import box, pool
+from flow_boxes import box, go, pool
 
 from lasersph.solvers.melt_pool.domain import BELOW, ROOM, PoolTooDeep
 
@@ -72,3 +72,14 @@ def test_at_the_last_fine_layer():
     solver = molten_to(1.25e-6)
     solver.step(1e-12)
     assert solver.fluid_count == 8 * 10
+
+
+def test_pressure_does_not_see_the_coarser_layers():
+    """Layers that grow below the pool change neither grid nor iterations of its pressure."""
+    counts = []
+    for settings in (DEEP, ("domain.depth=9um",)):
+        solver = pool(lambda x, z: (x < 2.2e-6) & (z > -1.25e-6), *settings, slope=1e8)
+        go(solver, 2)
+        counts.append(solver.iterations["pressure"])
+    assert solver.flow.block.reach > 5.0 * solver.flow.block.moving_support
+    assert counts[0] == counts[1] > 0

@@ -117,6 +117,7 @@ class Block:
     Attributes:
         source: (M,) particle behind each of the block with images. pairs: NeighborList with the
             rows of the block, among all M. weights: (pairs,) g_ij [1] at the last positions.
+        moving_support: of the particles that move, the finest [m]. reach: of any of the block [m].
         images: how they came about. wanted: numbers of the particles whose rows were found,
             is_wanted: (count,) 1 for them.
     """
@@ -140,12 +141,13 @@ class Block:
         self.potential, self.enthalpy = potential, enthalpy
         self.volume = backend.asarray(lattice.volume[:count])
         support = lattice.support[:count]
-        self.largest_support = float(support.max())
-        self.reach = SKIN * self.largest_support
+        self.moving_support, largest = float(support.min()), float(support.max())
+        self.reach = SKIN * largest
         self._own_support = backend.asarray(support), backend.asarray(SKIN * support)
         (x, z), repeats = sides.box, sides.flow_kind("left") == "periodic"
         self._sides = x, (max(z[0], bottom), z[1])
-        self._near_melt = NearMelt(backend, count, self._sides, self.reach, repeats=repeats)
+        near = SKIN * float(lattice.weighing.mean(self.moving_support, largest))
+        self._near_melt = NearMelt(backend, count, self._sides, near, repeats=repeats)
         self.images = Images(
             backend, count, self.reach, ways_of(sides.face_pairs(has_bottom=has_bottom))
         )

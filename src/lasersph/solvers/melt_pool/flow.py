@@ -173,7 +173,7 @@ class Flow:
         self._even = crowding(weighing.kernel, weighing.ratio)
         tolerance = self.settings.pressure_tolerance
         self.equation = PressureEquation(
-            backend, count, block.largest_support, tolerance=tolerance, period=periods
+            backend, count, block.moving_support, tolerance=tolerance, period=periods
         )
         self.published = None
         if self.settings.pressure == "published":
