@@ -7,7 +7,7 @@ from moving_matter import DRIFTING_BLOCK, HEATED_BLOCK, go, host, moving, put, s
 from lasersph.compute.search import EscapedParticle
 from lasersph.physics.ejection import CONDENSED, EJECTED, GONE, LEAVING
 from lasersph.solvers.ablation.flight import flown
-from lasersph.solvers.ablation.pairs import displaced, placed, within
+from lasersph.solvers.ablation.pairs import REST, Stride, displaced, placed, within
 from lasersph.solvers.conduction.state import NotConverged
 
 LOW, WIDTH = (0.0, -5.0), (2.0, 0.0)
@@ -65,23 +65,92 @@ def test_skin_grows_with_the_way():
     _, solver = moving("sound-wave", *DRIFTING_BLOCK)
     pairs, spacing = solver.pairs, solver.body.layout.spacing
     for way, skin in ((1e-7, 1e-6), (1e-3, (1.5e-3 * 3.0 / 2.0) ** 0.5), (0.1, 0.3), (0.15, 0.3)):
-        pairs.renew(way * spacing)
+        pairs.renew(Stride(1.0, way * spacing, 0.0))
         assert pairs.margin == pytest.approx(skin * spacing)
 
 
-def test_list_holds_every_pair_in_reach():
-    """After many steps no particle within the support is missing."""
-    _, solver = moving("sound-wave", *DRIFTING_BLOCK)
-    stir(solver, 100.0)
-    go(solver, steps=15)
-    x, size = host(solver, "position"), np.array([[10e-6], [12e-6]])
+def missing(solver, size):
+    """Pairs of condensed particles within the support [(i, j)] that the list does not hold."""
+    x, support = host(solver, "position"), 3.0 * solver.body.layout.spacing
+    is_there = host(solver, "stage") == CONDENSED
     start = solver.backend.to_host(solver.pairs.now.row_start).astype(int)
     neighbor = solver.backend.to_host(solver.pairs.now.neighbor)
-    for i in range(0, x.shape[1], 7):
+    found = []
+    for i in np.flatnonzero(is_there):
         apart = x - x[:, [i]]
         apart -= size * np.round(apart / size)
-        near = np.flatnonzero(np.sum(apart**2, axis=0) < (3e-6) ** 2)
-        assert set(near) - {i} <= set(neighbor[start[i] : start[i + 1]])
+        near = np.flatnonzero((np.sum(apart**2, axis=0) < support**2) & is_there)
+        listed = {i, *neighbor[start[i] : start[i + 1]].tolist()}
+        found += [(int(i), j) for j in near.tolist() if j not in listed]
+    return found
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+@pytest.mark.parametrize("kind", ["stirred", "vortices", "halves"])
+def test_list_holds_every_pair_in_reach(dimension, kind):
+    """After each step no particle within the support is missing, whatever the velocities."""
+    settings = (f"solver.dimensions={dimension}", "domain.depth=12 um", "domain.width=10 um")
+    _, solver = moving("sound-wave", *DRIFTING_BLOCK, *settings)
+    size = np.array([[10e-6]] * (dimension - 1) + [[12e-6]])
+    z = host(solver, "position")[-1] / 12e-6
+    if kind == "stirred":
+        stir(solver, 100.0)
+    else:
+        wave = np.sin(2.0 * np.pi * z)
+        speed = 100.0 * (wave if kind == "vortices" else np.sign(wave))
+        put(solver, "velocity", np.broadcast_to(speed, (dimension, z.size)))
+    for _ in range(12):
+        go(solver, steps=1)
+        assert missing(solver, size) == []
+
+
+def test_what_drifts_as_one_keeps_its_list():
+    """Uniform motion brings nothing nearer: one list for many steps, but not for ever."""
+    _, solver = moving("sound-wave", *DRIFTING_BLOCK, "motion=")
+    put(solver, "velocity", np.full((2, 120), 300.0))
+    go(solver, steps=1)
+    lists = {id(solver.pairs.now): solver.pairs.now}
+    way = 0.0
+    for _ in range(60):
+        go(solver, steps=1)
+        way += 300.0 * 2.0**0.5 * solver.state.time_step
+        lists[id(solver.pairs.now)] = solver.pairs.now
+    assert way > 1.5e-6
+    assert 2 <= len(lists) <= 2 + way / 0.4e-6
+
+
+def test_a_list_outlives_a_restart():
+    """Whenever a run is continued, lists are renewed in the same steps, and all bits are equal."""
+    solvers = [moving("sound-wave", *DRIFTING_BLOCK)[1] for _ in range(2)]
+    first, second = solvers
+    z = host(first, "position")[-1] / 12e-6
+    put(first, "velocity", 100.0 * np.sin(2.0 * np.pi * np.array([z, z + 0.3])))
+    for _ in range(10):
+        go(first, steps=1)
+        arrays = {name: first.backend.to_host(field) for name, field in first.fields.items()}
+        second.restore(arrays, first.carried())
+        for solver in solvers:
+            go(solver, steps=1)
+        assert first.pairs.margin == second.pairs.margin
+        for name in first.fields:
+            assert np.array_equal(*(solver.fields[name] for solver in solvers))
+
+
+def test_parts_that_meet_are_noticed():
+    """Two slabs far apart, each at rest in itself: lists are renewed before they touch."""
+    _, solver = moving("sound-wave", *DRIFTING_BLOCK, "motion=", "domain.depth=24 um")
+    z = host(solver, "position")[-1]
+    middle = 0.5 * (z.min() + z.max())
+    put(solver, "stage", np.where(np.abs(z - middle) < 3.5e-6, GONE, CONDENSED))
+    speed = np.array([np.zeros_like(z), np.where(z < middle, 400.0, -400.0)])
+    put(solver, "velocity", speed)
+    size, gap = np.array([[10e-6], [24e-6]]), np.inf
+    while gap > 1.5e-6:
+        go(solver, steps=1)
+        assert missing(solver, size) == []
+        z, stage = host(solver, "position")[-1], host(solver, "stage")
+        is_low = (z < middle) & (stage == CONDENSED)
+        gap = z[(z > middle) & (stage == CONDENSED)].min() - z[is_low].max()
 
 
 def test_free_fall():
@@ -137,6 +206,6 @@ def test_no_list_is_left_where_the_search_fails():
     whole = host(solver, "position").copy()
     put(solver, "position", whole + np.nan)
     with pytest.raises(EscapedParticle):
-        solver.pairs.renew(0.0)
+        solver.pairs.renew(REST)
     put(solver, "position", whole)
-    assert solver.pairs.is_stale(0.0)
+    assert solver.pairs.is_stale(REST)

@@ -17,7 +17,6 @@ Sleepers must be in balance: where gravity acts or everything moves, let nothing
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import floor
 from typing import Any
 
 import numpy as np
@@ -27,6 +26,7 @@ from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
 from lasersph.particles.support import common
 from lasersph.physics.ejection import EJECTED, GONE
+from lasersph.solvers.ablation.tiles import Tiles
 
 LEAST_RISE = 1e-11
 """Enthalpy over the largest one below which a particle counts as undisturbed."""
@@ -34,25 +34,6 @@ WAKING_REACH = 2
 """Tiles around something disturbed that must be awake."""
 WAKING_AHEAD = 1
 """Tiles beyond those that wake along with them, so that lists of pairs last for more steps."""
-
-
-def along(x, axis, low, inverse, count):
-    """Number of the tile along an axis, that at the end for what is outside.
-
-    Args:
-        x: position [m]. axis: unit vector. low: of the box [m]. inverse: 1 / width [1/m].
-    """
-    return min(max(floor((dot(x, axis) - low) * inverse), 0.0), count - 1.0)
-
-
-def tile_number(tile, place, count):
-    """Number of a tile after one more axis."""
-    return int(tile * count + place)
-
-
-def as_number(tile, place, count):
-    """`tile_number` as a real number, for the axes before the last."""
-    return tile * count + place
 
 
 def size_of(h):
@@ -106,16 +87,16 @@ class ActiveRegion:
         self.backend, self.period = backend, tuple(period)
         self.count = position.shape[1]
         host = backend.look(position)
-        self._low, high = host.min(axis=1), host.max(axis=1)
-        extent = np.where(np.array(self.period) > 0.0, self.period, high - self._low)
-        self._shape = np.maximum(1, np.floor(extent / support)).astype(np.int64)
-        self._inverse = self._shape / np.maximum(extent, support)
+        low, high = host.min(axis=1), host.max(axis=1)
+        extent = np.where(np.array(self.period) > 0.0, self.period, high - low)
+        self._tiles = Tiles(backend, low, extent, support)
+        self._shape = self._tiles.shape
         self.tile = backend.zeros(self.count, "index")
-        self._find_tiles(position, self.tile)
+        self._tiles.find(position, self.tile)
         self._largest = 0.0
         self._room = search.Room()
         self._mark = backend.zeros(self.count)
-        self.fields = {"awake": backend.zeros(int(np.prod(self._shape)))}
+        self.fields = {"awake": backend.zeros(self._tiles.count)}
         self._wake(self._around(self._tiles_of(position, awake), WAKING_REACH))
         self._checks_all = True
 
@@ -211,22 +192,9 @@ class ActiveRegion:
         x = backend.zeros((len(self._shape), rows.shape[0]))
         backend.gather(position, rows, x)
         tile = backend.zeros(rows.shape[0], "index")
-        self._find_tiles(x, tile)
-        counts = backend.to_host(backend.count_by_key(tile, int(np.prod(self._shape))))
+        self._tiles.find(x, tile)
+        counts = backend.to_host(backend.count_by_key(tile, self._tiles.count))
         return counts.reshape(self._shape) > 0
-
-    def _find_tiles(self, position: Any, tile: Any) -> None:
-        """Number of the tile of each position."""
-        backend, last = self.backend, len(self._shape) - 1
-        place, number = backend.zeros(tile.shape[0]), backend.zeros(tile.shape[0])
-        for axis, count in enumerate(self._shape):
-            unit = tuple(float(k == axis) for k in range(last + 1))
-            backend.pointwise(
-                along, {"x": position}, place, axis=unit, low=float(self._low[axis]),
-                inverse=float(self._inverse[axis]), count=float(count),
-            )  # fmt: skip
-            join, out = (tile_number, tile) if axis == last else (as_number, number)
-            backend.pointwise(join, {"tile": number, "place": place}, out, count=float(count))
 
     def _around(self, tiles: np.ndarray, reach: int) -> np.ndarray:
         """The tiles and all within `reach` of them, around the ends of periodic axes."""

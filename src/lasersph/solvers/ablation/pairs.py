@@ -1,16 +1,18 @@
 """`Pairs`: who is near whom, found anew once particles have moved far enough.
 
-A list holds all pairs within the support and a skin. It is good while twice the way of the fastest
-condensed particle is shorter than the skin; what leaves only parts from its neighbors. The slower
-the particles, the thinner the skin. Where nothing moves it is a millionth of a spacing: a pair that
-enters the support by less than that weighs 1e-12 of its neighbors.
+A list holds all pairs within the support and a skin. It is good while no two particles near each
+other have moved further relative to each other than the skin; what leaves only parts from its
+neighbors. That is so while twice the way of the fastest condensed particle is shorter, and mostly
+for some steps more (`relative_motion`). The slower the particles, the thinner the skin. Where
+nothing moves it is a millionth of a spacing: a pair that enters the support by less than that
+weighs 1e-12 of its neighbors.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from math import floor, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 from lasersph.compute import search
 from lasersph.compute.vectors import dot, vector
@@ -18,15 +20,39 @@ from lasersph.particles.neighbors import NeighborList
 from lasersph.particles.support import common
 from lasersph.physics.ejection import CONDENSED
 from lasersph.solvers.ablation.matter import Matter
+from lasersph.solvers.ablation.relative_motion import RelativeMotion
 from lasersph.sph.kernels import Kernel
 
 LEAST_SKIN = 1e-6
 """In spacings."""
 LIST_COST = 1.5
 """Time to find the pairs over that of a sum over them."""
+WORTHWHILE = 0.5
+"""Relative motion of near particles over twice the way of the fastest below which to look at it."""
 
 Finder = Callable[[Any, Any], tuple[Any, Any]]
 """From places (dim, N) and supports (N,) to row_start and neighbor."""
+
+
+class Stride(NamedTuple):
+    """A step [s], and the largest speed [m/s] and acceleration [m/s^2] in it."""
+
+    step: float
+    speed: float
+    acceleration: float
+
+    @property
+    def push(self) -> float:
+        """Way beyond that at the present velocity [m]."""
+        return self.step * self.step * self.acceleration
+
+    @property
+    def way(self) -> float:
+        """Way of the fastest [m]."""
+        return self.step * self.speed + self.push
+
+
+REST = Stride(0.0, 0.0, 0.0)
 
 
 def folded(x, low, width):
@@ -69,7 +95,8 @@ class Pairs:
     Attributes:
         skin: thickest skin [m].
         listed: (dim, N) places when the pairs were found [m]. margin: skin of the list [m], 0
-            before the first. now, half: the list with the positions of either level.
+            before the first. is_compared: whether near particles are compared with each other
+            before it is given up. now, half: the list with the positions of either level.
     """
 
     def __init__(
@@ -80,24 +107,29 @@ class Pairs:
         self.skin = skin * matter.layout.spacing
         self.listed = backend.zeros(matter.now.x.shape)
         backend.copy(matter.now.x, self.listed)
-        self.margin = 0.0
+        self.margin, self.is_compared = 0.0, False
         self._reach, self._room = backend.zeros(matter.total), search.Room()
         self._finder = finder or self._all
         self._support = float(backend.look(matter.support)[0])
         self._low = tuple(lower for lower, _upper in matter.layout.bounds)
+        self._relative = RelativeMotion(matter, self.listed, self._support + self.skin)
 
-    def is_stale(self, way: float, rows: Any = None) -> bool:
-        """Whether particles may come nearer than listed in a step in which they move `way` [m]."""
+    def is_stale(self, stride: Stride, rows: Any = None) -> bool:
+        """Whether particles may come nearer than listed in a step."""
         if self.margin == 0.0:
             return True
         fields = {"x": self.matter.now.x, "x_listed": self.listed, "stage": self.matter.stage}
         (square,) = self.matter.backend.pointwise(
             displaced, fields, (None,), rows=rows, reduce=("max",)
         )
-        return 2.0 * (sqrt(max(square, 0.0)) + way) > self.margin
+        nearer = 2.0 * (sqrt(max(square, 0.0)) + stride.way)
+        is_far = nearer > self._relative.clear - self._support
+        if self.is_compared and self.margin < nearer and not is_far:
+            nearer = self._relative_way(stride)
+        return nearer > self.margin
 
-    def renew(self, way: float, rows: Any = None) -> None:
-        """Find the pairs anew, with a skin for steps in which particles move `way` [m].
+    def renew(self, stride: Stride, rows: Any = None) -> None:
+        """Find the pairs anew, with a skin for such steps.
 
         Raises:
             EscapedParticle: a place is not finite.
@@ -109,21 +141,43 @@ class Pairs:
             backend.pointwise(within, fields, matter.now.x, rows=rows, low=self._low, width=period)
         fields = {"x": matter.now.x, "x_listed": self.listed, "opaque": matter.opaque}
         backend.pointwise(placed, fields, self.listed, rows=rows)
-        self.margin = self._skin_for(way)
+        self._relative.forget()
+        self.margin = self._skin_for(stride, rows)
         self.find()
 
-    def _skin_for(self, way: float) -> float:
+    def _relative_way(self, stride: Stride) -> float:
+        """How far near particles will have moved relative to each other after a step [m]."""
+        return self._relative.bound(stride.step) + 2.0 * stride.push
+
+    def _skin_for(self, stride: Stride, rows: Any) -> float:
         """The skin [m] with which steps and lists cost least together.
 
-        With a skin s a sum over the pairs takes (1 + s / l)^d times as long, and a list lasts
-        s / (2 way) steps of two sums each; s^2 = LIST_COST way l / d makes the whole least.
+        With a skin s a sum over the pairs takes (1 + s / l)^d times as long, and where particles
+        come nearer by w in a step a list lasts s / w steps of two sums each;
+        s^2 = LIST_COST w l / (2 d) makes the whole least. What sleeps beside `rows` is in no
+        tile, so that then the fastest alone decides.
         """
-        layout = self.matter.layout
-        least = LEAST_SKIN * layout.spacing
-        if 2.0 * way < least:
+        layout, self.is_compared = self.matter.layout, False
+        least, nearer = LEAST_SKIN * layout.spacing, 2.0 * stride.way
+        if nearer < least:
             return least
-        best = sqrt(LIST_COST * way * self._support / layout.dimension)
-        return min(max(best, 2.0 * way), self.skin)
+        if rows is None:
+            relative = self._relative_way(stride)
+            self.is_compared = relative < WORTHWHILE * nearer
+            nearer = relative if self.is_compared else nearer
+        best = sqrt(0.5 * LIST_COST * nearer * self._support / layout.dimension)
+        return min(max(best, nearer, least), self.skin)
+
+    def carried(self) -> dict[str, float]:
+        """Numbers that survive a step beside the listed places."""
+        return {"margin": self.margin, "compared": float(self.is_compared)}
+
+    def resume(self, numbers: dict[str, float]) -> None:
+        """Find the pairs of the listed places again, with the numbers of `carried`."""
+        self._relative.forget()
+        self.margin, self.is_compared = numbers["margin"], numbers["compared"] > 0.0
+        if self.margin > 0.0:
+            self.find()
 
     def find(self) -> None:
         """Find the pairs of the listed places."""

@@ -26,7 +26,7 @@ from lasersph.solvers.ablation.lifting_step import LiftingStep
 from lasersph.solvers.ablation.matter import Matter
 from lasersph.solvers.ablation.moving_step import MovingStep
 from lasersph.solvers.ablation.numbers import Numbers
-from lasersph.solvers.ablation.pairs import Pairs
+from lasersph.solvers.ablation.pairs import REST, Pairs, Stride
 from lasersph.solvers.ablation.published_ejection import PublishedEjection
 from lasersph.solvers.ablation.rates import condensed_extremes, speed_squares
 from lasersph.solvers.ablation.resting_step import RestingStep
@@ -99,7 +99,7 @@ class Ablation:
 
     def carried(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        numbers = self.state.carried() | {"margin": self.pairs.margin}
+        numbers = self.state.carried() | self.pairs.carried()
         return numbers | ({} if self.region is None else self.region.carried())
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
@@ -107,14 +107,12 @@ class Ablation:
         for name, field in self.fields.items():
             self.backend.copy(self.backend.asarray(arrays[name]), field)
         self.state.restore(numbers)
-        self.pairs.margin = numbers["margin"]
         if self.region is not None:
             self.region.restore(arrays, numbers)
         self.body.refresh(self.body.now)
         self._enter()
         self._surface_known, self._resting.weights = False, None
-        if self.pairs.margin > 0.0:
-            self.pairs.find()
+        self.pairs.resume(numbers)
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]; of flow only where something moves or is pushed."""
@@ -194,12 +192,14 @@ class Ablation:
             speed_squares, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
         state.speed = sqrt(square)
-        way = step * (state.speed + step * state.acceleration)
-        if not 2.0 * way <= self.pairs.skin:
-            raise NotConverged(f"matter moves {way:.3g} m in {step:.3g} s; take shorter steps")
-        if has_grown or self.pairs.is_stale(way, self.rows):
+        stride = Stride(step, state.speed, state.acceleration)
+        if not 2.0 * stride.way <= self.pairs.skin:
+            raise NotConverged(
+                f"matter moves {stride.way:.3g} m in {step:.3g} s; take shorter steps"
+            )
+        if has_grown or self.pairs.is_stale(stride, self.rows):
             try:
-                self.pairs.renew(way, self.rows)
+                self.pairs.renew(stride, self.rows)
             except EscapedParticle as error:
                 raise NotConverged(str(error)) from error
             self._resting.weights, self._surface_known = None, False
@@ -225,7 +225,7 @@ class Ablation:
         if self._surface_known:
             return
         if self.pairs.margin == 0.0:
-            self.pairs.renew(0.0, self.rows)
+            self.pairs.renew(REST, self.rows)
         matter = self.body
         self.exposure.find(self.pairs.now, matter.now.V, matter.opaque, self.rows)
         if self.columns is not None:
