@@ -28,7 +28,7 @@ def scan(count, {targets}, support, {sorted_positions}, sorted_support, order, s
 {load_targets}
         for level in range(largest.size):
             reach = f__mean_of(li, largest[level]) + slack
-            size = real(1.0) / inverse[level, {last}]
+            size = real(1.0) / inverse[level]
             cells = first_cell[level]
 {images}
         if not stores:
@@ -59,7 +59,6 @@ def cuda_scan_text(
     text = (HEAD + _SCAN).format(
         precision=precision,
         mean="\n".join(f"{INNER}\n{text}\n" for text in unit.texts),
-        last=str(dimension - 1),
         targets=", ".join(f"target_{k}" for k in range(dimension)),
         sorted_positions=", ".join(f"sorted_{k}" for k in range(dimension)),
         load_targets=indented(2, [f"x{k} = target_{k}[i]" for k in range(dimension)]),

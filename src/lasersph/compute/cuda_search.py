@@ -17,7 +17,6 @@ from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import start
 from lasersph.compute.cuda_scan import cuda_scan_text
 from lasersph.compute.search import (
-    ALONG,
     FINEST,
     Grid,
     grid,
@@ -50,27 +49,24 @@ def renumbered(level, number):
     return number[level]
 
 
-def cell_1(x, level, first_cell, inverse_0, low_0, shape_0):
+def cell_1(x, level, first_cell, inverse, low_0, shape_0):
     """Cell of a particle on a line."""
-    c0 = min(int((x[0] - low_0[level]) * inverse_0[level]), shape_0[level] - 1)
+    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
     return first_cell[level] + c0
 
 
-def cell_2(x, level, first_cell, inverse_0, inverse_1, low_0, low_1, shape_0, shape_1):
+def cell_2(x, level, first_cell, inverse, low_0, low_1, shape_0, shape_1):
     """Cell of a particle in a plane, the first axis fastest."""
-    c0 = min(int((x[0] - low_0[level]) * inverse_0[level]), shape_0[level] - 1)
-    c1 = min(int((x[1] - low_1[level]) * inverse_1[level]), shape_1[level] - 1)
+    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
+    c1 = min(int((x[1] - low_1[level]) * inverse[level]), shape_1[level] - 1)
     return first_cell[level] + c1 * shape_0[level] + c0
 
 
-def cell_3(
-    x, level, first_cell, inverse_0, inverse_1, inverse_2, low_0, low_1, low_2, shape_0, shape_1,
-    shape_2,
-):  # fmt: skip
+def cell_3(x, level, first_cell, inverse, low_0, low_1, low_2, shape_0, shape_1, shape_2):
     """Cell of a particle in space, the first axis fastest."""
-    c0 = min(int((x[0] - low_0[level]) * inverse_0[level]), shape_0[level] - 1)
-    c1 = min(int((x[1] - low_1[level]) * inverse_1[level]), shape_1[level] - 1)
-    c2 = min(int((x[2] - low_2[level]) * inverse_2[level]), shape_2[level] - 1)
+    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
+    c1 = min(int((x[1] - low_1[level]) * inverse[level]), shape_1[level] - 1)
+    c2 = min(int((x[2] - low_2[level]) * inverse[level]), shape_2[level] - 1)
     return first_cell[level] + (c2 * shape_1[level] + c1) * shape_0[level] + c0
 
 
@@ -129,8 +125,8 @@ class CudaSearch:
             position, support, (smallest, largest), (low, high), (lower, upper)
         )
         grids = [
-            grid(a.low, a.high, float(mean(a.largest, a.largest)), a.count, backend.real, ALONG)
-            for a in levels
+            grid(one.low, one.high, float(mean(one.largest, one.largest)), one.count, backend.real)
+            for one in levels
         ]
         key = self._cells(position, number, [one.low for one in levels], grids)
         cells = sum(one.cells for one in grids)
@@ -244,9 +240,9 @@ class CudaSearch:
         backend = self.backend
         tables: dict[str, Any] = {
             "first_cell": backend.asarray(_first_cells(grids), "offset"),
+            "inverse": backend.asarray([one.inverse for one in grids]),
         }
         for k in range(position.shape[0]):
-            tables[f"inverse_{k}"] = backend.asarray([one.inverse[k] for one in grids])
             tables[f"low_{k}"] = backend.asarray([corner[k] for corner in low])
             tables[f"shape_{k}"] = backend.asarray([one.shape[k] for one in grids], "index")
         key = backend.zeros(position.shape[1], "index")

@@ -1,9 +1,9 @@
 """Text of the neighbor search: sorting by cell, scanning and storing, one file each.
 
-For each target and each level of cells, rows of cells along the first axis, where cells are short,
-are cut to the sphere of the level's largest reach, and their particles, contiguous in memory, are
-scanned without branches: first the tests r_ij < mean(l_i, l_j) of a piece, in vector instructions,
-then each candidate is written and the place moves on only where its test holds and j != i.
+For each target and each level of cells, rows of cells along the first axis are cut to the sphere of
+the level's largest reach, and their particles, contiguous in memory, are scanned without branches:
+first the tests r_ij < mean(l_i, l_j) of a piece, in vector instructions, then each candidate is
+written and the place moves on only where its test holds and j != i.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def scan(begin, end, threads, start, used, count, targets, support, sorted_posit
 {load_targets}
         for level in range(largest.size):
             reach = f__mean_of(li, largest[level]) + slack
-            size = real(1.0) / inverse[level, {last}]
+            size = real(1.0) / inverse[level]
             cells = first_cell[level]
             member = first_member[level]
 {images}
@@ -111,7 +111,7 @@ class ScanText(NamedTuple):
 def sort_text(precision: str, dimension: int) -> str:
     """Text of the module with `sort`."""
     cell = [
-        f"c{k} = min(int((position[{k}, j] - low[{k}]) * inverse[{k}]), shape[{k}] - 1)"
+        f"c{k} = min(int((position[{k}, j] - low[{k}]) * inverse), shape[{k}] - 1)"
         for k in range(dimension)
     ]
     index = ("c0", "c1 * shape[0] + c0", "(c2 * shape[1] + c1) * shape[0] + c0")[dimension - 1]
@@ -136,7 +136,6 @@ def scan_text(
         precision,
         _SCAN,
         mean="\n".join(f"{INNER}\n{text}\n" for text in unit.texts),
-        last=str(dimension - 1),
         load_targets=indented(2, [f"x{k} = targets[{k}, i]" for k in range(dimension)]),
         images=indented(3, loops) + "\n" + indented(3 + depth, _pieces(dimension, periodic)),
     )
@@ -165,8 +164,8 @@ def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:
         put(f"if y{k} - reach > high[level, {k}] or y{k} + reach < low[level, {k}]:")
         put("    continue")
         if k:
-            put(f"a{k} = max((y{k} - reach - low[level, {k}]) * inverse[level, {k}], real(0.0))")
-            put(f"b{k} = (y{k} + reach - low[level, {k}]) * inverse[level, {k}]")
+            put(f"a{k} = max((y{k} - reach - low[level, {k}]) * inverse[level], real(0.0))")
+            put(f"b{k} = (y{k} + reach - low[level, {k}]) * inverse[level]")
             put(f"for c{k} in range(int(a{k}), min(int(b{k}), shape[level, {k}] - 1) + 1):")
             depth += 1
             put(f"edge = low[level, {k}] + real(c{k}) * size")
@@ -176,10 +175,10 @@ def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:
     put("if rest <= real(0.0):")
     put("    continue")
     put("half = math.sqrt(rest) + slack")
-    put("a0 = int(max((y0 - half - low[level, 0]) * inverse[level, 0], real(0.0)))")
+    put("a0 = int(max((y0 - half - low[level, 0]) * inverse[level], real(0.0)))")
     put("if y0 + half < low[level, 0] or a0 >= shape[level, 0]:")
     put("    continue")
-    put("b0 = min(int((y0 + half - low[level, 0]) * inverse[level, 0]), shape[level, 0] - 1)")
+    put("b0 = min(int((y0 + half - low[level, 0]) * inverse[level]), shape[level, 0] - 1)")
     row = ("0", "c1", "c2 * shape[level, 1] + c1")[dimension - 1]
     put(f"base = cells + np.uint64(({row}) * shape[level, 0])")
     put("first = member + np.uint64(starts[base + np.uint64(a0)])")

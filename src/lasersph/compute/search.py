@@ -21,9 +21,6 @@ from lasersph.compute.scan import ScanText, scan_text, sort_text, store_text
 
 FINEST = 1.1
 """Largest support of the first level over the smallest; in the following levels twice as much."""
-ALONG = 4.0
-"""Cells of lists along the first axis in one along the others: rows of cells are scanned from the
-first to the last that is in reach."""
 _CELLS_PER_REACH = 1.0
 _CELLS_PER_PARTICLE = 4
 _PLACES_PER_ROW = 256
@@ -36,11 +33,11 @@ class EscapedParticle(ValueError):
 
 
 class Grid(NamedTuple):
-    """Cells per axis, (dim,), of all axes together, and 1 / edge along each axis, (dim,) [1/m]."""
+    """Cells per axis, (dim,), of all axes together, and the inverse of their edge [1/m]."""
 
     shape: np.ndarray
     cells: int
-    inverse: np.ndarray
+    inverse: Any
 
 
 class Room:
@@ -116,8 +113,7 @@ def cell_order(
     if count:
         sort = cache.load(sort_text(backend.precision, host.shape[0])).sort
         low, high = host.min(axis=1), host.max(axis=1)
-        found = grid(low, high, cell_size, count, host.dtype)
-        _sorted(sort, host, order.copy(), low, found, order)
+        _sorted(sort, host, order.copy(), low, high, cell_size, order)
     return backend.wrap(order)
 
 
@@ -250,8 +246,8 @@ def _levels(
     order = np.empty(total, dtype=np.uint32)
     real = position.dtype
     low, high = (np.empty((len(groups), dimension), real) for _ in range(2))
-    inverse, shape = (np.empty((len(groups), dimension), kind) for kind in (real, np.int64))
-    largest = np.empty(len(groups), real)
+    inverse, largest = (np.empty(len(groups), real) for _ in range(2))
+    shape = np.empty((len(groups), dimension), np.int64)
     first_cell, first_member = (np.zeros(len(groups), np.uint64) for _ in range(2))
     starts, cells, members = [], 0, 0
     for k, group in enumerate(groups):
@@ -262,11 +258,10 @@ def _levels(
         largest[k] = (support if single else support[group]).max()
         size = float(mean(largest[k], largest[k])) / _CELLS_PER_REACH
         place = order[members : members + group.size]
-        found = grid(low[k], high[k], size, group.size, real, ALONG)
-        starts.append(_sorted(sort, position, group, low[k], found, place))
-        shape[k], inverse[k] = found.shape, found.inverse
+        start, shape[k], inverse[k] = _sorted(sort, position, group, low[k], high[k], size, place)
         first_cell[k], first_member[k] = cells, members
-        cells, members = cells + starts[-1].size, members + group.size
+        starts.append(start)
+        cells, members = cells + start.size, members + group.size
     return _Cells(
         np.take(position, order, axis=1), support[order], order, np.concatenate(starts),
         first_cell, first_member, low, high, inverse, shape, largest,
@@ -278,38 +273,28 @@ def _sorted(
     position: np.ndarray,
     members: np.ndarray,
     low: np.ndarray,
-    found: Grid,
+    high: np.ndarray,
+    size: float,
     order: np.ndarray,
-) -> np.ndarray:
-    """Sort members by cell into `order`; returns the first member of each cell."""
+) -> tuple[np.ndarray, np.ndarray, Any]:
+    """Sort members by cell into `order`; first member per cell, cells per axis, 1 / size."""
+    found = grid(low, high, size, members.size, position.dtype)
     start = np.empty(found.cells + 1, dtype=np.uint32)
     cell = np.empty(members.size, dtype=np.uint32)
     sort(position, members, low, found.inverse, found.shape, cell, start, order)
-    return start
+    return start, found.shape, found.inverse
 
 
-def grid(
-    low: np.ndarray,
-    high: np.ndarray,
-    size: float,
-    members: int,
-    real: np.dtype,
-    along: float = 1.0,
-) -> Grid:
-    """Cells of an edge of `size` [m] in a box, or larger where there are few members.
-
-    Args:
-        along: how many there are along the first axis in an edge.
-    """
+def grid(low: np.ndarray, high: np.ndarray, size: float, members: int, real: np.dtype) -> Grid:
+    """Cells of an edge of `size` [m] in a box, or larger where there are few members."""
     width = (high - low).astype(float)
-    cut = np.array([along, 1.0, 1.0][: width.size])
     while True:
-        shape = np.floor(width / size * cut) + 1.0
+        shape = np.floor(width / size) + 1.0
         if np.prod(shape) <= _CELLS_PER_PARTICLE * members + 64:
             break
         size *= 1.25
     shape = shape.astype(np.int64)
-    return Grid(shape, int(np.prod(shape)), (cut / size).astype(real))
+    return Grid(shape, int(np.prod(shape)), real.type(1.0 / size))
 
 
 def refuse_escape(
