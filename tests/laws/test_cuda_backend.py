@@ -144,7 +144,7 @@ def test_steps(make, precision, monkeypatch):
     found, rows, copies = [], [], Copies(monkeypatch)
     for backend in (compute.cpu(1, precision), compute.cuda(precision)):
         case, solver, names = make(backend)
-        longest = {flow: NODES, sleeping: TILES}.get(make, LONGEST)
+        longest = {flow: NODES, melt_pool: NODES, sleeping: TILES}.get(make, LONGEST)
         assert max(copies.sizes, default=0) <= longest < solver.body.count or make is ablation
         copies.sizes.clear()
         fields = [backend.to_host(solver.fields[name]).astype(float) for name in names]
