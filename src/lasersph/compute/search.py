@@ -60,9 +60,9 @@ class Room:
         return self.scratch
 
     def lengthen(self, kept: int, length: int) -> np.ndarray:
-        """Room for a list of a length, whose first entries are kept."""
+        """Room for a list of a length and for the next one, with the first entries kept."""
         if length > self.neighbor.size:
-            before, self.neighbor = self.neighbor, np.empty(length, dtype=np.uint32)
+            before, self.neighbor = self.neighbor, np.empty(length + length // 4, dtype=np.uint32)
             self.neighbor[:kept] = before[:kept]
         return self.neighbor
 
