@@ -13,7 +13,7 @@ import pytest
 
 from lasersph import compute
 from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.measure import _loops
+from lasersph.benchmark.measure import loops_of
 from lasersph.case import load_case
 from lasersph.simulation import forecast
 from lasersph.simulation.build import build
@@ -45,7 +45,7 @@ def test_loops():
     """Every loop, in processor time per particle and pass."""
     backend, times = CountingBackend(THREADS), {}
     for size in SIZES:
-        for loop in _loops(backend, size):
+        for loop in loops_of(backend, size):
             time = fastest(loop)
             times.setdefault(loop.name, []).append(time)
             print(f"\n{loop.name}, {loop.count} particles: {1e9 * time:.1f} ns", end="", flush=True)
