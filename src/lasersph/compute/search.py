@@ -25,6 +25,8 @@ _CELLS_PER_REACH = 1.0
 _CELLS_PER_PARTICLE = 4
 _PLACES_PER_ROW = 256
 """At first; a list with more neighbors per particle is begun anew. Memory not written is free."""
+SPARE = 4
+"""Part of a list that is kept free for a longer one to come; unwritten, it costs nothing."""
 _scans: dict[tuple, ScanText] = {}
 
 
@@ -62,7 +64,10 @@ class Room:
     def lengthen(self, kept: int, length: int) -> np.ndarray:
         """Room for a list of a length and for the next one, with the first entries kept."""
         if length > self.neighbor.size:
-            before, self.neighbor = self.neighbor, np.empty(length + length // 4, dtype=np.uint32)
+            before, self.neighbor = (
+                self.neighbor,
+                np.empty(length + length // SPARE, dtype=np.uint32),
+            )
             self.neighbor[:kept] = before[:kept]
         return self.neighbor
 

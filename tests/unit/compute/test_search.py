@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
+from lasersph import compute
 from lasersph.compute import search
 from lasersph.compute.cuda_device import SIMULATED
 
@@ -167,3 +168,13 @@ def test_a_room_is_used_again(backend):
         _, neighbor = search.neighbor_list(backend, x, support, 50, mean=mean, room=room)
         places.append(backend.unwrap(neighbor).ctypes.data)
     assert places == [room.neighbor.ctypes.data] * 2
+
+
+def test_gather_beyond_the_end():
+    """A particle that is not there is refused; what no particle is named for keeps its value."""
+    backend = compute.cpu(threads=1)
+    source, out = backend.asarray(np.arange(3.0)), backend.asarray(np.full(3, 7.0))
+    backend.gather(source, backend.asarray([2, 0], "index"), out)
+    assert backend.to_host(out).tolist() == [2.0, 0.0, 7.0]
+    with pytest.raises(IndexError, match="particle 3 of 3"):
+        backend.gather(source, backend.asarray([3], "index"), out)

@@ -17,6 +17,7 @@ from lasersph.compute.backend import Backend
 from lasersph.lasers import Laser
 from lasersph.materials import Material
 from lasersph.particles.neighbors import NeighborList
+from lasersph.particles.support import common
 from lasersph.physics.columns import (
     NOWHERE,
     absorbed_light,
@@ -165,7 +166,7 @@ class Columns:
         backend.exclusive_scan(backend.count_by_key(column, total), start)
         order = backend.sort_by_key(column, total)
         return NeighborList(
-            backend.head(start, total), order, x, backend.zeros(x.shape[1]), None, nothing, ()
+            backend.head(start, total), order, x, backend.zeros(x.shape[1]), None, common, ()
         )
 
     def _find_tops(self) -> None:
@@ -273,8 +274,3 @@ class Columns:
 def marked(lit, share):
     """1 for a particle that takes a share of any column."""
     return 1.0 if share > 0.0 else lit
-
-
-def nothing(l_i, l_j):
-    """Mean of supports that columns do not have."""
-    return l_i

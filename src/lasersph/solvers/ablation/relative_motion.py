@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.particles.neighbors import NeighborList
+from lasersph.particles.support import common
 from lasersph.physics.ejection import CONDENSED
 from lasersph.solvers.ablation.matter import Matter
 from lasersph.solvers.ablation.tiles import Tiles
@@ -60,11 +61,6 @@ def between_square(most, least, most_around, least_around):
     """Square of the largest difference of a component [m^2]; 0 of a tile without particles."""
     difference = max(max(most_around - least, most - least_around), 0.0)
     return difference * difference
-
-
-def itself(l_i, l_j):
-    """Mean of supports that tiles do not have."""
-    return l_i
 
 
 class RelativeMotion:
@@ -111,7 +107,7 @@ class RelativeMotion:
         start = np.arange(0, neighbor.size + 1, 2 * REACH + 1)
         return NeighborList(
             backend.asarray(start, "offset"), backend.asarray(neighbor, "index"),
-            None, None, None, itself, (),
+            None, None, None, common, (),
         )  # fmt: skip
 
     def forget(self) -> None:
@@ -148,4 +144,4 @@ class RelativeMotion:
         self._tiles.find(self.listed, tile)
         backend.exclusive_scan(backend.count_by_key(tile, self._tiles.count), start)
         order = backend.sort_by_key(tile, self._tiles.count)
-        return NeighborList(start, order, None, self.matter.support, None, itself, ())
+        return NeighborList(start, order, None, self.matter.support, None, common, ())
