@@ -3,8 +3,8 @@
 import re
 from pathlib import Path
 
+from lasersph.input import build, parse_toml
 from lasersph.materials import Material
-from lasersph.reading import build, parse_toml
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted(path for path in (ROOT / "docs").rglob("*.md") if "generated" not in path.parts)

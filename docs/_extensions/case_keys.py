@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from lasersph.reading import KINDS, show_quantity
+from lasersph.input import KINDS, show_quantity
 
 Schema = dict[str, Any]
 

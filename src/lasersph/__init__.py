@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from lasersph.case import Case, load_case
+    from lasersph.input import CaseError
     from lasersph.output import open_run
-    from lasersph.reading import CaseError
     from lasersph.simulation import run
 
 __version__ = "0.1.0"
@@ -23,7 +23,7 @@ __all__ = ["Case", "CaseError", "__version__", "load_case", "open_run", "run"]
 
 _ROOMS = {
     "Case": "lasersph.case",
-    "CaseError": "lasersph.reading",
+    "CaseError": "lasersph.input",
     "load_case": "lasersph.case",
     "open_run": "lasersph.output",
     "run": "lasersph.simulation",

@@ -9,7 +9,7 @@ from bad_ejection_cases import BAD_EJECTION_CASES
 from bad_flow_cases import BAD_FLOW_CASES
 
 from lasersph.case import load_case
-from lasersph.reading import CaseError
+from lasersph.input import CaseError
 
 FOLDER = Path(__file__).parent
 GOOD = (FOLDER / "good.toml").read_text(encoding="utf-8")

@@ -6,7 +6,7 @@ import pytest
 from moving_matter import HEATED_BLOCK
 
 from lasersph.case import load_case
-from lasersph.reading import CaseError
+from lasersph.input import CaseError
 from lasersph.simulation import run
 
 COLUMN = (*HEATED_BLOCK, "domain.depth=4 um", "particles.spacing=0.2 um", "time.end=1 ns")

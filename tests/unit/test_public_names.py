@@ -11,8 +11,8 @@ import lasersph
 def test_names_come_from_their_rooms():
     """Each public name is the room's own object."""
     from lasersph.case import Case, load_case
+    from lasersph.input import CaseError
     from lasersph.output import open_run
-    from lasersph.reading import CaseError
     from lasersph.simulation import run
 
     assert (lasersph.Case, lasersph.load_case) == (Case, load_case)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lasersph import compute
-from lasersph.reading import CaseError
+from lasersph.input import CaseError
 from lasersph.sph import gradient
 from lasersph.sph.kernels import kernel
 from lasersph.validation import Report, kernel_correction, kernels, names, titles, validate

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lasersph.case import load_case
-from lasersph.reading import CaseError
+from lasersph.input import CaseError
 from lasersph.validation import (
     Report,
     gaussian_pulse,

@@ -20,7 +20,7 @@ from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, model_validat
 from pydantic_core import CoreSchema
 
 from lasersph.boundaries.initial_flow import InitialFlow, RestingFlow
-from lasersph.reading import Model, Velocity, refusal
+from lasersph.input import Model, Velocity, refusal
 
 FlowKind = Literal["no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface"]
 KINDS: tuple[FlowKind, ...] = (

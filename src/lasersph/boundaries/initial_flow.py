@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
 from lasersph.analytic.taylor_green import TaylorGreen
-from lasersph.reading import CaseError, Length, Model, Velocity, refusal
+from lasersph.input import CaseError, Length, Model, Velocity, refusal
 
 Array = NDArray[np.float64]
 Box = tuple[tuple[float, float], tuple[float, float]]

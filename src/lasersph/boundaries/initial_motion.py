@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from lasersph.reading import Model, Velocity
+from lasersph.input import Model, Velocity
 
 Array = NDArray[np.float64]
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from lasersph.reading import (
+from lasersph.input import (
     Fraction,
     HeatFlux,
     HeatTransferCoefficient,

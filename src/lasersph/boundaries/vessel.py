@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from lasersph.reading import Length, Model
+from lasersph.input import Length, Model
 
 Room = Annotated[Length, Field(ge=0)]
 

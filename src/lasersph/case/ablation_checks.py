@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_motion import Rest, SoundWave
-from lasersph.reading import show_quantity
+from lasersph.input import show_quantity
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.body import SUPPORT
 

@@ -12,10 +12,10 @@ from lasersph.case.checks import problems_of
 from lasersph.case.material_choice import MaterialChoice
 from lasersph.case.outputs import OutputSettings
 from lasersph.case.solver_choice import SolverChoice
+from lasersph.input import Model, Temperature, refusal
 from lasersph.lasers import Laser
 from lasersph.observers import Probe, Trace
 from lasersph.particles import Domain, Lattice
-from lasersph.reading import Model, Temperature, refusal
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.time_step import TimeSettings

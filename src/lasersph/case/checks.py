@@ -17,9 +17,9 @@ from lasersph.case.size import (
     memories,
     size_of,
 )
+from lasersph.input import CaseError, show_quantity
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
 from lasersph.observers import SnapshotSchedule
-from lasersph.reading import CaseError, show_quantity
 
 if TYPE_CHECKING:
     from lasersph.case.case import Case

@@ -10,8 +10,8 @@ from lasersph.boundaries.flow_sides import SIDES, FlowSides
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import FLUX, HELD
 from lasersph.case.size import LARGEST_STEPS
+from lasersph.input import show_quantity
 from lasersph.materials import available_materials
-from lasersph.reading import show_quantity
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 if TYPE_CHECKING:

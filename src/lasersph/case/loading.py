@@ -9,7 +9,7 @@ from pathlib import Path
 from lasersph.case.case import Case
 from lasersph.case.overrides import override
 from lasersph.case.quick import quick_settings
-from lasersph.reading import CaseError, Document, build, nearest, read_toml
+from lasersph.input import CaseError, Document, build, nearest, read_toml
 
 LIBRARY = Path(__file__).parent / "cases"
 

@@ -19,8 +19,8 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
 
+from lasersph.input import QuantityError, parse_quantity, read_toml
 from lasersph.materials import Material, load_material, material_file
-from lasersph.reading import QuantityError, parse_quantity, read_toml
 
 SET_HERE = "set in the case"
 UNNAMED = "of the case"

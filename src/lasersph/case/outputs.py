@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from lasersph.input import Count, Model
 from lasersph.observers import SnapshotPlan
-from lasersph.reading import Count, Model
 
 
 class OutputSettings(Model):

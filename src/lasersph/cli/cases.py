@@ -35,7 +35,7 @@ def new(case: CaseName, file: NewFile) -> None:
 def list_cases() -> None:
     """List the shipped cases."""
     from lasersph.case import available_cases
-    from lasersph.reading import read_toml
+    from lasersph.input import read_toml
 
     rows = [(name, read_toml(path).data["title"]) for name, path in available_cases().items()]
     print(aligned(rows))
@@ -61,7 +61,7 @@ def check(
     from lasersph.case import load_case, refuse_if_too_large
     from lasersph.case.size import in_words, memories
     from lasersph.compute.threads import chosen
-    from lasersph.reading import CaseError
+    from lasersph.input import CaseError
     from lasersph.simulation import forecast
 
     refuse_backend(backend, threads)
@@ -85,8 +85,8 @@ def check(
 
 def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tuple[str, str]]:
     from lasersph.case.size import in_words, memories
+    from lasersph.input import show_quantity
     from lasersph.observers import duration
-    from lasersph.reading import show_quantity
 
     otherwise = "explicit" if case.solver.kind == "ablation" else "heat implicit"
     scheme = getattr(case.solver, "scheme", otherwise)

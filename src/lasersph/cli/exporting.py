@@ -38,7 +38,7 @@ def export(folder: RunFolder, format: Format = "csv", at: At = None) -> None:
 
 
 def _time(text: str) -> float:
-    from lasersph.reading import QuantityError, parse_quantity
+    from lasersph.input import QuantityError, parse_quantity
 
     try:
         return parse_quantity(text, "time")

@@ -64,7 +64,7 @@ def _described(error: Exception) -> tuple[str, int]:
 
     if isinstance(error, NoDevice):
         return str(error), WRONG
-    from lasersph.reading import CaseError
+    from lasersph.input import CaseError
 
     if isinstance(error, CaseError):
         return str(error), WRONG

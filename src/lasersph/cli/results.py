@@ -28,7 +28,7 @@ Scene = Annotated[
 
 def info(folder: RunFolder) -> None:
     """Show what a run folder holds: the case, how far it is, the main numbers."""
-    from lasersph.reading import show_quantity
+    from lasersph.input import show_quantity
 
     found = opened(folder)
     if found.is_complete:
@@ -85,8 +85,8 @@ def opened(folder: Path) -> Run:
 
 def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     """The main numbers of summary.json, with units."""
+    from lasersph.input import show_quantity
     from lasersph.observers import duration
-    from lasersph.reading import show_quantity
 
     energy = summary["energy"]
     rows = [
@@ -120,7 +120,7 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
 
 def crater_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     """The crater and what left it; nothing for a run without ablation."""
-    from lasersph.reading import show_quantity
+    from lasersph.input import show_quantity
 
     crater, ejecta = summary.get("crater"), summary.get("ejecta")
     if crater is None or ejecta is None:

@@ -138,7 +138,7 @@ def spot(
 
 
 def _fluence(text: str) -> float:
-    from lasersph.reading import QuantityError, parse_quantity
+    from lasersph.input import QuantityError, parse_quantity
 
     try:
         value = parse_quantity(text.strip(), "fluence")
@@ -160,7 +160,7 @@ def _answer(found: Any) -> str:
 
 
 def _length(text: str) -> float:
-    from lasersph.reading import QuantityError, parse_quantity
+    from lasersph.input import QuantityError, parse_quantity
 
     try:
         value = parse_quantity(text.strip(), "length")

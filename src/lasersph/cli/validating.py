@@ -62,7 +62,7 @@ def validate(
 
 def _known(names: list[str], known: tuple[str, ...]) -> list[str]:
     """The names without repetition, or all; refuses an unknown one before anything runs."""
-    from lasersph.reading import CaseError, nearest
+    from lasersph.input import CaseError, nearest
 
     for name in names:
         if name not in known:

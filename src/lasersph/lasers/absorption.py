@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
-from lasersph.reading import AbsorptionCoefficient, Model
+from lasersph.input import AbsorptionCoefficient, Model
 
 Array = NDArray[np.float64]
 

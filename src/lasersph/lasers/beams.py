@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from lasersph.reading import Length, Model
+from lasersph.input import Length, Model
 
 Array = NDArray[np.float64]
 PositiveLength = Annotated[Length, Field(gt=0)]

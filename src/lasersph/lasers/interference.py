@@ -24,8 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from lasersph.input import Angle, Model
 from lasersph.lasers.beams import PositiveLength, plane_cells
-from lasersph.reading import Angle, Model
 
 Array = NDArray[np.float64]
 

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
+from lasersph.input import Energy, Fluence, Intensity, Length, Model, Power
 from lasersph.lasers.absorption import Absorption
 from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
 from lasersph.lasers.interference import InterferenceBeam
@@ -31,7 +32,6 @@ from lasersph.lasers.path import LinearPath, Path
 from lasersph.lasers.pulses import Pulse
 from lasersph.lasers.reflectivity import Reflectivity, reflectivity_nodes
 from lasersph.materials import Material
-from lasersph.reading import Energy, Fluence, Intensity, Length, Model, Power
 
 Array = NDArray[np.float64]
 Beam = Annotated[

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.reading import Angle, Length, Model, Time, Velocity
+from lasersph.input import Angle, Length, Model, Time, Velocity
 
 Array = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.reading import Count, Model, Time
+from lasersph.input import Count, Model, Time
 
 Array = NDArray[np.float64]
 PositiveTime = Annotated[Time, Field(gt=0)]

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from lasersph.input import Fraction, Model, Temperature
 from lasersph.materials import Material
-from lasersph.reading import Fraction, Model, Temperature
 
 Array = NDArray[np.float64]
 Share = Annotated[Fraction, Field(ge=0, le=1)]

@@ -11,8 +11,8 @@ import os
 from functools import lru_cache
 from pathlib import Path
 
+from lasersph.input import CaseError, build, read_toml
 from lasersph.materials.material import Material
-from lasersph.reading import CaseError, build, read_toml
 
 LIBRARY = Path(__file__).parent / "library"
 FOLDER_VARIABLE = "LASERSPH_MATERIALS"

@@ -8,11 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.materials.caloric_curve import CaloricCurve
-from lasersph.materials.enthalpy import build_curve
-from lasersph.materials.property import Law, Property
-from lasersph.materials.sections import Melting, Optics, Vaporization
-from lasersph.reading import (
+from lasersph.input import (
     Conductivity,
     Density,
     Diffusivity,
@@ -25,6 +21,10 @@ from lasersph.reading import (
     Temperature,
     Viscosity,
 )
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.materials.enthalpy import build_curve
+from lasersph.materials.property import Law, Property
+from lasersph.materials.sections import Melting, Optics, Vaporization
 
 Array = NDArray[np.float64]
 Plateau = Literal["hold", "clip", "evaporate"]

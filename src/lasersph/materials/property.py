@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.reading import Model, Temperature
+from lasersph.input import Model, Temperature
 
 Quantity = TypeVar("Quantity", bound=float)
 Array = NDArray[np.float64]

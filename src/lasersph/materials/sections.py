@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field, model_validator
 
-from lasersph.materials.property import Property
-from lasersph.reading import (
+from lasersph.input import (
     AbsorptionCoefficient,
     Fraction,
     Length,
@@ -14,6 +13,7 @@ from lasersph.reading import (
     SpecificEnergy,
     Temperature,
 )
+from lasersph.materials.property import Property
 
 GAS_CONSTANT = 8.314462618
 """Molar gas constant [J/(mol K)] (CODATA 2018)."""

@@ -19,9 +19,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, field_validator
 
+from lasersph.input import Length, Model
 from lasersph.observers.peak import Peak
 from lasersph.observers.view import View
-from lasersph.reading import Length, Model
 
 SUPPORT = {1: 2, 2: 6, 3: 12}
 """Particles that a linear probe combines, by dimension."""

@@ -7,8 +7,8 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
+from lasersph.input import Model, Time
 from lasersph.observers.view import View
-from lasersph.reading import Model, Time
 
 DEFAULT_COUNT = 40
 LARGEST_COUNT = 100_000

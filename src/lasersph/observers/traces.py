@@ -19,11 +19,11 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
+from lasersph.input import Length, Model
 from lasersph.observers.ablation_view import CONDENSED, EJECTED, AblationView
 from lasersph.observers.crater import ablation_of
 from lasersph.observers.probes import weights_at
 from lasersph.observers.view import View
-from lasersph.reading import Length, Model
 
 AT_BOILING = 1e-9
 """Relative distance below T_v that counts as T_v."""

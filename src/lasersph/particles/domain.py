@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from lasersph.reading import Length, Model
+from lasersph.input import Length, Model
 
 Size = Annotated[Length, Field(gt=0)]
 

@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from lasersph.reading import Length, Model
+from lasersph.input import Length, Model
 
 KernelName = Literal["cubic-spline", "quintic-spline", "wendland-c2"]
 Size = Annotated[Length, Field(gt=0)]

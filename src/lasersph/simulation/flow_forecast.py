@@ -16,9 +16,9 @@ from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import HELD
 from lasersph.case import Case
+from lasersph.input import show_quantity
 from lasersph.lasers import GaussianBeam, InterferenceBeam
 from lasersph.physics.flow_limits import flow_limits
-from lasersph.reading import show_quantity
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 BUOYANT_SHARE = 0.2

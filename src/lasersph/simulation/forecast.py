@@ -10,8 +10,8 @@ import numpy as np
 from lasersph.case import Case
 from lasersph.case.size import BYTES_PER_PARTICLE, bytes_per_neighbor
 from lasersph.case.sleeping import awake_share
+from lasersph.input import show_quantity
 from lasersph.particles.layers import Layers
-from lasersph.reading import show_quantity
 from lasersph.simulation.ablation_forecast import ablation_steps, ablation_warnings
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
 from lasersph.simulation.flow_forecast import FlowForecast, flow_forecast

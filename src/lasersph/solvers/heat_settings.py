@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from lasersph.reading import Model
+from lasersph.input import Model
 
 
 class HeatSettings(Model):

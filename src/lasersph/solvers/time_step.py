@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
-from lasersph.reading import Model, TemperatureDifference, Time
+from lasersph.input import Model, TemperatureDifference, Time
 
 
 class TimeSettings(Model):

@@ -8,7 +8,7 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 
-from lasersph.reading import CaseError, nearest
+from lasersph.input import CaseError, nearest
 from lasersph.validation.report import Report
 from lasersph.validation.runs import computing
 

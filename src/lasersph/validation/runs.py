@@ -19,8 +19,8 @@ from pathlib import Path
 from lasersph import compute
 from lasersph.case import Case, load_case
 from lasersph.compute.backend import Backend
+from lasersph.input import CaseError
 from lasersph.output import Run, open_run
-from lasersph.reading import CaseError
 from lasersph.simulation import run
 from lasersph.solvers.conduction.state import NotConverged
 

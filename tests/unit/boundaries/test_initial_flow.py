@@ -5,7 +5,7 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from lasersph.boundaries.initial_flow import InitialFlow, TabulatedFlow, TaylorGreenFlow
-from lasersph.reading import CaseError
+from lasersph.input import CaseError
 
 BOX = ((-0.5, 0.5), (-1.0, 0.0))
 PLACES = np.array([[0.25, 0.0, 0.1], [-0.5, -0.25, -0.3]])

@@ -10,8 +10,8 @@ from lasersph.case import size as size_module
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.quick import quick_settings
 from lasersph.case.size import in_words
+from lasersph.input import CaseError
 from lasersph.materials import material_file
-from lasersph.reading import CaseError
 
 
 def test_overrides_are_toml_or_text():

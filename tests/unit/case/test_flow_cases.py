@@ -3,7 +3,7 @@
 import pytest
 
 from lasersph.case import Case, load_case
-from lasersph.reading import CaseError
+from lasersph.input import CaseError
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 

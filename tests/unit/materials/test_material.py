@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lasersph.input import CaseError
 from lasersph.materials import (
     Material,
     available_materials,
     check_material,
     load_material,
 )
-from lasersph.reading import CaseError
 
 MINIMAL = """
 name = "toy"

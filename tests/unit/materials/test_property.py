@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from lasersph.input import Conductivity, Density, Fraction, Viscosity
 from lasersph.materials import Law, Property
-from lasersph.reading import Conductivity, Density, Fraction, Viscosity
 
 SOURCE = "made up for the test"
 

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
+from lasersph.input import Model
 from lasersph.lasers import Laser
 from lasersph.materials import Material, load_material
-from lasersph.reading import Model
 from lasersph.studies import threshold
 
 STEEL = load_material("steel-304-demuth")

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 from pydantic import ValidationError
 
-from lasersph.reading import Length, Model
+from lasersph.input import Length, Model
 from lasersph.studies import changed, converge
 
 

@@ -13,7 +13,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from lasersph.reading import Model, refusal
+from lasersph.input import Model, refusal
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from lasersph.reading import Acceleration, Length, Model, Velocity
+from lasersph.input import Acceleration, Length, Model, Velocity
 
 
 class AblationSettings(Model):

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from lasersph.reading import Acceleration
+from lasersph.input import Acceleration
 from lasersph.solvers.heat_settings import HeatSettings
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from lasersph.reading.errors import CaseError
-from lasersph.reading.key_lines import Path as KeyPath
-from lasersph.reading.key_lines import key_lines
+from lasersph.input.errors import CaseError
+from lasersph.input.key_lines import Path as KeyPath
+from lasersph.input.key_lines import key_lines
 
 LARGEST_FILE = 16 * 2**20
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lasersph.reading.units import ENERGY, FORCE, NONE, POWER, Dimension, Unit, dimension
+from lasersph.input.units import ENERGY, FORCE, NONE, POWER, Dimension, Unit, dimension
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from typing import Annotated, Any
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from lasersph.reading.kinds import KINDS
-from lasersph.reading.quantity import QuantityError, parse_quantity
+from lasersph.input.kinds import KINDS
+from lasersph.input.quantity import QuantityError, parse_quantity
 
 
 @dataclass(frozen=True)

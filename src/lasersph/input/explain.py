@@ -8,10 +8,10 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from lasersph.reading.document import Document
-from lasersph.reading.errors import CaseError, Problem
-from lasersph.reading.key_lines import Path
-from lasersph.reading.model import nearest
+from lasersph.input.document import Document
+from lasersph.input.errors import CaseError, Problem
+from lasersph.input.key_lines import Path
+from lasersph.input.model import nearest
 
 M = TypeVar("M", bound=BaseModel)
 

@@ -6,7 +6,7 @@ import numpy
 import pytest
 from pydantic import Field, ValidationError, model_validator
 
-from lasersph.reading import (
+from lasersph.input import (
     CaseError,
     Count,
     Fluence,

@@ -11,8 +11,8 @@ import re
 from fractions import Fraction
 from functools import lru_cache
 
-from lasersph.reading.kinds import KINDS, kind_of
-from lasersph.reading.units import Unit, UnitError, parse_unit
+from lasersph.input.kinds import KINDS, kind_of
+from lasersph.input.units import Unit, UnitError, parse_unit
 
 _NUMBER = re.compile(
     r"\s*([+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,3})?)(.*)",

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from lasersph.reading import CaseError, parse_toml, read_toml
-from lasersph.reading.key_lines import key_lines
+from lasersph.input import CaseError, parse_toml, read_toml
+from lasersph.input.key_lines import key_lines
 
 TEXT = (
     r'''# comment

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lasersph.reading import KINDS, QuantityError, parse_quantity, show_quantity
-from lasersph.reading.units import UnitError, dimension, parse_unit
+from lasersph.input import KINDS, QuantityError, parse_quantity, show_quantity
+from lasersph.input.units import UnitError, dimension, parse_unit
 
 READ = [
     ("0.6 J/cm2", "fluence", 6000.0),
@@ -136,7 +136,7 @@ def test_examples_are_of_their_kind(kind):
 def test_common_units_need_no_pint():
     """The table answers alone: pint is not imported for the units of the shipped cases."""
     code = (
-        "import sys; from lasersph.reading import parse_quantity as q;"
+        "import sys; from lasersph.input import parse_quantity as q;"
         "q('0.6 J/cm^2', 'fluence'); q('20 degC', 'temperature');"
         "assert 'pint' not in sys.modules"
     )

@@ -3,13 +3,13 @@
 The only room that names pint.
 """
 
-from lasersph.reading.document import Document, parse_toml, read_toml
-from lasersph.reading.errors import CaseError, Problem
-from lasersph.reading.explain import build, dotted, explain
-from lasersph.reading.kinds import KINDS, Kind
-from lasersph.reading.model import Model, did_you_mean, nearest, refusal
-from lasersph.reading.quantity import QuantityError, parse_quantity, show_quantity
-from lasersph.reading.types import (
+from lasersph.input.document import Document, parse_toml, read_toml
+from lasersph.input.errors import CaseError, Problem
+from lasersph.input.explain import build, dotted, explain
+from lasersph.input.kinds import KINDS, Kind
+from lasersph.input.model import Model, did_you_mean, nearest, refusal
+from lasersph.input.quantity import QuantityError, parse_quantity, show_quantity
+from lasersph.input.types import (
     AbsorptionCoefficient,
     Acceleration,
     Angle,
