@@ -10,7 +10,7 @@ from time import perf_counter
 RUN = """
 import json, sys
 from lasersph.case import load_case
-from lasersph.simulation.run import run
+from lasersph.simulation.time_loop import run
 
 name, settings, out, threads = json.loads(sys.argv[1])
 run(load_case(name, settings), out, threads=threads)

@@ -15,7 +15,7 @@ from lasersph import compute
 from lasersph.case import load_case
 from lasersph.compute.cuda_device import IS_SIMULATED
 from lasersph.simulation.build import build, view_of
-from lasersph.simulation.run import Stopped, _observers, run
+from lasersph.simulation.time_loop import Stopped, _observers, run
 from lasersph.solvers.ablation.solver import Ablation
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.melt_pool.solver import MeltPool

@@ -8,7 +8,7 @@ from reliability_runs import assert_same
 from lasersph.case import load_case
 from lasersph.output.checkpoint import candidates, load
 from lasersph.simulation import run
-from lasersph.simulation.run import Stopped
+from lasersph.simulation.time_loop import Stopped
 
 COLUMN = (
     *HEATED_BLOCK, "laser.fluence=20 J/cm^2", "domain.depth=6 um", "particles.spacing=0.1 um",

@@ -11,7 +11,7 @@ from reliability_runs import assert_same, kill_after_checkpoints, small_case
 from lasersph.output import open_run
 from lasersph.output.checkpoint import candidates, load
 from lasersph.simulation import run
-from lasersph.simulation.run import Stopped
+from lasersph.simulation.time_loop import Stopped
 
 POOL = ("solver.kind=melt-pool", "particles.spacing=64nm", "time.end=100ns")
 HEAT = {"left": "fixed-temperature", "left_temperature": 310.0, "right": "fixed-temperature"}

@@ -9,7 +9,7 @@ from reliability_runs import assert_same, kill_after_checkpoints, small_case, st
 from lasersph.output import FolderRefused, OutputError, open_run
 from lasersph.output.events import read_events
 from lasersph.simulation import run
-from lasersph.simulation.run import Stopped
+from lasersph.simulation.time_loop import Stopped
 
 SEEDS = (1, 2)
 KILLS = 2

@@ -5,7 +5,10 @@ from __future__ import annotations
 import sys
 import time
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
+
+if TYPE_CHECKING:
+    from lasersph.simulation import RunProgress
 
 LINES = 10
 
@@ -34,13 +37,13 @@ class ProgressDisplay:
         if self._bar is not None:
             self._bar.stop()
 
-    def __call__(self, now: float, end: float, steps: int, hottest: float) -> None:
-        """After each step: time and end [s], steps done, highest temperature [K]."""
-        fraction = min(now / end, 1.0)
+    def __call__(self, status: RunProgress) -> None:
+        """Show how far the run is, after each step."""
+        fraction = min(status.work_done, 1.0)
         if self._start is None:
             self._start = (time.monotonic(), fraction)
             self._shown = int(LINES * fraction)
-        text = f"{now * 1e9:.4g} ns, step {steps}, {hottest:.0f} K"
+        text = f"{status.time * 1e9:.4g} ns, step {status.steps}, {status.hottest:.0f} K"
         if self.is_terminal:
             self._draw(fraction, text)
         elif int(LINES * fraction) > self._shown:

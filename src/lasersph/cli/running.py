@@ -100,7 +100,7 @@ def _compute(case: Case, folder: Path, again: str, options: dict[str, Any]) -> R
     from lasersph import simulation
     from lasersph.cli.progress import ProgressDisplay
     from lasersph.compute.compiling import Compiling
-    from lasersph.simulation.run import Stopped
+    from lasersph.simulation.time_loop import Stopped
 
     with StopSignals() as signals, ProgressDisplay() as progress:
         try:

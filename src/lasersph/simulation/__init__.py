@@ -1,6 +1,6 @@
 """Simulation: builds particles and solver from a case, forecasts the cost, holds the time loop."""
 
 from lasersph.simulation.forecast import Forecast, forecast
-from lasersph.simulation.run import Result, Stopped, run
+from lasersph.simulation.time_loop import Result, RunProgress, Stopped, run
 
-__all__ = ["Forecast", "Result", "Stopped", "forecast", "run"]
+__all__ = ["Forecast", "Result", "RunProgress", "Stopped", "forecast", "run"]

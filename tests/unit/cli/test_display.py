@@ -4,6 +4,7 @@ import time
 
 from lasersph.cli.progress import ProgressDisplay
 from lasersph.cli.tables import aligned
+from lasersph.simulation import RunProgress
 
 
 def test_aligned_columns():
@@ -19,7 +20,7 @@ def test_plain_progress_off_a_terminal(capsys, monkeypatch):
     monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
     with ProgressDisplay(is_terminal=False) as progress:
         for step in range(1, 101):
-            progress(step * 1e-9, 1e-7, step, 300.0 + step)
+            progress(RunProgress(step * 1e-9, 1e-7, step, 300.0 + step, step / 100))
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 10
     assert lines[0].startswith("  10 %  10 ns, step 10, 310 K")
@@ -31,8 +32,8 @@ def test_plain_progress_off_a_terminal(capsys, monkeypatch):
 def test_bar_on_a_terminal(capsys):
     """The bar names time, step and temperature."""
     with ProgressDisplay(is_terminal=True) as progress:
-        progress(5e-8, 1e-7, 7, 1234.0)
-        progress(1e-7, 1e-7, 8, 1235.0)
+        progress(RunProgress(5e-8, 1e-7, 7, 1234.0, 0.5))
+        progress(RunProgress(1e-7, 1e-7, 8, 1235.0, 1.0))
     assert "step 8, 1235 K" in capsys.readouterr().err
 
 
@@ -42,6 +43,6 @@ def test_compiling_is_said(capsys):
         progress.compiling()
     assert capsys.readouterr().err.startswith("compiling loops as they are needed")
     with ProgressDisplay(is_terminal=True) as progress:
-        progress(5e-8, 1e-7, 7, 1234.0)
+        progress(RunProgress(5e-8, 1e-7, 7, 1234.0, 0.5))
         progress.compiling()
     assert "compiling loops as they are needed" in capsys.readouterr().err

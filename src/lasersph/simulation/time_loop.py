@@ -43,8 +43,27 @@ from lasersph.solvers.time_step import choose
 PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
 END = 1.0 - 1e-12
 
-Progress = Callable[[float, float, int, float], None]
-"""Called after each step with time, end [s], steps done and highest temperature [K]."""
+
+@dataclass(frozen=True)
+class RunProgress:
+    """How far a run is after a step, for display only: nothing in a run depends on it.
+
+    Attributes:
+        time, end: simulated [s]. steps: done. hottest: largest temperature [K].
+        work_done: part of the work that is done, 0 to 1.
+        remaining_s: expected wall time to the end [s], None before it can be told.
+    """
+
+    time: float
+    end: float
+    steps: int
+    hottest: float
+    work_done: float
+    remaining_s: float | None = None
+
+
+Progress = Callable[[RunProgress], None]
+"""Called after each step."""
 
 
 @dataclass(frozen=True)
@@ -178,7 +197,7 @@ class _Loop:
             if self.steps % self.case.output.checkpoint_every == 0:
                 self._save()
             if progress is not None:
-                progress(state.time, end, self.steps, self.hottest)
+                progress(RunProgress(state.time, end, self.steps, self.hottest, state.time / end))
             if should_stop():
                 self._save()
                 raise Stopped(f"stopped at {state.time:.4g} s after {self.steps} steps")
