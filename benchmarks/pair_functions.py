@@ -1,6 +1,7 @@
 """Pair functions that the benchmarks time."""
 
-from lasersph.benchmark.functions import flow, right_hand_side, same
+from hot_loops.functions import flow, right_hand_side, same
+
 from lasersph.particles.support import arithmetic as arithmetic_mean
 
 __all__ = [

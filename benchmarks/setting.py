@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pair_functions as functions
-
-from lasersph.benchmark.particles import jittered
+from hot_loops.particles import jittered
 
 
 @dataclass(frozen=True)

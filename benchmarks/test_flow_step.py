@@ -2,7 +2,7 @@
 
 Steel at 0.5 J/cm2 while it flows, 54 ns, by the lines of `MeltPool.step`. The floor of a pass over
 the pairs of the block is the time to read 12 bytes of each, value and neighbor, at the bandwidth
-that `lasersph benchmark` measures; a step has some passes a line, one an iteration of the pressure
+that `benchmarks/roofline.py` measures; a step has some passes a line, one an iteration of pressure
 and of the viscosity, and on the whole body's pairs one an iteration of the heat. 8 nm takes half a
 minute, the published 3.97 nm some minutes. Run: pytest benchmarks/test_flow_step.py -s
 """
@@ -10,9 +10,9 @@ minute, the published 3.97 nm some minutes. Run: pytest benchmarks/test_flow_ste
 from time import perf_counter
 
 import pytest
+from hot_loops.ceilings import bandwidth
 
 from lasersph import compute
-from lasersph.benchmark.ceilings import bandwidth
 from lasersph.case import load_case
 from lasersph.simulation.build import build
 from lasersph.solvers.melt_pool.solver import MeltPool

@@ -10,10 +10,10 @@ from resource import RUSAGE_SELF, getrusage
 from time import process_time
 
 import pytest
+from hot_loops.counting import CountingBackend
+from hot_loops.measure import loops_of
 
 from lasersph import compute
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.measure import loops_of
 from lasersph.case import load_case
 from lasersph.simulation import forecast
 from lasersph.simulation.build import build

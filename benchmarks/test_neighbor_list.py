@@ -3,10 +3,10 @@
 import numpy as np
 import pair_functions as functions
 import setting
+from hot_loops.counting import CountingBackend
+from hot_loops.loops import list_build
 
 from lasersph import compute
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.loops import list_build
 from lasersph.compute import search
 
 

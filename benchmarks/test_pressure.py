@@ -4,17 +4,17 @@ Half an elliptic pool under a mirrored surface, as wide and deep as the publishe
 finest particles, displaced from a lattice. Compared are the preconditioner of the package, the
 diagonal alone in the same conjugate gradients, and the published matrix with BiCGStab and its
 diagonal. The floor is the time to read each pair once, 12 bytes of value and neighbor, at the
-bandwidth that `lasersph benchmark` measures. Iterations are compared from a quarter to four times
-the unknowns of the largest pool, too. Run: pytest benchmarks/test_pressure.py -s
+bandwidth that `benchmarks/roofline.py` measures. Iterations are compared from a quarter to four
+times the unknowns of the largest pool, too. Run: pytest benchmarks/test_pressure.py -s
 """
 
 from time import perf_counter
 
 import numpy as np
 import pytest
+from hot_loops.ceilings import bandwidth
 
 from lasersph import compute
-from lasersph.benchmark.ceilings import bandwidth
 from lasersph.particles.neighbors import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation

@@ -11,7 +11,6 @@ from lasersph.cli import (
     cases,
     exporting,
     material,
-    measuring,
     results,
     running,
     studies,
@@ -39,7 +38,6 @@ app.command(rich_help_panel="Many runs")(studies.converge)
 app.command(rich_help_panel="Many runs")(studies.threshold)
 app.command(rich_help_panel="Many runs")(studies.spot)
 app.command(rich_help_panel="Many runs")(validating.validate)
-app.command(rich_help_panel="Program")(measuring.benchmark)
 app.command("cache", rich_help_panel="Program")(cache.cache)
 
 

@@ -35,7 +35,7 @@ def test_help_lists_every_verb(capsys):
     """No argument and --help show the same."""
     text = said(capsys, "--help")
     verbs = "new check run info plot report validate material schema cases cache converge threshold"
-    for verb in (*verbs.split(), "benchmark"):
+    for verb in verbs.split():
         assert f" {verb} " in text
     assert said(capsys) == text
 
@@ -147,20 +147,6 @@ def test_converge(capsys):
     assert "temperature_max_K" in text and "GCI" in text
     assert len(json.loads(Path("answer.json").read_text())["spacings_m"]) == 3
     assert main(["converge", "stefan", "--spacing", "1um,2um,4um"]) == 2
-
-
-def test_benchmark(capsys):
-    """Ceilings, the loops with their ratios, all of it as JSON; what is too large is refused."""
-    text = said(capsys, "benchmark", "--sizes", "400,900", "--threads", "1", "--json", "speed.json")
-    assert "1 thread: " in text and "GB/s" in text and "pair sum 3-D" in text
-    numbers = json.loads(Path("speed.json").read_text())
-    assert numbers["schema_version"] == 1
-    assert numbers["ceilings"][0]["bandwidth_B_s"] > 0.0
-    assert {one["particles"] for one in numbers["loops"]} == {400, 343, 900, 1000}
-    assert main(["benchmark", "--sizes", "many"]) == 2
-    capsys.readouterr()
-    assert main(["benchmark", "--sizes", "400,1000000000000"]) == 2
-    assert "need up to" in capsys.readouterr().err
 
 
 def test_cache(capsys):

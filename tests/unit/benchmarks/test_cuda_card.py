@@ -2,9 +2,8 @@
 
 import pytest
 from conftest import backends
-
-from lasersph.benchmark import card, ceilings, solves
-from lasersph.benchmark.table import as_dict, ceilings_line
+from hot_loops import card, ceilings, solves
+from hot_loops.table import as_dict, ceilings_line
 
 pytestmark = pytest.mark.skipif("cuda" not in backends(), reason="no CUDA device or simulator")
 

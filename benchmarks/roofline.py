@@ -1,45 +1,53 @@
-"""`lasersph benchmark`: how near the hot loops come to what this machine can do."""
+"""How near the hot loops come to what this machine, or its graphics card, can do.
+
+    python benchmarks/roofline.py
+    python benchmarks/roofline.py --backend cuda --sizes 400000,10000000 --json card.json
+
+Other programs on the machine make the numbers wrong.
+"""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
+from hot_loops.card import measure_card
+from hot_loops.ceilings import Ceilings
+from hot_loops.measure import Measured, measure, memory
+from hot_loops.table import as_dict, ceilings_line, growth, table
 
+import lasersph
+from lasersph.case.size import in_words, memories
 from lasersph.cli.arguments import Backend, Threads, refuse_backend
-from lasersph.cli.failures import WrongCommand
+from lasersph.cli.failures import WrongCommand, exit_code_of
+from lasersph.cli.tables import aligned
+from lasersph.output.atomic import replace_json
 
 SCHEMA_VERSION = 1
 FEWEST = 100
+"""Particles below which a cube has no inside."""
 Sizes = Annotated[str, typer.Option("--sizes", metavar="N,N,...", help="Numbers of particles.")]
 Json = Annotated[
     Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers as JSON as well.")
 ]
 
 
-def benchmark(
+def roofline(
     sizes: Sizes = "50000,400000",
     threads: Threads = None,
     json_file: Json = None,
     backend: Backend = "cpu",
 ) -> None:
-    """Time each hot loop beside the least time that memory and arithmetic allow here.
-
-    Other programs on the machine make the numbers wrong.
-    """
+    """Time each hot loop beside the least time that memory and arithmetic allow here."""
     wanted = _numbers(sizes)
     refuse_backend(backend, threads)
     _refuse_more_than_there_is(wanted, backend)
-    from lasersph.benchmark.card import measure_card
-    from lasersph.benchmark.ceilings import Ceilings
-    from lasersph.benchmark.measure import measure
-    from lasersph.benchmark.table import as_dict, ceilings_line, growth, table
-    from lasersph.cli.tables import aligned
+    limits: list[Ceilings] = []
+    loops: list[Measured] = []
 
-    limits, loops = [], []
-
-    def report(one) -> None:
+    def report(one: Ceilings | Measured) -> None:
         if isinstance(one, Ceilings):
             limits.append(one)
             print(ceilings_line(one), flush=True)
@@ -57,7 +65,8 @@ def benchmark(
         print(f"\ntime per particle {where}")
         print(aligned(growth(loops), header=True))
     if json_file is not None:
-        _write(json_file, as_dict(limits, loops))
+        head = {"schema_version": SCHEMA_VERSION, "lasersph": lasersph.__version__}
+        replace_json(json_file, head | as_dict(limits, loops))
 
 
 def _numbers(text: str) -> tuple[int, ...]:
@@ -75,9 +84,6 @@ def _numbers(text: str) -> tuple[int, ...]:
 
 def _refuse_more_than_there_is(sizes: tuple[int, ...], backend: str) -> None:
     """Say what the largest size needs, or that it is more than the machine or its card has."""
-    from lasersph.benchmark.measure import memory
-    from lasersph.case.size import in_words, memories
-
     needed = memory(max(sizes))
     for words, there in memories(backend):
         if needed > there:
@@ -88,9 +94,14 @@ def _refuse_more_than_there_is(sizes: tuple[int, ...], backend: str) -> None:
     print(f"needs up to {in_words(needed)} of memory", flush=True)
 
 
-def _write(file: Path, numbers: dict) -> None:
-    import lasersph
-    from lasersph.output.atomic import replace_json
+def main(arguments: list[str]) -> int:
+    """Run the command; a failure is one line on standard error, as with `lasersph`."""
+    command = typer.Typer(add_completion=False)
+    command.command()(roofline)
+    return exit_code_of(
+        lambda: command(arguments, standalone_mode=False) or 0, wants_traceback=False
+    )
 
-    head = {"schema_version": SCHEMA_VERSION, "lasersph": lasersph.__version__}
-    replace_json(file, head | numbers)
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from lasersph.benchmark.counted import Tally, counted
-from lasersph.benchmark.least import Least
+from hot_loops.counted import Tally, counted
+from hot_loops.least import Least
 from lasersph.compute.sweeps import Sweep
 
 

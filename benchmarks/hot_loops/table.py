@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from lasersph.benchmark.ceilings import Ceilings
-from lasersph.benchmark.measure import Measured
+from hot_loops.ceilings import Ceilings
+from hot_loops.measure import Measured
 
 HEADER = (
     "loop", "threads", "bytes", "operations", "divisions", "floor [ns]", "set by",

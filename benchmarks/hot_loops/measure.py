@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from hot_loops import loops
+from hot_loops.ceilings import LARGE, Ceilings, ceilings
+from hot_loops.counting import CountingBackend
+from hot_loops.hot_loop import HotLoop, seconds
+from hot_loops.least import Least
+from hot_loops.particles import jittered
+from hot_loops.solves import hot_solves
 from lasersph import compute
-from lasersph.benchmark import loops
-from lasersph.benchmark.ceilings import LARGE, Ceilings, ceilings
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.hot_loop import HotLoop, seconds
-from lasersph.benchmark.least import Least
-from lasersph.benchmark.particles import jittered
-from lasersph.benchmark.solves import hot_solves
 from lasersph.compute.backend import Backend
 from lasersph.sph.kernels import kernel
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from hot_loops.ceilings import LARGE, Ceilings, bandwidth, rate
+from hot_loops.counting import CountingBackend
+from hot_loops.functions import chains, quotients
+from hot_loops.hot_loop import HotLoop, seconds
+from hot_loops.least import Least
+from hot_loops.measure import ROUNDS, Measured, least_of_loop, loops_of
 from lasersph import compute
-from lasersph.benchmark.ceilings import LARGE, Ceilings, bandwidth, rate
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.functions import chains, quotients
-from lasersph.benchmark.hot_loop import HotLoop, seconds
-from lasersph.benchmark.least import Least
-from lasersph.benchmark.measure import ROUNDS, Measured, least_of_loop, loops_of
 from lasersph.compute.backend import Backend
 
 COUNTED = 125_000

@@ -12,10 +12,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.functions import chains, quotients, triad
-from lasersph.benchmark.hot_loop import seconds
-from lasersph.benchmark.least import Least
+from hot_loops.counting import CountingBackend
+from hot_loops.functions import chains, quotients, triad
+from hot_loops.hot_loop import seconds
+from hot_loops.least import Least
 from lasersph.compute.backend import Backend
 
 LARGE, SMALL, ROUNDS = 2**23, 2**16, 7

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from lasersph.benchmark.least import Least, least_of
+from hot_loops.least import Least, least_of
 from lasersph.compute.backend import Backend
 from lasersph.compute.launch import Bound, Launch, Launcher
 from lasersph.compute.loops import Loops

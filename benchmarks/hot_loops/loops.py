@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.functions import found, right_hand_side
-from lasersph.benchmark.hot_loop import HotLoop
-from lasersph.benchmark.least import Least
+from hot_loops.counting import CountingBackend
+from hot_loops.functions import found, right_hand_side
+from hot_loops.hot_loop import HotLoop
+from hot_loops.least import Least
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
 from lasersph.materials import load_material

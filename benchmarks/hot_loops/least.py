@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.benchmark.counted import Table, Tally, counted
+from hot_loops.counted import Table, Tally, counted
 from lasersph.compute.signature import Call, Signature, listed
 from lasersph.compute.vectors import norm
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
-from lasersph.benchmark.least import Least
+from hot_loops.least import Least
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
+from hot_loops.counted import Counted, Tally
+from hot_loops.counting import CountingBackend
+from hot_loops.functions import flow, right_hand_side, triad
+from hot_loops.least import Least
+from hot_loops.particles import jittered
+from hot_loops.sweeping import least_of_sweep
 
 from lasersph import compute
-from lasersph.benchmark.counted import Counted, Tally
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.functions import flow, right_hand_side, triad
-from lasersph.benchmark.least import Least
-from lasersph.benchmark.particles import jittered
-from lasersph.benchmark.sweeping import least_of_sweep
 from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
 from lasersph.sph.kernels import kernel

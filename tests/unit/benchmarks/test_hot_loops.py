@@ -3,12 +3,11 @@
 import tracemalloc
 
 import pytest
-
-from lasersph.benchmark.ceilings import Ceilings
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.least import Least
-from lasersph.benchmark.loops import list_build
-from lasersph.benchmark.measure import (
+from hot_loops.ceilings import Ceilings
+from hot_loops.counting import CountingBackend
+from hot_loops.least import Least
+from hot_loops.loops import list_build
+from hot_loops.measure import (
     BYTES_PER_PARTICLE,
     Measured,
     _numbers_of_threads,
@@ -16,8 +15,9 @@ from lasersph.benchmark.measure import (
     measure,
     memory,
 )
-from lasersph.benchmark.particles import jittered
-from lasersph.benchmark.table import as_dict, ceilings_line, growth, table
+from hot_loops.particles import jittered
+from hot_loops.table import as_dict, ceilings_line, growth, table
+
 from lasersph.sph.kernels import kernel
 
 LOOPS = {

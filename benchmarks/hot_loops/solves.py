@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from lasersph.benchmark.counting import CountingBackend
-from lasersph.benchmark.functions import flow
-from lasersph.benchmark.hot_loop import HotLoop
-from lasersph.benchmark.sweeping import least_of_sweep
+from hot_loops.counting import CountingBackend
+from hot_loops.functions import flow
+from hot_loops.hot_loop import HotLoop
+from hot_loops.sweeping import least_of_sweep
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.bicgstab import BiCGStab
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator

@@ -1,0 +1,1 @@
+"""Each hot loop beside the least time that memory and arithmetic allow."""
