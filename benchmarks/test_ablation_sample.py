@@ -47,7 +47,7 @@ def seconds_per_step(*changes, before, steps):
     begin = perf_counter()
     for _ in range(steps):
         solver.step(5e-11)
-    awake = solver.body.total if solver.region is None else solver.region.awake_count
+    awake = solver.body.total if solver.region is None else solver.region.active_count
     return (perf_counter() - begin) / steps, awake
 
 
@@ -66,11 +66,11 @@ def test_ten_million_particles(tmp_path):
 
 def test_gain_over_everything_awake():
     """Time per step of the whole sample, asleep after 2 ns and awake."""
-    asleep, awake_count = seconds_per_step(before=40, steps=20)
+    asleep, active_count = seconds_per_step(before=40, steps=20)
     everything, count = seconds_per_step("solver.sleep=false", before=2, steps=3)
     memory = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     print(
-        f"\n{asleep:.3f} s a step with {awake_count} particles awake, {everything:.2f} s with all "
+        f"\n{asleep:.3f} s a step with {active_count} particles awake, {everything:.2f} s with all "
         f"{count}, {everything / asleep:.0f} times as long; {memory / 2**30:.1f} GiB"
     )
     assert everything > 5.0 * asleep

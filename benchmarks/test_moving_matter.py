@@ -24,7 +24,7 @@ def test_rates(benchmark):
     count, rng = EDGE**3, np.random.default_rng(2)
     fields = {name: 1.0 + rng.random(count) for name in ("rho", "P", "V", "V_a", "m", "T", "k")}
     fields |= {"v": rng.random((3, count)), "f_m": rng.random(count), "p": fields["P"]}
-    fields |= {name: np.zeros(count) for name in ("stage", "E", "A")}
+    fields |= {name: np.zeros(count) for name in ("kind", "E", "A")}
     out = (np.zeros(count), np.zeros((3, count)), np.zeros(count), None, None, None)
     bare = (np.zeros((3, count)), np.zeros(count))
 

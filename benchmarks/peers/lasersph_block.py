@@ -101,7 +101,7 @@ def heat_sum(workplace: Workplace) -> Measurement:
     matter, pairs, on = solver.body, solver.pairs.now, solver.backend
     weights = on.zeros(pairs.neighbor.shape[0])
     fields = {"V": matter.now.V}
-    on.pair_values(pair_weight, pairs, fields, weights, factor=solver.numbers.weight_factor)
+    on.pair_values(pair_weight, pairs, fields, weights, factor=solver.parameters.weight_factor)
     fields = {"g_ij": weights, "P": matter.now.T}
     product = on.prepare(flow, fields, on.zeros(matter.total), neighbors=pairs)
     wall, processor = timed(product, workplace)

@@ -18,7 +18,7 @@ from lasersph.physics.ejection import EJECTED
 from lasersph.simulation.ablation_view import ablation_view_of
 from lasersph.simulation.build import lay_out
 from lasersph.simulation.build_ablation import solver_of
-from lasersph.solvers.ablation.layout import lay_out as lay_out_particles
+from lasersph.solvers.ablation.geometry import lay_out as lay_out_particles
 
 BLOCK = (
     "solver.dimensions=3", "boundaries.sides=wall", "boundaries.bottom=wall", "traces=",
@@ -43,7 +43,7 @@ def along_the_lattice():
 
 
 def turned(case, angle):
-    """Layout and start of a block of the case's size cut from a lattice turned about z."""
+    """Geometry and initial state of a block cut from a lattice turned about z."""
     wide = case.model_copy(
         update={"domain": case.domain.model_copy(update={"width": 45 * SPACING})}
     )
@@ -70,9 +70,9 @@ def turned(case, angle):
 def depth_at(solver, points):
     """Depth of the crater at points (2, n) [m]: that of the layers whose particle nearest to a
     point has left."""
-    count = solver.body.layout.surface_count
+    count = solver.body.geometry.surface_count
     start = solver.backend.to_host(solver.pairs.listed)[:2, :count]
-    has_left = host(solver, "stage").reshape(-1, count) >= EJECTED
+    has_left = host(solver, "kind").reshape(-1, count) >= EJECTED
     distance = np.hypot(*(points[:, :, None] - start[:, None, :]))
     return SPACING * has_left.sum(axis=0)[distance.argmin(axis=1)]
 
@@ -82,11 +82,11 @@ def test_crater_of_a_gaussian_beam_is_round(along_the_lattice):
     rows of the lattice or along its diagonals."""
     solver = along_the_lattice
     solver.find_surface()
-    depth = -solver.columns.tops()
-    r = np.hypot(*solver.columns.center)
+    depth = -solver.light.tops()
+    r = np.hypot(*solver.light.center)
     assert depth.max() > 0.5e-6
-    along = np.abs(np.abs(solver.columns.center[0]) - np.abs(solver.columns.center[1]))
-    axis = np.abs(solver.columns.center[1]) < 0.11e-6
+    along = np.abs(np.abs(solver.light.center[0]) - np.abs(solver.light.center[1]))
+    axis = np.abs(solver.light.center[1]) < 0.11e-6
     order = np.argsort(r[axis])
     expected = np.interp(r, r[axis][order], depth[axis][order])
     is_inside = r < r[axis].max()
@@ -116,7 +116,7 @@ def test_crater_does_not_know_the_lattice(along_the_lattice, angle):
 def boiled(solver):
     """Particles that have left, and the shares of their heat that others have taken up."""
     share = solver.backend.to_host(solver.body.now.f_v)[: solver.body.count]
-    return solver.state.left.count + share[host(solver, "stage") < EJECTED].sum()
+    return solver.state.left.count + share[host(solver, "kind") < EJECTED].sum()
 
 
 def test_half_a_spot_is_enough():
@@ -183,14 +183,14 @@ def test_light_goes_through_a_foil_burnt_through():
     )  # fmt: skip
     go(solver, end=7e-9)
     solver.find_surface()
-    is_empty = np.isnan(solver.columns.tops())
+    is_empty = np.isnan(solver.light.tops())
     assert 0 < is_empty.sum() < 60
-    assert np.abs(solver.columns.center[0, is_empty]).max() < 1e-6
+    assert np.abs(solver.light.center[0, is_empty]).max() < 1e-6
     energy = solver.state.energy
     assert energy["transmitted"] > 0.1 * energy["incident"]
     met = energy["incident"] - energy["transmitted"]
     assert energy["reflected"] == pytest.approx(0.75 * met, rel=1e-12)
     assert energy["absorbed"] == pytest.approx(0.25 * met, rel=1e-12)
-    stays = host(solver, "stage") < EJECTED
+    stays = host(solver, "kind") < EJECTED
     stored = float(mass(solver)[stays] @ host(solver, "enthalpy")[stays])
     assert relative_imbalance(energy | {"stored": stored}) < 1e-12

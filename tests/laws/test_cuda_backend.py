@@ -77,16 +77,16 @@ def ablation(backend):
     case, solver = moving("sound-wave", *COLUMN, backend=backend)
     moving_steps(solver, steps=40)
     assert solver.state.left.count > 0
-    return case, solver, ("position", "velocity", "density", "enthalpy", "stage")
+    return case, solver, ("position", "velocity", "density", "enthalpy", "kind")
 
 
 def sleeping(backend):
     """A column of aluminium of which most sleeps, and more wakes as heat comes down."""
     case, solver = moving("sound-wave", *COLUMN, *DEEP, backend=backend)
-    awake = solver.region.awake_count
+    awake = solver.region.active_count
     moving_steps(solver, steps=10)
-    assert awake < solver.region.awake_count < solver.body.count
-    return case, solver, ("position", "velocity", "density", "enthalpy", "stage", "awake")
+    assert awake < solver.region.active_count < solver.body.count
+    return case, solver, ("position", "velocity", "density", "enthalpy", "kind", "active")
 
 
 def history_row(case, solver, copies):

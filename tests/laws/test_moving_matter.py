@@ -13,7 +13,7 @@ from lasersph.solvers.time_step import binding
 def energy(solver):
     """Kinetic and elastic energy [J per (3 - d) lengths]."""
     v, rho = host(solver, "velocity"), host(solver, "density")
-    e = np.array([elastic_energy(one, 2705.0, solver.numbers.sound_speed, 1.0) for one in rho])
+    e = np.array([elastic_energy(one, 2705.0, solver.parameters.sound_speed, 1.0) for one in rho])
     return float(np.sum(mass(solver) * (0.5 * np.sum(v * v, axis=0) + e)))
 
 
@@ -105,8 +105,8 @@ def test_energy_of_an_ablating_column(model):
     )  # fmt: skip
     go(solver, end=1.2e-8)
     total = dict(solver.state.energy)
-    h, stage = host(solver, "enthalpy"), host(solver, "stage")
-    total["stored"] = float(np.sum((mass(solver) * h)[stage <= 1.0]))
+    h, kind = host(solver, "enthalpy"), host(solver, "kind")
+    total["stored"] = float(np.sum((mass(solver) * h)[kind <= 1.0]))
     assert solver.state.left.count >= 2
     assert total["removed"] > 0.0 and total["lost"] > 0.0
     assert relative_imbalance(total) < 1e-10

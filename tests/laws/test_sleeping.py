@@ -34,12 +34,12 @@ def computed(*settings):
 def test_sleepers_change_nothing(settings):
     """Temperatures agree within 1e-8 of the rise, and the same particles have left."""
     asleep, awake = computed(*settings), computed(*settings, "solver.sleep=false")
-    assert awake.region is None and asleep.region.awake_count < 0.95 * asleep.body.total
+    assert awake.region is None and asleep.region.active_count < 0.95 * asleep.body.total
     assert asleep.state.left.count == awake.state.left.count > 0
     T, expected = (s.backend.to_host(s.body.now.T) for s in (asleep, awake))
-    stage, other = (s.backend.to_host(s.body.stage) for s in (asleep, awake))
-    np.testing.assert_array_equal(stage, other)
-    body = stage <= LEAVING
+    kind, other = (s.backend.to_host(s.body.kind) for s in (asleep, awake))
+    np.testing.assert_array_equal(kind, other)
+    body = kind <= LEAVING
     rise = expected[body].max() - 300.0
     assert np.abs(T - expected)[body].max() < 1e-8 * rise
     assert asleep.state.energy["removed"] == pytest.approx(awake.state.energy["removed"], rel=1e-9)

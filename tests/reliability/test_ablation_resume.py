@@ -43,9 +43,9 @@ def test_stopped_in_the_middle_of_ejection(tmp_path, model):
     whole, parts = tmp_path / "whole", tmp_path / "parts"
     steps = run(case, whole, threads=1).summary["steps"]
     first = stop_at(case, parts, steps // 2)
-    assert (first.arrays["stage"] == 2.0).any()
+    assert (first.arrays["kind"] == 2.0).any()
     second = stop_at(case, parts, steps // 4)
-    assert (second.arrays["stage"] == 3.0).any()
+    assert (second.arrays["kind"] == 3.0).any()
     run(case, parts, resume=True, threads=2)
     assert_same_end(parts, whole)
 

@@ -47,7 +47,7 @@ def vapor_speed(T, R_s, is_effusion):
     return mean_normal_velocity(T, R_s)
 
 
-def covered_term(x_ij, r_ij, v_i, lift_i, stage_j, exposed_j, reach, alignment):
+def covered_term(x_ij, r_ij, v_i, lift_i, kind_j, exposed_j, reach, alignment):
     """1 for a neighbor that a leaving particle still covers, else 0.
 
     That is a condensed particle behind it in the direction of its path, in the layer next to its
@@ -58,18 +58,18 @@ def covered_term(x_ij, r_ij, v_i, lift_i, stage_j, exposed_j, reach, alignment):
     """
     behind = dot(x_ij, v_i) / max(norm(v_i), 1e-30)
     is_near = behind > alignment * r_ij and behind - lift_i < reach
-    if is_near and stage_j == CONDENSED and exposed_j == 0.0:
+    if is_near and kind_j == CONDENSED and exposed_j == 0.0:
         return 1.0
     return 0.0
 
 
-def lifted(lift, stage, v, step):
+def lifted(lift, kind, v, step):
     """Distance that a leaving particle has moved after a step [m]; others keep theirs."""
-    return lift + norm(v) * step if stage == LEAVING else lift
+    return lift + norm(v) * step if kind == LEAVING else lift
 
 
 def published_departure(
-    stage, lift, covered, exposed, T, normal, v, T_v, R_s, is_effusion, distance
+    kind, lift, covered, exposed, T, normal, v, T_v, R_s, is_effusion, distance
 ):
     """Stage and velocity [m/s] after a step, by the published rule.
 
@@ -80,17 +80,17 @@ def published_departure(
         lift: distance moved [m]. covered: how many particles it covers. exposed: 1 at the surface.
         distance: at which it has left [m]; negative where it has left when it covers none.
     """
-    if stage == CONDENSED and exposed > 0.0 and T_v <= T:
+    if kind == CONDENSED and exposed > 0.0 and T_v <= T:
         return LEAVING, vapor_speed(T, R_s, is_effusion) * normal
-    if stage != LEAVING:
-        return stage, v
+    if kind != LEAVING:
+        return kind, v
     velocity = vapor_speed(T, R_s, is_effusion) / max(norm(v), 1e-30) * v
     if (distance < 0.0 and covered == 0.0) or (distance >= 0.0 and lift >= distance):
         return EJECTED, velocity
     return LEAVING, velocity
 
 
-def enthalpy_departure(stage, h, m, light, exposed, T, normal, v, h_v, R_s, is_effusion, up):
+def enthalpy_departure(kind, h, m, light, exposed, T, normal, v, h_v, R_s, is_effusion, up):
     """Stage, velocity [m/s], enthalpy [J/kg] and excess [J] after a step, by the enthalpy rule.
 
     A particle that lies at the surface, or in the light, leaves when its enthalpy has reached h_v.
@@ -101,13 +101,13 @@ def enthalpy_departure(stage, h, m, light, exposed, T, normal, v, h_v, R_s, is_e
             enthalpy of the vapor [J/kg]. up: where it goes if it lies in the light without being
             exposed, at the bottom of a hole, and so has no normal.
     """
-    if stage == CONDENSED and h >= h_v and (exposed > 0.0 or light > 0.0):
+    if kind == CONDENSED and h >= h_v and (exposed > 0.0 or light > 0.0):
         direction = normal if dot(normal, normal) > 0.0 else up + 0.0 * normal
         return EJECTED, vapor_speed(T, R_s, is_effusion) * direction, h_v, m * (h - h_v)
-    return stage, v, h, 0.0
+    return kind, v, h, 0.0
 
 
-def departed(stage, left_at, p_v, T, m, h, v, time, p_b, T_b, L_v, R_s):
+def departed(kind, left_at, p_v, T, m, h, v, time, p_b, T_b, L_v, R_s):
     """What a particle that has just left takes along.
 
     Returns the time of leaving [s], the vapor pressure at it [Pa] (5), and, zero for the others,
@@ -118,7 +118,7 @@ def departed(stage, left_at, p_v, T, m, h, v, time, p_b, T_b, L_v, R_s):
             time: end of the step [s]. p_b, T_b: boiling point [Pa, K]. L_v: [J/kg]. R_s:
             [J/(kg K)].
     """
-    if stage == EJECTED and left_at == 0.0:
+    if kind == EJECTED and left_at == 0.0:
         p = saturation_pressure(T, p_b, T_b, L_v, R_s)
         return time, p, 1.0, m, m * h, 0.5 * m * dot(v, v)
     return left_at, p_v, 0.0, 0.0, 0.0, 0.0

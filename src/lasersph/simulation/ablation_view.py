@@ -28,17 +28,17 @@ def pulse_starts(case: Case) -> tuple[float, ...]:
 def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> View:
     """The state for observers; particles of walls are left out."""
     solver.find_surface()
-    matter, backend, state = solver.body, solver.backend, solver.state
-    level, layout = matter.now, matter.layout
-    count = _shown(solver) if step else matter.count
+    particles, backend, state = solver.body, solver.backend, solver.state
+    level, geometry = particles.now, particles.geometry
+    count = _shown(solver) if step else particles.count
     position = backend.look(level.x)[:, :count]
     return View(
         time=state.time,
         step=step,
         time_step=state.time_step,
         position=position,
-        width=np.broadcast_to(np.array(layout.cell)[:, None], position.shape),
-        volume=np.broadcast_to(np.array(layout.volume), (count,)),
+        width=np.broadcast_to(np.array(geometry.cell)[:, None], position.shape),
+        volume=np.broadcast_to(np.array(geometry.volume), (count,)),
         temperature=backend.look(level.T)[:count],
         enthalpy=backend.look(level.h)[:count],
         melt_fraction=backend.look(level.f_m)[:count],
@@ -49,9 +49,9 @@ def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> Vie
         energy=dict(state.energy),
         iterations=solver.iterations,
         limit=limit,
-        solidus=matter.curve.solidus,
-        liquidus=matter.curve.liquidus,
-        vaporization=matter.curve.vaporization,
+        solidus=particles.curve.solidus,
+        liquidus=particles.curve.liquidus,
+        vaporization=particles.curve.vaporization,
         ablation=_moving(case, solver, count),
     )
 
@@ -68,43 +68,43 @@ def _shown(solver: Ablation) -> int:
 def _surface(solver: Ablation, count: int) -> np.ndarray:
     """Particles that the light meets; without light those of the free surface, or the first."""
     backend = solver.backend
-    if solver.columns is not None:
-        found = backend.look(solver.columns.rows).astype(np.int64)
+    if solver.light is not None:
+        found = backend.look(solver.light.rows).astype(np.int64)
         found = found[found < count]
     else:
-        found = np.flatnonzero(backend.look(solver.exposure.exposed)[:count])
+        found = np.flatnonzero(backend.look(solver.surface.exposed)[:count])
     return found if found.size else np.zeros(1, np.int64)
 
 
 def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
     """Crater, ejecta and flow."""
-    matter, backend, state = solver.body, solver.backend, solver.state
-    level = matter.now
+    particles, backend, state = solver.body, solver.backend, solver.state
+    level = particles.now
     flying = np.zeros(0, np.int64)
     if state.left.count:
-        flying = backend.look(backend.rows_where(matter.stage, EJECTED)).astype(np.int64)
+        flying = backend.look(backend.rows_where(particles.kind, EJECTED)).astype(np.int64)
     look = {
         name: backend.look(array)[..., :count]
         for name, array in (
-            ("stage", matter.stage), ("velocity", level.v), ("density", level.rho),
-            ("pressure", level.P), ("vapor_pressure", matter.p_v),
-            ("normal", solver.exposure.normal),
+            ("stage", particles.kind), ("velocity", level.v), ("density", level.rho),
+            ("pressure", level.P), ("vapor_pressure", particles.p_v),
+            ("normal", solver.surface.normal),
         )
     }  # fmt: skip
-    columns = solver.columns
-    dimension = matter.layout.dimension
+    columns = solver.light
+    dimension = particles.geometry.dimension
     pressure, speed = solver.extremes()
     vapor = case.material.vaporization
     return AblationView(
         **look,
         column_center=np.zeros((dimension - 1, 0)) if columns is None else columns.center,
-        column_width=float(matter.layout.cell[0]),
+        column_width=float(particles.geometry.cell[0]),
         column_top=np.zeros(0) if columns is None else columns.tops(),
         ejecta_position=backend.look(level.x)[:, flying],
         ejecta_velocity=look["velocity"][:, flying],
         ejecta_temperature=backend.look(level.T)[flying],
-        ejecta_mass=backend.look(matter.m)[flying],
-        ejecta_time=backend.look(matter.left_at)[flying],
+        ejecta_mass=backend.look(particles.m)[flying],
+        ejecta_time=backend.look(particles.left_at)[flying],
         ejected_count=state.left.count,
         ejected_mass=state.left.mass,
         ejected_energy=state.left.energy,
@@ -112,7 +112,7 @@ def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
         gone_count=state.gone,
         pressure_max=pressure,
         speed_max_condensed=speed,
-        particle_mass=case.material.density_reference * matter.layout.volume,
+        particle_mass=case.material.density_reference * particles.geometry.volume,
         density_reference=case.material.density_reference,
         gas_constant=None if vapor is None else vapor.specific_gas_constant,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.boundaries.initial_motion import Rest
 from lasersph.boundaries.vessel import Vessel
 from lasersph.case import Case
@@ -15,16 +16,15 @@ from lasersph.particles.layers import Layers
 from lasersph.physics.artificial_viscosity import SOFTENING
 from lasersph.simulation.build_flow import wall_enthalpy
 from lasersph.solvers.ablation.active import ActiveRegion
-from lasersph.solvers.ablation.columns import Columns
-from lasersph.solvers.ablation.departure import Vapor
+from lasersph.solvers.ablation.ejecta import Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
-from lasersph.solvers.ablation.exposure import Exposure
-from lasersph.solvers.ablation.layout import Layout, Start, lay_out
-from lasersph.solvers.ablation.matter import Matter
-from lasersph.solvers.ablation.numbers import Numbers
+from lasersph.solvers.ablation.first_hit import FirstHitLight
+from lasersph.solvers.ablation.geometry import Geometry, InitialState, lay_out
 from lasersph.solvers.ablation.pairs import Pairs
-from lasersph.solvers.ablation.published_ejection import PublishedEjection
+from lasersph.solvers.ablation.parameters import Parameters
+from lasersph.solvers.ablation.particle_state import ParticleState
+from lasersph.solvers.ablation.published.ejection import PublishedEjection
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.ablation.solver import Ablation
 from lasersph.solvers.conduction.body import SUPPORT
@@ -50,7 +50,7 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
     """The solver of a case whose matter moves."""
     settings = case.solver
     assert isinstance(settings, AblationSettings)
-    layout, start = lay_out(
+    geometry, initial = lay_out(
         layers,
         case.boundaries,
         case.vessel or Vessel(),
@@ -60,64 +60,64 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
         sound_speed=settings.sound_speed,
         gravity=settings.gravity,
     )
-    return solver_of(case, backend, layout, start)
+    return solver_of(case, backend, geometry, initial)
 
 
-def solver_of(case: Case, backend: Backend, layout: Layout, start: Start) -> Ablation:
+def solver_of(case: Case, backend: Backend, geometry: Geometry, initial: InitialState) -> Ablation:
     """The solver of a case for particles that start where they have been laid out."""
     settings, material = case.solver, case.material
     assert isinstance(settings, AblationSettings)
     curve = material.caloric_curve(
         case.initial_temperature, settings.plateau, phase_change=has_latent_heats(case)
     )
-    shape = kernel(case.particles.kernel, layout.dimension)
+    shape = kernel(case.particles.kernel, geometry.dimension)
     ratio = case.particles.support_ratio or SUPPORT[case.particles.kernel]
     melts_without_heat = curve.liquidus is None and material.liquidus is not None
-    matter = Matter(
+    particles = ParticleState(
         backend,
-        layout,
-        start,
+        geometry,
+        initial,
         material,
         curve,
-        enthalpy=wall_enthalpy(curve, start.temperature),
-        support=ratio * layout.spacing,
+        enthalpy=wall_enthalpy(curve, initial.temperature),
+        support=ratio * geometry.spacing,
         sound_speed=settings.sound_speed,
         has_tension=settings.tension,
         melts_at=(material.liquidus or NEVER) if melts_without_heat else NEVER,
     )
-    columns, ejection = None, None
+    light, ejection = None, None
     if case.laser is not None:
-        columns = _columns(case, case.laser, backend, matter)
-        ejection = _ejection(case, backend, matter, curve, columns)
-    region = _region(case, backend, matter, settings)
+        light = _first_hit(case, case.laser, backend, particles)
+        ejection = _ejection(case, backend, particles, curve, light)
+    region = _region(case, backend, particles, settings)
     return Ablation(
-        matter,
-        Pairs(matter, shape, settings.skin, None if region is None else region.find_pairs),
-        Exposure(
+        particles,
+        Pairs(particles, shape, settings.skin, None if region is None else region.find_pairs),
+        FreeSurface(
             backend,
-            matter.total,
-            layout.dimension,
-            layout.spacing,
+            particles.total,
+            geometry.dimension,
+            geometry.spacing,
             surface_threshold(shape, ratio),
         ),
-        numbers_of(case, layout, shape, ratio),
+        parameters_of(case, geometry, shape, ratio),
         case.time,
-        columns,
+        light,
         ejection,
         region,
     )
 
 
-def numbers_of(case: Case, layout: Layout, shape: Kernel, ratio: float) -> Numbers:
+def parameters_of(case: Case, geometry: Geometry, shape: Kernel, ratio: float) -> Parameters:
     """Constants of the solver."""
     settings = case.solver
     assert isinstance(settings, AblationSettings)
-    spacing, ambient = layout.spacing, case.boundaries.ambient_temperature
+    spacing, ambient = geometry.spacing, case.boundaries.ambient_temperature
     solid, liquid = viscosities(case)
     height = settings.ejecta_height or case.domain.depth
-    low, high = (tuple(ends) for ends in zip(*layout.box, strict=True))
+    low, high = (tuple(ends) for ends in zip(*geometry.box, strict=True))
     viscous, diffusive = decay_rates(case, spacing)
-    return Numbers(
+    return Parameters(
         smoothing=0.5 * ratio * spacing,
         sound_speed=settings.sound_speed,
         gravity=settings.gravity,
@@ -167,45 +167,51 @@ def _diffusivity(case: Case) -> float:
     return float(np.max(slopes)) / case.material.density_reference
 
 
-def _columns(case: Case, laser: Laser, backend: Backend, matter: Matter) -> Columns:
+def _first_hit(
+    case: Case, laser: Laser, backend: Backend, particles: ParticleState
+) -> FirstHitLight:
     """The light; a preset of the published rule brings its reflectivity."""
     reflectivity = ejection_of(case).reflectivity
     if reflectivity is not None and laser.reflectivity is None:
         laser = laser.model_copy(update={"reflectivity": reflectivity})
-    layout = matter.layout
-    return Columns(
+    geometry = particles.geometry
+    return FirstHitLight(
         backend,
         laser,
         case.material,
-        layout.bounds[:-1],
-        layout.spacing,
-        [width > 0.0 for width in layout.period[:-1]],
-        matter.E,
+        geometry.bounds[:-1],
+        geometry.spacing,
+        [width > 0.0 for width in geometry.period[:-1]],
+        particles.E,
     )
 
 
 def _region(
-    case: Case, backend: Backend, matter: Matter, settings: AblationSettings
+    case: Case, backend: Backend, particles: ParticleState, settings: AblationSettings
 ) -> ActiveRegion | None:
     """What is computed: where light falls on matter at rest only what heat reaches."""
     if not sleeps(case):
         return None
-    layout = matter.layout
-    support = float(backend.look(matter.support)[0]) + settings.skin * layout.spacing
-    lit = backend.asarray(np.arange(layout.surface_count), "index")
-    return ActiveRegion(backend, matter.now.x, support, layout.period, lit)
+    geometry = particles.geometry
+    support = float(backend.look(particles.support)[0]) + settings.skin * geometry.spacing
+    lit = backend.asarray(np.arange(geometry.surface_count), "index")
+    return ActiveRegion(backend, particles.now.x, support, geometry.period, lit)
 
 
 def _ejection(
-    case: Case, backend: Backend, matter: Matter, curve: CaloricCurve, columns: Columns
+    case: Case,
+    backend: Backend,
+    particles: ParticleState,
+    curve: CaloricCurve,
+    light: FirstHitLight,
 ) -> EnthalpyEjection | PublishedEjection:
     """The rule of leaving."""
     rule = ejection_of(case)
     vapor = Vapor(backend, case.material, is_effusion=rule.velocity == "effusion")
-    spacing = matter.layout.spacing
+    spacing = particles.geometry.spacing
     if rule.model == "enthalpy":
-        return EnthalpyEjection(backend, vapor, curve, columns, matter.total, spacing)
-    support = float(backend.to_host(matter.support)[0])
+        return EnthalpyEjection(backend, vapor, curve, light, particles.total, spacing)
+    support = float(backend.to_host(particles.support)[0])
     return PublishedEjection(
-        backend, vapor, matter.total, spacing, rule.left_after(spacing, support)
+        backend, vapor, particles.total, spacing, rule.left_after(spacing, support)
     )

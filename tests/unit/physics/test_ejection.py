@@ -21,7 +21,7 @@ def test_vapor_speed():
 
 
 @pytest.mark.parametrize(
-    ("offset", "lift", "stage", "exposed", "counts"),
+    ("offset", "lift", "kind", "exposed", "counts"),
     [
         ([0, 0, 1.0], 0.0, CONDENSED, 0.0, 1.0),  # the one below
         ([0, 0, 1.6], 0.6, CONDENSED, 0.0, 1.0),  # still, 0.6 higher
@@ -33,11 +33,11 @@ def test_vapor_speed():
         ([0, 0, 1.0], 0.0, WALL, 0.0, 0.0),
     ],
 )
-def test_covered_neighbors(offset, lift, stage, exposed, counts):
+def test_covered_neighbors(offset, lift, kind, exposed, counts):
     """Only condensed, hidden particles of the next layer behind the path count."""
     x_ij = np.array(offset, float)
     found = ejection.covered_term(
-        x_ij, np.linalg.norm(x_ij), 400.0 * UP, lift, stage, exposed, 1.5, 0.85
+        x_ij, np.linalg.norm(x_ij), 400.0 * UP, lift, kind, exposed, 1.5, 0.85
     )
     assert found == counts
 
@@ -50,17 +50,17 @@ def test_lift():
     assert ejection.lifted(0.1, EJECTED, v, 0.02) == 0.1
 
 
-def published(stage, *, T=3000.0, exposed=1.0, v=REST, lift=0.0, covered=1.0, distance=-1.0):
+def published(kind, *, T=3000.0, exposed=1.0, v=REST, lift=0.0, covered=1.0, distance=-1.0):
     """The published rule for aluminium."""
     return ejection.published_departure(
-        stage, lift, covered, exposed, T, UP, v, 2730.0, R_S, 1.0, distance
+        kind, lift, covered, exposed, T, UP, v, 2730.0, R_S, 1.0, distance
     )
 
 
 def test_published_rule_begins_at_the_boiling_point():
     """Exposed and at 2730 K or above: leaves along the normal with the vapor's velocity."""
-    stage, v = published(CONDENSED, T=2730.0)
-    assert stage == LEAVING
+    kind, v = published(CONDENSED, T=2730.0)
+    assert kind == LEAVING
     np.testing.assert_allclose(v, [0.0, 0.0, sqrt(R_S * 2730.0 / (2 * pi))])
     for held in (published(CONDENSED, T=2729.9), published(CONDENSED, exposed=0.0)):
         assert held[0] == CONDENSED and not held[1].any()
@@ -69,11 +69,11 @@ def test_published_rule_begins_at_the_boiling_point():
 def test_published_rule_follows_the_temperature_until_it_has_left():
     """The direction stays, the speed grows with T, then both stay."""
     tilted = np.array([0.6, 0.0, 0.8])
-    stage, v = published(LEAVING, T=3690.0, v=366.0 * tilted)
-    assert stage == LEAVING
+    kind, v = published(LEAVING, T=3690.0, v=366.0 * tilted)
+    assert kind == LEAVING
     np.testing.assert_allclose(v, sqrt(R_S * 3690.0 / (2 * pi)) * tilted)
-    stage, v = published(EJECTED, T=300.0, v=425.0 * tilted)
-    assert stage == EJECTED
+    kind, v = published(EJECTED, T=300.0, v=425.0 * tilted)
+    assert kind == EJECTED
     np.testing.assert_array_equal(v, 425.0 * tilted)
 
 
@@ -89,18 +89,18 @@ def test_published_rule_ends_by_cover_or_by_distance():
 def test_enthalpy_rule():
     """All of the enthalpy must be in, and the particle at the surface or in the light."""
 
-    def rule(stage=CONDENSED, h=13.2e6, light=0.0, exposed=1.0, normal=UP):
+    def rule(kind=CONDENSED, h=13.2e6, light=0.0, exposed=1.0, normal=UP):
         return ejection.enthalpy_departure(
-            stage, h, 2.0, light, exposed, 2730.0, normal, REST, 13.1e6, R_S, 1.0, UP
+            kind, h, 2.0, light, exposed, 2730.0, normal, REST, 13.1e6, R_S, 1.0, UP
         )
 
-    stage, v, h, excess = rule()
-    assert stage == EJECTED and v[2] == pytest.approx(365.8, abs=0.3)
+    kind, v, h, excess = rule()
+    assert kind == EJECTED and v[2] == pytest.approx(365.8, abs=0.3)
     assert h == 13.1e6 and excess == pytest.approx(2e5)
-    stage, v, _, _ = rule(exposed=0.0, light=1e-12, normal=0.0 * UP)
-    assert stage == EJECTED and v[2] == pytest.approx(365.8, abs=0.3)
-    for stage, v, _, excess in (rule(h=13.0e6), rule(exposed=0.0), rule(stage=WALL)):
-        assert stage != EJECTED and not v.any() and excess == 0.0
+    kind, v, _, _ = rule(exposed=0.0, light=1e-12, normal=0.0 * UP)
+    assert kind == EJECTED and v[2] == pytest.approx(365.8, abs=0.3)
+    for kind, v, _, excess in (rule(h=13.0e6), rule(exposed=0.0), rule(kind=WALL)):
+        assert kind != EJECTED and not v.any() and excess == 0.0
 
 
 def test_what_leaves_takes_along():
@@ -108,8 +108,8 @@ def test_what_leaves_takes_along():
     boiling = {"p_b": 101325.0, "T_b": 2730.0, "L_v": 10.53e6, "R_s": R_S}
     v = np.array([0.0, 300.0, 400.0])
 
-    def account(stage, left_at):
-        return ejection.departed(stage, left_at, 0.0, 3744.0, 2.0, 1e7, v, 5e-9, **boiling)
+    def account(kind, left_at):
+        return ejection.departed(kind, left_at, 0.0, 3744.0, 2.0, 1e7, v, 5e-9, **boiling)
 
     time, pressure, *taken = account(EJECTED, 0.0)
     assert time == 5e-9 and pressure == pytest.approx(30.05e5, rel=1e-3)

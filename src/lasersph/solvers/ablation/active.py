@@ -24,9 +24,9 @@ import numpy as np
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
+from lasersph.particles.cell_grid import CellGrid
 from lasersph.particles.support import common
 from lasersph.physics.ejection import EJECTED, GONE
-from lasersph.solvers.ablation.tiles import Tiles
 
 LEAST_RISE = 1e-11
 """Enthalpy over the largest one below which a particle counts as undisturbed."""
@@ -41,9 +41,9 @@ def size_of(h):
     return abs(h)
 
 
-def disturbed(h, v, stage, least):
+def disturbed(h, v, kind, least):
     """1 where a particle may disturb its neighbors: warm or moving, and not ejected."""
-    if stage >= EJECTED and stage <= GONE:
+    if kind >= EJECTED and kind <= GONE:
         return 0.0
     return 1.0 if abs(h) > least or dot(v, v) > 0.0 else 0.0
 
@@ -73,7 +73,7 @@ class ActiveRegion:
 
     Attributes:
         rows: what is computed, kind "index" in order; None where that is everything.
-        fields: {"awake": (tiles,)}, all that a checkpoint needs.
+        fields: {"active": (tiles,)}, all that a checkpoint needs.
     """
 
     def __init__(
@@ -89,15 +89,15 @@ class ActiveRegion:
         host = backend.look(position)
         low, high = host.min(axis=1), host.max(axis=1)
         extent = np.where(np.array(self.period) > 0.0, self.period, high - low)
-        self._tiles = Tiles(backend, low, extent, support)
+        self._tiles = CellGrid(backend, low, extent, support)
         self._shape = self._tiles.shape
         self.tile = backend.zeros(self.count, "index")
         self._tiles.find(position, self.tile)
         self._largest = 0.0
         self._room = search.Room()
         self._mark = backend.zeros(self.count)
-        self.fields = {"awake": backend.zeros(self._tiles.count)}
-        self._wake(self._around(self._tiles_of(position, awake), WAKING_REACH))
+        self.fields = {"active": backend.zeros(self._tiles.count)}
+        self._set_active(self._around(self._tiles_of(position, awake), WAKING_REACH))
         self._checks_all = True
 
     @property
@@ -106,7 +106,7 @@ class ActiveRegion:
         return None if self.rows is None else self._near
 
     @property
-    def awake_count(self) -> int:
+    def active_count(self) -> int:
         """How many particles are computed."""
         return self.count if self.rows is None else self.rows.shape[0]
 
@@ -118,15 +118,15 @@ class ActiveRegion:
         """Continue from the arrays of `fields` and the numbers of `carried`."""
         self._largest = numbers["largest_enthalpy"]
         self._checks_all = not numbers["all_checked"]
-        self._wake(arrays["awake"].reshape(self._shape) > 0.0)
+        self._set_active(arrays["active"].reshape(self._shape) > 0.0)
 
     # --- waking ---------------------------------------------------------------------------------
 
-    def wake(self, fields: dict[str, Any]) -> bool:
+    def activate(self, fields: dict[str, Any]) -> bool:
         """Wake what may be disturbed in the next step; returns whether there is more now.
 
         Args:
-            fields: by symbol; x, h, v and stage.
+            fields: by symbol; x, h, v and kind.
         """
         if self.rows is None:
             return False
@@ -147,7 +147,7 @@ class ActiveRegion:
         tiles = self._tiles_of(fields["x"], warm)
         if not np.any(self._around(tiles, WAKING_REACH) & ~self._awake):
             return False
-        self._wake(self._awake | self._around(tiles, WAKING_REACH + WAKING_AHEAD))
+        self._set_active(self._awake | self._around(tiles, WAKING_REACH + WAKING_AHEAD))
         return True
 
     def _marked(self, rows: Any) -> Any:
@@ -162,11 +162,11 @@ class ActiveRegion:
         backend.gather(rows, place, warm)
         return warm
 
-    def _wake(self, awake: np.ndarray) -> None:
+    def _set_active(self, awake: np.ndarray) -> None:
         """Let the tiles `awake`, shaped as the box, be awake and no others."""
         backend = self.backend
         self._awake = awake
-        backend.copy(backend.asarray(awake.ravel().astype(float)), self.fields["awake"])
+        backend.copy(backend.asarray(awake.ravel().astype(float)), self.fields["active"])
         if awake.all():
             self.rows = None
             return

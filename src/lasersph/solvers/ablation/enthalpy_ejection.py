@@ -8,8 +8,8 @@ from typing import Any
 from lasersph.compute.backend import Backend
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.physics.ejection import enthalpy_departure, light_limit
-from lasersph.solvers.ablation.columns import Columns
-from lasersph.solvers.ablation.departure import Departure, Vapor
+from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
+from lasersph.solvers.ablation.first_hit import FirstHitLight
 
 LIGHT_SHARE = 0.1
 """Share of the enthalpy of the vapor that a step of light may bring, so that layers leave one by
@@ -30,13 +30,13 @@ class EnthalpyEjection:
         backend: Backend,
         vapor: Vapor,
         curve: CaloricCurve,
-        columns: Columns,
+        columns: FirstHitLight,
         count: int,
         spacing: float,
     ) -> None:
         if curve.enthalpy_vaporized is None:
             raise ValueError("the enthalpy rule needs a caloric curve with a vaporization plateau")
-        self.backend, self.vapor, self.columns = backend, vapor, columns
+        self.backend, self.vapor, self.light = backend, vapor, columns
         self.spacing = spacing
         self.enthalpy_vaporized = curve.enthalpy_vaporized
         self._excess = backend.zeros(count)
@@ -52,21 +52,21 @@ class EnthalpyEjection:
 
     def leave(
         self, fields: dict[str, Any], pairs: Any, rows: Any, time: float, step: float
-    ) -> Departure:
-        """Set stage, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
+    ) -> Ejecta:
+        """Set kind, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
 
         Args:
-            fields: by symbol; x, stage, v, h, T, m, E, exposed, normal, left_at, p_v.
+            fields: by symbol; x, kind, v, h, T, m, E, exposed, normal, left_at, p_v.
         """
-        stage, h = fields["stage"], fields["h"]
+        kind, h = fields["kind"], fields["h"]
         (excess,) = self.backend.pointwise(
             enthalpy_departure, fields | {"light": fields["E"]},
-            (stage, fields["v"], h, self._excess), rows=rows, reduce=(None, None, None, "sum"),
+            (kind, fields["v"], h, self._excess), rows=rows, reduce=(None, None, None, "sum"),
             h_v=self.enthalpy_vaporized, R_s=self.vapor.gas_constant,
-            is_effusion=self.vapor.is_effusion, up=self.columns.up,
+            is_effusion=self.vapor.is_effusion, up=self.light.up,
         )  # fmt: skip
         departure = self.vapor.account(fields, rows, time)
         if excess == 0.0:
             return departure
-        given = self.columns.hand_down(self._excess, fields["x"], stage, h, fields["m"])
+        given = self.light.hand_down(self._excess, fields["x"], kind, h, fields["m"])
         return replace(departure, energy=departure.energy + excess - given)

@@ -19,7 +19,7 @@ from lasersph.compute.vectors import dot, vector
 from lasersph.particles.neighbors import NeighborList
 from lasersph.particles.support import common
 from lasersph.physics.ejection import CONDENSED
-from lasersph.solvers.ablation.matter import Matter
+from lasersph.solvers.ablation.particle_state import ParticleState
 from lasersph.solvers.ablation.relative_motion import RelativeMotion
 from lasersph.sph.kernels import Kernel
 
@@ -78,10 +78,10 @@ def placed(x, x_listed, opaque):
     return opaque * x + (1.0 - opaque) * x_listed
 
 
-def displaced(x, x_listed, stage):
+def displaced(x, x_listed, kind):
     """Square of the way since the pairs were found [m^2], of what is condensed."""
     way = x - x_listed
-    return dot(way, way) if stage == CONDENSED else 0.0 * dot(way, way)
+    return dot(way, way) if kind == CONDENSED else 0.0 * dot(way, way)
 
 
 def reaching(support, margin):
@@ -100,26 +100,26 @@ class Pairs:
     """
 
     def __init__(
-        self, matter: Matter, kernel: Kernel, skin: float, finder: Finder | None = None
+        self, particles: ParticleState, kernel: Kernel, skin: float, finder: Finder | None = None
     ) -> None:
-        backend = matter.backend
-        self.matter, self.kernel = matter, kernel
-        self.skin = skin * matter.layout.spacing
-        self.listed = backend.zeros(matter.now.x.shape)
-        backend.copy(matter.now.x, self.listed)
+        backend = particles.backend
+        self.particles, self.kernel = particles, kernel
+        self.skin = skin * particles.geometry.spacing
+        self.listed = backend.zeros(particles.now.x.shape)
+        backend.copy(particles.now.x, self.listed)
         self.margin, self.is_compared = 0.0, False
-        self._reach, self._room = backend.zeros(matter.total), search.Room()
+        self._reach, self._room = backend.zeros(particles.total), search.Room()
         self._finder = finder or self._all
-        self._support = float(backend.look(matter.support)[0])
-        self._low = tuple(lower for lower, _upper in matter.layout.bounds)
-        self._relative = RelativeMotion(matter, self.listed, self._support + self.skin)
+        self._support = float(backend.look(particles.support)[0])
+        self._low = tuple(lower for lower, _upper in particles.geometry.bounds)
+        self._relative = RelativeMotion(particles, self.listed, self._support + self.skin)
 
     def is_stale(self, stride: Stride, rows: Any = None) -> bool:
         """Whether particles may come nearer than listed in a step."""
         if self.margin == 0.0:
             return True
-        fields = {"x": self.matter.now.x, "x_listed": self.listed, "stage": self.matter.stage}
-        (square,) = self.matter.backend.pointwise(
+        fields = {"x": self.particles.now.x, "x_listed": self.listed, "kind": self.particles.kind}
+        (square,) = self.particles.backend.pointwise(
             displaced, fields, (None,), rows=rows, reduce=("max",)
         )
         nearer = 2.0 * (sqrt(max(square, 0.0)) + stride.way)
@@ -134,12 +134,14 @@ class Pairs:
         Raises:
             EscapedParticle: a place is not finite.
         """
-        matter, backend = self.matter, self.matter.backend
-        period = matter.layout.period
+        particles, backend = self.particles, self.particles.backend
+        period = particles.geometry.period
         if any(period):
-            fields = {"x": matter.now.x}
-            backend.pointwise(within, fields, matter.now.x, rows=rows, low=self._low, width=period)
-        fields = {"x": matter.now.x, "x_listed": self.listed, "opaque": matter.opaque}
+            fields = {"x": particles.now.x}
+            backend.pointwise(
+                within, fields, particles.now.x, rows=rows, low=self._low, width=period
+            )
+        fields = {"x": particles.now.x, "x_listed": self.listed, "opaque": particles.opaque}
         backend.pointwise(placed, fields, self.listed, rows=rows)
         self._relative.forget()
         self.margin = self._skin_for(stride, rows)
@@ -157,15 +159,15 @@ class Pairs:
         s^2 = LIST_COST w l / (2 d) makes the whole least. What sleeps beside `rows` is in no
         tile, so that then the fastest alone decides.
         """
-        layout, self.is_compared = self.matter.layout, False
-        least, nearer = LEAST_SKIN * layout.spacing, 2.0 * stride.way
+        geometry, self.is_compared = self.particles.geometry, False
+        least, nearer = LEAST_SKIN * geometry.spacing, 2.0 * stride.way
         if nearer < least:
             return least
         if rows is None:
             relative = self._relative_way(stride)
             self.is_compared = relative < WORTHWHILE * nearer
             nearer = relative if self.is_compared else nearer
-        best = sqrt(0.5 * LIST_COST * nearer * self._support / layout.dimension)
+        best = sqrt(0.5 * LIST_COST * nearer * self._support / geometry.dimension)
         return min(max(best, nearer, least), self.skin)
 
     def carried(self) -> dict[str, float]:
@@ -181,22 +183,22 @@ class Pairs:
 
     def find(self) -> None:
         """Find the pairs of the listed places."""
-        matter, backend = self.matter, self.matter.backend
+        particles, backend = self.particles, self.particles.backend
         margin, self.margin = self.margin, 0.0  # there is no list should the search fail
-        backend.pointwise(reaching, {"support": matter.support}, self._reach, margin=margin)
+        backend.pointwise(reaching, {"support": particles.support}, self._reach, margin=margin)
         row_start, neighbor = self._finder(self.listed, self._reach)
         self.now, self.half = (
             NeighborList(
-                row_start, neighbor, level.x, matter.support, self.kernel, common,
-                matter.layout.period,
+                row_start, neighbor, level.x, particles.support, self.kernel, common,
+                particles.geometry.period,
             )
-            for level in (matter.now, matter.half)
+            for level in (particles.now, particles.half)
         )  # fmt: skip
         self.margin = margin
 
     def _all(self, place: Any, reach: Any) -> tuple[Any, Any]:
         """Pairs of all particles."""
         return search.neighbor_list(
-            self.matter.backend, place, reach, self.matter.total, mean=common,
-            period=self.matter.layout.period, room=self._room,
+            self.particles.backend, place, reach, self.particles.total, mean=common,
+            period=self.particles.geometry.period, room=self._room,
         )  # fmt: skip

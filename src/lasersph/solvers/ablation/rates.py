@@ -53,31 +53,31 @@ def pair_rates(
     )
 
 
-def rates(total_0, total_1, total_2, total_3, stage, m, T, E, A, step, up, g, T_a, h_c, eps):
+def rates(total_0, total_1, total_2, total_3, kind, m, T, E, A, step, up, g, T_a, h_c, eps):
     """Rates of one particle from its sums.
 
     Returns d rho/dt [kg/(m^d s)], dv/dt [m/s^2], dh/dt [W/kg], heat lost by the surface and to
     walls [W], |dv/dt|^2 [m^2/s^4], and the sum of mu^4 of what is condensed [m^4/s^4].
 
     Args:
-        stage: of its life. up: unit vector against gravity. g: [m/s^2]. Others of `heat_rates`.
+        kind: of its life. up: unit vector against gravity. g: [m/s^2]. Others of `heat_rates`.
     """
-    moves = 1.0 if stage == CONDENSED else 0.0
-    is_wall = 1.0 if stage == WALL else 0.0
-    dh, lost = heat_rates(total_2, stage, m, T, E, A, step, T_a, h_c, eps)
+    moves = 1.0 if kind == CONDENSED else 0.0
+    is_wall = 1.0 if kind == WALL else 0.0
+    dh, lost = heat_rates(total_2, kind, m, T, E, A, step, T_a, h_c, eps)
     a = moves * (total_1 - g * up)
     return (moves + is_wall) * total_0, a, dh, lost, dot(a, a), moves * total_3
 
 
-def heat_rates(total, stage, m, T, E, A, step, T_a, h_c, eps):
+def heat_rates(total, kind, m, T, E, A, step, T_a, h_c, eps):
     """dh/dt [W/kg], and heat lost by the surface and to walls [W], of one particle.
 
     Args:
         total: heat from its neighbors [W]. m: mass [kg]. T: [K]. E: light absorbed in the step [J].
         A: open area [m^(d-1)]. step: [s]. T_a, h_c, eps: of `losses.surface_loss`.
     """
-    takes_heat = 1.0 if stage <= LEAVING else 0.0
-    is_wall = 1.0 if stage == WALL else 0.0
+    takes_heat = 1.0 if kind <= LEAVING else 0.0
+    is_wall = 1.0 if kind == WALL else 0.0
     loss, _slope = surface_loss(T, T_a, h_c, eps)
     gain = takes_heat * (total + E / step - A * loss)
     return gain / m, takes_heat * A * loss + is_wall * total
@@ -94,10 +94,10 @@ def pair_weight(V_i, V_j, r_ij, dW_ij, factor):
 
 
 def derived(
-    h, rho, m, stage, conducts,
+    h, rho, m, kind, conducts,
     h_nodes, T_nodes, P_nodes, m_nodes, v_nodes, k_T, k_nodes, melts_at, rho_0, c_0, has_tension,
 ):  # fmt: skip
-    """What follows from enthalpy, density and stage.
+    """What follows from enthalpy, density and kind.
 
     Returns temperature [K], melt and vapor fraction [1], conductivity [W/(m K)], pressure [Pa],
     volume and acting volume [m^d], and 1 for what has not been ejected.
@@ -108,9 +108,9 @@ def derived(
         without latent heat counts as molten [K]. Others as in `equation_of_state`.
     """
     T, _potential, f_m, f_v = state(h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes)
-    is_wall = stage == WALL
-    acts = 1.0 if stage == CONDENSED or is_wall else 0.0
-    opaque = 1.0 if stage <= LEAVING or is_wall else 0.0
+    is_wall = kind == WALL
+    acts = 1.0 if kind == CONDENSED or is_wall else 0.0
+    opaque = 1.0 if kind <= LEAVING or is_wall else 0.0
     melted = max(f_m, 1.0 if melts_at <= T else 0.0)
     k = opaque * conducts * interpolate(T, k_T, k_nodes)
     P = acts * condensed_pressure(rho, rho_0, c_0, has_tension)
@@ -118,13 +118,13 @@ def derived(
     return T, melted, f_v, k, P, V, acts * V, opaque
 
 
-def moved(x, v, rho, h, stage, v_then, a, drho, dh, dt):
+def moved(x, v, rho, h, kind, v_then, a, drho, dh, dt):
     """Position, velocity, density and enthalpy after `dt` [s] at constant rates.
 
     Half steps and whole steps alike [Alshaer2017, eqs. (29), (30)]; `v_then` is the velocity that
     goes with the rates. What has been ejected flies on elsewhere.
     """
-    follows = 1.0 if stage <= LEAVING else 0.0
+    follows = 1.0 if kind <= LEAVING else 0.0
     return x + follows * dt * v_then, v + dt * a, rho + dt * drho, h + dt * dh
 
 
@@ -143,20 +143,20 @@ def taken_up(m, dh, dt):
     return m * dt * dh
 
 
-def lifting(x, v, h, stage, dh, dt):
+def lifting(x, v, h, kind, dh, dt):
     """Position [m] of what leaves and enthalpy [J/kg] after `dt` [s]; the rest stays in place."""
-    return (x + dt * v if stage == LEAVING else x), h + dt * dh
+    return (x + dt * v if kind == LEAVING else x), h + dt * dh
 
 
-def speed_squares(v, stage):
+def speed_squares(v, kind):
     """|v|^2 [m^2/s^2] of what is condensed, and of what leaves."""
     square = dot(v, v)
-    is_condensed = 1.0 if stage == CONDENSED else 0.0
-    is_leaving = 1.0 if stage == LEAVING else 0.0
+    is_condensed = 1.0 if kind == CONDENSED else 0.0
+    is_leaving = 1.0 if kind == LEAVING else 0.0
     return is_condensed * square, is_leaving * square
 
 
-def condensed_extremes(P, v, stage):
+def condensed_extremes(P, v, kind):
     """Pressure [Pa] and |v|^2 [m^2/s^2] of what is condensed."""
-    is_condensed = 1.0 if stage == CONDENSED else 0.0
+    is_condensed = 1.0 if kind == CONDENSED else 0.0
     return is_condensed * P, is_condensed * dot(v, v)

@@ -17,11 +17,11 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.particles.cell_grid import CellGrid
 from lasersph.particles.neighbors import NeighborList
 from lasersph.particles.support import common
 from lasersph.physics.ejection import CONDENSED
-from lasersph.solvers.ablation.matter import Matter
-from lasersph.solvers.ablation.tiles import Tiles
+from lasersph.solvers.ablation.particle_state import ParticleState
 
 REACH = 2
 """Tiles to either side whose particles are compared with those of a tile."""
@@ -32,9 +32,9 @@ WIDER = 1.25
 """Factor of the width as long as there are more tiles than particles."""
 
 
-def way_ahead(x, x_listed, v, stage, dt):
+def way_ahead(x, x_listed, v, kind, dt):
     """Way since the pairs were found and for `dt` [s] more, of what is condensed [m]."""
-    return (1.0 if stage == CONDENSED else 0.0) * (x + dt * v - x_listed)
+    return (1.0 if kind == CONDENSED else 0.0) * (x + dt * v - x_listed)
 
 
 def of_particles(way_j):
@@ -74,30 +74,30 @@ class RelativeMotion:
         clear: distance [m] beyond which particles may be in tiles that are not compared.
     """
 
-    def __init__(self, matter: Matter, listed: Any, reach: float) -> None:
-        backend, layout = matter.backend, matter.layout
-        self.matter, self.listed = matter, listed
+    def __init__(self, particles: ParticleState, listed: Any, reach: float) -> None:
+        backend, geometry = particles.backend, particles.geometry
+        self.particles, self.listed = particles, listed
         self._members: NeighborList | None = None
-        low, high = np.array(layout.box).T
+        low, high = np.array(geometry.box).T
         width = WIDTH * reach
-        self._tiles = Tiles(backend, low, high - low, width)
-        while self._tiles.count > matter.total:
+        self._tiles = CellGrid(backend, low, high - low, width)
+        while self._tiles.count > particles.total:
             width *= WIDER
-            self._tiles = Tiles(backend, low, high - low, width)
+            self._tiles = CellGrid(backend, low, high - low, width)
         self.clear = REACH * float(self._tiles.width.min())
-        self._way = backend.zeros((layout.dimension, matter.total))
-        size = (layout.dimension, self._tiles.count)
+        self._way = backend.zeros((geometry.dimension, particles.total))
+        size = (geometry.dimension, self._tiles.count)
         self._ends, *self._around = (
-            (backend.zeros(size), backend.zeros(size)) for _ in range(layout.dimension)
+            (backend.zeros(size), backend.zeros(size)) for _ in range(geometry.dimension)
         )
-        self._lines = [self._along(axis) for axis in range(layout.dimension)]
+        self._lines = [self._along(axis) for axis in range(geometry.dimension)]
 
     def _along(self, axis: int) -> NeighborList:
         """The tiles up to `REACH` away along an axis from each, as rows of a list."""
-        shape, backend = self._tiles.shape, self.matter.backend
+        shape, backend = self._tiles.shape, self.particles.backend
         own = np.arange(shape[axis])
         near = own[:, None] + np.arange(-REACH, REACH + 1)
-        if self.matter.layout.period[axis] > 0.0:
+        if self.particles.geometry.period[axis] > 0.0:
             near %= shape[axis]
         near = np.clip(near, 0, shape[axis] - 1)
         stride = int(np.prod(shape[axis + 1 :]))
@@ -116,12 +116,11 @@ class RelativeMotion:
 
     def bound(self, step: float) -> float:
         """The bound [m] after `step` [s] at the velocities that particles have now."""
-        matter, backend = self.matter, self.matter.backend
+        particles, backend = self.particles, self.particles.backend
         if self._members is None:
             self._members = self._found()
-        fields = {
-            "x": matter.now.x, "x_listed": self.listed, "v": matter.now.v, "stage": matter.stage,
-        }  # fmt: skip
+        level = particles.now
+        fields = {"x": level.x, "x_listed": self.listed, "v": level.v, "kind": particles.kind}
         backend.pointwise(way_ahead, fields, self._way, dt=step)
         how = ("max", "min")
         backend.pair_sum(of_particles, self._members, {"way": self._way}, self._ends, combine=how)
@@ -139,9 +138,9 @@ class RelativeMotion:
 
     def _found(self) -> NeighborList:
         """The particles of each tile, as rows of a list."""
-        backend, total = self.matter.backend, self.matter.total
+        backend, total = self.particles.backend, self.particles.total
         tile, start = backend.zeros(total, "index"), backend.zeros(self._tiles.count + 1, "offset")
         self._tiles.find(self.listed, tile)
         backend.exclusive_scan(backend.count_by_key(tile, self._tiles.count), start)
         order = backend.sort_by_key(tile, self._tiles.count)
-        return NeighborList(start, order, None, self.matter.support, None, common, ())
+        return NeighborList(start, order, None, self.particles.support, None, common, ())

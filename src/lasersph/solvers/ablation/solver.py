@@ -14,20 +14,20 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.compute.search import EscapedParticle
 from lasersph.physics.compressible_limits import compressible_limits
 from lasersph.physics.ejection import EJECTED
 from lasersph.solvers.ablation.active import ActiveRegion
-from lasersph.solvers.ablation.columns import Columns
+from lasersph.solvers.ablation.ejecta_motion import flown
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
-from lasersph.solvers.ablation.exposure import Exposure
-from lasersph.solvers.ablation.flight import flown
+from lasersph.solvers.ablation.first_hit import FirstHitLight
 from lasersph.solvers.ablation.lifting_step import LiftingStep
-from lasersph.solvers.ablation.matter import Matter
 from lasersph.solvers.ablation.moving_step import MovingStep
-from lasersph.solvers.ablation.numbers import Numbers
 from lasersph.solvers.ablation.pairs import REST, Pairs, Stride
-from lasersph.solvers.ablation.published_ejection import PublishedEjection
+from lasersph.solvers.ablation.parameters import Parameters
+from lasersph.solvers.ablation.particle_state import ParticleState
+from lasersph.solvers.ablation.published.ejection import PublishedEjection
 from lasersph.solvers.ablation.rates import condensed_extremes, speed_squares
 from lasersph.solvers.ablation.resting_step import RestingStep
 from lasersph.solvers.ablation.state import AblationState
@@ -36,7 +36,7 @@ from lasersph.solvers.time_step import TimeSettings, name_of_longest, next_edge
 
 RETRIES = 8
 LEVEL_ARRAYS = {"position": "x", "velocity": "v", "density": "rho", "enthalpy": "h"}
-MATTER_ARRAYS = ("stage", "left_at", "p_v")
+MATTER_ARRAYS = ("kind", "left_at", "p_v")
 
 
 class Ablation:
@@ -50,25 +50,25 @@ class Ablation:
 
     def __init__(
         self,
-        matter: Matter,
+        particles: ParticleState,
         pairs: Pairs,
-        exposure: Exposure,
-        numbers: Numbers,
+        exposure: FreeSurface,
+        numbers: Parameters,
         time: TimeSettings,
-        columns: Columns | None = None,
+        columns: FirstHitLight | None = None,
         ejection: EnthalpyEjection | PublishedEjection | None = None,
         region: ActiveRegion | None = None,
     ) -> None:
-        self.body, self.pairs, self.exposure = matter, pairs, exposure
-        self.numbers, self.time_settings = numbers, time
-        self.columns, self.ejection, self.region = columns, ejection, region
-        self.backend = matter.backend
+        self.body, self.pairs, self.surface = particles, pairs, exposure
+        self.parameters, self.time_settings = numbers, time
+        self.light, self.ejection, self.region = columns, ejection, region
+        self.backend = particles.backend
         self.state = AblationState()
-        self._moving = MovingStep(matter, pairs, exposure, numbers, self.state)
-        self._resting = RestingStep(matter, pairs, exposure, numbers)
-        self._lifting = LiftingStep(matter, pairs, exposure, numbers)
+        self._moving = MovingStep(particles, pairs, exposure, numbers, self.state)
+        self._resting = RestingStep(particles, pairs, exposure, numbers)
+        self._lifting = LiftingStep(particles, pairs, exposure, numbers)
         self._surface_known = False
-        self._everything = self.backend.asarray(np.arange(matter.total), "index")
+        self._everything = self.backend.asarray(np.arange(particles.total), "index")
         self._enter()
 
     @property
@@ -79,9 +79,9 @@ class Ablation:
     @property
     def fields(self) -> dict[str, Any]:
         """Arrays of the particles by name."""
-        level, matter = self.body.now, self.body
+        level, particles = self.body.now, self.body
         found = {name: getattr(level, symbol) for name, symbol in LEVEL_ARRAYS.items()}
-        found |= {name: getattr(matter, name) for name in MATTER_ARRAYS}
+        found |= {name: getattr(particles, name) for name in MATTER_ARRAYS}
         found["listed"] = self.pairs.listed
         for part in (self.ejection, self.region):
             found |= {} if part is None else part.fields
@@ -116,12 +116,12 @@ class Ablation:
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]; of flow only where something moves or is pushed."""
-        state, time, numbers = self.state, self.time_settings, self.numbers
+        state, time, numbers = self.state, self.time_settings, self.parameters
         limits = {"end": time.end - state.time}
         if time.is_fixed and time.step is not None:
             return limits | {"fixed step": time.step}
-        if self.columns is not None:
-            edge = next_edge(self.columns.laser.pulse, state.time, time.end)
+        if self.light is not None:
+            edge = next_edge(self.light.laser.pulse, state.time, time.end)
             if edge is not None:
                 limits["pulse edge"] = edge
         limits |= compressible_limits(
@@ -135,9 +135,9 @@ class Ablation:
             diffusive_rate=numbers.diffusive_rate,
         )
         if time.step is not None:
-            limits[name_of_longest(self.columns is not None)] = time.step
-        if self.columns is not None and self.ejection is not None:
-            flux = self.columns.largest_flux(state.time, state.time + min(limits.values()))
+            limits[name_of_longest(self.light is not None)] = time.step
+        if self.light is not None and self.ejection is not None:
+            flux = self.light.largest_flux(state.time, state.time + min(limits.values()))
             if flux > 0.0:
                 density = self.body.material.density_reference
                 limits["vaporization"] = self.ejection.longest_step(flux, density)
@@ -161,17 +161,17 @@ class Ablation:
 
     def _advance(self, step: float) -> None:
         """One step of the midpoint rule."""
-        matter, state = self.body, self.state
+        particles, state = self.body, self.state
         rule = self._prepare(step)
         rows = self.rows
         light = self._shine(step)
-        rule.evaluate(matter.now, step, rows)
-        rule.move(matter.half, matter.now, 0.5 * step, rows)
-        matter.refresh(matter.half, rows)
-        lost = rule.evaluate(matter.half, step, rows)
+        rule.evaluate(particles.now, step, rows)
+        rule.move(particles.half, particles.now, 0.5 * step, rows)
+        particles.refresh(particles.half, rows)
+        lost = rule.evaluate(particles.half, step, rows)
         stored = rule.foresee(step, rows)
-        rule.move(matter.now, matter.half, step, rows)
-        matter.refresh(matter.now, rows)
+        rule.move(particles.now, particles.half, step, rows)
+        particles.refresh(particles.now, rows)
         state.add(light | {"stored": stored, "lost": lost * step})
         state.time, state.time_step = state.time + step, step
         self._leave(step)
@@ -183,11 +183,11 @@ class Ablation:
 
         Returns the rule of the step: that of rest where only heat changes.
         """
-        matter, state = self.body, self.state
-        has_grown = self.region is not None and self.region.wake(matter.fields())
+        particles, state = self.body, self.state
+        has_grown = self.region is not None and self.region.activate(particles.fields())
         if has_grown:
             self._enter()
-        fields = {"v": matter.now.v, "stage": matter.stage}
+        fields = {"v": particles.now.v, "kind": particles.kind}
         square, leaving = self.backend.pointwise(
             speed_squares, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
@@ -203,9 +203,9 @@ class Ablation:
             except EscapedParticle as error:
                 raise NotConverged(str(error)) from error
             self._resting.weights, self._surface_known = None, False
-        if self.columns is not None:
+        if self.light is not None:
             self.find_surface()
-        is_still = square == 0.0 and self.numbers.gravity == 0.0
+        is_still = square == 0.0 and self.parameters.gravity == 0.0
         if state.is_balanced and is_still and leaving == 0.0:
             self._resting.weigh(self.rows)
             return self._resting
@@ -214,7 +214,7 @@ class Ablation:
 
     def extremes(self) -> tuple[float, float]:
         """Largest pressure [Pa] and speed [m/s] of what is condensed."""
-        fields = {"P": self.body.now.P, "v": self.body.now.v, "stage": self.body.stage}
+        fields = {"P": self.body.now.P, "v": self.body.now.v, "kind": self.body.kind}
         pressure, square = self.backend.pointwise(
             condensed_extremes, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
@@ -226,16 +226,16 @@ class Ablation:
             return
         if self.pairs.margin == 0.0:
             self.pairs.renew(REST, self.rows)
-        matter = self.body
-        self.exposure.find(self.pairs.now, matter.now.V, matter.opaque, self.rows)
-        if self.columns is not None:
+        particles = self.body
+        self.surface.find(self.pairs.now, particles.now.V, particles.opaque, self.rows)
+        if self.light is not None:
             rows = self._everything if self.rows is None else self.rows
-            self.columns.sort(matter.now.x, matter.stage, rows)
+            self.light.sort(particles.now.x, particles.kind, rows)
         self._surface_known = True
 
     def _shine(self, step: float) -> dict[str, float]:
         """Light of the step: where what falls on the surface goes [J], by ENERGIES."""
-        columns, time = self.columns, self.state.time
+        columns, time = self.light, self.state.time
         if columns is None:
             return {}
         columns.shine(time, time + step)
@@ -255,12 +255,12 @@ class Ablation:
         """Let what has taken up enough heat leave the surface."""
         if self.ejection is None:
             return
-        matter, surface = self.body, self.exposure
-        fields = matter.fields() | {
+        particles, surface = self.body, self.surface
+        fields = particles.fields() | {
             "exposed": surface.exposed, "normal": surface.normal,
         }  # fmt: skip
         departure = self.ejection.leave(fields, self.pairs.now, self.rows, self.state.time, step)
-        matter.refresh(matter.now, self.rows)
+        particles.refresh(particles.now, self.rows)
         if departure.count:
             self.state.leave(departure)
             self._surface_known = False
@@ -269,11 +269,11 @@ class Ablation:
         """Move what has been ejected."""
         if not self.state.left.count:
             return
-        matter = self.body
-        fields = {"x": matter.now.x, "v": matter.now.v, "stage": matter.stage}
+        particles = self.body
+        fields = {"x": particles.now.x, "v": particles.now.v, "kind": particles.kind}
         (gone,) = self.backend.pointwise(
-            flown, fields, (matter.now.x, matter.stage, None),
-            rows=self.backend.rows_where(matter.stage, EJECTED), reduce=(None, None, "sum"),
-            step=step, low=self.numbers.low, high=self.numbers.high,
+            flown, fields, (particles.now.x, particles.kind, None),
+            rows=self.backend.rows_where(particles.kind, EJECTED), reduce=(None, None, "sum"),
+            step=step, low=self.parameters.low, high=self.parameters.high,
         )  # fmt: skip
         self.state.gone += int(gone)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from lasersph.solvers.ablation.departure import Departure
+from lasersph.solvers.ablation.ejecta import Ejecta
 from lasersph.solvers.conduction.state import ENERGIES
 
 
@@ -27,7 +27,7 @@ class AblationState:
     closing: float = 0.0
     is_balanced: bool = False
     gone: int = 0
-    left: Departure = field(default_factory=Departure)
+    left: Ejecta = field(default_factory=Ejecta)
     energy: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
 
     def carried(self) -> dict[str, float]:
@@ -42,7 +42,7 @@ class AblationState:
     def restore(self, numbers: dict[str, float]) -> None:
         """Set all numbers from `carried`."""
         self.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
-        self.left = Departure(
+        self.left = Ejecta(
             int(numbers["left.count"]), numbers["left.mass"], numbers["left.energy"],
             numbers["left.kinetic"],
         )  # fmt: skip
@@ -56,10 +56,10 @@ class AblationState:
         for name, value in exchanged.items():
             self.energy[name] += value
 
-    def leave(self, departure: Departure) -> None:
+    def leave(self, departure: Ejecta) -> None:
         """Count what left in a step."""
         was = self.left
-        self.left = Departure(
+        self.left = Ejecta(
             was.count + departure.count, was.mass + departure.mass,
             was.energy + departure.energy, was.kinetic + departure.kinetic,
         )  # fmt: skip

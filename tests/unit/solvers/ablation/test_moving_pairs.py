@@ -6,7 +6,7 @@ from moving_matter import DRIFTING_BLOCK, HEATED_BLOCK, go, host, moving, put, s
 
 from lasersph.compute.search import EscapedParticle
 from lasersph.physics.ejection import CONDENSED, EJECTED, GONE, LEAVING
-from lasersph.solvers.ablation.flight import flown
+from lasersph.solvers.ablation.ejecta_motion import flown
 from lasersph.solvers.ablation.pairs import REST, Stride, displaced, placed, within
 from lasersph.solvers.conduction.state import NotConverged
 
@@ -33,10 +33,10 @@ def test_places_for_the_list():
 def test_flight():
     """Straight on; gone once outside; what is condensed does not fly."""
     x, v = np.array([1.0, 4.0]), np.array([0.0, 2.0])
-    place, stage, gone = flown(x, v, EJECTED, 0.25, **BOX)
-    assert (place.tolist(), stage, gone) == ([1.0, 4.5], EJECTED, 0.0)
-    place, stage, gone = flown(x, v, EJECTED, 1.0, **BOX)
-    assert (place.tolist(), stage, gone) == ([1.0, 6.0], GONE, 1.0)
+    place, kind, gone = flown(x, v, EJECTED, 0.25, **BOX)
+    assert (place.tolist(), kind, gone) == ([1.0, 4.5], EJECTED, 0.0)
+    place, kind, gone = flown(x, v, EJECTED, 1.0, **BOX)
+    assert (place.tolist(), kind, gone) == ([1.0, 6.0], GONE, 1.0)
     assert flown(x, v, CONDENSED, 1.0, **BOX)[0].tolist() == [1.0, 4.0]
 
 
@@ -45,7 +45,7 @@ def test_pairs_are_found_anew_only_when_particles_have_moved():
     _, rest = moving("sound-wave", *HEATED_BLOCK, "laser=", "time.end=1 us")
     go(rest, steps=2)
     first = rest.pairs.now
-    assert rest.pairs.margin == 1e-6 * rest.body.layout.spacing
+    assert rest.pairs.margin == 1e-6 * rest.body.geometry.spacing
     go(rest, steps=2)
     assert rest.pairs.now is first
     _, drift = moving("sound-wave", *DRIFTING_BLOCK)
@@ -63,7 +63,7 @@ def test_pairs_are_found_anew_only_when_particles_have_moved():
 def test_skin_grows_with_the_way():
     """s^2 = 1.5 way l / d, but twice the way at least and what the case allows at most."""
     _, solver = moving("sound-wave", *DRIFTING_BLOCK)
-    pairs, spacing = solver.pairs, solver.body.layout.spacing
+    pairs, spacing = solver.pairs, solver.body.geometry.spacing
     for way, skin in ((1e-7, 1e-6), (1e-3, (1.5e-3 * 3.0 / 2.0) ** 0.5), (0.1, 0.3), (0.15, 0.3)):
         pairs.renew(Stride(1.0, way * spacing, 0.0))
         assert pairs.margin == pytest.approx(skin * spacing)
@@ -71,8 +71,8 @@ def test_skin_grows_with_the_way():
 
 def missing(solver, size):
     """Pairs of condensed particles within the support [(i, j)] that the list does not hold."""
-    x, support = host(solver, "position"), 3.0 * solver.body.layout.spacing
-    is_there = host(solver, "stage") == CONDENSED
+    x, support = host(solver, "position"), 3.0 * solver.body.geometry.spacing
+    is_there = host(solver, "kind") == CONDENSED
     start = solver.backend.to_host(solver.pairs.now.row_start).astype(int)
     neighbor = solver.backend.to_host(solver.pairs.now.neighbor)
     found = []
@@ -141,16 +141,16 @@ def test_parts_that_meet_are_noticed():
     _, solver = moving("sound-wave", *DRIFTING_BLOCK, "motion=", "domain.depth=24 um")
     z = host(solver, "position")[-1]
     middle = 0.5 * (z.min() + z.max())
-    put(solver, "stage", np.where(np.abs(z - middle) < 3.5e-6, GONE, CONDENSED))
+    put(solver, "kind", np.where(np.abs(z - middle) < 3.5e-6, GONE, CONDENSED))
     speed = np.array([np.zeros_like(z), np.where(z < middle, 400.0, -400.0)])
     put(solver, "velocity", speed)
     size, gap = np.array([[10e-6], [24e-6]]), np.inf
     while gap > 1.5e-6:
         go(solver, steps=1)
         assert missing(solver, size) == []
-        z, stage = host(solver, "position")[-1], host(solver, "stage")
-        is_low = (z < middle) & (stage == CONDENSED)
-        gap = z[(z > middle) & (stage == CONDENSED)].min() - z[is_low].max()
+        z, kind = host(solver, "position")[-1], host(solver, "kind")
+        is_low = (z < middle) & (kind == CONDENSED)
+        gap = z[(z > middle) & (kind == CONDENSED)].min() - z[is_low].max()
 
 
 def test_free_fall():

@@ -1,4 +1,4 @@
-"""Rates of two and three particles by hand: formula, stages, walls, light; weights at rest."""
+"""Rates of two and three particles by hand: formula, kinds, walls, light; weights at rest."""
 
 import numpy as np
 import pytest
@@ -67,11 +67,11 @@ def test_two_things_that_conduct_nothing():
     assert pair_rates(**PAIR | {"k_i": 0.0, "k_j": 0.0}, **FLOW)[2] == 0.0
 
 
-def particle(stage, **changes):
+def particle(kind, **changes):
     """Rates of a particle at 310 K of mass 2 with light of 8 J in 4 s and an open area of 3."""
     given = {
         "total_0": -24.0, "total_1": np.array([1.0, 2.0]), "total_2": 100.0, "total_3": 7.0,
-        "stage": stage, "m": 2.0, "T": 310.0, "E": 8.0, "A": 3.0, "step": 4.0, "up": UP, "g": 9.0,
+        "kind": kind, "m": 2.0, "T": 310.0, "E": 8.0, "A": 3.0, "step": 4.0, "up": UP, "g": 9.0,
     }  # fmt: skip
     return rates(**given | changes, **SURROUNDINGS)
 
@@ -142,13 +142,13 @@ def test_derived():
 
 
 @pytest.mark.parametrize(
-    ("stage", "conducts", "expected"),
+    ("kind", "conducts", "expected"),
     [(LEAVING, 1.0, (14.0, 0.0, 0.0, 1.0)), (EJECTED, 1.0, (0.0, 0.0, 0.0, 0.0)),
      (WALL, 0.0, (0.0, 7.0 * (1.1**7 - 1.0), 2.0, 1.0))],
 )  # fmt: skip
-def test_derived_by_stage(stage, conducts, expected):
+def test_derived_by_stage(kind, conducts, expected):
     """Conductivity, pressure, acting volume and opacity of what leaves, has left, or is a wall."""
-    found = derived(125.0, 1.1, 2.2, stage, conducts, melts_at=1e9, **CURVE)
+    found = derived(125.0, 1.1, 2.2, kind, conducts, melts_at=1e9, **CURVE)
     assert (found[3], found[4], found[6], found[7]) == pytest.approx(expected)
 
 

@@ -1,6 +1,6 @@
-"""`Columns`: the beam shot down columns of one spacing onto the particles that it meets first.
+"""`FirstHitLight`: light falls down columns of one spacing onto the particles that it meets first.
 
-See `physics.columns` for who takes what. Which particles that are is found when particles have
+See `physics.first_hit` for who takes what. Which particles that are is found when particles have
 moved or left (`sort`), the light of a step in each step (`shine`), what of it they absorb from
 their temperatures (`absorb`).
 """
@@ -18,7 +18,8 @@ from lasersph.lasers import Laser
 from lasersph.materials import Material
 from lasersph.particles.neighbors import NeighborList
 from lasersph.particles.support import common
-from lasersph.physics.columns import (
+from lasersph.physics.ejection import GONE
+from lasersph.physics.first_hit import (
     NOWHERE,
     absorbed_light,
     added,
@@ -33,14 +34,13 @@ from lasersph.physics.columns import (
     share_of,
     top_of,
 )
-from lasersph.physics.ejection import GONE
 from lasersph.physics.heating import COLDEST, HOTTEST
 
 BAND = 0.5
 """Depth over the spacing down to which particles of a column are uppermost."""
 
 
-class Columns:
+class FirstHitLight:
     """Columns over the surface, and the light in them.
 
     Args:
@@ -93,20 +93,20 @@ class Columns:
 
     # --- who is met -----------------------------------------------------------------------------
 
-    def sort(self, position: Any, stage: Any, rows: Any) -> None:
+    def sort(self, position: Any, kind: Any, rows: Any) -> None:
         """Find which particles the light meets first.
 
         Args:
-            position: (dim, N) [m]. stage: (N,); what has left and walls are transparent. rows:
+            position: (dim, N) [m]. kind: (N,); what has left and walls are transparent. rows:
                 where to look, kind "index".
         """
         backend, self._sorted = self.backend, rows
         size = max(rows.shape[0], self.count + 1)
-        x, stages = backend.zeros((self.dimension, size)), backend.zeros(size)
-        backend.fill(stages, GONE)
+        x, kinds = backend.zeros((self.dimension, size)), backend.zeros(size)
+        backend.fill(kinds, GONE)
         backend.gather(position, rows, x)
-        backend.gather(stage, rows, stages)
-        corners = self._corners(x, stages)
+        backend.gather(kind, rows, kinds)
+        corners = self._corners(x, kinds)
         self._lists = [(column, cover, self._list(x, column)) for column, cover in corners]
         self._find_tops()
         shares, lit = [], backend.zeros(size)
@@ -133,7 +133,7 @@ class Columns:
             self.backend.zeros(rows.shape[0]) for _ in range(3)
         )
 
-    def _corners(self, x: Any, stage: Any) -> list[tuple[Any, Any]]:
+    def _corners(self, x: Any, kind: Any) -> list[tuple[Any, Any]]:
         """Column and cover of each particle at each corner of its square."""
         backend, size = self.backend, x.shape[1]
         places = [(backend.zeros(size), backend.zeros(size)) for _ in range(2)]
@@ -145,7 +145,7 @@ class Columns:
             )  # fmt: skip
         fields = {
             "column_x": places[0][0], "beyond_x": places[0][1], "column_y": places[1][0],
-            "beyond_y": places[1][1], "stage": stage,
+            "beyond_y": places[1][1], "kind": kind,
         }  # fmt: skip
         found = []
         ends = [(0.0, 1.0)] * (self.dimension - 1) + [(0.0,)] * (3 - self.dimension)
@@ -240,11 +240,11 @@ class Columns:
         )
         backend.scatter(self._absorbed, self.rows, self.deposit)
 
-    def hand_down(self, excess: Any, position: Any, stage: Any, h: Any, m: Any) -> float:
+    def hand_down(self, excess: Any, position: Any, kind: Any, h: Any, m: Any) -> float:
         """Give the excess of what has left to what is met now; sorts anew.
 
         Args:
-            excess: (N,) [J]. position, stage: (dim, N) [m] and (N,), now. h: (N,) [J/kg], changed.
+            excess: (N,) [J]. position, kind: (dim, N) [m] and (N,), now. h: (N,) [J/kg], changed.
                 m: (N,) [kg].
 
         Returns:
@@ -262,7 +262,7 @@ class Columns:
             backend.pair_sum(owed, columns, fields, part)
             head = backend.head(total, count)
             backend.pointwise(added, {"a": head, "b": part}, head)
-        self.sort(position, stage, self._sorted)
+        self.sort(position, kind, self._sorted)
         self._pour(total)
         enthalpy, mass = self._gathered(h, self.rows), self._gathered(m, self.rows)
         fields = {"h": enthalpy, "m": mass, "given": self._light}

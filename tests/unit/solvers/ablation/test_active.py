@@ -31,7 +31,7 @@ class Block:
         self.host = host
         self.fields = {
             "x": backend.asarray(host), "h": backend.zeros(count),
-            "v": backend.zeros(host.shape), "stage": backend.zeros(count),
+            "v": backend.zeros(host.shape), "kind": backend.zeros(count),
         }  # fmt: skip
         top = np.flatnonzero(host[-1] > -1.0)
         self.region = ActiveRegion(
@@ -44,9 +44,9 @@ class Block:
         field[..., particle] = value
         self.fields[name] = self.backend.asarray(field)
 
-    def wake(self):
+    def activate(self):
         """Wake; returns whether anything did."""
-        return self.region.wake(self.fields)
+        return self.region.activate(self.fields)
 
     def depth(self):
         """Layers that are awake in a column."""
@@ -61,41 +61,41 @@ def column(backend):
 
 def test_start(column):
     """The tile of the surface and two below are awake: 9.3 spacings."""
-    assert column.depth() == 10 and column.region.awake_count == 10
-    assert not column.wake()
+    assert column.depth() == 10 and column.region.active_count == 10
+    assert not column.activate()
 
 
 def test_heat_wakes_tiles_around(column):
     """Above 1e-11 of the largest rise, and only then; one more tile wakes along."""
     column.put("h", 0, 1e6)
-    assert not column.wake()
+    assert not column.activate()
     column.put("h", 9, 0.9e-5)
-    assert not column.wake()
+    assert not column.activate()
     column.put("h", 9, 1.1e-5)
-    assert column.wake() and column.depth() == 19
-    assert not column.wake()
+    assert column.activate() and column.depth() == 19
+    assert not column.activate()
 
 
 def test_motion_wakes_and_ejecta_do_not(column):
     """What moves wakes its surroundings; what has been ejected disturbs nothing."""
     column.put("h", 0, 1e6)
-    assert not column.wake()
+    assert not column.activate()
     column.put("v", 9, 1.0)
     column.put("h", 9, 1e5)
-    column.put("stage", 9, EJECTED)
-    assert not column.wake()
-    column.put("stage", 9, CONDENSED)
+    column.put("kind", 9, EJECTED)
+    assert not column.activate()
+    column.put("kind", 9, CONDENSED)
     column.put("h", 9, 0.0)
-    assert column.wake() and column.depth() == 19
+    assert column.activate() and column.depth() == 19
 
 
 def test_everything_awake_has_no_rows(column):
     """Once all are awake no index is needed."""
     for particle in range(60):
         column.put("h", particle, 1.0)
-    assert column.wake()  # what was warm from the start is found wherever it is
-    assert column.region.rows is None and column.region.awake_count == 60
-    assert not column.wake()
+    assert column.activate()  # what was warm from the start is found wherever it is
+    assert column.region.rows is None and column.region.active_count == 60
+    assert not column.activate()
 
 
 def test_periodic_sides(backend):
@@ -103,7 +103,7 @@ def test_periodic_sides(backend):
     for period, awake in (((24.0, 0.0), {0, 1, 2, 3, 5, 6, 7}), ((0.0, 0.0), {0, 1, 2, 3})):
         found = Block(backend, (24,), 40, period)
         found.put("h", 24 * 30, 1.0)  # layer 30, first column
-        assert found.wake()
+        assert found.activate()
         rows = found.backend.to_host(found.region.rows)
         deep = rows[found.host[1, rows] == -30.5]
         width = 24.0 / 8 if period[0] else 23.0 / 7
@@ -154,12 +154,12 @@ def heated(backend, steps, *, sleeps):
     reach = backend.asarray(np.full(count, SUPPORT))
     if not sleeps:
         found.put("v", slice(None), 1e-3)
-        found.wake()
+        found.activate()
         assert found.region.rows is None
     h, half, dh = found.fields["h"], backend.zeros(count), backend.zeros(count)
     light, pairs = backend.asarray(q), None
     for _ in range(steps):
-        if found.wake() or pairs is None:
+        if found.activate() or pairs is None:
             start, neighbor = found.region.find_pairs(found.fields["x"], reach)
             pairs = NeighborList(
                 start, neighbor, found.fields["x"], reach, kernel("cubic-spline", 2), arithmetic,
@@ -171,15 +171,15 @@ def heated(backend, steps, *, sleeps):
                 flow, pairs, {"h": source, "q": light}, dh, finish=rate, rows=rows
             )  # fmt: skip
             backend.pointwise(advanced, {"h": h, "rate": dh}, target, rows=rows, step=step)
-    return backend.to_host(h), found.region.awake_count
+    return backend.to_host(h), found.region.active_count
 
 
 def test_sleeping_changes_nothing():
     """Equal to the full computation within 1e-8 of the temperature rise."""
     backend = compute.cpu(threads=1)
-    asleep, awake_count = heated(backend, 60, sleeps=True)
+    asleep, active_count = heated(backend, 60, sleeps=True)
     full, count = heated(backend, 60, sleeps=False)
-    assert awake_count < 0.95 * count
+    assert active_count < 0.95 * count
     assert np.abs(asleep - full).max() < 1e-8 * full.max()
     assert np.abs(asleep - full).max() < 1e-10 * full.max()  # far below what is promised
     assert asleep.sum() == pytest.approx(full.sum(), rel=1e-9)
@@ -189,12 +189,12 @@ def test_restored_region_goes_on(column):
     """Mask and largest rise survive a checkpoint."""
     column.put("h", 0, 1e6)
     column.put("h", 9, 1.1e-5)
-    assert column.wake()
-    arrays = {"awake": column.backend.to_host(column.region.fields["awake"])}
+    assert column.activate()
+    arrays = {"active": column.backend.to_host(column.region.fields["active"])}
     other = Block(column.backend, (), 60, (0.0,))
     other.region.restore(arrays, column.region.carried())
     np.testing.assert_array_equal(
         column.backend.to_host(other.region.rows), column.backend.to_host(column.region.rows)
     )
     other.fields = column.fields
-    assert not other.wake()
+    assert not other.activate()

@@ -1,4 +1,4 @@
-"""`Tiles`: a box cut into equal parts, and the part that each particle is in."""
+"""`CellGrid`: a box cut into equal parts, and the part that each particle is in."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def as_number(tile, place, count):
     return tile * count + place
 
 
-class Tiles:
+class CellGrid:
     """Equal tiles of a box, at least as wide as asked for where the box is.
 
     Args:

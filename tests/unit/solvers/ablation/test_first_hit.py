@@ -5,9 +5,9 @@ import pytest
 
 from lasersph.lasers import Laser
 from lasersph.materials import load_material
-from lasersph.physics import columns as rules
+from lasersph.physics import first_hit as rules
 from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING, WALL
-from lasersph.solvers.ablation.columns import Columns
+from lasersph.solvers.ablation.first_hit import FirstHitLight
 
 DX = 2e-7
 SIDE, LAYERS = 12, 8
@@ -38,16 +38,16 @@ def columns_of(backend, position, *, beam=None, periodic=True, rows=None):
     dimension, count = position.shape
     deposit = backend.zeros(count)
     half = 0.5 * SIDE * DX
-    found = Columns(
+    found = FirstHitLight(
         backend, laser(beam), load_material("aluminium-aa6014"),
         ((-half, half),) * (dimension - 1), DX, (periodic,) * (dimension - 1), deposit,
     )  # fmt: skip
-    stage = np.full(count, CONDENSED if rows is None else EJECTED)
+    kind = np.full(count, CONDENSED if rows is None else EJECTED)
     if rows is not None:
-        stage[rows] = CONDENSED
+        kind[rows] = CONDENSED
     found.sort(
         backend.asarray(position),
-        backend.asarray(stage),
+        backend.asarray(kind),
         backend.asarray(np.arange(count), "index"),
     )
     found.shine(1e-9, 1.05e-9)
@@ -162,8 +162,8 @@ def test_old_light_goes_out(backend):
     position = block(2)
     found, _ = columns_of(backend, position)
     below = np.flatnonzero(position[1] < -DX)
-    stage = backend.zeros(position.shape[1])
-    found.sort(backend.asarray(position), stage, backend.asarray(below, "index"))
+    kind = backend.zeros(position.shape[1])
+    found.sort(backend.asarray(position), kind, backend.asarray(below, "index"))
     assert not backend.to_host(found.deposit)[position[1] > -DX].any()
 
 
@@ -172,15 +172,15 @@ def test_place_and_corner():
     column, beyond = rules.place_along(np.array([2.3, 0.0]), (1.0, 0.0), 0.0, 1.0)
     assert column == 1.0 and beyond == pytest.approx(0.8)
 
-    def corner(right, column=column, wraps=0.0, stage=LEAVING):
-        return rules.corner(column, beyond, 0.0, 0.0, stage, right, 0.0, 4.0, 1.0, wraps, 0.0)
+    def corner(right, column=column, wraps=0.0, kind=LEAVING):
+        return rules.corner(column, beyond, 0.0, 0.0, kind, right, 0.0, 4.0, 1.0, wraps, 0.0)
 
     assert corner(0.0) == (1, pytest.approx(0.2))
     assert corner(1.0) == (2, pytest.approx(0.8))
     assert corner(1.0, column=3.0) == (4, 0.0)
     assert corner(1.0, column=3.0, wraps=1.0) == (0, pytest.approx(0.8))
     assert corner(0.0, column=-1.0, wraps=1.0) == (3, pytest.approx(0.2))
-    assert corner(0.0, stage=EJECTED) == corner(0.0, stage=WALL) == (4, 0.0)
+    assert corner(0.0, kind=EJECTED) == corner(0.0, kind=WALL) == (4, 0.0)
 
 
 def test_slivers_are_not_the_highest():

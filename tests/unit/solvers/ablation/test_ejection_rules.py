@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.lasers import Laser
 from lasersph.materials import load_material
 from lasersph.particles.neighbors import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING
-from lasersph.solvers.ablation.columns import Columns
-from lasersph.solvers.ablation.departure import Departure, Vapor
+from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
-from lasersph.solvers.ablation.exposure import Exposure
-from lasersph.solvers.ablation.published_ejection import PublishedEjection
+from lasersph.solvers.ablation.first_hit import FirstHitLight
+from lasersph.solvers.ablation.published.ejection import PublishedEjection
 from lasersph.sph.kernels import kernel
 
 DX = 2e-7
@@ -36,13 +36,13 @@ class Sample:
         self.host = np.array([x.ravel(), y.ravel(), z.ravel()])
         count = self.host.shape[1]
         values = {"V": DX**3, "opaque": 1.0, "m": MASS, "T": 300.0}
-        names = ("V", "opaque", "m", "T", "h", "E", "stage", "left_at", "p_v")
+        names = ("V", "opaque", "m", "T", "h", "E", "kind", "left_at", "p_v")
         self.fields = {
             name: backend.asarray(np.full(count, values.get(name, 0.0))) for name in names
         }
         self.fields |= {"x": backend.asarray(self.host), "v": backend.zeros((3, count))}
-        self.exposure = Exposure(backend, count, 3, DX)
-        self.fields |= {"exposed": self.exposure.exposed, "normal": self.exposure.normal}
+        self.surface = FreeSurface(backend, count, 3, DX)
+        self.fields |= {"exposed": self.surface.exposed, "normal": self.surface.normal}
         self.middle = SIDE * (SIDE // 2) + SIDE // 2
         self.find()
 
@@ -54,7 +54,7 @@ class Sample:
             backend, self.fields["x"], support, count, kernel=kernel("cubic-spline", 3),
             mean=arithmetic,
         )  # fmt: skip
-        self.exposure.find(self.pairs, self.fields["V"], self.fields["opaque"])
+        self.surface.find(self.pairs, self.fields["V"], self.fields["opaque"])
 
     def put(self, name, rows, value):
         """Set a field in place at some particles."""
@@ -90,13 +90,13 @@ def enthalpy_rule(sample, vapor, *, phase_change=True):
     laser = Laser.model_validate(
         {"fluence": 1e5, "pulse": pulse, "absorption": {"kind": "surface"}}
     )
-    columns = Columns(
+    columns = FirstHitLight(
         sample.backend, laser, ALUMINIUM, ((0.0, side), (0.0, side)), DX, (False, False),
         sample.fields["E"],
     )  # fmt: skip
     count = sample.host.shape[1]
     rows = sample.backend.asarray(np.arange(count), "index")
-    columns.sort(sample.fields["x"], sample.fields["stage"], rows)
+    columns.sort(sample.fields["x"], sample.fields["kind"], rows)
     curve = ALUMINIUM.caloric_curve(300.0, "hold", phase_change=phase_change)
     return EnthalpyEjection(sample.backend, vapor, curve, columns, count, DX)
 
@@ -115,12 +115,12 @@ def test_enthalpy_rule_takes_all_along(sample, vapor, backend):
     assert left.count == 1 and left.mass == pytest.approx(MASS)
     assert left.energy == pytest.approx(MASS * rule.enthalpy_vaporized)
     assert left.kinetic == pytest.approx(0.5 * MASS * speed**2)
-    assert sample.get("stage", sample.middle) == EJECTED
-    assert sample.get("stage", below) == CONDENSED
+    assert sample.get("kind", sample.middle) == EJECTED
+    assert sample.get("kind", below) == CONDENSED
     np.testing.assert_allclose(sample.get("v", sample.middle), [0.0, 0.0, speed], atol=1e-9 * speed)
     assert sample.get("left_at", sample.middle) == 3e-9
     assert sample.get("p_v", sample.middle) == pytest.approx(101325.0)
-    assert sample.leave(rule, 4e-9) == Departure()
+    assert sample.leave(rule, 4e-9) == Ejecta()
     sample.put("E", below, 1e-12)  # in the light at the bottom of a hole
     assert sample.leave(rule, 5e-9).count == 1
     np.testing.assert_allclose(sample.get("v", below), [0.0, 0.0, speed])
@@ -168,8 +168,8 @@ def lift_layer(sample, rule, T, height):
     top = np.arange(SIDE**2)
     sample.put("T", top, T)
     step, lift = 5e-12, 0.0
-    assert sample.leave(rule, 1e-9, step) == Departure()
-    assert np.all(sample.get("stage", top)[sample.get("exposed", top) > 0.0] == LEAVING)
+    assert sample.leave(rule, 1e-9, step) == Ejecta()
+    assert np.all(sample.get("kind", top)[sample.get("exposed", top) > 0.0] == LEAVING)
     while lift < height:
         v = sample.get("v", slice(None))
         position = sample.get("x", slice(None)) + step * v
@@ -177,7 +177,7 @@ def lift_layer(sample, rule, T, height):
         sample.find()
         lift = position[2, sample.middle] + 0.5 * DX
         sample.leave(rule, 2e-9, step)
-        if sample.get("stage", sample.middle) == EJECTED:
+        if sample.get("kind", sample.middle) == EJECTED:
             return lift
     return None
 

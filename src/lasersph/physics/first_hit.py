@@ -55,7 +55,7 @@ def corner(
     beyond_x,
     column_y,
     beyond_y,
-    stage,
+    kind,
     right,
     back,
     count_x,
@@ -69,7 +69,7 @@ def corner(
 
     Args:
         column_x, column_y, beyond_x, beyond_y: from `place_along`; 0 for an axis that is missing.
-            stage: only what is condensed or leaving stands anywhere. right, back: 1 for the
+            kind: only what is condensed or leaving stands anywhere. right, back: 1 for the
             upper corner along x and y.
     """
     x = wrapped(column_x + right, count_x, wraps_x)
@@ -77,7 +77,7 @@ def corner(
     cover = (beyond_x if right > 0.0 else 1.0 - beyond_x) * (
         beyond_y if back > 0.0 else 1.0 - beyond_y
     )
-    if stage > LEAVING or x < 0.0 or y < 0.0 or cover <= ROUNDING:
+    if kind > LEAVING or x < 0.0 or y < 0.0 or cover <= ROUNDING:
         return int(count_x * count_y), 0.0
     return int(x * count_y + y), cover
 

@@ -1,4 +1,4 @@
-"""`Layout`: where particles and walls stand at the start, as host arrays.
+"""`Geometry`: where particles and walls stand at the start, as host arrays.
 
 Material particles come first, in layers from the surface down, then those of the walls.
 """
@@ -24,7 +24,7 @@ LATERAL = (("left", "right"), ("front", "back"))
 
 
 @dataclass(frozen=True)
-class Layout:
+class Geometry:
     """Numbers and sizes that stay.
 
     Attributes:
@@ -55,7 +55,7 @@ class Layout:
 
 
 @dataclass(frozen=True)
-class Start:
+class InitialState:
     """All particles at the start, host arrays.
 
     Attributes:
@@ -96,8 +96,8 @@ def lay_out(
     temperature: float,
     sound_speed: float,
     gravity: float,
-) -> tuple[Layout, Start]:
-    """Particles of uniform layers, their walls, and how they start.
+) -> tuple[Geometry, InitialState]:
+    """Particles of uniform layers, their walls, and how they initial.
 
     Args:
         density, temperature: of the material at the start [kg/m^3], [K]. sound_speed: [m/s].
@@ -132,7 +132,7 @@ def lay_out(
         bounds[axis][1] - bounds[axis][0] if ends[0] in periodic else 0.0
         for axis, ends in enumerate((*named, ("bottom", "surface")))
     ]
-    layout = Layout(
+    geometry = Geometry(
         count=count,
         surface_count=filling.surface.size,
         total=total,
@@ -142,11 +142,11 @@ def lay_out(
         bounds=bounds,
         box=box,
     )
-    start = Start(
+    initial = InitialState(
         position=position,
         velocity=velocity,
         density=density * (1.0 + strain),
         temperature=np.concatenate([np.full(count, temperature), *temperatures]),
         conducts=np.concatenate([np.ones(count), *conducts]),
     )
-    return layout, start
+    return geometry, initial

@@ -23,14 +23,14 @@ def outside(x, low, high):
     )
 
 
-def flown(x, v, stage, step, low, high):
-    """Position [m] and stage after a step [s], and 1 for what has passed the edge in it.
+def flown(x, v, kind, step, low, high):
+    """Position [m] and kind after a step [s], and 1 for what has passed the edge in it.
 
     Args:
         low, high: corners of the box in which ejecta are followed [m].
     """
-    if stage != EJECTED:
-        return x, stage, 0.0
+    if kind != EJECTED:
+        return x, kind, 0.0
     new = x + step * v
     if outside(new, low, high) > 0.0:
         return new, GONE, 1.0

@@ -12,7 +12,7 @@ from lasersph.physics.evaporation import STANDARD_ATMOSPHERE
 
 
 @dataclass(frozen=True)
-class Departure:
+class Ejecta:
     """Particles that left in a step: count, mass [kg], enthalpy and kinetic energy [J].
 
     Per area in 1-D, per length in 2-D. Enthalpy counts from the initial temperature.
@@ -40,15 +40,15 @@ class Vapor:
             "L_v": vaporization.latent_heat, "R_s": self.gas_constant,
         }  # fmt: skip
 
-    def account(self, fields: dict[str, Any], rows: Any, time: float) -> Departure:
+    def account(self, fields: dict[str, Any], rows: Any, time: float) -> Ejecta:
         """Write `left_at` [s] and `p_v` [Pa] of what has just left; returns what it takes along.
 
         Args:
-            fields: by symbol; stage, m, h, v, T, left_at, p_v. time: end of the step [s].
+            fields: by symbol; kind, m, h, v, T, left_at, p_v. time: end of the step [s].
         """
         out = (fields["left_at"], fields["p_v"], None, None, None, None)
         count, mass, energy, kinetic = self.backend.pointwise(
             departed, fields, out, rows=rows, reduce=(None, None, "sum", "sum", "sum", "sum"),
             time=time, **self._boiling,
         )  # fmt: skip
-        return Departure(int(count), mass, energy, kinetic)
+        return Ejecta(int(count), mass, energy, kinetic)

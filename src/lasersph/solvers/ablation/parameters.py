@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Numbers:
+class Parameters:
     """Constants of a run.
 
     Attributes:

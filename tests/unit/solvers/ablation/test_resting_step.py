@@ -17,8 +17,8 @@ PUBLISHED = ("particles.spacing=0.2 um", "domain.depth=6 um", "ejection.model=pu
 def test_position_and_enthalpy():
     """Leaving particles move by v dt, all are heated by dh dt."""
     x, v = np.array([0.0, 1.0]), np.array([0.0, 400.0])
-    for stage, z in ((CONDENSED, 1.0), (LEAVING, 1.2), (EJECTED, 1.0)):
-        moved, h = lifting(x, v, 10.0, stage, 4.0, 5e-4)
+    for kind, z in ((CONDENSED, 1.0), (LEAVING, 1.2), (EJECTED, 1.0)):
+        moved, h = lifting(x, v, 10.0, kind, 4.0, 5e-4)
         np.testing.assert_allclose(moved, [0.0, z])
         assert h == pytest.approx(10.002)
 

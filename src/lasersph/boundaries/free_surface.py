@@ -13,7 +13,7 @@ from lasersph.sph.divergence import SURFACE_THRESHOLD
 from lasersph.sph.free_surface import SMALLEST_NORMAL, surface_state, surface_terms
 
 
-class Exposure:
+class FreeSurface:
     """The surface of the condensed particles.
 
     Args:

@@ -19,7 +19,7 @@ from lasersph.physics.ejection import (
     lifted,
     published_departure,
 )
-from lasersph.solvers.ablation.departure import Departure, Vapor
+from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
 
 
 class PublishedEjection:
@@ -52,22 +52,22 @@ class PublishedEjection:
 
     def leave(
         self, fields: dict[str, Any], pairs: Any, rows: Any, time: float, step: float
-    ) -> Departure:
-        """Set stage, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
+    ) -> Ejecta:
+        """Set kind, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
 
         Args:
-            fields: by symbol; stage, v, h, T, m, exposed, normal, left_at, p_v.
+            fields: by symbol; kind, v, h, T, m, exposed, normal, left_at, p_v.
         """
-        backend, stage, v = self.backend, fields["stage"], fields["v"]
+        backend, kind, v = self.backend, fields["kind"], fields["v"]
         own = fields | {"lift": self.lift, "covered": self._covered}
         backend.pointwise(lifted, own, self.lift, rows=rows, step=step)
-        leaving = backend.rows_where(stage, LEAVING)
+        leaving = backend.rows_where(kind, LEAVING)
         backend.pair_sum(
             covered_term, pairs, own, self._covered, rows=leaving, reach=self.reach,
             alignment=BELOW_ALIGNMENT,
         )  # fmt: skip
         backend.pointwise(
-            published_departure, own, (stage, v), rows=rows, T_v=self.vapor.temperature,
+            published_departure, own, (kind, v), rows=rows, T_v=self.vapor.temperature,
             R_s=self.vapor.gas_constant, is_effusion=self.vapor.is_effusion,
             distance=self.left_after,
         )  # fmt: skip

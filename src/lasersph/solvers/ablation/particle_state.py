@@ -1,4 +1,4 @@
-"""`Matter`: the particles of a run that moves, at the start of a step and in its middle."""
+"""`ParticleState`: the particles of a run that moves, at the start of a step and in its middle."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lasersph.compute.backend import Backend
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.physics.ejection import CONDENSED, WALL
-from lasersph.solvers.ablation.layout import Layout, Start
+from lasersph.solvers.ablation.geometry import Geometry, InitialState
 from lasersph.solvers.ablation.rates import derived
 
 HOTTEST = 5e4
@@ -19,7 +19,7 @@ HOTTEST = 5e4
 
 
 @dataclass(frozen=True)
-class Level:
+class TimeLevel:
     """Fields at one time, (N,) and (dim, N): x, v, rho, h, and what follows from them.
 
     V_a: acting volume, see `rates`.
@@ -38,18 +38,18 @@ class Level:
     V_a: Any
 
     @classmethod
-    def empty(cls, backend: Backend, dimension: int, total: int) -> Level:
+    def empty(cls, backend: Backend, dimension: int, total: int) -> TimeLevel:
         """All zero."""
         vectors = [backend.zeros((dimension, total)) for _ in range(2)]
         return cls(*vectors, *(backend.zeros(total) for _ in range(9)))
 
 
-class Matter:
+class ParticleState:
     """Fields of the particles; the first `count` of N are material, the others walls.
 
     Attributes:
         now, half: fields at the start and in the middle of the step. m: mass [kg per (3 - d)
-            lengths]. support: [m]. stage: of the life of each particle.
+            lengths]. support: [m]. kind: of the life of each particle.
         conducts: 1, or 0 of walls without heat. opaque: 1 of what has not been ejected.
         E: light absorbed in the step [J]. left_at: time of leaving [s], 0 before. p_v: vapor
             pressure at leaving [Pa].
@@ -58,8 +58,8 @@ class Matter:
     def __init__(
         self,
         backend: Backend,
-        layout: Layout,
-        start: Start,
+        geometry: Geometry,
+        initial: InitialState,
         material: Material,
         curve: CaloricCurve,
         *,
@@ -69,17 +69,17 @@ class Matter:
         has_tension: bool,
         melts_at: float,
     ) -> None:
-        self.backend, self.layout, self.material, self.curve = backend, layout, material, curve
-        self.count, self.total = layout.count, layout.total
-        total, dimension = self.total, layout.dimension
-        self.now = Level.empty(backend, dimension, total)
-        self.half = Level.empty(backend, dimension, total)
-        self.m = backend.asarray(start.density * layout.volume)
+        self.backend, self.geometry, self.material, self.curve = backend, geometry, material, curve
+        self.count, self.total = geometry.count, geometry.total
+        total, dimension = self.total, geometry.dimension
+        self.now = TimeLevel.empty(backend, dimension, total)
+        self.half = TimeLevel.empty(backend, dimension, total)
+        self.m = backend.asarray(initial.density * geometry.volume)
         self.support = backend.asarray(np.full(total, support))
-        stage = np.full(total, CONDENSED)
-        stage[self.count :] = WALL
-        self.stage = backend.asarray(stage)
-        self.conducts = backend.asarray(start.conducts)
+        kind = np.full(total, CONDENSED)
+        kind[self.count :] = WALL
+        self.kind = backend.asarray(kind)
+        self.conducts = backend.asarray(initial.conducts)
         self.opaque, self.E, self.left_at, self.p_v = (backend.zeros(total) for _ in range(4))
         T, k = material.table("conductivity", 1.0, HOTTEST)
         self._tables = {
@@ -98,26 +98,26 @@ class Matter:
             "has_tension": float(has_tension),
         }
         for array, target in (
-            (start.position, self.now.x),
-            (start.velocity, self.now.v),
-            (start.density, self.now.rho),
+            (initial.position, self.now.x),
+            (initial.velocity, self.now.v),
+            (initial.density, self.now.rho),
             (enthalpy, self.now.h),
         ):
             backend.copy(backend.asarray(array), target)
         self.refresh(self.now)
 
-    def fields(self, level: Level | None = None) -> dict[str, Any]:
+    def fields(self, level: TimeLevel | None = None) -> dict[str, Any]:
         """Arrays by symbol, those of `level` or of the start of the step."""
         return vars(level or self.now) | {
-            "m": self.m, "l": self.support, "stage": self.stage,
+            "m": self.m, "l": self.support, "kind": self.kind,
             "opaque": self.opaque, "conducts": self.conducts, "E": self.E,
             "left_at": self.left_at, "p_v": self.p_v,
         }  # fmt: skip
 
-    def refresh(self, level: Level, rows: Any = None) -> None:
-        """Set what follows from enthalpy, density and stage."""
+    def refresh(self, level: TimeLevel, rows: Any = None) -> None:
+        """Set what follows from enthalpy, density and kind."""
         fields = {
-            "h": level.h, "rho": level.rho, "m": self.m, "stage": self.stage,
+            "h": level.h, "rho": level.rho, "m": self.m, "kind": self.kind,
             "conducts": self.conducts,
         }  # fmt: skip
         out = (level.T, level.f_m, level.f_v, level.k, level.P, level.V, level.V_a, self.opaque)
