@@ -75,7 +75,6 @@ BAD_CASES = {
     "intensity of a gaussian pulse": (FLUENCE, 'intensity = "1e9 W/m^2"', ":5: laser: intensity does not fix the energy of a gaussian pulse; give fluence"),
     "reflectivity above one": (FLUENCE, FLUENCE + '\nreflectivity = "120 %"', ':7: laser.reflectivity: must be at most 1, got "120 %"'),
     "no optics anywhere": (MATERIAL, DULL, ":5: laser.reflectivity: material 'dull' has no reflectivity; give laser.reflectivity"),
-    "no boiling point": (MATERIAL, DULL.partition(", vaporization")[0] + " }", ":26: solver.plateau: material 'dull' has no boiling point; plateau = \"hold\" needs one, plateau = \"evaporate\" does not"),
     "interference in 1-D": ("dimensions = 2", "dimensions = 1", ':15: domain.extent: half of a 1-D column means nothing; write extent = "full"'),
     "uneven beam in half a domain": (FLUENCE, FLUENCE + '\nposition = ["1 um", "0 um"]', ':16: domain.extent: this beam is not symmetric about x = 0; write extent = "full"'),
     # material

@@ -124,9 +124,7 @@ def _material(case: Case) -> Iterator[tuple[str, str]]:
     except ValueError as error:
         text = str(error)
         is_start = text.startswith("the initial temperature")
-        is_plateau = "plateau" in text
-        key = "initial_temperature" if is_start else "solver.plateau" if is_plateau else "material"
-        yield key, text
+        yield "initial_temperature" if is_start else "material", text
     if case.solver.plateau == "evaporate" and case.solver.phase_change:
         vapor = case.material.vaporization
         if vapor is None or vapor.molar_mass is None:

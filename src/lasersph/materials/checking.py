@@ -85,7 +85,7 @@ def _completeness(material: Material) -> list[Finding]:
     if material.melting is None:
         found.append(Finding("note", "melting", "not given; the material never melts"))
     if material.vaporization is None:
-        found.append(Finding("note", "vaporization", 'not given; only plateau = "evaporate" runs'))
+        found.append(Finding("note", "vaporization", "not given; nothing boils or ablates"))
     elif material.vaporization.molar_mass is None:
         found.append(Finding("note", "molar_mass", "not given; needed for evaporation"))
     if material.optics is None or material.optics.absorption_coefficient is None:

@@ -4,7 +4,8 @@
     melting T rises linearly in h from solidus to liquidus while f_m goes from 0 to 1: the sensible
             heat of the range (mean of both ends' c_p) plus L_f     [Demuth2020, eqs. (26), (28)]
     liquid  h goes on with the liquid's c_p
-    boiling T stays at T_v while f_v goes from 0 to 1, and after it  [Demuth2020, eqs. (27), (28)]
+    boiling T stays at T_v while f_v goes from 0 to 1, and after it  [Demuth2020, eqs. (27), (28)];
+            without a boiling point the liquid goes on
 
 Each smooth piece is cut so that a straight line in h stays within TEMPERATURE_TOLERANCE of the
 integral (in K, for T and for the potential), and more coarsely where that took more than
@@ -165,20 +166,14 @@ def build_curve(
     vaporization: Vaporization | None,
     initial_temperature: float,
     plateau: str,
-    phase_change: bool,
     name: str,
 ) -> CaloricCurve:
     """The caloric curve of a material; see `Material.caloric_curve` for arguments and errors."""
-    held = plateau in ("hold", "clip") and phase_change
+    held = plateau in ("hold", "clip") and vaporization is not None
     if plateau not in ("hold", "clip", "evaporate"):
         raise ValueError(f'plateau must be "hold", "clip" or "evaporate", got {plateau!r}')
     if initial_temperature <= 0.0:
         raise ValueError(f"the initial temperature must be positive, got {initial_temperature} K")
-    if held and vaporization is None:
-        raise ValueError(
-            f'material {name!r} has no boiling point; plateau = "{plateau}" needs one, '
-            'plateau = "evaporate" does not'
-        )
     top = melting.solidus if melting else vaporization.temperature if vaporization else None
     if top is not None and initial_temperature >= top:
         raise ValueError(

@@ -249,15 +249,12 @@ class Material(Model):
         """Enthalpy curve with h = 0 for the solid at ``initial_temperature`` [K].
 
         plateau: "hold" keeps T at the boiling point for any h above; "clip" is the same curve for
-        a solver that limits h to ``enthalpy_vaporized``; "evaporate" lets the liquid go on.
-        phase_change = False leaves melting and boiling out (the solid's laws for every T), and so
-        does a material that is liquid everywhere and has no boiling point.
+        a solver that limits h to ``enthalpy_vaporized``; "evaporate" lets the liquid go on, and so
+        does a material without a boiling point whatever the plateau.
+        phase_change = False leaves melting and boiling out (the solid's laws for every T).
 
-        Raises ValueError where the initial temperature is not below the solidus, or the plateau
-        needs a boiling point that the material does not have.
+        Raises ValueError where the initial temperature is not below the solidus.
         """
-        if self.is_liquid and self.vaporization is None:
-            phase_change = False
         return build_curve(
             heat_capacity=self.heat_capacity,
             conductivity=self.conductivity,
@@ -265,7 +262,6 @@ class Material(Model):
             vaporization=self.vaporization if phase_change else None,
             initial_temperature=initial_temperature,
             plateau=plateau,
-            phase_change=phase_change,
             name=self.name,
         )
 

@@ -88,7 +88,7 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
 def _recoil(case: Case, temperature: np.ndarray) -> np.ndarray | None:
     """0.54 p_sat(T) [Pa]."""
     vapor = case.material.vaporization
-    if vapor is None or vapor.specific_gas_constant is None or temperature.size == 0:
+    if vapor is None or vapor.molar_mass is None or temperature.size == 0:
         return None
     T_b, L_v, R_s = vapor.temperature, vapor.latent_heat, vapor.specific_gas_constant
     return np.array(

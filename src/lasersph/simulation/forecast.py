@@ -198,6 +198,14 @@ def _warnings(
         )
     if penetration is not None and layers.thickness.sum() < 5.0 * penetration:
         found.append("the domain is thinner than 5 penetration depths: the bottom will be felt")
+    if case.laser is not None and not case.laser.pulse.delivered(0.0, case.time.end) > 0.0:
+        found.append("no light falls before time.end: nothing will be heated")
+    changes = case.solver.phase_change and (case.laser is not None or case.material.melting)
+    if changes and case.material.vaporization is None:
+        found.append(
+            f'"{case.material.name}" has no boiling point: its temperature rises without limit; '
+            "give temperature and latent_heat in [material.vaporization]"
+        )
     if case.time.is_fixed:
         found.append("the time step is fixed: it may be unstable")
     return found

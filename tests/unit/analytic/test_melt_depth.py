@@ -86,9 +86,14 @@ def test_heating_without_phase_change_is_the_exact_solution():
     assert found.temperature - 300 == pytest.approx(exact, rel=0.02)
 
 
+def test_before_the_light_nothing_melts():
+    """A run that ends before the pulse: depth 0 at the initial temperature."""
+    found = melt_depth(**(STEEL | {"end_time": 1e-9}), fluence=1e4)
+    assert found.depth == 0.0 and np.isnan(found.start) and np.isnan(found.end)
+    assert found.temperature == 298.15
+
+
 def test_wrong_input_is_refused():
-    """No light within the run; columns without a width."""
-    with pytest.raises(ValueError, match="no light"):
-        melt_depth(**(STEEL | {"end_time": 1e-9}), fluence=1e4)
+    """Columns without a width."""
     with pytest.raises(ValueError, match="column_width"):
         melt_depth(**STEEL, fluence=[1e4, 5e3])

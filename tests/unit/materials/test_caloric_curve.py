@@ -171,12 +171,12 @@ def test_impossible_curves_are_refused(initial: float, plateau: str, words: str)
         load_material("steel-304-demuth").caloric_curve(initial, plateau)  # type: ignore[arg-type]
 
 
-def test_material_without_boiling_point_cannot_hold_it() -> None:
-    """The message names the plateau that works."""
+def test_material_without_boiling_point_goes_on() -> None:
+    """Nothing holds the temperature of the liquid, whatever the plateau."""
     material = load_material("steel-304-demuth").model_copy(update={"vaporization": None})
-    with pytest.raises(ValueError, match='plateau = "evaporate" does not'):
-        material.caloric_curve(T_0)
-    assert material.caloric_curve(T_0, "evaporate").temperature_at(3e6) > 3273.0
+    curve = material.caloric_curve(T_0)
+    assert curve.temperature_at(3e6) > 3273.0 and curve.enthalpy_vaporized is None
+    assert curve.temperature_at(curve.enthalpy_at(5000.0)) == pytest.approx(5000.0)
 
 
 def test_nodes_are_read_only_and_must_rise() -> None:

@@ -80,3 +80,9 @@ def test_memory_by_solver(name, settings, each) -> None:
     """400 B a particle, and for each pair more where a melt flows than where nothing is kept."""
     found = forecast(load_case(name, settings))
     assert found.memory == pytest.approx(400.0 * found.particles + each * found.pairs)
+
+
+def test_a_run_that_ends_before_the_light_says_so() -> None:
+    """Nothing melts, so that the finest layers hold the light only; `check` warns."""
+    found = forecast(load_case("dlip-steel", ["time.end=2 ns"]))
+    assert any("no light falls before time.end" in warning for warning in found.warnings)
