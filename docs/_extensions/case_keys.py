@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from lasersph.input import KINDS, show_quantity
+from lasersph.input import KINDS, format_quantity
 
 Schema = dict[str, Any]
 
@@ -139,5 +139,5 @@ def _shown(value: Any, schema: Schema) -> str:
         shown = (_shown(*pair) for pair in zip(value, entries, strict=True))
         return f"[{', '.join(shown)}]"
     if unit != "1" and isinstance(value, int | float):
-        return f'"{show_quantity(value, unit, digits=12)}"'
+        return f'"{format_quantity(value, unit, digits=12)}"'
     return json.dumps(value, ensure_ascii=False)

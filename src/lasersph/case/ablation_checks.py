@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_motion import Rest, SoundWave
-from lasersph.input import show_quantity
+from lasersph.input import format_quantity
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.body import SUPPORT
 
@@ -73,8 +73,8 @@ def _particles(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]
         if is_there and case.boundaries.kind_of(face) == "periodic" and length <= reach:
             yield (
                 f"domain.{key}",
-                f"{show_quantity(length, 'm')} must be more than twice the support and its skin, "
-                f"{show_quantity(reach, 'm')}; take a wider domain or a finer spacing",
+                f"{format_quantity(length, 'm')} must be more than twice the support and its skin, "
+                f"{format_quantity(reach, 'm')}; take a wider domain or a finer spacing",
             )
 
 

@@ -17,7 +17,7 @@ from lasersph.case.size import (
     memories,
     size_of,
 )
-from lasersph.input import CaseError, show_quantity
+from lasersph.input import CaseError, format_quantity
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
 from lasersph.observers import SnapshotSchedule
 
@@ -74,8 +74,8 @@ def _domain(case: Case) -> Iterator[tuple[str, str]]:
         if length is not None and length < FEWEST_LAYERS * lattice.spacing:
             yield (
                 f"domain.{key}",
-                f"{show_quantity(length, 'm')} holds fewer than {FEWEST_LAYERS} particles of "
-                f"{show_quantity(lattice.spacing, 'm')}; give a larger domain or a finer spacing",
+                f"{format_quantity(length, 'm')} holds fewer than {FEWEST_LAYERS} particles of "
+                f"{format_quantity(lattice.spacing, 'm')}; give a larger domain or a finer spacing",
             )
     if lattice.fine_depth is not None and lattice.arrangement == "uniform":
         yield (
@@ -200,9 +200,9 @@ def _whole_periods(
     if not math.isclose(length, count * period, rel_tol=1e-6):
         yield (
             f"domain.{key}",
-            f"{show_quantity(length, 'm')} is no whole number of the pattern's periods of "
-            f"{show_quantity(period, 'm', 7)}; write "
-            f'{key} = "{show_quantity(count * period, "m", 10)}"',
+            f"{format_quantity(length, 'm')} is no whole number of the pattern's periods of "
+            f"{format_quantity(period, 'm', 7)}; write "
+            f'{key} = "{format_quantity(count * period, "m", 10)}"',
         )
 
 
@@ -231,16 +231,16 @@ def _probes(case: Case) -> Iterator[tuple[str, str]]:
         if probe.depth > case.domain.depth:
             yield (
                 f"probes[{index}].depth",
-                f"{show_quantity(probe.depth, 'm')} lies below the domain of "
-                f"{show_quantity(case.domain.depth, 'm')}; place the probe inside",
+                f"{format_quantity(probe.depth, 'm')} lies below the domain of "
+                f"{format_quantity(case.domain.depth, 'm')}; place the probe inside",
             )
         for axis, (low, high) in zip("xy", bounds, strict=False):
             place = getattr(probe, axis)
             if not low <= place <= high:
                 yield (
                     f"probes[{index}].{axis}",
-                    f"{show_quantity(place, 'm')} lies outside the domain, which runs from "
-                    f"{show_quantity(low, 'm')} to {show_quantity(high, 'm')}; place the probe "
+                    f"{format_quantity(place, 'm')} lies outside the domain, which runs from "
+                    f"{format_quantity(low, 'm')} to {format_quantity(high, 'm')}; place the probe "
                     "inside",
                 )
 

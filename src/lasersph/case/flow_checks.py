@@ -10,7 +10,7 @@ from lasersph.boundaries.flow_sides import SIDES, FlowSides
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import FLUX, HELD
 from lasersph.case.size import LARGEST_STEPS
-from lasersph.input import show_quantity
+from lasersph.input import format_quantity
 from lasersph.materials import available_materials
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
@@ -157,9 +157,9 @@ def _vortices(case: Case, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]
         if not math.isclose(count, max(1, round(count)), rel_tol=1e-6):
             yield (
                 f"domain.{key}",
-                f"{show_quantity(length, 'm')} is no whole number of vortices of "
-                f"{show_quantity(0.5 * period, 'm')}; write e.g. {key} = "
-                f'"{show_quantity(0.5 * period * max(1, round(count)), "m", 10)}", or another '
+                f"{format_quantity(length, 'm')} is no whole number of vortices of "
+                f"{format_quantity(0.5 * period, 'm')}; write e.g. {key} = "
+                f'"{format_quantity(0.5 * period * max(1, round(count)), "m", 10)}", or another '
                 "period in flow.initial",
             )
 

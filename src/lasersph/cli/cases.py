@@ -85,13 +85,12 @@ def check(
 
 def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tuple[str, str]]:
     from lasersph.case.size import in_words, memories
-    from lasersph.input import show_quantity
-    from lasersph.observers import duration
+    from lasersph.input import format_duration, format_quantity
 
     otherwise = "explicit" if case.solver.kind == "ablation" else "heat implicit"
     scheme = getattr(case.solver, "scheme", otherwise)
     there = [words.format(in_words(most)) for words, most in memories(backend) if isfinite(most)]
-    time = f"roughly {duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}"
+    time = f"roughly {format_duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}"
     rows = [
         ("case", case.title or case.name),
         ("material", case.material.title or case.material.name),
@@ -99,16 +98,16 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
         ("particles", f"{expected.particles} in {expected.layers} layers"),
         (
             "finest spacing",
-            f"{show_quantity(expected.spacing, 'm')} down to "
-            f"{show_quantity(expected.fine_depth, 'm')}",
+            f"{format_quantity(expected.spacing, 'm')} down to "
+            f"{format_quantity(expected.fine_depth, 'm')}",
         ),
         ("memory", ", ".join([f"about {in_words(expected.memory)}", *there])),
     ]
     for name, limit in sorted(expected.limits.items(), key=lambda item: item[1]):
         binds = "  <- binding" if name == expected.binding else ""
-        shown = show_quantity(limit, "s") if isfinite(limit) else "none"
+        shown = format_quantity(limit, "s") if isfinite(limit) else "none"
         rows.append((f"step limit: {name}", shown + binds))
-    rows.append(("steps", f"about {expected.steps} to {show_quantity(case.time.end, 's')}"))
+    rows.append(("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"))
     rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
     if expected.flow is not None:
         rows.append(("expected speed", f"about {expected.flow.speed:.2g} m/s"))
@@ -119,5 +118,5 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
     ):
         if length:
             cells = f"{length / expected.spacing:.2g} spacings"
-            rows.append((name, f"{show_quantity(length, 'm')}, {cells}"))
+            rows.append((name, f"{format_quantity(length, 'm')}, {cells}"))
     return rows

@@ -60,14 +60,14 @@ class ProgressDisplay:
             print(text, file=sys.stderr, flush=True)
 
     def _left(self, fraction: float) -> str:
-        from lasersph.observers import duration
+        from lasersph.input import format_duration
 
         assert self._start is not None
         began, at = self._start
         if not at < fraction < 1.0:
             return ""
         left = (time.monotonic() - began) * (1.0 - fraction) / (fraction - at)
-        return f", {duration(left)} left"
+        return f", {format_duration(left)} left"
 
     def _draw(self, fraction: float, text: str) -> None:
         if self._bar is None:

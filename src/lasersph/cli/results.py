@@ -28,7 +28,7 @@ Scene = Annotated[
 
 def info(folder: RunFolder) -> None:
     """Show what a run folder holds: the case, how far it is, the main numbers."""
-    from lasersph.input import show_quantity
+    from lasersph.input import format_quantity
 
     found = opened(folder)
     if found.is_complete:
@@ -36,8 +36,8 @@ def info(folder: RunFolder) -> None:
         print(f"{folder}: complete")
         return
     times = [float(time) for time in found.history.get("time_s", ())]
-    end = show_quantity(float(found.case["time"]["end"]), "s")
-    now = show_quantity(times[-1] if times else 0.0, "s")
+    end = format_quantity(float(found.case["time"]["end"]), "s")
+    now = format_quantity(times[-1] if times else 0.0, "s")
     print(aligned([("case", found.case["title"]), ("history", f"up to {now} of {end}")]))
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
 
@@ -85,32 +85,31 @@ def opened(folder: Path) -> Run:
 
 def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     """The main numbers of summary.json, with units."""
-    from lasersph.input import show_quantity
-    from lasersph.observers import duration
+    from lasersph.input import format_duration, format_quantity
 
     energy = summary["energy"]
     rows = [
         ("case", str(summary.get("title") or summary["case"])),
         ("particles", str(summary["particles"])),
-        ("time", f"{show_quantity(summary['time_s'], 's')} in {summary['steps']} steps"),
-        ("computed in", duration(summary["wall_time_s"])),
+        ("time", f"{format_quantity(summary['time_s'], 's')} in {summary['steps']} steps"),
+        ("computed in", format_duration(summary["wall_time_s"])),
         ("highest temperature", f"{summary['temperature_max_K']:.1f} K"),
     ]
     rows += crater_rows(summary)
     melt = summary.get("melt") or {}
     if melt.get("start_s") is not None:
-        span = (show_quantity(melt[key], "s") for key in ("start_s", "end_s"))
+        span = (format_quantity(melt[key], "s") for key in ("start_s", "end_s"))
         rows.append(("molten (f_m = 1)", " to ".join(span)))
         for word in ("depth", "width"):
             if melt.get(f"{word}_max_m") is not None:
-                size = show_quantity(melt[f"{word}_max_m"], "m")
+                size = format_quantity(melt[f"{word}_max_m"], "m")
                 rows.append(
-                    (f"melt {word}", f"{size} at {show_quantity(melt[f'{word}_max_at_s'], 's')}")
+                    (f"melt {word}", f"{size} at {format_quantity(melt[f'{word}_max_at_s'], 's')}")
                 )
     flow = summary.get("flow") or {}
     for key, text in (("surface_speed_max", "at the surface"), ("speed_max", "of any particle")):
         if flow.get(f"{key}_m_s"):
-            at = show_quantity(flow[f"{key}_at_s"], "s")
+            at = format_quantity(flow[f"{key}_at_s"], "s")
             rows.append((f"speed {text}", f"{flow[f'{key}_m_s']:.4g} m/s at {at}"))
     unit = energy.get("unit", "J")
     rows.append(("absorbed energy", f"{energy['absorbed_J']:.5g} {unit}"))
@@ -120,7 +119,7 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
 
 def crater_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     """The crater and what left it; nothing for a run without ablation."""
-    from lasersph.input import show_quantity
+    from lasersph.input import format_quantity
 
     crater, ejecta = summary.get("crater"), summary.get("ejecta")
     if crater is None or ejecta is None:
@@ -128,7 +127,7 @@ def crater_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     names = {"depth_m": "crater depth", "depth_mean_m": "mean crater depth",
              "diameter_m": "crater diameter"}  # fmt: skip
     rows = [
-        (text, show_quantity(crater[key], "m"))
+        (text, format_quantity(crater[key], "m"))
         for key, text in names.items()
         if crater[key] is not None
     ]

@@ -6,9 +6,10 @@ The only room that names pint.
 from lasersph.input.document import Document, parse_toml, read_toml
 from lasersph.input.errors import CaseError, Problem
 from lasersph.input.explain import build, dotted, explain
+from lasersph.input.formatting import format_duration, format_number, format_quantity
 from lasersph.input.kinds import KINDS, Kind
 from lasersph.input.model import Model, did_you_mean, nearest, refusal
-from lasersph.input.quantity import QuantityError, parse_quantity, show_quantity
+from lasersph.input.quantity import QuantityError, parse_quantity
 from lasersph.input.types import (
     AbsorptionCoefficient,
     Acceleration,
@@ -84,10 +85,12 @@ __all__ = [
     "did_you_mean",
     "dotted",
     "explain",
+    "format_duration",
+    "format_number",
+    "format_quantity",
     "nearest",
     "parse_quantity",
     "parse_toml",
     "read_toml",
     "refusal",
-    "show_quantity",
 ]

@@ -76,19 +76,3 @@ def _finite(exact: Fraction, shown: str) -> float:
     if not math.isfinite(value) or (value == 0.0 and exact != 0):
         raise QuantityError(f'"{shown}" is outside the range of floating-point numbers')
     return value
-
-
-def show_quantity(value: float, unit: str, digits: int = 4) -> str:
-    """A number in SI units with a prefix that reads well: (8e-9, "m") gives "8 nm".
-
-    Prefixes are put before units that are one symbol (m, s, J, W, Pa, K, Hz) and left away for
-    temperatures and compound units.
-    """
-    if unit in ("m", "s", "J", "W", "Pa", "Hz", "rad") and value and math.isfinite(value):
-        power = math.floor(math.log10(abs(value)) / 3)
-        if abs(float(f"{value / 1000.0**power:.{digits}g}")) >= 1000:
-            power += 1
-        power = max(-5, min(power, 4 if unit not in ("m", "s") else 0))
-        prefix = ("f", "p", "n", "u", "m", "", "k", "M", "G", "T")[power + 5]
-        return f"{value / 1000.0**power:.{digits}g} {prefix}{unit}"
-    return f"{value:.{digits}g} {unit}"

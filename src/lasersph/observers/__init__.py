@@ -8,7 +8,6 @@ from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_view import FlowView
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.probes import Probe, Probes
-from lasersph.observers.progress import Progress, Standing, duration
 from lasersph.observers.snapshots import SnapshotPlan, SnapshotSchedule, snapshot_fields
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_temperature import SurfaceTemperature
@@ -36,10 +35,8 @@ __all__ = [
     "Observers",
     "Probe",
     "Probes",
-    "Progress",
     "SnapshotPlan",
     "SnapshotSchedule",
-    "Standing",
     "Steps",
     "SurfaceTemperature",
     "Trace",
@@ -48,7 +45,6 @@ __all__ = [
     "View",
     "ablation_observers",
     "crater_shape",
-    "duration",
     "flow_observers",
     "heat_observers",
     "snapshot_fields",

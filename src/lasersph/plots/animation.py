@@ -42,7 +42,6 @@ from lasersph.plots.flow_map import (
     height_beside,
     shape_of,
     stretch_of,
-    time_text,
 )
 from lasersph.plots.particle_map import MAP_WIDTH, shown_depth
 
@@ -183,7 +182,7 @@ class Scene:
             for arrows in list(panels[-1].collections):
                 arrows.remove()
             self.draw_arrows(panels[-1], flow)
-        figure.suptitle(time_text(flow.time), fontsize=10)
+        figure.suptitle(style.time_text(flow.time), fontsize=10)
 
     def draw_arrows(self, axes: Axes, flow: PlaneFlow) -> None:
         """Arrows where anything flows."""

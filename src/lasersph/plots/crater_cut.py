@@ -17,7 +17,7 @@ from lasersph.plots.ablation_fields import (
     plane_cut,
     telling_snapshot,
 )
-from lasersph.plots.flow_map import frame_unit, time_text
+from lasersph.plots.flow_map import frame_unit
 from lasersph.plots.history import draw_corner_temperatures, material_of
 from lasersph.plots.particle_map import MAP_WIDTH
 
@@ -55,7 +55,7 @@ def crater_cut(run: Run, time: float | None = None) -> Figure | None:
         return height_profile(cut, frame, material_of(run))
     figure, (axes,) = style.new_figure(height=figure_height(frame))
     draw_cut(axes, cut, frame, temperature_range(run))
-    axes.set_title(time_text(cut.time), fontsize=10, loc="left")
+    axes.set_title(style.time_text(cut.time), fontsize=10, loc="left")
     return figure
 
 
@@ -91,7 +91,7 @@ def ejecta_vectors(run: Run, times: tuple[float, ...] = ()) -> Figure | None:
     arrows: Any = None
     for axes, cut, letter in zip(all_axes, cuts, "abcdefgh", strict=False):
         arrows = draw_speeds(axes, cut, frame, largest)
-        axes.set_title(f"({letter}) {time_text(cut.time)}", fontsize=10, loc="left")
+        axes.set_title(f"({letter}) {style.time_text(cut.time)}", fontsize=10, loc="left")
     bar = figure.colorbar(arrows, ax=all_axes, pad=0.015, aspect=22)
     bar.set_label("speed [m/s]", fontsize=10)
     return figure
@@ -226,6 +226,6 @@ def height_profile(cut: Cut, frame: Box, corners: dict[str, Any]) -> Figure:
     axes.axvline(0.0, color=style.GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
     axes.set_xlim(frame.bottom * unit.factor, frame.top * unit.factor)
     draw_corner_temperatures(axes, corners)
-    style.label(axes, f"z [{unit.name}]", "temperature [K]", title=time_text(cut.time))
+    style.label(axes, f"z [{unit.name}]", "temperature [K]", title=style.time_text(cut.time))
     style.legend(axes)
     return figure

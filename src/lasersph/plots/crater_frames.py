@@ -15,7 +15,6 @@ from lasersph.plots.crater_cut import (
     figure_height,
     temperature_range,
 )
-from lasersph.plots.flow_map import time_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,5 +41,5 @@ def crater_frames(run: Run, times: Iterable[float]) -> Iterator[Figure]:
             for drawn in ejecta:
                 drawn.remove()
             ejecta = draw_ejecta(axes, cut, frame, limits)
-        axes.set_title(time_text(cut.time), fontsize=10, loc="left")
+        axes.set_title(style.time_text(cut.time), fontsize=10, loc="left")
         yield figure

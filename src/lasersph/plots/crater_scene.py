@@ -62,7 +62,7 @@ def crater_scene(run: Run, path: Path, time: float | None = None) -> Path:
         size = 0.8 * MICROMETERS * float(np.min(step["width"]))
         balls = dots.glyph(geom=pyvista.Sphere(radius=0.5 * size), scale=False, orient=False)
         plotter.add_mesh(balls, scalars=name, show_scalar_bar=False, **look)
-    plotter.add_text(f"t = {1e9 * step['time']:.4g} ns", font_size=12, color="black")
+    plotter.add_text(style.time_text(step["time"]), font_size=12, color="black")
     plotter.show_bounds(
         xtitle="x [um]", ytitle="y [um]", ztitle="z [um]", color="black", location="outer",
         font_size=11,

@@ -13,7 +13,6 @@ from lasersph.output.height_map import HeightMap, height_map
 from lasersph.plots import style
 from lasersph.plots.ablation_fields import has_ablation, telling_snapshot
 from lasersph.plots.crater_cut import temperature_range
-from lasersph.plots.flow_map import time_text
 from lasersph.plots.particle_map import Snapshot
 
 if TYPE_CHECKING:
@@ -60,7 +59,7 @@ def crater_view(run: Run, time: float | None = None) -> Figure | None:
     for name in ("x", "y", "z"):
         getattr(axes, f"set_{name}label")(f"{name} [{unit.name}]", fontsize=9)
     axes.tick_params(labelsize=8)
-    figure.suptitle(time_text(step["time"]), fontsize=10)
+    figure.suptitle(style.time_text(step["time"]), fontsize=10)
     bar = figure.colorbar(ScalarMappable(scale, colors), ax=axes, shrink=0.6, pad=0.08)
     bar.set_label("temperature [K]", fontsize=10)
     return figure

@@ -230,13 +230,7 @@ def finish(
         axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
         axes.set_aspect(stretch)
     note = f"; the depth is drawn {stretch:.3g} times larger" if stretch > 1.0 else ""
-    figure.suptitle(time_text(flow.time) + note, fontsize=10)
-
-
-def time_text(time: float) -> str:
-    """t = 57 ns."""
-    clock = style.unit_for(time, style.TIMES)
-    return f"t = {time * clock.factor:.4g} {clock.name}"
+    figure.suptitle(style.time_text(flow.time) + note, fontsize=10)
 
 
 def frame_unit(frame: Box) -> style.Unit:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from lasersph.input import format_quantity
 from lasersph.materials import Law, Material
 
 if TYPE_CHECKING:
@@ -147,7 +148,7 @@ def _write_numbers(axes: Axes, material: Material) -> None:
         if optics.absorption_coefficient is not None:
             rows.append(("absorption coefficient", f"{optics.absorption_coefficient:g} 1/m"))
         if optics.wavelength is not None:
-            rows.append(("optics hold at", f"{optics.wavelength * 1e9:g} nm"))
+            rows.append(("optics hold at", format_quantity(optics.wavelength, "m", 6)))
         if optics.emissivity is not None:
             rows.append(("emissivity", f"{optics.emissivity:g}"))
     for number, (name, value) in enumerate(rows):

@@ -117,9 +117,7 @@ def particle_map(run: Run, time: float | None = None) -> Figure | None:
         axes.set_ylim(-depth * unit.factor, 0.02 * depth * unit.factor)
         axes.set_aspect(stretch)
     note = f"; the depth is drawn {stretch:.3g} times larger" if stretch > 1.0 else ""
-    clock = style.unit_for(step["time"], style.TIMES)
-    text = f"t = {step['time'] * clock.factor:.4g} {clock.name}{note}"
-    all_axes[0].set_title(text, fontsize=10, loc="left")
+    all_axes[0].set_title(style.time_text(step["time"]) + note, fontsize=10, loc="left")
     return figure
 
 

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from lasersph.input import format_quantity
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -45,6 +47,11 @@ def unit_for(largest: float, units: Sequence[Unit]) -> Unit:
         if abs(largest) * unit.factor < 2000.0:
             return unit
     return units[-1]
+
+
+def time_text(time: float) -> str:
+    """t = 57 ns."""
+    return f"t = {format_quantity(time, 's', typographic=True)}"
 
 
 def speed_unit(largest: float) -> Unit:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lasersph.input import format_quantity
 from lasersph.output import Run
 from lasersph.plots import style
 from lasersph.plots.flow_fields import has_flow
@@ -37,7 +38,6 @@ def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Fig
         return None
     wanted = telling_times(run) if times is None else list(times)
     steps = {s["time"]: s for s in (run.snapshots.nearest(time) for time in wanted)}
-    clock = style.unit_for(max(steps), style.TIMES)
     figure, all_axes = style.new_figure(3, height=7.6, share_x=True)
     colors = style.color_scale("viridis", len(steps))
     reach = max(reach_of(step) for step in steps.values())
@@ -45,7 +45,7 @@ def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Fig
     speed = style.speed_unit(max(np.max(np.abs(s["surface_velocity"])) for s in steps.values()))
     for color, (time, step) in zip(colors, sorted(steps.items()), strict=True):
         x, temperature, gradient, velocity = profiles(step, symmetry_of(run))
-        text = f"{time * clock.factor:.4g} {clock.name}"
+        text = format_quantity(time, "s", typographic=True)
         for axes, values in zip(
             all_axes, (temperature, gradient * 1e-6, velocity * speed.factor), strict=True
         ):

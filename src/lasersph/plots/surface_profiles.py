@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lasersph.input import format_quantity
 from lasersph.output import Run
 from lasersph.plots import style
 from lasersph.plots.history import draw_corner_temperatures, material_of, symmetry_of
@@ -30,13 +31,12 @@ def surface_profiles(run: Run, times: Sequence[float] | None = None) -> Figure |
     wanted = interesting_times(run) if times is None else list(times)
     figure, (axes,) = style.new_figure(height=3.6)
     steps = {s["time"]: s for s in (run.snapshots.nearest(time) for time in wanted)}
-    unit = style.unit_for(max(steps), style.TIMES)
     colors = style.color_scale("viridis", len(steps))
     reach, length = 0.0, style.LENGTHS[1]
     for color, (time, step) in zip(colors, sorted(steps.items()), strict=True):
         x, temperature = profile(step, symmetry_of(run))
         length = style.unit_for(float(np.max(np.abs(x))), style.LENGTHS)
-        text = f"{time * unit.factor:.4g} {unit.name}"
+        text = format_quantity(time, "s", typographic=True)
         axes.plot(x * length.factor, temperature, color=color, label=text)
         reach = max(reach, float(np.max(np.abs(x))) * length.factor)
     axes.set_xlim(-reach if symmetry_of(run) == 2 else None, reach)

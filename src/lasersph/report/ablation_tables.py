@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lasersph.report.flow_tables import pressure
-from lasersph.report.numbers import entry, pretty_unit, quantity, shown
+from lasersph.report.numbers import entry, quantity, shown
 from lasersph.report.tables import Rows
 
 TRACE_HEAD = (
@@ -80,7 +79,7 @@ def ejecta(summary: dict[str, Any]) -> Rows:
     rows: Rows = [
         ("ejected particles", f"{found['count']:,}".replace(",", " ")),
         ("of these beyond the box", f"{found['gone_count']:,}".replace(",", " ")),
-        ("mass", f"{shown(found['mass_kg'])} {pretty_unit(found['mass_unit'])}"),
+        ("mass", quantity(found["mass_kg"], found["mass_unit"])),
         ("energy carried away", quantity(found["energy_J"], found["energy_unit"])),
         ("kinetic energy", quantity(found["kinetic_energy_J"], found["energy_unit"])),
     ]
@@ -90,7 +89,7 @@ def ejecta(summary: dict[str, Any]) -> Rows:
             ("speed, mean (smallest to largest)", spread(found, "speed", "m_s", "m/s")),
             ("temperature", spread(found, "temperature", "K", "K")),
             ("angle from the vertical", spread(found, "angle", "deg", "°")),
-            ("largest vapor pressure, eq. (5)", pressure(found["vapor_pressure_max_Pa"])),
+            ("largest vapor pressure, eq. (5)", entry("_Pa", found["vapor_pressure_max_Pa"])),
         ]
     return rows
 
@@ -110,7 +109,7 @@ def traces(summary: dict[str, Any]) -> Rows:
             entry("_K", life["temperature_left_K"]),
             entry("_m_s", life["speed_left_m_s"]),
             acceleration(life["acceleration_m_s2"]),
-            pressure(life["vapor_pressure_Pa"]),
+            entry("_Pa", life["vapor_pressure_Pa"]),
         )
         for name, life in summary.get("traces", {}).items()
     ]

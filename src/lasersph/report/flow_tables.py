@@ -81,10 +81,10 @@ def lid(summary: dict[str, Any]) -> Rows:
     return [
         (
             text,
-            pressure(found[f"{name}_Pa"]),
+            entry("_Pa", found[f"{name}_Pa"]),
             entry("_s", found[f"{name}_at_s"]),
             entry("_m", found[f"{name}_x_m"]),
-            pressure(found[f"recoil_at_{name}_Pa"]),
+            entry("_Pa", found[f"recoil_at_{name}_Pa"]),
         )
         for name, text in (("pressure_max", "largest"), ("pressure_min", "smallest"))
     ]
@@ -161,11 +161,6 @@ NAMES: dict[str, str] = {
     "Ma": "Marangoni number Ma",
     "Re": "Reynolds number Re",
 }
-
-
-def pressure(value: float | None) -> str:
-    """A pressure in kPa."""
-    return "–" if value is None else f"{shown(value * 1e-3)} kPa"
 
 
 def per_micrometer(value: float) -> str:

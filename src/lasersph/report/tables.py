@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lasersph.observers import duration
+from lasersph.input import format_duration
 from lasersph.report.numbers import entry, quantity, shown
 
 Rows = list[tuple[str, ...]]
@@ -31,7 +31,7 @@ def computation(summary: dict[str, Any]) -> Rows:
         ("finest spacing", quantity(summary.get("spacing_m"), "m")),
         ("simulated time", quantity(summary["time_s"], "s")),
         ("steps", f"{summary['steps']:,}".replace(",", " ")),
-        ("wall time", duration(summary["wall_time_s"])),
+        ("wall time", format_duration(summary["wall_time_s"])),
     ]
     if summary.get("device"):
         rows.append(("device, precision", f"{summary['device']}, {summary['precision']}"))

@@ -16,7 +16,7 @@ from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import HELD
 from lasersph.case import Case
-from lasersph.input import show_quantity
+from lasersph.input import format_quantity
 from lasersph.lasers import GaussianBeam, InterferenceBeam
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
@@ -147,6 +147,6 @@ def _warnings(layer: float | None, spacing: float) -> list[str]:
     if layer is None or layer >= FEWEST_ROWS * spacing:
         return []
     return [
-        f"the layer that the surface drags along is about {show_quantity(layer, 'm', 3)} thick, "
-        f"less than {FEWEST_ROWS} spacings of {show_quantity(spacing, 'm', 3)}: take a finer one"
+        f"the layer that the surface drags along is about {format_quantity(layer, 'm', 3)} thick, "
+        f"less than {FEWEST_ROWS} spacings of {format_quantity(spacing, 'm', 3)}: take a finer one"
     ]

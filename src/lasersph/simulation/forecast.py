@@ -10,7 +10,7 @@ import numpy as np
 from lasersph.case import Case
 from lasersph.case.size import BYTES_PER_PARTICLE, bytes_per_neighbor
 from lasersph.case.sleeping import awake_share
-from lasersph.input import show_quantity
+from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
 from lasersph.simulation.ablation_forecast import ablation_steps, ablation_warnings
 from lasersph.simulation.build import caloric_curve, lay_out, support_ratio
@@ -182,19 +182,19 @@ def _warnings(
     spacing = layers.spacing
     if abs(spacing - case.particles.spacing) > 1e-2 * case.particles.spacing:
         found.append(
-            f"spacing {show_quantity(case.particles.spacing, 'm')} is rounded to "
-            f"{show_quantity(spacing, 'm')} so that whole cells fill the domain"
+            f"spacing {format_quantity(case.particles.spacing, 'm')} is rounded to "
+            f"{format_quantity(spacing, 'm')} so that whole cells fill the domain"
         )
     if penetration is not None and spacing > penetration / 3.0:
         found.append(
-            f"the heat of a pulse reaches {show_quantity(penetration, 'm', 3)}, less than 3 "
-            f"spacings of {show_quantity(spacing, 'm', 3)}: take a finer spacing"
+            f"the heat of a pulse reaches {format_quantity(penetration, 'm', 3)}, less than 3 "
+            f"spacings of {format_quantity(spacing, 'm', 3)}: take a finer spacing"
         )
     if length and spacing > length:
         found.append(
-            f"the light is absorbed within {show_quantity(length, 'm', 3)}, less than one spacing "
-            f"of {show_quantity(spacing, 'm', 3)}: its profile is not resolved, though its energy "
-            "is exact"
+            f"the light is absorbed within {format_quantity(length, 'm', 3)}, less than one"
+            f" spacing of {format_quantity(spacing, 'm', 3)}: its profile is not resolved, though"
+            " its energy is exact"
         )
     if penetration is not None and layers.thickness.sum() < 5.0 * penetration:
         found.append("the domain is thinner than 5 penetration depths: the bottom will be felt")

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lasersph.input import KINDS, QuantityError, parse_quantity, show_quantity
+from lasersph.input import KINDS, QuantityError, parse_quantity
 from lasersph.input.units import UnitError, dimension, parse_unit
 
 READ = [
@@ -152,20 +152,3 @@ def test_unit_algebra_by_hand():
     assert parse_unit("(m/s)^2").dimension == dimension(m=2, s=-2)
     with pytest.raises(UnitError, match="no unit"):
         parse_unit(" ")
-
-
-@pytest.mark.parametrize(
-    ("value", "unit", "text"),
-    [
-        (8e-9, "m", "8 nm"),
-        (999.9999e-9, "m", "1 um"),
-        (0.0, "m", "0 m"),
-        (2e-7, "s", "200 ns"),
-        (1234.0, "s", "1234 s"),
-        (298.15, "K", "298.1 K"),
-        (6000.0, "J/m^2", "6000 J/m^2"),
-    ],
-)
-def test_shows_numbers_with_a_prefix(value, unit, text):
-    """Numbers for people carry a unit and a prefix that reads well."""
-    assert show_quantity(value, unit) == text

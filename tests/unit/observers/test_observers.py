@@ -10,13 +10,11 @@ import synthetic_run
 from lasersph.observers import (
     EnergyBudget,
     Probe,
-    Progress,
     SnapshotPlan,
     SnapshotSchedule,
     Steps,
     SurfaceTemperature,
     Vaporization,
-    duration,
     heat_observers,
     snapshot_fields,
 )
@@ -184,14 +182,3 @@ def test_together_and_through_a_checkpoint(dimension):
     melt = whole.summary()["melt"]
     assert melt["depth_max_m"] > 0.0
     assert (melt["width_max_m"] is None) == (dimension == 1)
-
-
-def test_progress_line(views):
-    """A line for people: part done, speed, time left, temperature."""
-    progress = Progress(synthetic_run.END)
-    for view in views[:50]:
-        standing = progress.standing(view, 1234.0)
-    assert 0.0 < standing.fraction < 1.0
-    assert "1234 K at most" in str(standing)
-    assert "left" in str(standing)
-    assert [duration(s) for s in (42, 185, 7800)] == ["42 s", "3 min 05 s", "2 h 10 min"]

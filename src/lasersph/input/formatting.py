@@ -1,0 +1,74 @@
+"""Numbers with units as people read them: 2.194e-1 s is "219.4 ms", 2.77e-7 m is "277 nm".
+
+One function formats every time, length and other size that lasersph shows, so that a unit fits the
+size of its number everywhere. Plain text can be typed back into a case file; typographic text, for
+reports and figures, has raised powers of ten, a Greek mu and spaces between thousands.
+"""
+
+from __future__ import annotations
+
+import math
+
+PREFIXED = ("m", "s", "J", "W", "Pa", "Hz", "rad")
+"""Units that are one symbol and take a prefix; temperatures and compound units take none."""
+PREFIXES = ("f", "p", "n", "u", "m", "", "k", "M", "G", "T")
+WITHOUT_KILO = ("m", "s")
+"""Nobody says kilosecond, and no body here is a kilometer long."""
+SMALLEST = 1e-15
+"""Lengths [m] and times [s] below this are rounding errors: a proton, a light period."""
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def format_quantity(
+    value: float | None, unit: str, digits: int = 4, *, typographic: bool = False
+) -> str:
+    """A value in SI units with a prefix that reads well: (8e-9, "m") gives "8 nm".
+
+    Args:
+        value: in `unit`; None and what is not finite give "–".
+        unit: "s", "m", "K", "J/m^2", ...; empty for a pure number.
+        digits: significant digits.
+        typographic: for reports and figures, not for case files.
+    """
+    if value is None or not math.isfinite(value):
+        return "–"
+    prefix = ""
+    if unit in WITHOUT_KILO and abs(value) < SMALLEST:
+        value = 0.0
+    if unit in PREFIXED and value:
+        power = math.floor(math.log10(abs(value)) / 3)
+        # 999.96 with four digits is 1000, the next prefix's 1
+        power += abs(float(f"{value / 1000.0**power:.{digits}g}")) >= 1000.0
+        power = max(-5, min(power, 0 if unit in WITHOUT_KILO else 4))
+        prefix, value = PREFIXES[power + 5], value / 1000.0**power
+    if typographic:
+        prefix = prefix.replace("u", "µ")
+        unit = unit.replace("^2", "²").replace("^3", "³")
+    return f"{format_number(value, digits, typographic=typographic)} {prefix}{unit}".rstrip()
+
+
+def format_number(value: float, digits: int = 4, *, typographic: bool = False) -> str:
+    """A number with some significant digits; whole numbers below a million keep all of theirs."""
+    if value == 0.0:
+        return "0"
+    exponent = math.floor(math.log10(abs(value)))
+    if -4 <= exponent < max(6, digits):
+        decimals = max(0, digits - 1 - exponent)
+        text = f"{value:,.{decimals}f}".replace(",", " " if typographic else "")
+        return text.rstrip("0").rstrip(".") if "." in text else text
+    mantissa, power = f"{value:.{digits - 1}e}".split("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
+    if typographic:
+        return f"{mantissa}·10{str(int(power)).translate(RAISED)}"
+    return f"{mantissa}e{power}"
+
+
+def format_duration(seconds: float) -> str:
+    """Time on the clock as a person says it: "42 s", "3 min 05 s", "2 h 10 min"."""
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60:02d} s"
+    return f"{whole // 3600} h {whole % 3600 // 60:02d} min"

@@ -1,0 +1,56 @@
+"""Numbers with units, for people."""
+
+import pytest
+
+from lasersph.input import (
+    KINDS,
+    format_duration,
+    format_number,
+    format_quantity,
+    parse_quantity,
+)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "plain", "typographic"),
+    [
+        (8e-9, "m", "8 nm", "8 nm"),
+        (2.7712e-7, "m", "277.1 nm", "277.1 nm"),
+        (9.999999e-7, "m", "1 um", "1 µm"),
+        (-1.5e-9, "m", "-1.5 nm", "-1.5 nm"),
+        (0.0, "m", "0 m", "0 m"),
+        (-7e-22, "m", "0 m", "0 m"),
+        (4.626e-8, "s", "46.26 ns", "46.26 ns"),
+        (2.194e-1, "s", "219.4 ms", "219.4 ms"),
+        (1234.0, "s", "1234 s", "1 234 s"),
+        (298.15, "K", "298.1 K", "298.1 K"),
+        (3273.0, "K", "3273 K", "3 273 K"),
+        (4.669e11, "K/s", "4.669e+11 K/s", "4.669·10¹¹ K/s"),
+        (0.00666, "J/m", "0.00666 J/m", "0.00666 J/m"),
+        (12.0, "J/m^2", "12 J/m^2", "12 J/m²"),
+        (101325.0, "Pa", "101.3 kPa", "101.3 kPa"),
+        (0.5, "", "0.5", "0.5"),
+        (None, "m", "–", "–"),
+        (float("nan"), "K", "–", "–"),
+    ],
+)
+def test_a_unit_fits_the_size_of_its_number(value, unit, plain, typographic):
+    """Prefixes for units of one symbol, powers of ten for others, a dash for nothing."""
+    assert format_quantity(value, unit) == plain
+    assert format_quantity(value, unit, typographic=True) == typographic
+
+
+@pytest.mark.parametrize("kind", ["length", "time", "energy", "pressure", "fluence", "intensity"])
+@pytest.mark.parametrize("value", [3.97e-9, 0.2194, 54321.5, 9.6e15])
+def test_plain_text_reads_back(kind, value):
+    """What a message says can be written into a case file."""
+    assert parse_quantity(format_quantity(value, KINDS[kind].unit, 12), kind) == pytest.approx(
+        value
+    )
+
+
+def test_numbers_and_durations():
+    """Whole numbers keep their digits; durations are said as on a clock."""
+    assert format_number(1829) == "1829"
+    assert format_number(1e-12, typographic=True) == "1·10⁻¹²"
+    assert [format_duration(s) for s in (42, 185, 7800)] == ["42 s", "3 min 05 s", "2 h 10 min"]
