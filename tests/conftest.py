@@ -4,12 +4,18 @@ import os
 import tempfile
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 SIMULATOR = pytest.StashKey()
 
 os.environ.setdefault(
     "LASERSPH_CACHE", os.path.join(tempfile.gettempdir(), f"lasersph-test-{os.getuid()}")
 )
+
+settings.register_profile(
+    "any-machine", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("any-machine")
 
 
 def pytest_collection_finish(session):

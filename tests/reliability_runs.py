@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -21,12 +22,24 @@ SETTINGS = (
     "output.checkpoint_every=9",
 )
 SCRIPT = """
-import sys
+import itertools, signal, sys
 from lasersph.case import load_case
 from lasersph.simulation import run
-run(load_case(sys.argv[1], sys.argv[3:]), sys.argv[2], resume=True, threads=2)
+steps = itertools.count(1)
+
+def act():
+    if next(steps) == {step}:
+        {action}
+    return False
+
+case = load_case(sys.argv[1], sys.argv[3:])
+run(case, sys.argv[2], resume=True, threads=2, should_stop=act)
 """
-PATIENCE = 60.0
+"""A run that does something to itself after so many steps, however fast it is."""
+LONGEST_WAIT = 600.0
+"""Only a process that hangs takes so long [s]."""
+POLL = 0.02
+"""Time between two looks at a process [s]."""
 
 
 def small_case(*more):
@@ -34,40 +47,45 @@ def small_case(*more):
     return load_case(CASE, [*SETTINGS, *more])
 
 
-def start(folder: Path, *more: str) -> subprocess.Popen:
-    """Begin or resume the run in another process."""
-    command = [sys.executable, "-c", SCRIPT, CASE, str(folder), *SETTINGS, *more]
+def start(folder: Path, step: int, action: str, *more: str) -> subprocess.Popen:
+    """Begin or resume the run in another process.
+
+    Args:
+        action: the statement that it executes after `step` steps of its own.
+        more: settings of the case beside those of all runs here.
+    """
+    script = SCRIPT.format(step=step, action=action)
+    command = [sys.executable, "-c", script, CASE, str(folder), *SETTINGS, *more]
     return subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=dict(os.environ))
 
 
-def wait_until(process: subprocess.Popen, ready) -> None:
-    """Wait until `ready()` or the process ends. Raises TimeoutError after a minute."""
-    deadline = time.monotonic() + PATIENCE
-    while not ready() and process.poll() is None:
-        if time.monotonic() > deadline:
-            process.kill()
-            raise TimeoutError("the run does not get on")
-        time.sleep(0.002)
+def start_and_pause(folder: Path, step: int) -> subprocess.Popen:
+    """Begin the run in another process, which stands still after `step` steps, alive."""
+    process = start(folder, step, "signal.raise_signal(signal.SIGSTOP)")
+    os.waitpid(process.pid, os.WUNTRACED)
+    return process
 
 
-def kill_after_checkpoints(folder: Path, count: int, delay: float, *more: str) -> None:
-    """Resume the run and `kill -9` it `delay` [s] after it wrote `count` further checkpoints.
+def kill_after(folder: Path, step: int, delay: float, *more: str) -> None:
+    """Begin or resume the run in a process that dies `delay` [s] after `step` steps of its own.
 
-    Args:
-        more: settings of the case beside those of all runs here.
+    Nothing handles its alarm, so that it ends wherever it is, as by `kill -9`; no other process,
+    which a busy machine may keep waiting, has to end it in time.
     """
-    seen = set((folder / "checkpoint").glob("*.checkpoint"))
-    known = set(seen)
+    alarm = f"signal.setitimer(signal.ITIMER_REAL, {max(delay, 1e-6)!r})"
+    process = start(folder, step, alarm, *more)
+    _, error = process.communicate(timeout=LONGEST_WAIT)
+    assert process.returncode == -signal.SIGALRM, error
 
-    def ready() -> bool:
-        seen.update((folder / "checkpoint").glob("*.checkpoint"))
-        return len(seen - known) >= count
 
-    process = start(folder, *more)
-    wait_until(process, ready)
-    time.sleep(delay)
+def wait_until(process: subprocess.Popen, ready) -> None:
+    """Wait until `ready()` or the process ends. Raises TimeoutError where it hangs."""
+    for _ in range(round(LONGEST_WAIT / POLL)):
+        if ready() or process.poll() is not None:
+            return
+        time.sleep(POLL)
     process.kill()
-    process.communicate()
+    raise TimeoutError("the process does not get on")
 
 
 def results(folder: Path, but: tuple[str, ...] = ()):

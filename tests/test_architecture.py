@@ -3,7 +3,6 @@ the package or asking the command line for help starts no numerical library."""
 
 import ast
 import re
-import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -108,19 +107,3 @@ def test_a_case_is_read_without_what_only_runs_need(case):
     """SciPy, the loops, plots and files take longer to load than all else that reads a case."""
     loaded = loaded_by(f"import lasersph\nlasersph.load_case({case!r})")
     assert not loaded & {"numba", "matplotlib", "h5py", "scipy"}
-
-
-def processor_seconds(*command: str) -> float:
-    """Processor time of a command [s], which other programs on the machine hardly change."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, capture_output=True, check=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
-
-
-def test_help_answers_quickly():
-    """`lasersph --help` takes less than 0.5 s of one processor, its best of three tries."""
-    lasersph = str(Path(sys.executable).with_name("lasersph"))
-    best = min(processor_seconds(lasersph, "--help") for _ in range(3))
-    print(f"lasersph --help: {best:.2f} s")
-    assert best < 0.5

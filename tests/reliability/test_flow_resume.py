@@ -6,7 +6,7 @@ A steel pool of some 30 particles lives from step 65 to 185 of some 205.
 import numpy as np
 import pytest
 from flow_boxes import box_case
-from reliability_runs import assert_same, kill_after_checkpoints, small_case
+from reliability_runs import assert_same, kill_after, small_case
 
 from lasersph.output import open_run
 from lasersph.output.checkpoint import candidates, load
@@ -51,7 +51,7 @@ def pool(tmp_path_factory):
 def test_pool_killed_in_the_middle_of_melting(tmp_path, pool):
     """Killed while the pool grows, stopped while it shrinks and when it is gone: the same bits."""
     folder, case = tmp_path / "run", small_case(*POOL)
-    kill_after_checkpoints(folder, 10, 0.01, *POOL)
+    kill_after(folder, 95, 0.005, *POOL)
     last = load(max(candidates(folder / "checkpoint")))
     assert last.step >= 90
     assert np.abs(last.arrays["velocity"]).max() > 0.1

@@ -1,10 +1,9 @@
 """A run killed at any moment and resumed ends with the same bits as one left alone."""
 
 import random
-import signal
 
 import pytest
-from reliability_runs import assert_same, kill_after_checkpoints, small_case, start, wait_until
+from reliability_runs import assert_same, kill_after, small_case, start_and_pause
 
 from lasersph.output import FolderRefused, OutputError, open_run
 from lasersph.output.events import read_events
@@ -29,7 +28,7 @@ def test_kill_at_random_moments(tmp_path, reference, seed):
     moments = random.Random(seed)
     folder = tmp_path / "run"
     for _ in range(KILLS):
-        kill_after_checkpoints(folder, moments.randint(1, 4), moments.uniform(0.0, 0.03))
+        kill_after(folder, moments.randint(9, 40), moments.uniform(0.0, 0.005))
     assert not (folder / "summary.json").exists()
     run(small_case(), folder, resume=True, threads=2)
     assert_same(folder, reference)
@@ -39,10 +38,7 @@ def test_kill_at_random_moments(tmp_path, reference, seed):
 def test_kill_before_the_first_checkpoint(tmp_path, reference):
     """A run killed at its start begins anew."""
     folder = tmp_path / "run"
-    process = start(folder)
-    wait_until(process, (folder / "history.csv").exists)
-    process.kill()
-    process.communicate()
+    kill_after(folder, 1, 0.0)
     run(small_case(), folder, resume=True, threads=2)
     assert_same(folder, reference)
 
@@ -82,7 +78,7 @@ def test_stop_after_every_few_steps(tmp_path, reference):
 def test_damaged_checkpoint_falls_back(tmp_path, reference):
     """A torn last checkpoint is passed over for the one before it, and the log says so."""
     folder = tmp_path / "run"
-    kill_after_checkpoints(folder, 3, 0.0)
+    kill_after(folder, 30, 0.0)
     latest = max((folder / "checkpoint").glob("*.checkpoint"))
     latest.write_bytes(latest.read_bytes()[:-100])
     run(small_case(), folder, resume=True, threads=2)
@@ -93,7 +89,7 @@ def test_damaged_checkpoint_falls_back(tmp_path, reference):
 def test_all_checkpoints_damaged(tmp_path):
     """Where no checkpoint is whole, one line says so and the files stay."""
     folder = tmp_path / "run"
-    kill_after_checkpoints(folder, 3, 0.0)
+    kill_after(folder, 30, 0.0)
     for file in (folder / "checkpoint").glob("*.checkpoint"):
         file.write_bytes(b"nothing")
     with pytest.raises(OutputError, match="no earlier checkpoint can be used"):
@@ -121,13 +117,10 @@ def test_other_case_or_precision_is_refused(reference):
 def test_second_process_is_refused(tmp_path):
     """While a run writes into a folder, a second one is refused."""
     folder = tmp_path / "run"
-    process = start(folder)
-    wait_until(process, (folder / "history.csv").exists)
-    process.send_signal(signal.SIGSTOP)
+    process = start_and_pause(folder, 1)
     try:
-        if process.poll() is None:
-            with pytest.raises(FolderRefused, match="another process is writing"):
-                run(small_case(), folder, resume=True, threads=2)
+        with pytest.raises(FolderRefused, match="another process is writing"):
+            run(small_case(), folder, resume=True, threads=2)
     finally:
         process.kill()
         process.communicate()

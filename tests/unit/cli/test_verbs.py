@@ -5,10 +5,10 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
+from reliability_runs import LONGEST_WAIT, wait_until
 
 import lasersph
 from lasersph.case import available_cases
@@ -186,12 +186,9 @@ def test_signals_stop_a_run_that_can_be_resumed(number, code, capsys):
         text=True,
         env=dict(os.environ),
     )
-    deadline = time.monotonic() + 120
-    while not Path("out/events.jsonl").exists() and time.monotonic() < deadline:
-        time.sleep(0.05)
-    time.sleep(0.3)
+    wait_until(process, Path("out/events.jsonl").exists)
     process.send_signal(number)
-    _, error = process.communicate(timeout=120)
+    _, error = process.communicate(timeout=LONGEST_WAIT)
     assert process.returncode == code, error
     assert "continue with: lasersph run stefan --out out --resume" in error
     assert any(Path("out/checkpoint").iterdir())

@@ -332,27 +332,6 @@ def test_constant_named_like_the_period(backend):
     assert backend.to_host(out).tolist() == [2.0, 4.0, 10.0]
 
 
-def test_overhead():
-    """A repeated call on ten particles costs less than 60 us (best of many: others may run)."""
-    from time import perf_counter
-
-    from lasersph import compute
-
-    backend = compute.cpu(threads=1)
-    fields = {"T": backend.zeros(10), "v": backend.zeros((3, 10))}
-    out = backend.zeros((3, 10))
-    times = []
-    for _ in range(300):
-        start = perf_counter()
-        backend.pointwise(pushed, fields, out, dt=0.1)
-        times.append(perf_counter() - start)
-    assert min(times) < 60e-6
-
-
-def pushed(v, T, dt):
-    return v + dt * T * v
-
-
 def radiation(T, V, epsilon, x, nodes, values, gravity):
     """One of everything; compared with plain NumPy below."""
     hot = max(T, 300)

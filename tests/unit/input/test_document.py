@@ -3,7 +3,7 @@
 import os
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lasersph.input import CaseError, parse_toml, read_toml
@@ -93,7 +93,6 @@ VALUES = st.recursive(
 )
 
 
-@settings(suppress_health_check=[HealthCheck.too_slow])  # a busy machine draws slowly
 @given(st.dictionaries(KEYS, VALUES, max_size=5))
 def test_generated_documents_have_a_line_for_every_key(table):
     """Nested values of any shape: each path of the data is found, in its own or an earlier line."""

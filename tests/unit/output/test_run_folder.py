@@ -7,7 +7,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -27,12 +26,24 @@ SUMMARY = {
 }
 
 TOY = """
-import sys
+import signal, sys
 from pathlib import Path
 sys.path.insert(0, {here!r})
 from test_run_folder import toy_run
+calls = 0
+
+def count(*_):
+    global calls
+    calls += 1
+    if calls == {call}:
+        signal.setitimer(signal.ITIMER_REAL, {delay})
+
+sys.setprofile(count)
 toy_run(Path(sys.argv[1]))
+sys.setprofile(None)
+print(calls)
 """
+"""A run that dies `delay` [s] after a number of function calls: nothing handles its alarm."""
 
 
 def toy_run(path, steps=40):
@@ -134,23 +145,23 @@ def test_finished_run_is_left_alone(tmp_path):
 
 def test_kill_at_random_moments_changes_nothing(tmp_path):
     """Killed with SIGKILL again and again, then resumed, a run ends bit for bit the same."""
-    toy_run(tmp_path / "whole")
+    whole = run_toy(tmp_path / "whole", call=0, delay=0.0)
+    calls = int(whole.stdout)
     expected = outcome(tmp_path / "whole")
-    script = tmp_path / "toy.py"
-    script.write_text(TOY.format(here=os.path.dirname(__file__)))
     rng = random.Random(1)
     killed = 0
     for _ in range(6):
-        process = subprocess.Popen([sys.executable, script, tmp_path / "run"])
-        deadline = time.monotonic() + 20.0
-        while not (tmp_path / "run").exists() and time.monotonic() < deadline:
-            time.sleep(0.01)
-        time.sleep(rng.uniform(0.0, 0.25))
-        process.send_signal(signal.SIGKILL)
-        killed += process.wait() == -signal.SIGKILL
+        moment = {"call": rng.randint(1, calls // 4), "delay": rng.uniform(1e-6, 1e-3)}
+        killed += run_toy(tmp_path / "run", **moment).returncode == -signal.SIGALRM
     assert killed
     toy_run(tmp_path / "run")
     assert outcome(tmp_path / "run") == expected
+
+
+def run_toy(path, **moment):
+    """Run or resume the toy in a process of its own; without a moment it ends by itself."""
+    script = TOY.format(here=os.path.dirname(__file__), **moment)
+    return subprocess.run([sys.executable, "-c", script, path], capture_output=True, text=True)
 
 
 def prepare_cut_run(path):
