@@ -16,7 +16,7 @@ from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.build import build
 from lasersph.solvers.melt_pool.solver import MeltPool
-from lasersph.solvers.time_step import choose
+from lasersph.solvers.step_control import choose_step
 
 START, STEPS, FIRST = 54e-9, 20, 3
 THREADS = 2
@@ -34,8 +34,8 @@ def advance(solver, steps=None):
         limits = solver.time_step_limits()
         if steps is None:
             limits["end"] = START - solver.state.time
-        _, step, pace = choose(limits)
-        solver.step(step, pace)
+        _, step, unclipped_step = choose_step(limits)
+        solver.step(step, unclipped_step)
         done += 1
 
 

@@ -18,7 +18,7 @@ from lasersph.case import load_case
 from lasersph.simulation import forecast
 from lasersph.simulation.build import build
 from lasersph.solvers.conduction.solver import Conduction
-from lasersph.solvers.time_step import choose
+from lasersph.solvers.step_control import choose_step
 
 THREADS = 2
 SIZES = (400_000, int(os.environ.get("GROWTH_PARTICLES", "2000000")))
@@ -68,8 +68,8 @@ def cost(scheme, spacing):
     for k in range(WARM + STEPS):
         if k == WARM:
             begin, iterations = process_time(), 0
-        _, step, pace = choose(solver.time_step_limits())
-        solver.step(step, pace)
+        _, step, unclipped_step = choose_step(solver.time_step_limits())
+        solver.step(step, unclipped_step)
         iterations += solver.iterations["linear"] if scheme == "implicit" else 1
     count = solver.body.count
     each = (process_time() - begin) / count

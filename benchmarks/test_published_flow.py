@@ -16,7 +16,7 @@ from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.build import build
 from lasersph.solvers.melt_pool.solver import MeltPool
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.step_control import binding_limit
 
 START, WINDOW, FIRST = 54e-9, 0.2e-9, 0.02e-9
 COMMON = ("solver.kind=melt-pool", "laser.fluence=0.5 J/cm^2")
@@ -41,7 +41,7 @@ def go(solver, end):
     steps, iterations, names = 0, 0, set()
     while solver.state.time < end * (1.0 - 1e-12):
         limits = solver.time_step_limits() | {"end": end - solver.state.time}
-        name, step = binding(limits)
+        name, step = binding_limit(limits)
         solver.step(step)
         steps, iterations = steps + 1, iterations + solver.iterations["pressure"]
         names.add(name)
@@ -66,7 +66,7 @@ def test_gain_over_the_published_algorithm(spacing):
     go(default, START)
     host = default.backend.to_host
     arrays = {name: host(field).copy() for name, field in default.fields.items()}
-    numbers = dict(default.carried())
+    numbers = dict(default.checkpoint_scalars())
     found = {}
     for name, solver in (("published", solver_with(size, *PUBLISHED)), ("default", default)):
         found[name] = window(solver, arrays, numbers)

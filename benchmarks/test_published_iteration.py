@@ -13,7 +13,7 @@ from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.build import build
 from lasersph.solvers.conduction.solver import Conduction
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.step_control import binding_limit
 
 START, END = 48e-9, 49e-9
 """Simulated times [s]: the surface begins to melt at 46 ns and reaches T_v at 50 ns."""
@@ -36,7 +36,7 @@ def go(solver, end):
     steps = linear = 0
     while solver.state.time < end * (1.0 - 1e-12):
         limits = solver.time_step_limits() | {"end": end - solver.state.time}
-        solver.step(binding(limits)[1])
+        solver.step(binding_limit(limits)[1])
         steps, linear = steps + 1, linear + solver.iterations["linear"]
     return steps, linear
 
@@ -48,7 +48,7 @@ def test_published_iteration(benchmark, spacing):
     go(first, START)
     to_host = first.body.backend.to_host
     arrays = {name: to_host(array) for name, array in first.fields.items()}
-    numbers, times, hottest = first.carried(), {}, {}
+    numbers, times, hottest = first.checkpoint_scalars(), {}, {}
     for iteration in ("newton", "published"):
         solver = solver_of(iteration, spacing)
         for end in (START + 1e-10, END):  # the first steps load the loops

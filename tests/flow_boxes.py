@@ -5,7 +5,7 @@ import numpy as np
 from lasersph import compute
 from lasersph.case import Case, load_case
 from lasersph.simulation.build import build
-from lasersph.solvers.time_step import choose
+from lasersph.solvers.step_control import choose_step
 
 MATERIAL = {
     "density": "1 kg/m^3", "heat_capacity": "1 J/(kg K)", "conductivity": "0.01 W/(m K)",
@@ -104,8 +104,8 @@ def go(solver, steps):
     """Take steps by the solver's own limits; returns their lengths [s]."""
     taken = []
     for _ in range(steps):
-        _, step, pace = choose(solver.time_step_limits())
-        taken.append(solver.step(step, pace))
+        _, step, unclipped_step = choose_step(solver.time_step_limits())
+        taken.append(solver.step(step, unclipped_step))
     return taken
 
 

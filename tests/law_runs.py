@@ -5,7 +5,7 @@ import numpy as np
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.build import build
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.step_control import binding_limit
 
 
 def solver_of(name, *settings, threads=2, backend=None):
@@ -20,7 +20,7 @@ def go(solver, end):
     while solver.state.time < end * (1.0 - 1e-12):
         limits = solver.time_step_limits()
         limits["end"] = end - solver.state.time
-        solver.step(binding(limits)[1])
+        solver.step(binding_limit(limits)[1])
         steps += 1
     return steps
 

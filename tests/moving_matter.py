@@ -5,7 +5,7 @@ import numpy as np
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.build import build
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.step_control import binding_limit
 
 DRIFTING_BLOCK = (
     "solver.dimensions=2", "domain.depth=12 um", "domain.width=10 um", "particles.spacing=1 um",
@@ -34,7 +34,7 @@ def go(solver, steps=None, end=None, share=1.0):
         limits = solver.time_step_limits()
         if end is not None:
             limits["end"] = (end - solver.state.time) / share
-        solver.step(share * binding(limits)[1])
+        solver.step(share * binding_limit(limits)[1])
         taken += 1
     return taken
 

@@ -10,7 +10,7 @@ from lasersph.particles.layers import stack
 from lasersph.solvers.conduction.body import assemble
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import Conduction
-from lasersph.solvers.time_step import TimeSettings
+from lasersph.solvers.time_settings import TimeSettings
 from lasersph.sph.kernels import kernel
 
 SPACING = 1e-7

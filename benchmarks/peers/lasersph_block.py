@@ -58,7 +58,7 @@ def _block(workplace: Workplace, *, moves: bool) -> Ablation:
     arrays["enthalpy"] = particles.warmth(position, edge)
     if moves:
         arrays["velocity"] = particles.vortices(position, edge)
-    solver.restore(arrays, solver.carried())
+    solver.restore(arrays, solver.checkpoint_scalars())
     return solver
 
 

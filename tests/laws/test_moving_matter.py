@@ -7,7 +7,7 @@ from moving_matter import DRIFTING_BLOCK, HEATED_BLOCK, go, host, mass, momentum
 from lasersph import compute
 from lasersph.observers.energy_budget import relative_imbalance
 from lasersph.physics.equation_of_state import elastic_energy
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.step_control import binding_limit
 
 
 def energy(solver):
@@ -65,7 +65,7 @@ def test_galilean_invariance():
         stir(solver, 20.0)
         put(solver, "velocity", host(solver, "velocity") + base)
     for _ in range(60):
-        step = binding(solvers[0].time_step_limits())[1]
+        step = binding_limit(solvers[0].time_step_limits())[1]
         for solver in solvers:
             solver.step(step)
     way = drift * solvers[0].state.time

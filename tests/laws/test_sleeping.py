@@ -7,7 +7,7 @@ from lasersph import compute
 from lasersph.case import load_case
 from lasersph.physics.ejection import LEAVING
 from lasersph.simulation.build import build
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.step_control import binding_limit
 
 SPOT = ("solver.dimensions=2", "particles.spacing=0.2 um", "domain.depth=12 um",
         "domain.width=6 um", "laser.fluence=20 J/cm2", "time.end=4 ns")  # fmt: skip
@@ -22,7 +22,7 @@ def computed(*settings):
     case = load_case("ablation-depth", list(settings))
     _, solver = build(case, compute.cpu(threads=1))
     while solver.state.time < case.time.end * (1.0 - 1e-12):
-        solver.step(binding(solver.time_step_limits())[1])
+        solver.step(binding_limit(solver.time_step_limits())[1])
     return solver
 
 

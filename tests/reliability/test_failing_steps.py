@@ -9,8 +9,8 @@ from lasersph.cli import main
 from lasersph.output import open_run
 from lasersph.output.checkpoint import candidates, load
 from lasersph.output.events import read_events
-from lasersph.solvers.conduction.state import NotConverged
 from lasersph.solvers.melt_pool.flow import Flow
+from lasersph.solvers.step_control import NotConverged
 
 CAVITY = (
     "run lid-driven-cavity --no-figures --threads 1 --set particles.spacing=100mm "

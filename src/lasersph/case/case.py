@@ -18,7 +18,7 @@ from lasersph.observers import Probe, Trace
 from lasersph.particles import Domain, Lattice
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
-from lasersph.solvers.time_step import TimeSettings
+from lasersph.solvers.time_settings import TimeSettings
 
 SCHEMA_VERSION = 1
 

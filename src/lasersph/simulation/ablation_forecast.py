@@ -12,7 +12,7 @@ from lasersph.physics.compressible_limits import compressible_limits
 from lasersph.simulation.build_ablation import decay_rates
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.body import SUPPORT
-from lasersph.solvers.time_step import name_of_longest
+from lasersph.solvers.step_control import name_of_longest
 
 
 def ablation_steps(case: Case, spacing: float) -> tuple[dict[str, float], int]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from lasersph.analytic.melt_depth import melt_depth
@@ -128,7 +130,7 @@ def _heat_settings(case: Case) -> ConductionSettings:
     return ConductionSettings(**common)
 
 
-def view_of(case: Case, solver: Solver, step: int, limit: str) -> View:
+def view_of(case: Case, solver: Any, step: int, limit: str) -> View:
     """The state for observers."""
     if isinstance(solver, Ablation):
         return ablation_view_of(case, solver, step, limit)

@@ -20,7 +20,7 @@ from lasersph.physics.evaporation import (
     saturation_pressure,
 )
 from lasersph.solvers.melt_pool.solver import MeltPool
-from lasersph.solvers.time_step import ROUNDING
+from lasersph.solvers.step_control import ROUNDING
 
 SIDES = ("left", "right", "bottom", "surface")
 
@@ -81,7 +81,7 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
         conductivity=float(material.conductivity_at(T)),
         held=held,
         crossed=tuple(s for s, kind in kinds.items() if is_box and kind in (*HELD, FLUX)),
-        is_shortened=solver.state.time_step < (1.0 - ROUNDING) * solver.state.pace,
+        is_shortened=solver.state.time_step < (1.0 - ROUNDING) * solver.state.unclipped_step,
     )
 
 

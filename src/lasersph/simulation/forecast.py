@@ -19,7 +19,7 @@ from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import next_light
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
-from lasersph.solvers.time_step import binding, name_of_longest
+from lasersph.solvers.step_control import binding_limit, name_of_longest
 
 PAIRS_PER_SECOND = 2.0e8
 """Of one thread; for the expected time only."""
@@ -86,7 +86,7 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         spacing=spacing,
         fine_depth=float(layers.thickness[is_fine].sum()),
         limits=limits,
-        binding=binding(limits)[0],
+        binding=binding_limit(limits)[0],
         steps=steps,
         wall_time=products * pairs / PAIRS_PER_SECOND / max(1, threads) + steps * SECONDS_PER_STEP,
         absorption_length=length,

@@ -17,7 +17,6 @@ from typing import Any
 from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
-from lasersph.compute.search import EscapedParticle
 from lasersph.observers import (
     Observers,
     SnapshotSchedule,
@@ -32,13 +31,11 @@ from lasersph.output.checkpoint import Checkpoint
 from lasersph.particles.layers import Layers
 from lasersph.simulation.ablation_estimates import ablation_estimates
 from lasersph.simulation.ablation_view import pulse_starts
-from lasersph.simulation.build import Solver, build, view_of
+from lasersph.simulation.build import build, view_of
 from lasersph.simulation.scales import dimensionless
 from lasersph.solvers.ablation.settings import AblationSettings
-from lasersph.solvers.conduction.state import NotConverged
-from lasersph.solvers.melt_pool.domain import PoolTooDeep
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
-from lasersph.solvers.time_step import choose
+from lasersph.solvers.step_control import Solver, StepFailed, choose_step
 
 PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
 END = 1.0 - 1e-12
@@ -101,7 +98,7 @@ def run(
     Raises:
         CaseError: too large for this machine or its card. FolderRefused, OutputError: see `output`.
         NoDevice: no graphics card for backend "cuda".
-        NotConverged: a step does not converge however small; the last checkpoint is kept.
+        StepFailed: a step does not converge however small; the last checkpoint is kept.
     """
     refuse_if_too_large(case, backend)
     device = compute.cuda(precision) if backend == "cuda" else compute.cpu(threads, precision)
@@ -158,7 +155,7 @@ class _Loop:
 
     def __init__(self, case: Case, layers: Layers, solver: Solver, folder: RunFolder) -> None:
         self.case, self.layers, self.solver, self.folder = case, layers, solver, folder
-        self._backend = solver.body.backend
+        self._backend = solver.backend
         self.observers = _observers(case, tuple(solver.iterations))
         self.snapshots = SnapshotSchedule(case.output.snapshots, case.time.end)
         self.steps, self.limit, self.wall_before = 0, "", 0.0
@@ -167,7 +164,7 @@ class _Loop:
     def begin(self, checkpoint: Checkpoint | None) -> None:
         """Start at rest, or where the checkpoint left off."""
         if checkpoint is None:
-            self.folder.log(f"{self.case.name}: {self.solver.body.count} particles")
+            self.folder.log(f"{self.case.name}: {self.solver.particle_count} particles")
             self.folder.events.append("started", time=0.0, step=0, backend=self._backend.name)
             self._observe()
             return
@@ -188,8 +185,8 @@ class _Loop:
         while state.time < end * END and not self.solver.is_steady:
             limits = self.solver.time_step_limits()
             limits["snapshot"] = max(self.snapshots.next_time - state.time, 0.0) or float("inf")
-            self.limit, step, pace = choose(limits)
-            taken = self._step(step, pace)
+            self.limit, step, unclipped_step = choose_step(limits)
+            taken = self._step(step, unclipped_step)
             if taken == step and self.limit in ("end", "snapshot"):
                 state.time = end if self.limit == "end" else self.snapshots.next_time
             self.steps += 1
@@ -202,25 +199,25 @@ class _Loop:
                 self._save()
                 raise Stopped(f"stopped at {state.time:.4g} s after {self.steps} steps")
 
-    def _step(self, step: float, pace: float) -> float:
+    def _step(self, step: float, unclipped_step: float) -> float:
         """A step of the solver; where it fails, what was reached is kept.
 
         Raises:
-            NotConverged: with the time that was reached.
+            StepFailed: with the time that was reached.
         """
         try:
-            return self.solver.step(step, pace)
-        except (NotConverged, PoolTooDeep, EscapedParticle) as error:
+            return self.solver.step(step, unclipped_step)
+        except StepFailed as error:
             self._save()
             self._snapshot(view_of(self.case, self.solver, self.steps, self.limit))
-            raise NotConverged(
+            raise StepFailed(
                 f"{error}; stopped at {self.solver.state.time:.6g} s after {self.steps} steps, "
                 "the checkpoint and the last good snapshot are kept"
             ) from error
 
     def finish(self) -> dict[str, Any]:
         """Write the summary; the run is complete."""
-        state, body = self.solver.state, self.solver.body
+        state = self.solver.state
         if self.solver.is_steady:
             self._snapshot(view_of(self.case, self.solver, self.steps, self.limit))
         summary = {
@@ -228,7 +225,7 @@ class _Loop:
             "title": self.case.title,
             "solver": self.case.solver.kind,
             "dimensions": self.case.solver.dimensions,
-            "particles": body.count,
+            "particles": self.solver.particle_count,
             "spacing_m": self.layers.spacing,
             "spacing_requested_m": self.case.particles.spacing,
             "steps": self.steps,
@@ -270,7 +267,7 @@ class _Loop:
             scalars={
                 "limit": self.limit,
                 "wall_time": self._wall_time(),
-                "solver": self.solver.carried(),
+                "solver": self.solver.checkpoint_scalars(),
                 "observers": self.observers.state(),
                 "snapshots": self.snapshots.state(),
             },

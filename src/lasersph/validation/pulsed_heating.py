@@ -19,7 +19,7 @@ from lasersph.analytic.convergence import assess, grid_convergence_index, relati
 from lasersph.analytic.half_space import pulse_train_temperature, thermal_penetration
 from lasersph.case import load_case
 from lasersph.output import Run
-from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.step_control import NotConverged
 from lasersph.validation import pulsed_heating_figures as figures
 from lasersph.validation.report import Report
 from lasersph.validation.runs import computed

@@ -22,7 +22,7 @@ from lasersph.compute.backend import Backend
 from lasersph.input import CaseError
 from lasersph.output import Run, open_run
 from lasersph.simulation import run
-from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.step_control import StepFailed
 
 LOOK_ONLY = ("cli", "plots", "report", "studies", "validation")
 """Rooms whose sources no run depends on."""
@@ -75,7 +75,7 @@ def to_failure(
     """As `computed`, for a case that may fail; the reason is "" where it reached its end."""
     try:
         return computed(case_name, overrides, out_dir, label), ""
-    except NotConverged as error:
+    except StepFailed as error:
         return open_run(out_dir / "runs" / label), str(error)
 
 

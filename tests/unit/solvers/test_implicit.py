@@ -56,8 +56,8 @@ def test_restored_solver_repeats_the_bits():
     first, second = solvers
     go(first, 4.6e-8)
     arrays = {name: host(first, name) for name in first.fields}
-    second.restore(arrays, first.carried())
+    second.restore(arrays, first.checkpoint_scalars())
     for solver in solvers:
         go(solver, 4.65e-8)
-    assert first.carried() == second.carried()
+    assert first.checkpoint_scalars() == second.checkpoint_scalars()
     assert all(np.array_equal(host(first, name), host(second, name)) for name in first.fields)

@@ -7,8 +7,7 @@ import pytest
 from flow_boxes import box, go, host_fields, matrix_of, pool
 
 from lasersph.compute.search import EscapedParticle
-from lasersph.solvers.conduction.state import NotConverged
-from lasersph.solvers.melt_pool.solver import RETRIES
+from lasersph.solvers.step_control import RETRIES, NotConverged
 
 LIFE = 45
 """Steps after which the small pool is solid."""
@@ -27,10 +26,10 @@ def small_pool(*settings):
 def life():
     """States of the small pool at the start and after each step, until it is solid."""
     solver = small_pool()
-    states = [(host_fields(solver), solver.carried())]
+    states = [(host_fields(solver), solver.checkpoint_scalars())]
     for _ in range(LIFE):
         go(solver, 1)
-        states.append((host_fields(solver), solver.carried()))
+        states.append((host_fields(solver), solver.checkpoint_scalars()))
     assert solver.fluid_count == 0.0
     return states
 
@@ -61,7 +60,7 @@ def failing(solver, name, error, times):
 
 def assert_same(one, other):
     """All that survives a step has the same bits."""
-    assert one.carried() == other.carried()
+    assert one.checkpoint_scalars() == other.checkpoint_scalars()
     fields = host_fields(other)
     for name, values in host_fields(one).items():
         assert np.array_equal(values, fields[name]), name
@@ -106,7 +105,7 @@ def test_restored_solver_repeats_the_bits(life):
         again = restored(life[moment])
         go(again, 2)
         fields, numbers = life[moment + 2]
-        assert again.carried() == numbers, moment
+        assert again.checkpoint_scalars() == numbers, moment
         for name, values in host_fields(again).items():
             assert np.array_equal(values, fields[name]), (moment, name)
 
@@ -137,12 +136,12 @@ def test_failed_step_is_retried_with_half(life, at, name, error):
 def test_step_that_always_fails(life):
     """Halved eight times, then told; the state is as before and later steps have the same bits."""
     first, second = restored(life[5]), restored(life[5])
-    before = host_fields(first), first.carried()
+    before = host_fields(first), first.checkpoint_scalars()
     left = failing(first, "flow.correct", NotConverged("no way"), RETRIES + 1)
     with pytest.raises(NotConverged, match="no way"):
         first.step(1e-11)
     assert left == [0]
-    assert first.carried() == before[1]
+    assert first.checkpoint_scalars() == before[1]
     for name, values in host_fields(first).items():
         assert np.array_equal(values, before[0][name]), name
     go(first, 2)

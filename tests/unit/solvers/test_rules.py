@@ -13,8 +13,8 @@ from two_particles import (
 
 from lasersph.boundaries import Boundaries
 from lasersph.lasers import Laser
-from lasersph.solvers.conduction.state import NotConverged
-from lasersph.solvers.time_step import TimeSettings, binding, choose
+from lasersph.solvers.step_control import NotConverged, binding_limit, choose_step
+from lasersph.solvers.time_settings import TimeSettings
 
 SQUARE = Laser.model_validate(
     {
@@ -26,7 +26,7 @@ SQUARE = Laser.model_validate(
 
 def test_binding_limit():
     """The smallest one, by name; the first of equals."""
-    assert binding({"end": 2.0, "light": 1.0, "growth": 1.0}) == ("light", 1.0)
+    assert binding_limit({"end": 2.0, "light": 1.0, "growth": 1.0}) == ("light", 1.0)
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ def test_binding_limit():
 def test_the_way_to_a_snapshot_is_split(snapshot, expected):
     """With steps of 2 a snapshot 10 away changes nothing, 3 away two steps of 1.5 reach it, and one
     that is 2 away but for rounding is reached at once."""
-    assert choose({"end": 50.0, "light": 2.0, "snapshot": snapshot}) == expected
+    assert choose_step({"end": 50.0, "light": 2.0, "snapshot": snapshot}) == expected
 
 
 def test_limits_of_a_fixed_step():
@@ -61,7 +61,7 @@ def test_limits_of_the_implicit_scheme():
     assert dark["largest step"] == 2e-12 and "light" not in dark
     assert first["pulse edge"] == pytest.approx(1e-9)
     state = solver.state
-    state.time, state.time_step, state.pace, state.fastest = 2.5e-10, 1e-12, 1e-12, 100.0
+    state.time, state.time_step, state.unclipped_step, state.fastest = 2.5e-10, 1e-12, 1e-12, 100.0
     limits = solver.time_step_limits()
     assert limits["temperature change"] == pytest.approx(0.5e-12)
     assert limits["growth"] == pytest.approx(1.25e-12)

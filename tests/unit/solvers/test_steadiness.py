@@ -52,7 +52,7 @@ def test_carried_over():
     looks = turnovers(5.0, 5.0, 5.0, 5.0, 5.0)
     first = looked(1e-3, *looks[:4])
     second = Steadiness(1e-3, WIDTH)
-    second.restore(first.carried())
+    second.restore(first.checkpoint_scalars())
     second.look(looks[4][0], SPEED, looks[4][1])
     assert second.reached
-    assert second.carried() == looked(1e-3, *looks).carried()
+    assert second.checkpoint_scalars() == looked(1e-3, *looks).checkpoint_scalars()

@@ -7,7 +7,7 @@ from lasersph import compute
 from lasersph.analytic.slab import slab_step_rise
 from lasersph.case import Case
 from lasersph.simulation.build import build
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.step_control import binding_limit
 
 DEPTH = 1.0
 """[m]; conductivity, density and heat capacity are one."""
@@ -37,7 +37,7 @@ def solver_of(boundaries, *, end, dimensions=1, cells=20, **settings):
 def run(solver, end):
     """Step to the end; temperatures above 300 K and positions."""
     while solver.state.time < end * (1.0 - 1e-12):
-        solver.step(binding(solver.time_step_limits())[1])
+        solver.step(binding_limit(solver.time_step_limits())[1])
     body = solver.body
     return body.backend.to_host(solver.state.temperature) - 300.0, body.filling.position[
         :, : body.count

@@ -110,12 +110,12 @@ class ActiveRegion:
         """How many particles are computed."""
         return self.count if self.rows is None else self.rows.shape[0]
 
-    def carried(self) -> dict[str, float]:
+    def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step."""
         return {"largest_enthalpy": self._largest, "all_checked": float(not self._checks_all)}
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
-        """Continue from the arrays of `fields` and the numbers of `carried`."""
+        """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
         self._largest = numbers["largest_enthalpy"]
         self._checks_all = not numbers["all_checked"]
         self._set_active(arrays["active"].reshape(self._shape) > 0.0)

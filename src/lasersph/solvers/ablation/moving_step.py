@@ -14,7 +14,7 @@ from lasersph.solvers.ablation.parameters import Parameters
 from lasersph.solvers.ablation.particle_state import ParticleState, TimeLevel
 from lasersph.solvers.ablation.rates import foreseen, moved, pair_rates, rates
 from lasersph.solvers.ablation.state import AblationState
-from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.step_control import NotConverged
 
 THINNEST = 0.01
 """Share of the density at rest below which a step has failed."""

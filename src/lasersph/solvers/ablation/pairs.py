@@ -170,12 +170,12 @@ class Pairs:
         best = sqrt(0.5 * LIST_COST * nearer * self._support / geometry.dimension)
         return min(max(best, nearer, least), self.skin)
 
-    def carried(self) -> dict[str, float]:
+    def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step beside the listed places."""
         return {"margin": self.margin, "compared": float(self.is_compared)}
 
     def resume(self, numbers: dict[str, float]) -> None:
-        """Find the pairs of the listed places again, with the numbers of `carried`."""
+        """Find the pairs of the listed places again, with the numbers of `checkpoint_scalars`."""
         self._relative.forget()
         self.margin, self.is_compared = numbers["margin"], numbers["compared"] > 0.0
         if self.margin > 0.0:

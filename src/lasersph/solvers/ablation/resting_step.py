@@ -10,7 +10,7 @@ from lasersph.solvers.ablation.pairs import Pairs
 from lasersph.solvers.ablation.parameters import Parameters
 from lasersph.solvers.ablation.particle_state import ParticleState, TimeLevel
 from lasersph.solvers.ablation.rates import heat_rates, pair_weight, taken_up, warmed
-from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.laplacian import harmonic_flow
 
 

@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 
 from lasersph.boundaries.free_surface import FreeSurface
-from lasersph.compute.search import EscapedParticle
 from lasersph.physics.compressible_limits import compressible_limits
 from lasersph.physics.ejection import EJECTED
 from lasersph.solvers.ablation.active import ActiveRegion
@@ -31,10 +30,14 @@ from lasersph.solvers.ablation.published.ejection import PublishedEjection
 from lasersph.solvers.ablation.rates import condensed_extremes, speed_squares
 from lasersph.solvers.ablation.resting_step import RestingStep
 from lasersph.solvers.ablation.state import AblationState
-from lasersph.solvers.conduction.state import NotConverged
-from lasersph.solvers.time_step import TimeSettings, name_of_longest, next_edge
+from lasersph.solvers.step_control import (
+    NotConverged,
+    common_limits,
+    name_of_longest,
+    retry_step,
+)
+from lasersph.solvers.time_settings import TimeSettings
 
-RETRIES = 8
 LEVEL_ARRAYS = {"position": "x", "velocity": "v", "density": "rho", "enthalpy": "h"}
 MATTER_ARRAYS = ("kind", "left_at", "p_v")
 
@@ -77,6 +80,11 @@ class Ablation:
         return None if self.region is None else self.region.rows
 
     @property
+    def particle_count(self) -> int:
+        """Particles of the body, without walls."""
+        return self.body.count
+
+    @property
     def fields(self) -> dict[str, Any]:
         """Arrays of the particles by name."""
         level, particles = self.body.now, self.body
@@ -97,13 +105,13 @@ class Ablation:
         """A run goes on to its end."""
         return False
 
-    def carried(self) -> dict[str, float]:
+    def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        numbers = self.state.carried() | self.pairs.carried()
-        return numbers | ({} if self.region is None else self.region.carried())
+        numbers = self.state.checkpoint_scalars() | self.pairs.checkpoint_scalars()
+        return numbers | ({} if self.region is None else self.region.checkpoint_scalars())
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
-        """Continue from the arrays of `fields` and the numbers of `carried`."""
+        """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
         for name, field in self.fields.items():
             self.backend.copy(self.backend.asarray(arrays[name]), field)
         self.state.restore(numbers)
@@ -117,13 +125,10 @@ class Ablation:
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]; of flow only where something moves or is pushed."""
         state, time, numbers = self.state, self.time_settings, self.parameters
-        limits = {"end": time.end - state.time}
-        if time.is_fixed and time.step is not None:
-            return limits | {"fixed step": time.step}
-        if self.light is not None:
-            edge = next_edge(self.light.laser.pulse, state.time, time.end)
-            if edge is not None:
-                limits["pulse edge"] = edge
+        pulse = None if self.light is None else self.light.laser.pulse
+        limits = common_limits(time, state.time, pulse)
+        if time.fixed_step is not None:
+            return limits
         limits |= compressible_limits(
             is_still=state.is_balanced and state.speed == 0.0,
             courant=numbers.courant,
@@ -143,23 +148,15 @@ class Ablation:
                 limits["vaporization"] = self.ejection.longest_step(flux, density)
         return limits
 
-    def step(self, step: float, pace: float | None = None) -> float:
+    def step(self, step: float, unclipped_step: float | None = None) -> float:
         """Advance by `step` [s], or by less where that is unstable; returns the step taken.
 
         Raises:
             NotConverged: not even a 256th of the step is stable; the state is as before.
         """
-        for attempt in range(RETRIES + 1):
-            try:
-                self._advance(step)
-                break
-            except NotConverged:
-                if attempt == RETRIES:
-                    raise
-                step *= 0.5
-        return step
+        return retry_step(self._advance, step)
 
-    def _advance(self, step: float) -> None:
+    def _advance(self, step: float, _unclipped_step: float | None = None) -> None:
         """One step of the midpoint rule."""
         particles, state = self.body, self.state
         rule = self._prepare(step)
@@ -198,10 +195,7 @@ class Ablation:
                 f"matter moves {stride.way:.3g} m in {step:.3g} s; take shorter steps"
             )
         if has_grown or self.pairs.is_stale(stride, self.rows):
-            try:
-                self.pairs.renew(stride, self.rows)
-            except EscapedParticle as error:
-                raise NotConverged(str(error)) from error
+            self.pairs.renew(stride, self.rows)
             self._resting.weights, self._surface_known = None, False
         if self.light is not None:
             self.find_surface()

@@ -30,7 +30,7 @@ class AblationState:
     left: Ejecta = field(default_factory=Ejecta)
     energy: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
 
-    def carried(self) -> dict[str, float]:
+    def checkpoint_scalars(self) -> dict[str, float]:
         """All numbers by name."""
         numbers = {f"energy.{name}": value for name, value in self.energy.items()}
         return numbers | {f"left.{name}": value for name, value in vars(self.left).items()} | {
@@ -40,7 +40,7 @@ class AblationState:
         }  # fmt: skip
 
     def restore(self, numbers: dict[str, float]) -> None:
-        """Set all numbers from `carried`."""
+        """Set all numbers from `checkpoint_scalars`."""
         self.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
         self.left = Ejecta(
             int(numbers["left.count"]), numbers["left.mass"], numbers["left.energy"],

@@ -28,8 +28,9 @@ from lasersph.compute.vectors import interpolate, interpolation_slope
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
 from lasersph.physics.phase_change import balanced_enthalpy, followed, potential_slope
 from lasersph.solvers.conduction.body import Body
-from lasersph.solvers.conduction.state import HeatState, NotConverged
+from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
+from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.laplacian import flow
 
 FIRST_FORCING = 0.05

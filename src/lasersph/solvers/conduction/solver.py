@@ -13,14 +13,14 @@ from lasersph.solvers.conduction.explicit import ExplicitStep
 from lasersph.solvers.conduction.implicit import ImplicitStep
 from lasersph.solvers.conduction.published import PublishedStep
 from lasersph.solvers.conduction.settings import ConductionSettings
-from lasersph.solvers.conduction.state import ENERGIES, HeatState, NotConverged
+from lasersph.solvers.conduction.state import ENERGIES, HeatState
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
-from lasersph.solvers.time_step import TimeSettings, name_of_longest, next_edge
+from lasersph.solvers.step_control import common_limits, name_of_longest, retry_step
+from lasersph.solvers.time_settings import TimeSettings
 
 ARRAYS = ("enthalpy", "temperature", "potential", "melt_fraction", "vapor_fraction", "excess",
           "previous", "older", "evaporated")  # fmt: skip
 EXPECTED_SHARE = 1e-3
-RETRIES = 8
 
 
 def change(T, T_old):
@@ -85,39 +85,49 @@ class Conduction:
         """A run that conducts goes on to its end."""
         return False
 
-    def carried(self) -> dict[str, float]:
+    @property
+    def backend(self) -> Backend:
+        """Of all arrays."""
+        return self.body.backend
+
+    @property
+    def particle_count(self) -> int:
+        """Particles of the body."""
+        return self.body.count
+
+    def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
         state = self.state
         numbers = {f"energy.{name}": state.energy[name] for name in ENERGIES}
         return numbers | {
             "time": state.time, "time_step": state.time_step,
             "time_step_before": state.time_step_before, "fastest": state.fastest,
-            "lit_until": state.lit_until, "pace": state.pace,
+            "lit_until": state.lit_until, "unclipped_step": state.unclipped_step,
         }  # fmt: skip
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
-        """Continue from the arrays of `fields` and the numbers of `carried`."""
+        """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
         backend = self.body.backend
         for name in ARRAYS:
             backend.copy(backend.asarray(arrays[name]), getattr(self.state, name))
         self.restore_numbers(numbers)
 
     def restore_numbers(self, numbers: dict[str, float]) -> None:
-        """Set the numbers of `carried`."""
+        """Set the numbers of `checkpoint_scalars`."""
         state = self.state
         state.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
         state.time, state.time_step = numbers["time"], numbers["time_step"]
         state.time_step_before = numbers["time_step_before"]
         state.fastest, state.lit_until = numbers["fastest"], numbers["lit_until"]
-        state.pace = numbers["pace"]
+        state.unclipped_step = numbers["unclipped_step"]
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]."""
         state, time = self.state, self.time_settings
-        limits = {"end": time.end - state.time}
         pulse = self.laser.pulse if self.laser is not None else None
-        if time.is_fixed and time.step is not None:
-            return limits | {"fixed step": time.step}
+        limits = common_limits(time, state.time, pulse)
+        if time.fixed_step is not None:
+            return limits
         name = name_of_longest(pulse is not None)
         if self.settings.scheme == "explicit":
             limits["conduction"] = self._stable
@@ -132,40 +142,27 @@ class Conduction:
             if longest is not None and state.lit_until > 0.0:
                 dark = state.time - state.lit_until
                 limits["cooling"] = max(longest, time.cooling * dark)
-            if state.pace > 0.0:
-                limits["growth"] = time.growth * state.pace
+            if state.unclipped_step > 0.0:
+                limits["growth"] = time.growth * state.unclipped_step
                 if state.fastest > 0.0:
                     limits["temperature change"] = (
                         state.time_step * time.temperature_change / state.fastest
                     )
             else:
                 limits["first step"] = 1e-3 * time.end
-        if pulse is not None:
-            edge = next_edge(pulse, state.time, time.end)
-            if edge is not None:
-                limits["pulse edge"] = edge
         return limits
 
-    def step(self, step: float, pace: float | None = None) -> float:
+    def step(self, step: float, unclipped_step: float | None = None) -> float:
         """Advance by `step` [s], or by less where that does not converge; returns the step taken.
 
-        `pace` [s] is the step that would be taken were no time to be hit; growth goes from it.
+        `unclipped_step` [s]: were no time to be hit; growth goes from it.
 
         Raises:
             NotConverged: not even a 256th of the step converges.
         """
-        for attempt in range(RETRIES + 1):
-            try:
-                self.attempt(step, pace)
-                break
-            except NotConverged:
-                if attempt == RETRIES:
-                    raise
-                step *= 0.5
-                pace = step
-        return step
+        return retry_step(self.attempt, step, unclipped_step)
 
-    def attempt(self, step: float, pace: float | None = None) -> None:
+    def attempt(self, step: float, unclipped_step: float | None = None) -> None:
         """Advance by `step` [s]:
 
         light of the step -> enthalpies (scheme) -> temperatures and fractions -> plateau rule ->
@@ -191,7 +188,7 @@ class Conduction:
             state.lit_until = state.time + step
         state.time_step_before = state.time_step
         state.time, state.time_step = state.time + step, step
-        state.pace = step if pace is None else pace
+        state.unclipped_step = step if unclipped_step is None else unclipped_step
 
     def _exchanged(self) -> float:
         """Energy that the tolerance of a step refers to [J]."""

@@ -14,10 +14,6 @@ ENERGIES = (
 )  # fmt: skip
 
 
-class NotConverged(RuntimeError):
-    """A step did not converge; a smaller one may."""
-
-
 @dataclass
 class HeatState:
     """Fields (n,) on the backend, and what survives a step beside them.
@@ -49,7 +45,7 @@ class HeatState:
     """Largest change of temperature in the last step [K]."""
     lit_until: float = 0.0
     """End of the last step with light [s]."""
-    pace: float = 0.0
+    unclipped_step: float = 0.0
     """The last step, had no time been to be hit [s]."""
 
     @classmethod

@@ -14,6 +14,7 @@ from lasersph.particles.layers import Layers
 from lasersph.solvers.melt_pool.block import Block, Carried
 from lasersph.solvers.melt_pool.roles import Roles
 from lasersph.solvers.melt_pool.sides import FACES, Sides
+from lasersph.solvers.step_control import StepFailed
 
 ROOM = 16
 """Layers by which a block grows."""
@@ -23,7 +24,7 @@ BELOW = 2.0
 """Depth of the rows below the deepest melt, in support radii."""
 
 
-class PoolTooDeep(RuntimeError):
+class PoolTooDeep(StepFailed):
     """The melt reaches layers that are too coarse for its flow."""
 
 

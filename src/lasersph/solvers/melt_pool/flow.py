@@ -24,13 +24,13 @@ from lasersph.boundaries.lid import FlatLid
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
 from lasersph.physics.buoyancy import buoyancy
-from lasersph.solvers.conduction.state import NotConverged
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.solvers.melt_pool.published_pressure import PublishedPressure
 from lasersph.solvers.melt_pool.roles import Roles
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.viscous_step import ViscousStep
+from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.correction import (
     bounded_inverse,
     corrected_divergence_term,

@@ -11,10 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.compute.search import EscapedParticle
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.solvers.conduction.solver import ARRAYS, Conduction
-from lasersph.solvers.conduction.state import NotConverged
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.flow import Flow, advected, updated
@@ -23,8 +21,8 @@ from lasersph.solvers.melt_pool.rearrange import Rearrangement
 from lasersph.solvers.melt_pool.roles import Roles
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
+from lasersph.solvers.step_control import NotConverged, retry_step
 
-RETRIES = 8
 SHORTEST = 1e-9
 """Time in which the fastest particle crosses its support, over the time to compute: in a flow that
 takes less its speeds have grown without bound."""
@@ -71,6 +69,11 @@ class MeltPool:
         return self.heat.state
 
     @property
+    def particle_count(self) -> int:
+        """Particles of the body."""
+        return self.body.count
+
+    @property
     def fields(self) -> dict[str, Any]:
         """Arrays of the particles by name."""
         own = (self.position, self.flow.velocity, self.flow.pressure, self.roles.before,
@@ -87,9 +90,9 @@ class MeltPool:
         """Whether the flow no longer changes, where the case asks to stop then."""
         return self.steadiness.reached
 
-    def carried(self) -> dict[str, float]:
+    def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        return self.heat.carried() | self.steadiness.carried() | {
+        return self.heat.checkpoint_scalars() | self.steadiness.checkpoint_scalars() | {
             "fastest_flow": self.flow.fastest,
             "push": self.flow.push,
             "block_layers": self.domain.block_layers,
@@ -100,7 +103,7 @@ class MeltPool:
         }  # fmt: skip
 
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
-        """Continue from the arrays of `fields` and the numbers of `carried`."""
+        """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
         backend = self.backend
         self.heat.restore({name: arrays[name] for name in ARRAYS}, numbers)
         for name in FLOW_ARRAYS:
@@ -132,7 +135,7 @@ class MeltPool:
         )
         return limits | {name: limit for name, limit in found.items() if limit < np.inf}
 
-    def step(self, step: float, pace: float | None = None) -> float:
+    def step(self, step: float, unclipped_step: float | None = None) -> float:
         """Advance by `step` [s], or by less where that fails; returns the step taken.
 
         Raises:
@@ -143,24 +146,14 @@ class MeltPool:
         if self.flow.fastest * SHORTEST * self.heat.time_settings.end > self.domain.support:
             raise NotConverged(f"the flow has become unstable: {self.flow.fastest:.3g} m/s")
         self._keep()
-        for attempt in range(RETRIES + 1):
-            try:
-                self._advance(step, pace)
-                break
-            except (NotConverged, EscapedParticle):
-                self._return()
-                if attempt == RETRIES:
-                    raise
-                step *= 0.5
-                pace = step
-        return step
+        return retry_step(self._advance, step, unclipped_step, undo=self._return)
 
-    def _advance(self, step: float, pace: float | None) -> None:
+    def _advance(self, step: float, unclipped_step: float | None) -> None:
         if not self._melt():
             self._settle_pairs()
             if self.domain.block_layers:
                 self.illuminate(step)
-            self.heat.attempt(step, pace)
+            self.heat.attempt(step, unclipped_step)
             return
         self._has_moved = True
         self.flow.stop(self.roles)  # what has frozen since the last step
@@ -170,7 +163,7 @@ class MeltPool:
         self.flow.correct(self.roles, step)
         self.update_positions(step)
         self.illuminate(step)
-        self.heat.attempt(step, pace)
+        self.heat.attempt(step, unclipped_step)
         self.shift(step)
         self.adjust()
         self._measure()
@@ -265,7 +258,7 @@ class MeltPool:
             if name not in self._kept:
                 self._kept[name] = self.backend.zeros(field.shape)
             self.backend.copy(field, self._kept[name])
-        self._numbers = self.carried()
+        self._numbers = self.checkpoint_scalars()
 
     def _return(self) -> None:
         """Go back to the state that was kept."""

@@ -36,13 +36,13 @@ class Steadiness:
             width = max(self.energies) - min(self.energies)
             self.reached = width * LOOKS < self.wanted * sum(self.energies)
 
-    def carried(self) -> dict[str, float]:
+    def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step."""
         return {"steady.time": self.time, "steady.reached": float(self.reached)} | {
             f"steady.energy_{k}": energy for k, energy in enumerate(self.energies)
         }
 
     def restore(self, numbers: dict[str, float]) -> None:
-        """Continue from the numbers of `carried`."""
+        """Continue from the numbers of `checkpoint_scalars`."""
         self.time, self.reached = numbers["steady.time"], bool(numbers["steady.reached"])
         self.energies = [numbers[f"steady.energy_{k}"] for k in range(LOOKS)]

@@ -192,7 +192,7 @@ def test_restored_region_goes_on(column):
     assert column.activate()
     arrays = {"active": column.backend.to_host(column.region.fields["active"])}
     other = Block(column.backend, (), 60, (0.0,))
-    other.region.restore(arrays, column.region.carried())
+    other.region.restore(arrays, column.region.checkpoint_scalars())
     np.testing.assert_array_equal(
         column.backend.to_host(other.region.rows), column.backend.to_host(column.region.rows)
     )

@@ -8,7 +8,7 @@ from lasersph.compute.search import EscapedParticle
 from lasersph.physics.ejection import CONDENSED, EJECTED, GONE, LEAVING
 from lasersph.solvers.ablation.ejecta_motion import flown
 from lasersph.solvers.ablation.pairs import REST, Stride, displaced, placed, within
-from lasersph.solvers.conduction.state import NotConverged
+from lasersph.solvers.step_control import NotConverged
 
 LOW, WIDTH = (0.0, -5.0), (2.0, 0.0)
 BOX = {"low": (0.0, -5.0), "high": (2.0, 5.0)}
@@ -128,7 +128,7 @@ def test_a_list_outlives_a_restart():
     for _ in range(10):
         go(first, steps=1)
         arrays = {name: first.backend.to_host(field) for name, field in first.fields.items()}
-        second.restore(arrays, first.carried())
+        second.restore(arrays, first.checkpoint_scalars())
         for solver in solvers:
             go(solver, steps=1)
         assert first.pairs.margin == second.pairs.margin

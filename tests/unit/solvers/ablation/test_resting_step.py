@@ -8,7 +8,7 @@ from lasersph.case import load_case
 from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING
 from lasersph.simulation.build import build
 from lasersph.solvers.ablation.rates import conducted, lifting
-from lasersph.solvers.time_step import binding
+from lasersph.solvers.step_control import binding_limit
 
 PUBLISHED = ("particles.spacing=0.2 um", "domain.depth=6 um", "ejection.model=published",
              "ejection.preset=timeline", "time.end=2 ns")  # fmt: skip
@@ -38,7 +38,7 @@ def test_same_as_with_all_motion():
         if is_general:
             solver._lifting = solver._moving
         while solver.state.time < case.time.end * (1.0 - 1e-12):
-            solver.step(binding(solver.time_step_limits())[1])
+            solver.step(binding_limit(solver.time_step_limits())[1])
         found.append(solver)
     quick, general = found
     assert quick.state.left.count == general.state.left.count > 0

@@ -1,0 +1,43 @@
+"""`TimeSettings`: the `[time]` table of a case."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from lasersph.input import Model, TemperatureDifference, Time
+
+
+class TimeSettings(Model):
+    """How long to compute and in which steps."""
+
+    end: Annotated[Time, Field(gt=0)] = Field(description="of the simulated time, from 0")
+    step: Annotated[Time, Field(gt=0)] | None = Field(
+        default=None,
+        description="largest step while the laser is on, without laser always; default: a 200th of "
+        "the pulse (implicit), no limit beside stability (explicit)",
+    )
+    is_fixed: bool = Field(
+        default=False, description="take `step` always, also where it is unstable (for studies)"
+    )
+    temperature_change: Annotated[TemperatureDifference, Field(gt=0)] = Field(
+        default=50.0, description="aimed at per step, by the fastest particle (implicit)"
+    )
+    cooling: Annotated[float, Field(gt=0, le=1)] = Field(
+        default=0.005,
+        description="largest step after a pulse, over the time since its light (implicit)",
+    )
+    growth: Annotated[float, Field(gt=1, le=10)] = Field(
+        default=1.25, description="of the step, at most, from one to the next"
+    )
+    steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
+        default=None,
+        description="stop before the end once the flow is steady: range of its kinetic energy over "
+        "the mean, while the fastest particle crosses the width five times",
+    )
+
+    @property
+    def fixed_step(self) -> float | None:
+        """The step of a study that takes the same one always [s]; None elsewhere."""
+        return self.step if self.is_fixed else None
