@@ -63,10 +63,9 @@ def pool(molten, *settings, backend=None, hot=2500.0, cold=1500.0, slope=0.0):
 
 def start_from(solver, enthalpy):
     """Give the particles enthalpies [J/kg], as after steps that changed nothing."""
-    backend, state = solver.backend, solver.state
-    for array in (state.enthalpy, state.previous, state.older):
-        backend.copy(backend.asarray(np.asarray(enthalpy, float)), array)
-    state.refresh(solver.body)
+    for name in ("enthalpy", "enthalpy_before", "enthalpy_two_before"):
+        solver.particles.set(name, np.asarray(enthalpy, float))
+    solver.body.update_temperature()
 
 
 def block_of(solver, position=None):
@@ -74,7 +73,7 @@ def block_of(solver, position=None):
     backend = solver.backend
     if position is not None:
         backend.copy(backend.asarray(position), solver.position)
-    solver.fluid_count = solver.roles.find_fluid(solver.state.melt_fraction)
+    solver.fluid_count = solver.roles.find_fluid(solver.particles["melt_fraction"])
     solver.advect(0.0)
     return solver.flow.block
 
@@ -111,4 +110,4 @@ def go(solver, steps):
 
 def host_fields(solver):
     """Copies of all fields of the particles."""
-    return {name: solver.backend.to_host(field) for name, field in solver.fields.items()}
+    return {name: solver.backend.to_host(solver.particles[name]) for name in solver.particles}

@@ -27,12 +27,11 @@ def go(solver, end):
 
 def host(solver, name):
     """Field of the particles as an array."""
-    return solver.body.backend.to_host(solver.fields[name])
+    return solver.body.backend.to_host(solver.particles[name])
 
 
 def start_from(solver, enthalpy):
     """Give the particles enthalpies [J/kg], as after a step that changed nothing."""
-    backend, state = solver.body.backend, solver.state
-    for array in (state.enthalpy, state.previous):
-        backend.copy(backend.asarray(np.asarray(enthalpy, float)), array)
-    state.refresh(solver.body)
+    for name in ("enthalpy", "enthalpy_before"):
+        solver.particles.set(name, np.asarray(enthalpy, float))
+    solver.body.update_temperature()

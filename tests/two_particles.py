@@ -44,20 +44,19 @@ def solver_of(
 
 def set_enthalpy(solver, enthalpy):
     """Give the particles enthalpies [J/kg], as after a step that changed nothing."""
-    backend, state = solver.body.backend, solver.state
-    for array in (state.enthalpy, state.previous):
-        backend.copy(backend.asarray(np.asarray(enthalpy, float)), array)
-    state.refresh(solver.body)
+    for name in ("enthalpy", "enthalpy_before"):
+        solver.particles.set(name, np.asarray(enthalpy, float))
+    solver.body.update_temperature()
 
 
 def enthalpy_of(solver):
     """Enthalpies on the host [J/kg]."""
-    return solver.body.backend.to_host(solver.state.enthalpy)
+    return solver.body.backend.to_host(solver.particles["enthalpy"])
 
 
 def temperature_of(solver):
     """Temperatures on the host [K]."""
-    return solver.body.backend.to_host(solver.state.temperature)
+    return solver.body.backend.to_host(solver.particles["temperature"])
 
 
 def constants(solver):

@@ -147,7 +147,8 @@ def test_steps(make, precision, monkeypatch):
         longest = {flow: NODES, melt_pool: NODES, sleeping: TILES}.get(make, LONGEST)
         assert max(copies.sizes, default=0) <= longest < solver.body.count or make is ablation
         copies.sizes.clear()
-        fields = [backend.to_host(solver.fields[name]).astype(float) for name in names]
+        arrays = getattr(solver, "particles", solver.fields)
+        fields = [backend.to_host(arrays[name]).astype(float) for name in names]
         found.append((solver.state.time, *fields))
         rows.append(history_row(case, solver, copies))
         assert max(copies.sizes, default=0) < solver.body.count

@@ -20,7 +20,9 @@ def imbalance(name, *settings, end=None):
     case, solver = solver_of(name, *COARSE[name], *settings)
     go(solver, end or case.time.end)
     energy = dict(solver.state.energy)
-    stored = float((host(solver, "enthalpy") * solver.body.backend.to_host(solver.body.mass)).sum())
+    stored = float(
+        (host(solver, "enthalpy") * solver.body.backend.to_host(solver.particles["mass"])).sum()
+    )
     energy["stored"] = stored
     return relative_imbalance(energy), solver
 

@@ -32,7 +32,7 @@ def momentum(seen):
 
 def imbalance(solver):
     """Relative imbalance of the energy, the stored one summed from the enthalpies."""
-    mass = solver.body.backend.to_host(solver.body.mass)
+    mass = solver.body.backend.to_host(solver.particles["mass"])
     stored = float((host(solver, "enthalpy") * mass).sum())
     return relative_imbalance(dict(solver.state.energy) | {"stored": stored})
 

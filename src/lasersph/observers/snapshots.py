@@ -9,30 +9,18 @@ from pydantic import Field
 
 from lasersph.input import Model, Time
 from lasersph.observers.view import View
+from lasersph.particles.fields import FIELDS
 
 DEFAULT_COUNT = 40
 LARGEST_COUNT = 100_000
-UNITS = {
-    "temperature": "K",
-    "enthalpy": "J/kg",
-    "melt_fraction": "1",
-    "vapor_fraction": "1",
-    "width": "m",
-    "surface": "1",
-    "velocity": "m/s",
-    "speed": "m/s",
-    "pressure": "Pa",
-    "flows": "1",
-    "surface_temperature": "K",
-    "surface_gradient": "K/m",
-    "surface_velocity": "m/s",
-    "lid_pressure": "Pa",
-    "density": "kg/m^3",
-    "vapor_pressure": "Pa",
-    "normal": "1",
-    "stage": "1",
-}
-"""Unit of each field of a snapshot."""
+NAMES = (
+    *("temperature", "enthalpy", "melt_fraction", "vapor_fraction", "width", "surface"),
+    *("velocity", "speed", "pressure", "flows", "surface_temperature", "surface_gradient"),
+    *("surface_velocity", "lid_pressure", "density", "vapor_pressure", "normal", "stage"),
+)
+"""Fields of a snapshot; each solver writes those that it has."""
+UNITS = {name: FIELDS[name].unit for name in NAMES}
+"""Their units."""
 
 
 class SnapshotPlan(Model):

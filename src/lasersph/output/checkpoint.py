@@ -22,7 +22,7 @@ import numpy as np
 from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_file
 from lasersph.output.errors import OutputError, clear_errors
 
-CHECKPOINT_SCHEMA = 2
+CHECKPOINT_SCHEMA = 3
 FIRST_LINE = b"lasersph checkpoint\n"
 NAME = re.compile(r"step-(\d{10})\.checkpoint")
 KEPT = 2

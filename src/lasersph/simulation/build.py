@@ -135,10 +135,11 @@ def view_of(case: Case, solver: Any, step: int, limit: str) -> View:
     if isinstance(solver, Ablation):
         return ablation_view_of(case, solver, step, limit)
     body, state, backend = solver.body, solver.state, solver.body.backend
+    particles = solver.particles
     count, surface = body.count, body.filling.surface
     position, flow = backend.shown(body.filling.position[:, :count]), None
     take = taking(case, backend)
-    melt_fraction = take(state.melt_fraction)
+    melt_fraction = take(particles["melt_fraction"])
     if isinstance(solver, MeltPool):
         flow = flow_view_of(case, solver)
         position = take(solver.position)
@@ -150,7 +151,7 @@ def view_of(case: Case, solver: Any, step: int, limit: str) -> View:
             melt_fraction = np.ones(count)
     evaporated = None
     if case.solver.plateau == "evaporate":
-        mass = backend.look(state.evaporated)[surface]
+        mass = backend.look(particles["evaporated_mass"])[surface]
         evaporated = mass / case.material.density_reference
     return View(
         time=state.time,
@@ -159,10 +160,10 @@ def view_of(case: Case, solver: Any, step: int, limit: str) -> View:
         position=position,
         width=backend.shown(body.filling.width[:, :count]),
         volume=backend.shown(body.filling.volume[:count]),
-        temperature=take(state.temperature),
-        enthalpy=take(state.enthalpy),
+        temperature=take(particles["temperature"]),
+        enthalpy=take(particles["enthalpy"]),
         melt_fraction=melt_fraction,
-        vapor_fraction=take(state.vapor_fraction),
+        vapor_fraction=take(particles["vapor_fraction"]),
         surface=surface,
         symmetry_factor=case.domain.symmetry_factor,
         halves_spot=halves_spot(case),

@@ -58,9 +58,8 @@ def with_flow(case: Case, layers: Layers, heat: Conduction) -> MeltPool:
         backend, layers, carried, sides, lid,
         lambda T: wall_potential(curve, T), lambda T: wall_enthalpy(curve, T),
     )  # fmt: skip
-    flow = Flow(
-        backend, backend.asarray(carried.volume), liquid, lid, settings, layers.spacing
-    )  # fmt: skip
+    flow = Flow(body.particles, liquid, lid, settings, layers.spacing)
+    body.particles.set("volume", carried.volume)
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.begin(start)

@@ -43,7 +43,7 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
         lid.find_surface(solver.position)
         found = np.asarray(backend.look(backend.rows_where(lid.at_surface, 1.0)), np.int64)
         surface = found[np.argsort(position[0, found], kind="stable")]
-        temperature = backend.look(solver.state.temperature)[surface]
+        temperature = backend.look(solver.particles["temperature"])[surface]
         if solver.fluid_count > 0.0 and flow.current_block is not None:
             temperature = backend.look(lid.temperature)[surface]
         gradient = np.gradient(temperature, position[0, surface])

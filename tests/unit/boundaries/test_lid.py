@@ -18,9 +18,8 @@ def lid_box(rise, **settings):
     settings = {"flow": FREE, "material": SLOPE} | settings
     solver = box(**settings)
     x, _ = place_of(solver)
-    state, backend = solver.state, solver.backend
-    backend.copy(backend.asarray(np.asarray(rise(x), float)), state.enthalpy)  # c = 1 J/(kg K)
-    state.refresh(solver.body)
+    solver.particles.set("enthalpy", np.asarray(rise(x), float))  # c = 1 J/(kg K)
+    solver.body.update_temperature()
     block_of(solver)
     return solver, solver.domain.lid
 

@@ -46,13 +46,13 @@ def test_block_is_kept_and_grows():
     first = block_after(solver)
     assert block_after(solver) is first
     other = molten_to(30.0 * SPACING, *DEEP)
-    solver.backend.copy(other.state.enthalpy, solver.state.enthalpy)
-    solver.state.refresh(solver.body)
+    solver.backend.copy(other.particles["enthalpy"], solver.particles["enthalpy"])
+    solver.body.update_temperature()
     larger = block_after(solver)
     assert larger.rows > first.rows
     small = molten_to(2.0 * SPACING, *DEEP)
-    solver.backend.copy(small.state.enthalpy, solver.state.enthalpy)
-    solver.state.refresh(solver.body)
+    solver.backend.copy(small.particles["enthalpy"], solver.particles["enthalpy"])
+    solver.body.update_temperature()
     assert block_after(solver) is larger
 
 

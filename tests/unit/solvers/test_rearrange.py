@@ -105,7 +105,7 @@ def rearranged(solver, place, shift, *, v=None, h=None):
         start_from(solver, h)
     solver.adjust()
     assert block is solver.flow.block
-    return backend.to_host(solver.flow.velocity), backend.to_host(solver.state.enthalpy)
+    return backend.to_host(solver.flow.velocity), backend.to_host(solver.particles["enthalpy"])
 
 
 @pytest.mark.parametrize("share", [0.0, 0.2])
@@ -141,7 +141,7 @@ def test_energy_of_the_adjustment(periodic):
     shift = np.random.default_rng(6).uniform(-0.01, 0.01, place.shape)
     h = 10.0 * np.cos(7.0 * place[0]) * np.sin(5.0 * place[1])
     _, found = rearranged(solver, place, shift, h=h)
-    mass = solver.backend.to_host(solver.body.mass)
+    mass = solver.backend.to_host(solver.particles["mass"])
     assert np.abs(found - h).max() > 0.1
     assert mass @ found == pytest.approx(mass @ h, abs=1e-13 * (mass @ np.abs(h)))
     assert found.max() <= h.max() and found.min() >= h.min()
@@ -175,8 +175,8 @@ def test_plateau_keeps_its_enthalpies():
     for on_plateau, is_kept in ((hot, True), (np.zeros(count), False)):
         enthalpy = backend.asarray(h)
         rearrangement.adjust_enthalpy(
-            block, solver.roles, enthalpy, backend.asarray(0.5 * on_plateau), solver.body.mass,
-            solver.flow.correction,
+            block, solver.roles, enthalpy, backend.asarray(0.5 * on_plateau),
+            solver.particles["mass"], solver.flow.correction,
         )  # fmt: skip
         found = backend.to_host(enthalpy)
         assert not np.array_equal(found, h)
@@ -212,7 +212,7 @@ def test_without_shifting():
         np.clip(expected, [[-0.47], [-0.97]], [[0.47], [-0.03]])
     )
     assert np.array_equal(backend.to_host(solver.flow.velocity), v)
-    assert np.array_equal(backend.to_host(solver.state.enthalpy), h)
+    assert np.array_equal(backend.to_host(solver.particles["enthalpy"]), h)
 
 
 def test_rearrangement_needs_no_block_to_settle(backend):

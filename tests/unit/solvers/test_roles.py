@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from flow_boxes import pool
 
+from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.roles import (
     DUMMY,
     EDGE,
@@ -67,8 +68,9 @@ def test_patch():
 
 def test_box(backend):
     """In a box all flow, whatever the melt fraction says."""
-    roles = Roles(backend, 3, 0.1, is_box=True)
+    particles = Particles(backend, 3, 2, ("was_fluid",))
+    roles = Roles(particles, 0.1, is_box=True)
     assert roles.find_fluid(backend.asarray([0.0, 0.5, 1.0])) == 3.0
-    roles = Roles(backend, 3, 0.1, is_box=False)
+    roles = Roles(particles, 0.1, is_box=False)
     assert roles.find_fluid(backend.asarray([0.0, 0.5, 1.0])) == 1.0
     assert backend.to_host(roles.fluid).tolist() == [0.0, 0.0, 1.0]

@@ -113,7 +113,7 @@ def test_evaporate_removes_latent_heat_from_the_surface():
     solver.step(1e-14)
     flux = 0.82 * 101325.0 / np.sqrt(2 * np.pi * 308.17 * 2730.0)
     assert flux == pytest.approx(36.14, rel=1e-3)
-    evaporated = solver.body.backend.to_host(solver.state.evaporated)
+    evaporated = solver.body.backend.to_host(solver.particles["evaporated_mass"])
     assert evaporated == pytest.approx([flux * 1e-14, 0.0], rel=1e-3)
     energy = solver.state.energy
     assert energy["removed"] == pytest.approx(flux * 10.53e6 * 1e-14, rel=1e-3)
@@ -130,7 +130,7 @@ def test_published_iteration_gives_the_step_of_newton():
         set_enthalpy(solver, [top, top, top, melting, melting] + [0.0] * 7)
         for _ in range(3):
             solver.step(2e-11)
-        melt = solver.body.backend.to_host(solver.state.melt_fraction)
+        melt = solver.body.backend.to_host(solver.particles["melt_fraction"])
         assert ((melt > 0.0) & (melt < 1.0)).any()
         results.append(enthalpy_of(solver))
     assert results[1] == pytest.approx(results[0], rel=1e-4, abs=10.0)

@@ -39,7 +39,7 @@ def run(solver, end):
     while solver.state.time < end * (1.0 - 1e-12):
         solver.step(binding_limit(solver.time_step_limits())[1])
     body = solver.body
-    return body.backend.to_host(solver.state.temperature) - 300.0, body.filling.position[
+    return body.backend.to_host(solver.particles["temperature"]) - 300.0, body.filling.position[
         :, : body.count
     ]
 
@@ -95,12 +95,12 @@ def test_periodic_in_depth():
     """A wave of temperature decays as exp(-D k^2 t) across surface and bottom."""
     faces = {"surface": "periodic", "bottom": "periodic"}
     _, solver = solver_of(faces, end=0.02, cells=40, scheme="implicit")
-    backend, body = solver.body.backend, solver.body
+    body = solver.body
     z = body.filling.position[-1, : body.count]
     wave = np.sin(2.0 * np.pi * z + 0.3)
-    for array in (solver.state.enthalpy, solver.state.previous):
-        backend.copy(backend.asarray(wave), array)
-    solver.state.refresh(body)
+    for name in ("enthalpy", "enthalpy_before"):
+        solver.particles.set(name, wave)
+    solver.body.update_temperature()
     rise, _ = run(solver, 0.02)
     decay = np.exp(-((2.0 * np.pi) ** 2) * 0.02)
     assert rise == pytest.approx(decay * wave, abs=0.01 * decay)

@@ -19,8 +19,10 @@ from lasersph.particles import Lattice
 from lasersph.particles.filling import FREE, HELD, IMAGE, PERIODIC, Filling, fill
 from lasersph.particles.layers import Layers
 from lasersph.particles.neighbors import NeighborList, find_neighbors
+from lasersph.particles.particles import Particles
 from lasersph.particles.support import arithmetic, graded
 from lasersph.physics.heating import Irradiation
+from lasersph.physics.phase_change import state
 from lasersph.solvers.conduction.walls import walls_of
 from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.laplacian import layered_weight, weight
@@ -30,29 +32,34 @@ KINDS = {
     "adiabatic": IMAGE, "periodic": PERIODIC, "free": FREE,
     "fixed-temperature": HELD, "wall": HELD, "prescribed-flux": IMAGE,
 }  # fmt: skip
+FIELDS = (
+    "mass", "enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before",
+    "evaporated_mass",
+)  # fmt: skip
+DERIVED = ("temperature", "potential", "melt_fraction", "vapor_fraction")
 SUPPORT = {"quintic-spline": 3.75, "cubic-spline": 3.0, "wendland-c2": 3.0}
 
 
 @dataclass(frozen=True)
 class Body:
-    """All that stays the same during a run.
+    """The particles of a run, and all that stays the same.
 
     Attributes:
-        filling: host arrays of the particles. pairs: assembled weights g_ij [m^(d-2)].
-        mass: (n,) [kg per (3 - d) lengths]. wall_flow, wall_heat: (n,) sums over the pairs with
-            held faces of weight times P_w and times T_w. wall_power: (n,) power of prescribed
-            fluxes [W per (3 - d) lengths].
+        filling: host arrays of the lattice. particles: their fields, at rest at the initial
+            temperature, h = 0. pairs: assembled weights g_ij [m^(d-2)]. wall_flow, wall_heat:
+            (n,) sums over the pairs with held faces of weight times P_w and times T_w.
+            wall_power: (n,) power of prescribed fluxes [W per (3 - d) lengths].
         area: (n,) exposed cross-section of surface particles [m^(d-1)], 0 for all others.
         tables: nodes of the caloric curve as tables of the backend.
     """
 
     backend: Backend
     filling: Filling
+    particles: Particles
     material: Material
     curve: CaloricCurve
     irradiation: Irradiation
     pairs: PairOperator
-    mass: Any
     wall_flow: Any
     wall_heat: Any
     wall_power: Any
@@ -64,6 +71,12 @@ class Body:
     def count(self) -> int:
         """Number of particles."""
         return self.filling.count
+
+    def update_temperature(self) -> None:
+        """Set temperature, potential and fractions from the enthalpy."""
+        particles = self.particles
+        out = tuple(particles[name] for name in DERIVED)
+        self.backend.pointwise(state, {"h": particles["enthalpy"]}, out, **self.tables)
 
 
 def assemble(
@@ -97,14 +110,16 @@ def assemble(
     area = np.zeros(count)
     area[filling.surface] = np.prod(filling.width[:-1, filling.surface], axis=0)
     ambient = boundaries.ambient_temperature
-    return Body(
+    particles = Particles(backend, count, layers.dimension, (*FIELDS, *DERIVED))
+    particles.set("mass", material.density_reference * filling.volume[:count])
+    body = Body(
         backend=backend,
         filling=filling,
+        particles=particles,
         material=material,
         curve=curve,
         irradiation=Irradiation(backend, laser, material, filling),
         pairs=pairs,
-        mass=backend.asarray(material.density_reference * filling.volume[:count]),
         wall_flow=backend.asarray(walls.flow),
         wall_heat=backend.asarray(walls.heat),
         wall_power=backend.asarray(walls.power),
@@ -122,6 +137,8 @@ def assemble(
             "eps": boundaries.emissivity,
         },
     )
+    body.update_temperature()
+    return body
 
 
 @dataclass(frozen=True)

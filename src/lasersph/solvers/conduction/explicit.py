@@ -54,23 +54,23 @@ class ExplicitStep:
         slopes = (curve.potential[1:] - curve.potential[:-1]) / (
             curve.enthalpy[1:] - curve.enthalpy[:-1]
         )
-        fields = {"S": self.body.pairs.total, "a": self.body.pairs.pull, "m": self.body.mass}
-        (largest,) = self.body.backend.pointwise(
+        body = self.body
+        fields = {"S": body.pairs.total, "a": body.pairs.pull, "m": body.particles["mass"]}
+        (largest,) = body.backend.pointwise(
             relaxation_rate, fields, (None,), reduce=("max",), heaviest=float(slopes.max())
         )
         return 1.0 / largest
 
     def advance(self, state: HeatState, step: float, exchanged: float) -> dict[str, float]:
-        """Enthalpies after `step` [s] into `state.enthalpy`; returns the energies of the step."""
-        backend = self.body.backend
-        backend.copy(state.enthalpy, state.previous)
-        self._evaluate(state.enthalpy, step)
-        fields = {"h0": state.previous, "rate": self.rate, "m": self.body.mass}
+        """Enthalpies after `step` [s] into the particles; returns the energies of the step."""
+        backend, particles = self.body.backend, self.body.particles
+        h, h_0 = particles["enthalpy"], particles["enthalpy_before"]
+        backend.copy(h, h_0)
+        self._evaluate(h, step)
+        fields = {"h0": h_0, "rate": self.rate, "m": particles["mass"]}
         backend.pointwise(step_from, fields, (self.h, None), dt=0.5 * step)
         energy = self._evaluate(self.h, step)
-        (stored,) = backend.pointwise(
-            step_from, fields, (state.enthalpy, None), reduce=(None, "sum"), dt=step
-        )
+        (stored,) = backend.pointwise(step_from, fields, (h, None), reduce=(None, "sum"), dt=step)
         return energy | {"stored": stored}
 
     def _evaluate(self, enthalpy, step: float) -> dict[str, float]:
@@ -81,7 +81,7 @@ class ExplicitStep:
         lost, removed = self.exchange.evaluate(self.T)
         fields = {
             "T": self.T, "k": self.k, "E": body.irradiation.energy, "q": self.exchange.power,
-            "m": body.mass, "a": body.pairs.pull, "b": body.wall_heat,
+            "m": body.particles["mass"], "a": body.pairs.pull, "b": body.wall_heat,
             "w": body.wall_power, "g_ij": body.pairs.weights,
         }  # fmt: skip
         (walls,) = backend.pair_sum(

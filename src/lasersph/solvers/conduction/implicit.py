@@ -126,12 +126,13 @@ class ImplicitStep:
         )
         self.curve = {key: body.tables[key] for key in ("h_nodes", "P_nodes")}
         self.rounding = ROUNDING * float(np.finfo(backend.real).eps)
+        self.mass = body.particles["mass"]
         self.size = 0.0
         self.newton = self.linear = 0
         self.forcing = FIRST_FORCING
 
     def advance(self, state: HeatState, step: float, exchanged: float) -> dict[str, float]:
-        """Enthalpies after `step` [s] into `state.enthalpy`; returns the energies of the step.
+        """Enthalpies after `step` [s] into the particles; returns the energies of the step.
 
         Args:
             exchanged: energy that the tolerance refers to, beside that of this step [J].
@@ -143,7 +144,7 @@ class ImplicitStep:
         self.newton = self.linear = 0
         self.forcing = FIRST_FORCING
         self._foresee(state, step)
-        error, energy = self._residual(state, step)
+        error, energy = self._residual(step)
         allowed = self.tolerance * max(exchanged, energy["absorbed"] + abs(energy["lost"]), error)
         allowed = max(allowed, self.rounding * self.size)
         while error > allowed:
@@ -153,15 +154,15 @@ class ImplicitStep:
                     f"allowed are {allowed:.2e} J"
                 )
             wanted = max(self.forcing * error, 0.3 * allowed)
-            found, energy = self._improve(state, step, error, wanted)
+            found, energy = self._improve(step, error, wanted)
             self.forcing = min(max(found / error, FORCING[0]), FORCING[1])
             error = found
             self.newton += 1
-        fields = {
-            "h": self.h, "r": self.r, "m": self.body.mass, "h0": state.enthalpy,
-            "excess": state.excess, "previous": state.previous,
-        }  # fmt: skip
-        out = (state.enthalpy, state.excess, state.previous, state.older, None)
+        names = ("enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before")
+        h_0, excess, h_old, h_older = (self.body.particles[name] for name in names)
+        fields = {"h": self.h, "r": self.r, "m": self.mass, "h0": h_0}
+        fields |= {"excess": excess, "previous": h_old}
+        out = (h_0, excess, h_old, h_older, None)
         (stored,) = backend.pointwise(settle, fields, out, reduce=(None,) * 4 + ("sum",))
         return energy | {"stored": stored}
 
@@ -173,10 +174,9 @@ class ImplicitStep:
         if 0.0 < step <= SMOOTH_RATIO * last and last <= SMOOTH_RATIO * before:
             bend = step * (step + last) / (last + before)
             near, far = ratio + bend / last, -bend / before
-        fields = {
-            "h": state.enthalpy, "excess": state.excess, "h_old": state.previous,
-            "h_older": state.older,
-        }  # fmt: skip
+        fields = self.body.particles.by_symbol(
+            "enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before"
+        )
         self.body.backend.pointwise(
             foresee,
             fields,
@@ -188,13 +188,11 @@ class ImplicitStep:
         )
 
     def _improve(
-        self, state: HeatState, step: float, error: float, linear_residual: float
+        self, step: float, error: float, linear_residual: float
     ) -> tuple[float, dict[str, float]]:
         """One Newton step, halved until the residual falls; then whatever the last one gives."""
         body, backend = self.body, self.body.backend
-        fields = {
-            "h": self.h, "slope": self.slope, "m": body.mass, "dq": self.exchange.slope,
-        }  # fmt: skip
+        fields = {"h": self.h, "slope": self.slope, "m": self.mass, "dq": self.exchange.slope}
         (freest,) = backend.pointwise(
             linearize, fields, (self.C, self.mask), reduce=(None, "min"), s=step,
             h_nodes=body.tables["h_nodes"], T_nodes=body.tables["T_nodes"],
@@ -211,31 +209,30 @@ class ImplicitStep:
             out = (self.h, self.P, self.slope)
             backend.pointwise(move, fields, out, damping=damping, **self.curve)
             if plateau is not None:
-                self._balance(state, step, plateau)
-            found, energy = self._residual(state, step)
+                self._balance(step, plateau)
+            found, energy = self._residual(step)
             if found < error:
                 return found, energy
             damping *= 0.5
         return found, energy
 
-    def _fields(self, state: HeatState) -> dict[str, Any]:
+    def _fields(self) -> dict[str, Any]:
         body = self.body
-        return {
-            "h": self.h, "h0": state.enthalpy, "P": self.P, "E": body.irradiation.energy,
-            "q": self.exchange.power, "m": body.mass, "S": body.pairs.total,
-            "a": body.pairs.pull, "B": body.wall_flow, "g_ij": body.pairs.weights,
-        }  # fmt: skip
+        fields = {"h": self.h, "h0": body.particles["enthalpy"], "P": self.P, "m": self.mass}
+        fields |= {"E": body.irradiation.energy, "q": self.exchange.power, "B": body.wall_flow}
+        fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
+        return fields
 
-    def _balance(self, state: HeatState, step: float, rows: Any) -> None:
+    def _balance(self, step: float, rows: Any) -> None:
         """Balance the particles `rows` with their neighbors held."""
         backend = self.body.backend
         backend.pair_sum(
-            flow, self.body.pairs.neighbors, self._fields(state), (self.h, self.spare, self.slope),
+            flow, self.body.pairs.neighbors, self._fields(), (self.h, self.spare, self.slope),
             rows=rows, finish=balance, s=step, **self.curve,
         )  # fmt: skip
         backend.pointwise(same, {"new": self.spare}, self.P, rows=rows)
 
-    def _residual(self, state: HeatState, step: float) -> tuple[float, dict[str, float]]:
+    def _residual(self, step: float) -> tuple[float, dict[str, float]]:
         """Residual into `r`; returns the sum of |r| and the energies of the step [J]."""
         body, backend = self.body, self.body.backend
         if body.irradiation.incident > 0.0 or not self.exchange.is_idle:
@@ -246,7 +243,7 @@ class ImplicitStep:
         absorbed = body.irradiation.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
         error, walls, self.size = backend.pair_sum(
-            flow, body.pairs.neighbors, self._fields(state), (self.r, None, None, None),
+            flow, body.pairs.neighbors, self._fields(), (self.r, None, None, None),
             finish=residual, reduce=(None, "sum", "sum", "sum"), s=step,
         )  # fmt: skip
         return error, {

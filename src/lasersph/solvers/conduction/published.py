@@ -46,12 +46,12 @@ class PublishedStep(ImplicitStep):
 
     max_iterations = MAX_ITERATIONS
 
-    def _improve(self, state, step, error, linear_residual):
+    def _improve(self, step, error, linear_residual):
         body, backend = self.body, self.body.backend
         curve = body.curve
         slope = float(np.max(np.diff(curve.potential) / np.diff(curve.enthalpy)))
         fields = {
-            "r": self.r, "z": self.spare, "m": body.mass, "S": body.pairs.total,
+            "r": self.r, "z": self.spare, "m": self.mass, "S": body.pairs.total,
             "a": body.pairs.pull, "p": self.spare, "g_ij": body.pairs.weights, "h": self.h,
         }  # fmt: skip
         (rz,) = backend.pointwise(
@@ -63,4 +63,4 @@ class PublishedStep(ImplicitStep):
         )  # fmt: skip
         backend.pointwise(take, fields, (self.h, self.P), alpha=rz / zAz, **self.curve)
         self.linear += 1
-        return self._residual(state, step)
+        return self._residual(step)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,13 +14,11 @@ from lasersph.solvers.conduction.explicit import ExplicitStep
 from lasersph.solvers.conduction.implicit import ImplicitStep
 from lasersph.solvers.conduction.published import PublishedStep
 from lasersph.solvers.conduction.settings import ConductionSettings
-from lasersph.solvers.conduction.state import ENERGIES, HeatState
+from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
 from lasersph.solvers.step_control import common_limits, name_of_longest, retry_step
 from lasersph.solvers.time_settings import TimeSettings
 
-ARRAYS = ("enthalpy", "temperature", "potential", "melt_fraction", "vapor_fraction", "excess",
-          "previous", "older", "evaporated")  # fmt: skip
 EXPECTED_SHARE = 1e-3
 
 
@@ -33,7 +32,7 @@ def clipped(h, m, h_limit):
     return min(h, h_limit), m * max(h - h_limit, 0.0)
 
 
-def thinned(evaporated, mass_flux, step):
+def accumulate_evaporated_mass(evaporated, mass_flux, step):
     """Mass per area that has evaporated [kg/m^2]."""
     return evaporated + step * mass_flux
 
@@ -42,7 +41,7 @@ class Conduction:
     """Solver of a run that computes heat, melting and the vaporization plateau.
 
     Attributes:
-        fields: arrays of the particles by name. state: all that survives a step.
+        particles: their fields. state: numbers that survive a step.
     """
 
     def __init__(
@@ -53,7 +52,7 @@ class Conduction:
         laser: Laser | None,
     ) -> None:
         self.body, self.settings, self.time_settings, self.laser = body, settings, time, laser
-        self.state = HeatState.at_rest(body.backend, body)
+        self.particles, self.state = body.particles, HeatState()
         self.exchange = SurfaceExchange(body, evaporates=settings.plateau == "evaporate")
         backend: Backend = body.backend
         self._before = backend.zeros(body.count)
@@ -72,8 +71,8 @@ class Conduction:
 
     @property
     def fields(self) -> dict[str, Any]:
-        """Arrays of the particles by name."""
-        return {name: getattr(self.state, name) for name in ARRAYS}
+        """Arrays of a checkpoint by name."""
+        return self.particles.kept
 
     @property
     def iterations(self) -> dict[str, int]:
@@ -97,29 +96,13 @@ class Conduction:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        state = self.state
-        numbers = {f"energy.{name}": state.energy[name] for name in ENERGIES}
-        return numbers | {
-            "time": state.time, "time_step": state.time_step,
-            "time_step_before": state.time_step_before, "fastest": state.fastest,
-            "lit_until": state.lit_until, "unclipped_step": state.unclipped_step,
-        }  # fmt: skip
+        return self.state.numbers()
 
-    def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
+    def restore(self, arrays: Mapping[str, np.ndarray], numbers: Mapping[str, float]) -> None:
         """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
-        backend = self.body.backend
-        for name in ARRAYS:
-            backend.copy(backend.asarray(arrays[name]), getattr(self.state, name))
-        self.restore_numbers(numbers)
-
-    def restore_numbers(self, numbers: dict[str, float]) -> None:
-        """Set the numbers of `checkpoint_scalars`."""
-        state = self.state
-        state.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
-        state.time, state.time_step = numbers["time"], numbers["time_step"]
-        state.time_step_before = numbers["time_step_before"]
-        state.fastest, state.lit_until = numbers["fastest"], numbers["lit_until"]
-        state.unclipped_step = numbers["unclipped_step"]
+        self.particles.restore(arrays)
+        self.body.update_temperature()
+        self.state.restore(numbers)
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]."""
@@ -171,18 +154,19 @@ class Conduction:
         Raises:
             NotConverged: the step is too large; the state is as before.
         """
-        state, body = self.state, self.body
-        backend = body.backend
-        backend.copy(state.temperature, self._before)
+        state, body, particles = self.state, self.body, self.particles
+        backend, temperature = body.backend, particles["temperature"]
+        backend.copy(temperature, self._before)
         body.irradiation.shine(state.time, state.time + step)
         energy = self.scheme.advance(state, step, self._exchanged())
         discarded = self._discard()
-        state.refresh(body)
+        body.update_temperature()
         if self.settings.plateau == "evaporate":
-            fields = {"evaporated": state.evaporated, "mass_flux": self.exchange.mass_flux}
-            backend.pointwise(thinned, fields, state.evaporated, step=step)
+            mass = particles["evaporated_mass"]
+            fields = {"evaporated": mass, "mass_flux": self.exchange.mass_flux}
+            backend.pointwise(accumulate_evaporated_mass, fields, mass, step=step)
         self._account(energy, discarded)
-        fields = {"T": state.temperature, "T_old": self._before}
+        fields = {"T": temperature, "T_old": self._before}
         (state.fastest,) = backend.pointwise(change, fields, (None,), reduce=("max",))
         if self.laser is not None and self.laser.pulse.active(state.time, state.time + step):
             state.lit_until = state.time + step
@@ -200,9 +184,9 @@ class Conduction:
         limit = self.body.curve.enthalpy_vaporized
         if self.settings.plateau != "clip" or limit is None:
             return 0.0
-        fields = {"h": self.state.enthalpy, "m": self.body.mass}
+        fields = self.particles.by_symbol("enthalpy", "mass")
         (cut,) = self.body.backend.pointwise(
-            clipped, fields, (self.state.enthalpy, None), reduce=(None, "sum"), h_limit=limit
+            clipped, fields, (fields["h"], None), reduce=(None, "sum"), h_limit=limit
         )
         return cut
 

@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 
 from lasersph.boundaries.lid import FlatLid
-from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
+from lasersph.particles.particles import Particles
 from lasersph.physics.buoyancy import buoyancy
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
@@ -139,23 +139,25 @@ class Flow:
 
     def __init__(
         self,
-        backend: Backend,
-        volume: Any,
+        particles: Particles,
         liquid: Liquid,
         lid: FlatLid | None,
         settings: MeltPoolSettings,
         spacing: float,
     ) -> None:
-        count = volume.shape[0]
-        self.spacing = spacing
+        backend, count = particles.backend, particles.count
+        particles.add("volume", "velocity", "pressure")
+        self.spacing, self.particles = spacing, particles
         self.backend, self.liquid, self.lid, self.settings = backend, liquid, lid, settings
-        self.velocity, self.before = backend.zeros((2, count)), backend.zeros((2, count))
-        self.pressure, self.body_force = backend.zeros(count), backend.zeros((2, count))
+        self.velocity, self.pressure = particles["velocity"], particles["pressure"]
+        self.before, self.body_force = backend.zeros((2, count)), backend.zeros((2, count))
         self._nothing = backend.zeros(count)
         self.fastest = self.push = 0.0
         self.iterations = {"pressure": 0, "viscosity": 0}
         self.divergence = (0.0, 0.0)
-        self.viscous = ViscousStep(backend, volume, liquid.viscosity, settings.viscosity)
+        self.viscous = ViscousStep(
+            backend, particles["volume"], liquid.viscosity, settings.viscosity
+        )
         self._block: Block | None = None
 
     def begin(self, velocity: np.ndarray) -> None:
@@ -288,9 +290,9 @@ class Flow:
         )
         self.divergence = ((square / max(count, 1.0)) ** 0.5, largest)
 
-    def kinetic_energy(self, volume: Any) -> float:
-        """Of all that flows [J per meter]; volume (n,) [m^2]."""
-        fields = {"v": self.velocity, "V": volume}
+    def kinetic_energy(self) -> float:
+        """Of all that flows [J per meter]."""
+        fields = self.particles.by_symbol("velocity", "volume")
         (energy,) = self.backend.pointwise(
             kinetic, fields, (None,), reduce=("sum",), density=self.liquid.density
         )

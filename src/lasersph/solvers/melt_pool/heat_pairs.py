@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from lasersph.compute.backend import Backend
 from lasersph.compute.splice import PairRows, splice
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.melt_pool.block import Block, inner_weight, wall_terms, weight_of
@@ -22,15 +21,11 @@ def marked(touched):
 
 
 class HeatPairs:
-    """The pair operator of a body, which follows the particles.
+    """The pair operator of a body, which follows the particles."""
 
-    Attributes:
-        touched: (n,) 1 where the row of a particle was ever renewed, else 0.
-    """
-
-    def __init__(self, backend: Backend, body: Body) -> None:
-        self.backend, self.body = backend, body
-        self.touched = backend.zeros(body.count)
+    def __init__(self, body: Body) -> None:
+        self.backend, self.body = body.backend, body
+        self._renewed = body.particles["has_moving_pairs"]
 
     def renew(self, block: Block) -> None:
         """Take the rows that the block has found, with the weights of its present positions.
@@ -47,7 +42,7 @@ class HeatPairs:
             weights = backend.zeros(block.weights.shape[0])
             backend.pair_values(inner_weight, block.pairs, fields, weights)
         backend.pair_sum(weight_of, block.pairs, {"g_ij": weights}, pairs.total, rows=rows)
-        backend.pointwise(marked, {"touched": self.touched}, self.touched, rows=rows)
+        backend.pointwise(marked, {"touched": self._renewed}, self._renewed, rows=rows)
         chosen, ones = backend.zeros(body.count, "flag"), backend.zeros(rows.shape[0], "flag")
         backend.fill(ones, 1)
         backend.scatter(ones, rows, chosen)

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lasersph.compute.backend import Backend
+from lasersph.particles.particles import Particles
 
 REST, FLUID, EDGE, DUMMY = 0, 1, 2, 3
 MOLTEN = 1.0 - 1e-9
@@ -57,10 +57,11 @@ class Roles:
         fluid_rows, unknown_rows, dummy_rows, active_rows: index arrays; active are all three.
     """
 
-    def __init__(self, backend: Backend, count: int, spacing: float, *, is_box: bool) -> None:
+    def __init__(self, particles: Particles, spacing: float, *, is_box: bool) -> None:
+        backend, count = particles.backend, particles.count
         self.backend, self.reach, self.is_box = backend, EDGE_REACH * spacing, float(is_box)
         self.fluid, self.unknown, self.dummy = (backend.zeros(count) for _ in range(3))
-        self.before, self.active = backend.zeros(count), backend.zeros(count)
+        self.before, self.active = particles["was_fluid"], backend.zeros(count)
         self.role = backend.zeros(count, "flag")
 
     def find_fluid(self, melt_fraction: Any) -> float:

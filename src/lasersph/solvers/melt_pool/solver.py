@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.physics.flow_limits import flow_limits
-from lasersph.solvers.conduction.solver import ARRAYS, Conduction
+from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.flow import Flow, advected, updated
@@ -26,7 +26,6 @@ from lasersph.solvers.step_control import NotConverged, retry_step
 SHORTEST = 1e-9
 """Time in which the fastest particle crosses its support, over the time to compute: in a flow that
 takes less its speeds have grown without bound."""
-FLOW_ARRAYS = ("position", "velocity", "pressure", "flowed", "touched")
 
 
 def either(a, b):
@@ -49,19 +48,20 @@ class MeltPool:
         backend, count = heat.body.backend, heat.body.count
         self.heat, self.flow, self.domain, self.settings = heat, flow, domain, settings
         self.body, self.backend = heat.body, backend
-        self.position = backend.asarray(heat.body.filling.position[:, :count])
+        self.particles = heat.particles
+        self.particles.add("position", "was_fluid", "has_moving_pairs")
+        self.position = self.particles["position"]
+        self.particles.set("position", heat.body.filling.position[:, :count])
         self._advected = backend.zeros((2, count))
-        self._volume = backend.asarray(heat.body.filling.volume[:count])
-        self.roles = Roles(backend, count, domain.spacing, is_box=domain.is_box)
+        self.roles = Roles(self.particles, domain.spacing, is_box=domain.is_box)
         self.rearrangement = Rearrangement(
             backend, count, settings.shifting, domain.spacing, domain.box, domain.periods
         )
-        self.pairs = HeatPairs(backend, heat.body)
+        self.pairs = HeatPairs(heat.body)
         self.steadiness = Steadiness(heat.time_settings.steady, domain.width)
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
-        self._kept: dict[str, Any] = {}
 
     @property
     def state(self) -> Any:
@@ -75,10 +75,8 @@ class MeltPool:
 
     @property
     def fields(self) -> dict[str, Any]:
-        """Arrays of the particles by name."""
-        own = (self.position, self.flow.velocity, self.flow.pressure, self.roles.before,
-               self.pairs.touched)  # fmt: skip
-        return self.heat.fields | dict(zip(FLOW_ARRAYS, own, strict=True))
+        """Arrays of a checkpoint by name."""
+        return self.particles.kept
 
     @property
     def iterations(self) -> dict[str, int]:
@@ -105,13 +103,13 @@ class MeltPool:
     def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
         """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
         backend = self.backend
-        self.heat.restore({name: arrays[name] for name in ARRAYS}, numbers)
-        for name in FLOW_ARRAYS:
-            backend.copy(backend.asarray(arrays[name]), self.fields[name])
+        self.heat.restore(arrays, numbers)
         self._restore_numbers(numbers)
-        if backend.rows_where(self.pairs.touched, 1.0).shape[0]:
+        if backend.rows_where(self.particles["has_moving_pairs"], 1.0).shape[0]:
             block = self.domain.block_for(self.position, self.roles)
-            block.find_pairs(self.position, backend.head(self.pairs.touched, block.count))
+            block.find_pairs(
+                self.position, backend.head(self.particles["has_moving_pairs"], block.count)
+            )
             self.pairs.renew(block)
 
     def time_step_limits(self) -> dict[str, float]:
@@ -158,7 +156,7 @@ class MeltPool:
         self._has_moved = True
         self.flow.stop(self.roles)  # what has frozen since the last step
         self.advect(step)
-        self.flow.predict(self.state.temperature, self.roles, step)
+        self.flow.predict(self.particles["temperature"], self.roles, step)
         self.flow.project(self.roles, step)
         self.flow.correct(self.roles, step)
         self.update_positions(step)
@@ -182,7 +180,7 @@ class MeltPool:
         if domain.lid is not None:
             domain.lid.find_surface(self._advected)
             domain.lid.drive(
-                self.state.temperature, self._advected, block.pairs, block.V, block.gather,
+                self.particles["temperature"], self._advected, block.pairs, block.V, block.gather,
                 self.roles.active,
             )  # fmt: skip
         flow.correct_kernel(self.roles.active_rows)
@@ -200,7 +198,9 @@ class MeltPool:
         """Light of the step on the particles where they are now."""
         irradiation, state = self.body.irradiation, self.state
         irradiation.shine(state.time, state.time + step)
-        irradiation.follow(self.position, self.pairs.touched, state.temperature)
+        irradiation.follow(
+            self.position, self.particles["has_moving_pairs"], self.particles["temperature"]
+        )
 
     def shift(self, step: float) -> None:
         """Displacements that keep the particles evenly spread (73)."""
@@ -211,18 +211,19 @@ class MeltPool:
 
     def adjust(self) -> None:
         """Velocity and enthalpy at the shifted positions (74), (75)."""
-        flow, state, block = self.flow, self.state, self.flow.block
+        flow, particles, block = self.flow, self.particles, self.flow.block
         C = flow.correction
         self.rearrangement.adjust_velocity(block, self.roles, flow.velocity, flow.reach(), C)
         self.rearrangement.adjust_enthalpy(
-            block, self.roles, state.enthalpy, state.vapor_fraction, self.body.mass, C
-        )
+            block, self.roles, particles["enthalpy"], particles["vapor_fraction"],
+            particles["mass"], C,
+        )  # fmt: skip
         self.rearrangement.settle(self.position, self.roles)
-        state.refresh(self.body)
+        self.body.update_temperature()
 
     def _melt(self) -> bool:
         """Whether anything flows."""
-        self.fluid_count = self.roles.find_fluid(self.state.melt_fraction)
+        self.fluid_count = self.roles.find_fluid(self.particles["melt_fraction"])
         if self.fluid_count == 0.0:
             self.flow.rest()
         return self.fluid_count > 0.0
@@ -249,23 +250,19 @@ class MeltPool:
         flow, block = self.flow, self.flow.block
         flow.measure_divergence(self.roles, self.fluid_count)
         self.spacing_min = block.smallest_distance(self.position, self.roles.fluid_rows)
-        energy = flow.kinetic_energy(self._volume)
+        energy = flow.kinetic_energy()
         self.steadiness.look(self.state.time, flow.fastest, energy)
 
     def _keep(self) -> None:
         """Remember the state, for a step that fails."""
-        for name, field in self.fields.items():
-            if name not in self._kept:
-                self._kept[name] = self.backend.zeros(field.shape)
-            self.backend.copy(field, self._kept[name])
+        self.particles.save()
         self._numbers = self.checkpoint_scalars()
 
     def _return(self) -> None:
         """Go back to the state that was kept."""
-        for name, field in self.fields.items():
-            self.backend.copy(self._kept[name], field)
-        self.heat.restore_numbers(self._numbers)
-        self.state.refresh(self.body)
+        self.particles.go_back()
+        self.body.update_temperature()
+        self.state.restore(self._numbers)
         self._restore_numbers(self._numbers)
 
     def _restore_numbers(self, numbers: dict[str, float]) -> None:
@@ -276,4 +273,4 @@ class MeltPool:
         self._has_moved = bool(numbers["has_moved"])
         self.spacing_min = numbers["spacing_min"]
         self.steadiness.restore(numbers)
-        self.fluid_count = self.roles.find_fluid(self.state.melt_fraction)
+        self.fluid_count = self.roles.find_fluid(self.particles["melt_fraction"])
