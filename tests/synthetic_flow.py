@@ -67,14 +67,14 @@ def pool_flow(view: View, *, inner=None) -> View:
         surface_temperature=view.temperature[surface] + 5.0,
         surface_gradient=np.gradient(view.temperature[surface], x[surface]),
         surface_velocity=at_surface,
-        lid_pressure=-1e5 * np.cos(2 * np.pi * x[surface] / PERIOD) * flows[surface],
+        surface_pressure=-1e5 * np.cos(2 * np.pi * x[surface] / PERIOD) * flows[surface],
         divergence_rms=1e6 if np.any(flows) else 0.0,
         divergence_max=4e6 if np.any(flows) else 0.0,
         spacing_min=45 * NM,
         density=DENSITY,
         viscosity=VISCOSITY,
         surface_tension_slope=SLOPE,
-        saturation_pressure=5e4 * np.exp((view.temperature[surface] - 3273.0) / 300.0),
+        recoil_pressure=5e4 * np.exp((view.temperature[surface] - 3273.0) / 300.0),
     )
     counts = {**view.iterations, "pressure": 25, "viscosity": 8}
     return replace(view, flow=flow, iterations=counts if view.step else {})
@@ -113,7 +113,7 @@ def box_view(time=0.0, step=0, *, count=40, size=1e-3, speed=1.0, wall=(310.0, 2
         surface_temperature=np.zeros(0),
         surface_gradient=np.zeros(0),
         surface_velocity=np.zeros(0),
-        lid_pressure=np.zeros(0),
+        surface_pressure=np.zeros(0),
         divergence_rms=1.0,
         divergence_max=3.0,
         spacing_min=spacing,
@@ -121,8 +121,8 @@ def box_view(time=0.0, step=0, *, count=40, size=1e-3, speed=1.0, wall=(310.0, 2
         viscosity=1e-2,
         box=True,
         conductivity=2.0,
-        held={"left": wall[0], "right": wall[1]},
-        crossed=("left", "right"),
+        wall_temperature={"left": wall[0], "right": wall[1]},
+        conducting_sides=("left", "right"),
     )
     return View(
         time=time,

@@ -7,17 +7,17 @@ from lasersph.observers.ejecta import Ejecta
 from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_view import FlowView
 from lasersph.observers.melt_pool import MeltPool
-from lasersph.observers.probes import Probe, Probes
-from lasersph.observers.snapshots import SnapshotPlan, SnapshotSchedule, snapshot_fields
-from lasersph.observers.steps import Steps
-from lasersph.observers.surface_temperature import SurfaceTemperature
-from lasersph.observers.together import (
+from lasersph.observers.observer_list import (
     Observer,
     Observers,
     ablation_observers,
     flow_observers,
     heat_observers,
 )
+from lasersph.observers.probes import Probe, Probes
+from lasersph.observers.snapshots import SnapshotPlan, SnapshotSchedule, snapshot_fields
+from lasersph.observers.steps import Steps
+from lasersph.observers.surface_temperature import SurfaceTemperature
 from lasersph.observers.traces import Trace, Traces
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import ENERGY_UNITS, View

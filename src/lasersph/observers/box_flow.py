@@ -160,7 +160,12 @@ def heat_of(view: View, box: Box) -> dict[str, Any]:
         return {}
     wall = {
         side: wall_temperature(
-            view.position, view.temperature, box, side, count=NODES, held=flow.held.get(side)
+            view.position,
+            view.temperature,
+            box,
+            side,
+            count=NODES,
+            held=flow.wall_temperature.get(side),
         )
         for side in SIDES
     }
@@ -171,7 +176,7 @@ def heat_of(view: View, box: Box) -> dict[str, Any]:
         heat[f"flux_{side}_W_m2"] = -flow.conductivity * slope
     held, crossed = (
         [pair for pair in pairs if all(side in sides for side in pair)]
-        for sides in (flow.held, flow.crossed)
+        for sides in (flow.wall_temperature, flow.conducting_sides)
     )
     differences = {pair: abs(wall[pair[0]][0] - wall[pair[1]][0]) for pair in held or crossed}
     if not differences:

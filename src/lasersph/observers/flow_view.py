@@ -15,30 +15,30 @@ import numpy as np
 
 @dataclass(frozen=True)
 class FlowView:
-    """Flow of a run after a step; n particles, s of them at the lid.
+    """Flow of a run after a step; n particles, s of them at the flat surface.
 
     Attributes:
         velocity: (dim, n) [m/s], 0 where nothing flows.
         pressure: (n,) dynamic pressure [Pa], 0 where nothing flows.
         flows: (n,) whether a particle flows (f_m = 1).
-        surface: (s,) indices of the particles at the lid in order of x, flowing or not; empty
+        surface: (s,) indices of the particles at the surface in order of x, flowing or not; empty
             where a box has no free surface.
         surface_temperature: (s,) temperature of the surface above them [K].
         surface_gradient: (s,) its derivative dT/dx [K/m].
         surface_velocity: (s,) horizontal velocity extrapolated to the surface [m/s].
-        lid_pressure: (s,) dynamic pressure at the surface [Pa].
+        surface_pressure: (s,) dynamic pressure at the surface [Pa].
         divergence_rms, divergence_max: of the velocity of flowing particles after the projection
             [1/s].
         spacing_min: smallest distance of two particles [m].
         density, viscosity: of the liquid at the liquidus [kg/m^3], [Pa s].
         surface_tension_slope: d gamma/dT [N/(m K)], 0 where there is none.
-        saturation_pressure: (s,) recoil pressure 0.54 p_sat(T) of a free surface [Pa]; None where
+        recoil_pressure: (s,) recoil pressure 0.54 p_sat(T) of a free surface [Pa]; None where
             the material has no data of its vapor.
         box: whether this is a closed box that is all fluid, from a `[flow]` table.
         conductivity: of the liquid [W/(m K)]; boxes report heat fluxes with it.
-        held: temperature of each side of a box that has a given one [K], by the name of the side:
+        wall_temperature: of each side of a box with a given one [K], by the name of the side:
             left, right, bottom, surface.
-        crossed: names of the sides of a box that heat crosses, held or with a given flux.
+        conducting_sides: names of the sides of a box that heat crosses, held or with a given flux.
         is_shortened: whether the step was cut to end at a given time.
     """
 
@@ -49,16 +49,16 @@ class FlowView:
     surface_temperature: np.ndarray
     surface_gradient: np.ndarray
     surface_velocity: np.ndarray
-    lid_pressure: np.ndarray
+    surface_pressure: np.ndarray
     divergence_rms: float
     divergence_max: float
     spacing_min: float
     density: float
     viscosity: float
     surface_tension_slope: float = 0.0
-    saturation_pressure: np.ndarray | None = None
+    recoil_pressure: np.ndarray | None = None
     box: bool = False
     conductivity: float = 0.0
-    held: Mapping[str, float] = field(default_factory=dict)
-    crossed: tuple[str, ...] = ()
+    wall_temperature: Mapping[str, float] = field(default_factory=dict)
+    conducting_sides: tuple[str, ...] = ()
     is_shortened: bool = False

@@ -104,9 +104,15 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
         fields["velocity"] = flow.velocity
         fields["speed"] = np.sqrt(np.sum(flow.velocity * flow.velocity, axis=0))
         fields["pressure"] = flow.pressure
-        for name in ("surface_temperature", "surface_gradient", "surface_velocity", "lid_pressure"):
+        at_surface = {
+            "surface_temperature": flow.surface_temperature,
+            "surface_gradient": flow.surface_gradient,
+            "surface_velocity": flow.surface_velocity,
+            "lid_pressure": flow.surface_pressure,
+        }
+        for name, values in at_surface.items():
             fields[name] = np.zeros(count)
-            fields[name][flow.surface] = getattr(flow, name)
+            fields[name][flow.surface] = values
         marks["flows"] = flow.flows.astype(np.uint8)
     if view.ablation is not None:
         seen = view.ablation

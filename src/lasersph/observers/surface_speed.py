@@ -50,9 +50,9 @@ class SurfaceSpeed:
         """Speeds [m/s], place and thickness [m], mean gradient [K/m]; 0 where nothing flows."""
         flow = flow_of(view)
         row = dict.fromkeys(self.columns, 0.0)
-        at_lid = flow.flows[flow.surface]
-        if np.any(at_lid):
-            speed = np.where(at_lid, np.abs(flow.surface_velocity), 0.0)
+        is_wet = flow.flows[flow.surface]
+        if np.any(is_wet):
+            speed = np.where(is_wet, np.abs(flow.surface_velocity), 0.0)
             row["flow_surface_speed_max_m_s"] = float(np.max(speed))
             u = np.abs(flow.velocity[0, flow.surface])
             row["flow_row_speed_max_m_s"] = float(np.max(u))

@@ -1,4 +1,4 @@
-"""Figures of a flow over time, from history.csv: speeds, extrema, lid pressure, soundness."""
+"""Figures of a flow over time, from history.csv: speeds, extrema, surface pressure, soundness."""
 
 from __future__ import annotations
 
@@ -95,16 +95,16 @@ def layer_history(run: Run) -> Figure | None:
     return figure
 
 
-def lid_history(run: Run) -> Figure | None:
-    """Largest and smallest pressure of the flat lid beside the recoil pressure."""
+def surface_pressure_history(run: Run) -> Figure | None:
+    """Largest and smallest pressure of the flat surface beside the recoil pressure."""
     history = run.history
     if not np.any(history.get("lid_pressure_max_Pa", np.zeros(1)) != 0.0):
         return None
     figure, (axes,) = style.new_figure(height=3.4)
     time, name = time_axis(history)
     lines = {
-        "lid_pressure_max_Pa": "lid pressure, largest",
-        "lid_pressure_min_Pa": "lid pressure, smallest",
+        "lid_pressure_max_Pa": "flat surface, largest",
+        "lid_pressure_min_Pa": "flat surface, smallest",
         "lid_recoil_max_Pa": "0.54 $p_{sat}(T)$, largest",
     }
     largest = max(float(np.max(np.abs(history[column]))) for column in lines)

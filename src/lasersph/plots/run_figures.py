@@ -141,10 +141,10 @@ DRAWINGS = (
         flow_history.layer_history,
     ),
     Drawing(
-        "lid-pressure",
+        "surface-pressure",
         "Pressure with which the flat surface holds the liquid, whose mean over the liquid is"
         " zero, beside the recoil pressure that a free surface would feel.",
-        flow_history.lid_history,
+        flow_history.surface_pressure_history,
     ),
     Drawing(
         "box-flow",

@@ -26,7 +26,7 @@ from lasersph.report.page import (
     paragraph,
     table,
 )
-from lasersph.report.words import notes_of, verdict, warnings_of
+from lasersph.report.summary_text import notes_of, verdict, warnings_of
 
 ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
 SET = "# --set "

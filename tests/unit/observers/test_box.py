@@ -82,7 +82,9 @@ def test_nusselt_number_only_where_heat_crosses():
         ((), set()),
     ):
         observer = BoxFlow()
-        observer.observe(replace(view, flow=replace(view.flow, held={}, crossed=crossed)))
+        observer.observe(
+            replace(view, flow=replace(view.flow, wall_temperature={}, conducting_sides=crossed))
+        )
         heat = observer.summary()["box"]["heat"]
         assert {key for key in heat if key.startswith("nusselt")} == names
         assert ("between" in heat) == bool(names)

@@ -13,9 +13,9 @@ from synthetic_run import NM, NS, PERIOD
 from lasersph.observers import View, flow_observers, snapshot_fields
 from lasersph.observers.flow_extrema import FlowExtrema, surface_extrema
 from lasersph.observers.flow_speed import FlowSpeed
-from lasersph.observers.lid_pressure import LidPressure
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.snapshots import UNITS
+from lasersph.observers.surface_pressure import SurfacePressure
 from lasersph.observers.surface_speed import SurfaceSpeed, zero_of
 
 
@@ -218,22 +218,22 @@ def test_inner_extremum_that_remains_alone():
 
 def test_lid_pressure_beside_the_recoil_pressure(view):
     """The largest lid pressure lies at the edge, the recoil pressure where the surface is hot."""
-    observer = LidPressure()
+    observer = SurfacePressure()
     row = observer.observe(view)
     x = 0.5 * PERIOD - 2.5 * NM
     assert row["lid_pressure_max_Pa"] == pytest.approx(1e5, rel=1e-4)
     assert row["lid_pressure_min_Pa"] == pytest.approx(-1e5, rel=1e-4)
     lid = observer.summary()["lid"]
     assert lid["pressure_max_x_m"] == pytest.approx(x)
-    assert lid["recoil_at_pressure_max_Pa"] == pytest.approx(view.flow.saturation_pressure[-1])
-    assert lid["recoil_max_Pa"] == pytest.approx(view.flow.saturation_pressure[0])
+    assert lid["recoil_at_pressure_max_Pa"] == pytest.approx(view.flow.recoil_pressure[-1])
+    assert lid["recoil_max_Pa"] == pytest.approx(view.flow.recoil_pressure[0])
 
 
 def test_lid_pressure_of_a_shortened_step_is_passed_over(view):
     """It keeps the values of the step before."""
-    observer = LidPressure()
+    observer = SurfacePressure()
     before = observer.observe(view)
-    flow = replace(view.flow, lid_pressure=3.0 * view.flow.lid_pressure, is_shortened=True)
+    flow = replace(view.flow, surface_pressure=3.0 * view.flow.surface_pressure, is_shortened=True)
     assert observer.observe(replace(view, flow=flow)) == before
     assert observer.summary()["lid"]["pressure_max_Pa"] == before["lid_pressure_max_Pa"]
 

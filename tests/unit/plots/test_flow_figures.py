@@ -56,7 +56,7 @@ def test_every_axis_names_its_unit(pool, box):
         flow_history.speed_history(pool),
         flow_history.extrema_history(pool),
         flow_history.layer_history(pool),
-        flow_history.lid_history(pool),
+        flow_history.surface_pressure_history(pool),
         flow_history.soundness_history(pool),
         surface_speeds([pool], ["a"]),
         box_flow_map(box),
@@ -75,7 +75,7 @@ def test_every_axis_names_its_unit(pool, box):
 def test_figures_of_a_pool(pool, unsaved):
     """Figures of flow among those of heat, in reading order."""
     names = [path.stem for path in draw_run(pool.path)]
-    flow = ["flow", "flow-speed", "flow-extrema", "surface-flow", "flow-layer", "lid-pressure"]
+    flow = ["flow", "flow-speed", "flow-extrema", "surface-flow", "flow-layer", "surface-pressure"]
     assert [name for name in names if name in flow] == flow
     assert names.index("flow") > names.index("particles")
     assert "box-flow" not in names
@@ -92,7 +92,7 @@ def test_nothing_to_draw_without_flow(still):
     """Runs with heat alone have none of these figures."""
     draw = (pool_flow_map, box_flow_map, surface_flow_profiles, center_line_figure, heat_history)
     assert not any(one(still) for one in draw)
-    names = ("speed_history", "extrema_history", "layer_history", "lid_history")
+    names = ("speed_history", "extrema_history", "layer_history", "surface_pressure_history")
     assert not any(getattr(flow_history, name)(still) for name in names)
 
 

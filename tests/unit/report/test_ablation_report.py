@@ -8,8 +8,8 @@ import synthetic_ablation
 from lasersph.case import load_case
 from lasersph.observers import Trace, ablation_observers
 from lasersph.plots import animation, style
-from lasersph.report import ablation_tables, ablation_words, tables, write_report
-from lasersph.report.words import notes_of, verdict
+from lasersph.report import ablation_tables, ablation_text, tables, write_report
+from lasersph.report.summary_text import notes_of, verdict
 from lasersph.simulation.ablation_estimates import ablation_estimates
 
 
@@ -36,7 +36,7 @@ def test_words_and_rows_about_a_hole(summary):
     """Light that went through is said, with its share of the light; without a hole nothing is."""
     energy = summary["energy"]
     through = {**energy, "transmitted_J": 0.25 * energy["incident_J"]}
-    assert "25 % went through a hole" in ablation_words.crater({**summary, "energy": through})[-1]
+    assert "25 % went through a hole" in ablation_text.crater({**summary, "energy": through})[-1]
     assert ("through holes in the metal", "25 %") in [
         (name, share) for name, _, share in tables.energy({"energy": through})
     ]
@@ -46,24 +46,24 @@ def test_words_and_rows_about_a_hole(summary):
 
 def test_what_is_left_out(summary):
     """The three mechanisms, the temperatures of 0.9 T_c and of a surface that only evaporates."""
-    (text,) = ablation_words.limits_of(summary)
+    (text,) = ablation_text.limits_of(summary)
     for word in ("recoil", "phase explosion", "plasma", "9 227 K", "above the 7 200 K", "estimate"):
         assert word in text
     assert notes_of(summary)[0] == text
-    assert ablation_words.limits_of({}) == []
+    assert ablation_text.limits_of({}) == []
 
 
 def test_below_the_explosion(summary):
     """Where evaporation can carry the flux below 0.9 T_c, the text says so."""
     left_out = {**summary["estimates"]["left_out"], "evaporating_K": 5000.0, "recoil_from_K": 3e3}
-    (text,) = ablation_words.limits_of({"estimates": {"left_out": left_out}})
+    (text,) = ablation_text.limits_of({"estimates": {"left_out": left_out}})
     assert "below the 7 200 K" in text and "about 3 000 K on" in text and "estimate" not in text
 
 
 def test_no_crater(summary):
     """Light too weak to ablate."""
     ejecta = {**summary["ejecta"], "count": 0}
-    assert ablation_words.crater({**summary, "ejecta": ejecta}) == ["Nothing was ablated."]
+    assert ablation_text.crater({**summary, "ejecta": ejecta}) == ["Nothing was ablated."]
 
 
 def test_tables_with_units(summary):

@@ -10,7 +10,7 @@ from lasersph.output import open_run
 from lasersph.plots import animation, run_figures
 from lasersph.report import flow_tables, write_report
 from lasersph.report.numbers import entry
-from lasersph.report.words import verdict, warnings_of
+from lasersph.report.summary_text import verdict, warnings_of
 
 ENERGY = {"unit": "J/m", "imbalance_relative": 5e-5} | dict.fromkeys(
     (f"{name}_J" for name in ("incident", "reflected", "absorbed", "stored", "lost", "removed")),

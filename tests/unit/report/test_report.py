@@ -13,7 +13,7 @@ from lasersph.case import load_case
 from lasersph.output import OutputError, open_run
 from lasersph.report import write_report
 from lasersph.report.numbers import entry
-from lasersph.report.words import notes_of, verdict, warnings_of
+from lasersph.report.summary_text import notes_of, verdict, warnings_of
 from lasersph.report.write import command_of, report_page
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from lasersph.observers.energy_budget import IMBALANCE_ALLOWED, IMBALANCE_ALLOWED_WITH_FLOW
-from lasersph.report.ablation_words import crater, limits_of
-from lasersph.report.flow_words import box_flow, pool_flow
+from lasersph.report.ablation_text import crater, limits_of
+from lasersph.report.flow_text import box_flow, pool_flow
 from lasersph.report.numbers import quantity, shown
 
 

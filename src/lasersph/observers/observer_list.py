@@ -11,11 +11,11 @@ from lasersph.observers.ejecta import Ejecta
 from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_extrema import FlowExtrema
 from lasersph.observers.flow_speed import FlowSpeed
-from lasersph.observers.lid_pressure import LidPressure
 from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.probes import Probe, Probes
 from lasersph.observers.steps import Steps
+from lasersph.observers.surface_pressure import SurfacePressure
 from lasersph.observers.surface_speed import SurfaceSpeed
 from lasersph.observers.surface_temperature import SurfaceTemperature
 from lasersph.observers.traces import Trace, Traces
@@ -126,7 +126,7 @@ def flow_observers(
     """
     if not box:
         heat = heat_observers(dimension, probes=probes, iterations=iterations)
-        flow = [FlowSpeed(dimension), SurfaceSpeed(), FlowExtrema(), LidPressure()]
+        flow = [FlowSpeed(dimension), SurfaceSpeed(), FlowExtrema(), SurfacePressure()]
         return Observers([*heat.members, *flow])
     return Observers(
         [
@@ -136,7 +136,7 @@ def flow_observers(
             Probes(tuple(probes)),
             FlowSpeed(dimension),
             SurfaceSpeed(),
-            LidPressure(),
+            SurfacePressure(),
             BoxFlow(),
         ]
     )

@@ -1,11 +1,11 @@
-"""Pressure of the flat lid, beside the recoil pressure of a free surface at the same place.
+"""Pressure of the flat surface, beside the recoil pressure of a free surface at the same place.
 
-The lid keeps the surface flat. Where it pushes (above zero) the liquid would rise, where it pulls
-(below zero) it would sink; this pressure drives a return flow that a free surface would not have.
-A boiling surface is pushed down by 0.54 p_sat(T) [Anisimov1968], which is what the lid pressure is
+The surface is held flat. Where its pressure is above zero the liquid would rise, where it is below
+zero it would sink; this pressure drives a return flow that a free surface would not have.
+A boiling surface is pushed down by 0.54 p_sat(T) [Anisimov1968], which is what this pressure is
 compared with. The dynamic pressure is known up to a constant; its mean over the liquid is zero.
 
-A part of it undoes within one step what moving the particles left of divergence, and grows as the
+A part of it undoes within one step the divergence that moving the particles left, and grows as the
 step shrinks. Steps that are shortened to end at a given time are therefore passed over.
 """
 
@@ -21,7 +21,7 @@ from lasersph.observers.peak import Peak
 from lasersph.observers.view import View
 
 
-class LidPressure:
+class SurfacePressure:
     """Observes the pressure at the surface of the liquid."""
 
     columns: tuple[str, ...] = ("lid_pressure_max_Pa", "lid_pressure_min_Pa", "lid_recoil_max_Pa")
@@ -34,7 +34,7 @@ class LidPressure:
         self.row = dict.fromkeys(self.columns, 0.0)
 
     def observe(self, view: View) -> dict[str, float]:
-        """Largest and smallest pressure of the lid and largest recoil pressure [Pa].
+        """Largest and smallest pressure of the surface and largest recoil pressure [Pa].
 
         Those of the step before where this one is shortened.
         """
@@ -47,10 +47,10 @@ class LidPressure:
         return self.row
 
     def _look(self, view: View, flow: FlowView, wet: np.ndarray) -> dict[str, float]:
-        vapor = flow.saturation_pressure
+        vapor = flow.recoil_pressure
         self.has_vapor = vapor is not None
         recoil = np.zeros(wet.size) if vapor is None else vapor[wet]
-        pressure, x = flow.lid_pressure[wet], view.position[0, flow.surface[wet]]
+        pressure, x = flow.surface_pressure[wet], view.position[0, flow.surface[wet]]
         high, low = int(np.argmax(pressure)), int(np.argmin(pressure))
         values = (float(pressure[high]), float(pressure[low]), float(np.max(recoil)))
         self.largest.update(values[0], view.time)
