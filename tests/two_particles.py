@@ -15,7 +15,7 @@ from lasersph.sph.kernels import kernel
 
 SPACING = 1e-7
 COLD, HOT = 300.0, 400.0
-FREE = Boundaries(surface="free", bottom="free")
+FREE = Boundaries(surface="free", bottom="free", emissivity=0.0)
 
 
 def solver_of(

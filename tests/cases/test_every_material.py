@@ -3,6 +3,7 @@
 import pytest
 
 from lasersph.case import load_case
+from lasersph.cli import main
 from lasersph.input import CaseError
 from lasersph.materials import available_materials
 from lasersph.simulation import forecast, run
@@ -58,14 +59,14 @@ MATERIALS = {name: f'material = "{name}"' for name in available_materials()} | {
 }
 
 
-def case_of(folder, material, solver):
+def case_of(folder, material, solver, settings=()):
     """A small block of the material under one pulse; plain keys go before the first table."""
     text = CASE.format(material="@", solver=solver, settings=SETTINGS[solver])
     given = MATERIALS[material]
     text = text.replace("@", given) if "[" not in given else text.replace("@", "") + given
     file = folder / "case.toml"
     file.write_text(text, encoding="utf-8")
-    return load_case(file)
+    return load_case(file, settings)
 
 
 REFUSED = {
@@ -89,3 +90,36 @@ def test_runs(material, solver, tmp_path):
     assert len(warned) == (material == "no-boiling-point")
     summary = run(case, tmp_path / "run", threads=1).summary
     assert summary["steps"] >= 2 and summary["energy"]["absorbed_J"] > 0.0
+
+
+@pytest.mark.parametrize("solver", SETTINGS)
+def test_the_metals_emissivity_radiates_in_every_solver(solver, tmp_path):
+    """Heat is lost where the metal has an emissivity, unless the boundary says otherwise."""
+    settings = ["material.optics.emissivity=0.8"]
+    case = case_of(tmp_path, "steel-304", solver, settings)
+    assert run(case, tmp_path / "run", threads=1).summary["energy"]["lost_J"] > 0.0
+    dark = case_of(tmp_path, "steel-304", solver, [*settings, "boundaries.emissivity=0"])
+    assert run(dark, tmp_path / "dark", threads=1).summary["energy"]["lost_J"] == 0.0
+
+
+def test_who_says_the_emissivity(tmp_path):
+    """The metal's, overridden by the boundary; faces of given temperature and periods have none."""
+
+    def emissivity(*settings):
+        case = load_case("stefan", ["boundaries.bottom_temperature=", *settings])
+        return case.boundaries.emissivity_of(case.material)
+
+    free = ("boundaries.surface=free", "boundaries.surface_temperature=")
+    assert emissivity() == 0.0
+    assert emissivity(*free) == 0.09
+    assert emissivity(*free, "boundaries.emissivity=0.5") == 0.5
+    assert emissivity("boundaries.emissivity=0.5") == 0.5
+    assert emissivity(*free, "material=steel-304", "initial_temperature=300 K") == 0.0
+
+
+def test_check_says_who_gives_the_emissivity(capsys):
+    """A row of `check`, where the surface loses heat."""
+    assert main(["check", "ablation-depth"]) == 0
+    assert "surface loses heat" not in capsys.readouterr().out
+    assert main(["check", "ablation-depth", "--set", "boundaries.emissivity="]) == 0
+    assert "radiation, emissivity 0.09 of aluminium-aa6014; to 300 K" in capsys.readouterr().out

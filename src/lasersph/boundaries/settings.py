@@ -8,6 +8,7 @@
     prescribed-flux     a given heat flux enters (leaves, where negative)
 
 `convection` and `emissivity` let the surface lose heat to the surroundings [Alshaer2017, eq. (2)].
+The emissivity is the metal's where none is given here.
 """
 
 from __future__ import annotations
@@ -29,11 +30,14 @@ from lasersph.input import (
     TemperatureDifference,
     refusal,
 )
+from lasersph.materials import Material
 
 Array = NDArray[np.float64]
 Face = Literal["adiabatic", "periodic", "free", "fixed-temperature", "wall", "prescribed-flux"]
-HELD = ("fixed-temperature", "wall")
-FLUX = "prescribed-flux"
+DIRICHLET = ("fixed-temperature", "wall")
+"""Kinds of faces whose temperature is given."""
+NEUMANN = "prescribed-flux"
+"""The kind of faces whose heat flux is given."""
 KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left", "right": "right"}
 """Each face and how the keys of its temperature and flux begin."""
 
@@ -83,8 +87,10 @@ class Boundaries(Model):
     convection: Annotated[HeatTransferCoefficient, Field(ge=0)] = Field(
         default=0.0, description="heat transfer coefficient of the surface"
     )
-    emissivity: Annotated[Fraction, Field(ge=0, le=1)] = Field(
-        default=0.0, description="of the surface, for radiation"
+    emissivity: Annotated[Fraction, Field(ge=0, le=1)] | None = Field(
+        default=None,
+        description="of the surface, for radiation; default: optics.emissivity of the metal, 0 "
+        "where it has none",
     )
     ambient_temperature: Temperature | None = Field(
         default=None, description="of the surroundings; default: the initial temperature"
@@ -102,23 +108,23 @@ class Boundaries(Model):
         for face, stem in KEYS.items():
             kind = getattr(self, face)
             shown = f'{face} = "{kind}"' if kind else f"{face} is not given"
-            if getattr(self, f"{stem}_temperature") is not None and kind not in HELD:
+            if getattr(self, f"{stem}_temperature") is not None and kind not in DIRICHLET:
                 yield (
                     f"{stem}_temperature",
                     f"says nothing where {shown}; leave it out, or set {face} to "
                     '"fixed-temperature" or "wall"',
                 )
             given = getattr(self, f"{stem}_flux") is not None
-            if given and kind != FLUX:
+            if given and kind != NEUMANN:
                 yield (
                     f"{stem}_flux",
-                    f'says nothing where {shown}; leave it out, or set {face} to "{FLUX}"',
+                    f'says nothing where {shown}; leave it out, or set {face} to "{NEUMANN}"',
                 )
-            if kind == FLUX and not given:
+            if kind == NEUMANN and not given:
                 yield f"{stem}_flux", 'is missing; write e.g. "1e6 W/m^2", positive into the body'
-        if self.surface in HELD and self.surface_temperature is None:
+        if self.surface in DIRICHLET and self.surface_temperature is None:
             yield "surface_temperature", "is missing for a surface that is held at it"
-        if self.surface_temperature_wave is not None and self.surface not in HELD:
+        if self.surface_temperature_wave is not None and self.surface not in DIRICHLET:
             yield (
                 "surface_temperature_wave",
                 f'says nothing where surface = "{self.surface}"; write '
@@ -156,7 +162,27 @@ class Boundaries(Model):
 
     def flux_of(self, face: str) -> float:
         """Heat flux into the body through a face of prescribed flux [W/m^2], 0 at others."""
-        return self._given(face, "flux") or 0.0 if self.kind_of(face) == FLUX else 0.0
+        return self._given(face, "flux") or 0.0 if self.kind_of(face) == NEUMANN else 0.0
+
+    def emissivity_of(self, material: Material) -> float:
+        """Emissivity of the surface: as given here, else the metal's where the surface lies open.
+
+        A surface of given temperature and one that is periodic radiate only where told to.
+        """
+        if self.emissivity is not None:
+            return self.emissivity
+        if self.surface in DIRICHLET or self.surface == "periodic" or material.optics is None:
+            return 0.0
+        return material.optics.emissivity or 0.0
+
+    def surroundings(self, material: Material, initial: float) -> dict[str, float]:
+        """T_a [K], h_c [W/(m^2 K)] and eps of `physics.losses.surface_loss`."""
+        ambient = self.ambient_temperature
+        return {
+            "T_a": initial if ambient is None else ambient,
+            "h_c": self.convection,
+            "eps": self.emissivity_of(material),
+        }
 
     def _given(self, face: str, what: str) -> float | None:
         own = getattr(self, f"{face}_{what}", None)

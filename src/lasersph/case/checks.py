@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.boundaries.settings import HELD
+from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case.ablation_checks import ablation_problems
 from lasersph.case.flow_checks import flow_problems
 from lasersph.case.size import (
@@ -133,8 +133,8 @@ def _material(case: Case) -> Iterator[tuple[str, str]]:
                 f'"evaporate" needs vaporization data with molar_mass, which material '
                 f'"{case.material.name}" lacks; write plateau = "hold"',
             )
-    loses_heat = case.boundaries.emissivity > 0.0 or case.boundaries.convection > 0.0
-    if case.boundaries.ambient_temperature is not None and not loses_heat:
+    losses = case.boundaries.surroundings(case.material, case.initial_temperature)
+    if case.boundaries.ambient_temperature is not None and not losses["h_c"] and not losses["eps"]:
         yield (
             "boundaries.ambient_temperature",
             "says nothing without convection or emissivity; give one of them or leave it out",
@@ -146,8 +146,8 @@ def _laser(case: Case) -> Iterator[tuple[str, str]]:
     if laser is None:
         return
     surface = case.boundaries.surface
-    if surface in HELD or surface == "periodic":
-        what = "holds its temperature" if surface in HELD else "has none"
+    if surface in DIRICHLET or surface == "periodic":
+        what = "holds its temperature" if surface in DIRICHLET else "has none"
         yield (
             "boundaries.surface",
             f'a laser heats the surface, "{surface}" {what}; remove one of the two',

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lasersph.boundaries.flow_sides import SIDES, FlowSides
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
-from lasersph.boundaries.settings import FLUX, HELD
+from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.size import LARGEST_STEPS
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
@@ -100,7 +100,7 @@ def _pool(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
             "sides of a box that is all fluid",
         )
     is_heated = case.laser is not None or any(
-        case.boundaries.kind_of(face) in (*HELD, FLUX)
+        case.boundaries.kind_of(face) in (*DIRICHLET, NEUMANN)
         for face in ("surface", "bottom", "left", "right")
     )
     if not is_heated:

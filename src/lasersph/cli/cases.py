@@ -107,6 +107,8 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
         binds = "  <- binding" if name == expected.binding else ""
         shown = format_quantity(limit, "s") if isfinite(limit) else "none"
         rows.append((f"step limit: {name}", shown + binds))
+    if loss := _losses(case):
+        rows.append(("surface loses heat", loss))
     rows.append(("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"))
     rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
     if expected.flow is not None:
@@ -120,3 +122,18 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
             cells = f"{length / expected.spacing:.2g} spacings"
             rows.append((name, f"{format_quantity(length, 'm')}, {cells}"))
     return rows
+
+
+def _losses(case: Case) -> str:
+    """What the surface loses to the surroundings, and who says so; empty where nothing."""
+    from lasersph.input import format_quantity
+
+    boundaries = case.boundaries
+    losses = boundaries.surroundings(case.material, case.initial_temperature)
+    owner = "as given" if boundaries.emissivity is not None else f"of {case.material.name}"
+    parts = []
+    if losses["eps"]:
+        parts.append(f"radiation, emissivity {losses['eps']:g} {owner}")
+    if losses["h_c"]:
+        parts.append(f"convection, {format_quantity(losses['h_c'], 'W/(m^2 K)')}")
+    return f"{'; '.join(parts)}; to {format_quantity(losses['T_a'], 'K')}" if parts else ""

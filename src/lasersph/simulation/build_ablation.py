@@ -110,9 +110,9 @@ def solver_of(case: Case, backend: Backend, geometry: Geometry, initial: Initial
 
 def parameters_of(case: Case, geometry: Geometry, shape: Kernel, ratio: float) -> Parameters:
     """Constants of the solver."""
-    settings = case.solver
+    settings, material = case.solver, case.material
     assert isinstance(settings, AblationSettings)
-    spacing, ambient = geometry.spacing, case.boundaries.ambient_temperature
+    spacing = geometry.spacing
     solid, liquid = viscosities(case)
     height = settings.ejecta_height or case.domain.depth
     low, high = (tuple(ends) for ends in zip(*geometry.box, strict=True))
@@ -127,11 +127,7 @@ def parameters_of(case: Case, geometry: Geometry, shape: Kernel, ratio: float) -
         viscous_rate=viscous,
         diffusive_rate=diffusive,
         weight_factor=1.0 if settings.weights == "plain" else 1.0 / second_moment(shape, ratio),
-        ambient={
-            "T_a": case.initial_temperature if ambient is None else ambient,
-            "h_c": case.boundaries.convection,
-            "eps": case.boundaries.emissivity,
-        },
+        ambient=case.boundaries.surroundings(material, case.initial_temperature),
         low=low,
         high=(*high[:-1], max(high[-1], height)),
     )

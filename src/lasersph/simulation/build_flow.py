@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lasersph.boundaries.lid import FlatLid, ImposedTemperature
-from lasersph.boundaries.settings import HELD
+from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers
@@ -95,7 +95,7 @@ def wall_enthalpy(curve: CaloricCurve, temperature: np.ndarray) -> np.ndarray:
 
 
 def _held_surface(case: Case) -> ImposedTemperature | None:
-    if case.boundaries.kind_of("surface") not in HELD:
+    if case.boundaries.kind_of("surface") not in DIRICHLET:
         return None
     mean = case.boundaries.temperature_of("surface", case.initial_temperature)
     return ImposedTemperature(mean, case.boundaries.surface_temperature_wave)

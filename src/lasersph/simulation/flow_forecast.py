@@ -14,7 +14,7 @@ from math import pi, sqrt
 
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
-from lasersph.boundaries.settings import HELD
+from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.lasers import GaussianBeam, InterferenceBeam
@@ -106,7 +106,7 @@ def _temperature_range(case: Case) -> float:
     held = [
         faces.temperature_of(face, case.initial_temperature)
         for face in ("surface", "bottom", "left", "right")
-        if faces.kind_of(face) in HELD
+        if faces.kind_of(face) in DIRICHLET
     ]
     return max([*held, case.initial_temperature]) - min([*held, case.initial_temperature])
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.boundaries.settings import FLUX, HELD
+from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case import Case
 from lasersph.compute.backend import Backend
 from lasersph.observers.flow_view import FlowView
@@ -59,7 +59,7 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
     held = {
         side: case.boundaries.temperature_of(side, case.initial_temperature)
         for side, kind in kinds.items()
-        if is_box and kind in HELD
+        if is_box and kind in DIRICHLET
     }
     return FlowView(
         velocity=velocity,
@@ -80,7 +80,9 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
         box=is_box,
         conductivity=float(material.conductivity_at(T)),
         wall_temperature=held,
-        conducting_sides=tuple(s for s, kind in kinds.items() if is_box and kind in (*HELD, FLUX)),
+        conducting_sides=tuple(
+            s for s, kind in kinds.items() if is_box and kind in (*DIRICHLET, NEUMANN)
+        ),
         is_shortened=solver.state.time_step < (1.0 - ROUNDING) * solver.state.unclipped_step,
     )
 

@@ -11,7 +11,7 @@ or the difference dT of two opposite held ones and their distance,
 
 from __future__ import annotations
 
-from lasersph.boundaries.settings import HELD
+from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
 from lasersph.physics.dimensionless import (
     fourier_number,
@@ -111,7 +111,7 @@ def held_apart(case: Case) -> tuple[float, float]:
         ("left", "right", case.domain.width or 0.0),
         ("bottom", "surface", case.domain.depth),
     ):
-        if all(boundaries.kind_of(side) in HELD for side in (one, other)):
+        if all(boundaries.kind_of(side) in DIRICHLET for side in (one, other)):
             pair = [boundaries.temperature_of(side, initial) for side in (one, other)]
             found.append((abs(pair[0] - pair[1]), length))
     return max(found)

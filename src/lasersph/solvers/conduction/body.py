@@ -109,7 +109,6 @@ def assemble(
     )
     area = np.zeros(count)
     area[filling.surface] = np.prod(filling.width[:-1, filling.surface], axis=0)
-    ambient = boundaries.ambient_temperature
     particles = Particles(backend, count, layers.dimension, (*FIELDS, *DERIVED))
     particles.set("mass", material.density_reference * filling.volume[:count])
     body = Body(
@@ -131,11 +130,7 @@ def assemble(
             "m_nodes": backend.asarray(curve.melt_fraction),
             "v_nodes": backend.asarray(curve.vapor_fraction),
         },
-        ambient={
-            "T_a": curve.initial_temperature if ambient is None else ambient,
-            "h_c": boundaries.convection,
-            "eps": boundaries.emissivity,
-        },
+        ambient=boundaries.surroundings(material, curve.initial_temperature),
     )
     body.update_temperature()
     return body

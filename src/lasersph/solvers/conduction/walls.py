@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.heated_faces import face_power
 from lasersph.boundaries.held_faces import HeldFace, face_pulls
-from lasersph.boundaries.settings import FLUX, HELD
+from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.filling import LATERAL, Filling
 from lasersph.particles.layers import Layers
@@ -51,7 +51,7 @@ def walls_of(
     faces = ["surface", "bottom"]
     faces += [face for ends in LATERAL[: layers.dimension - 1] for face in ends]
     kinds = {face: boundaries.kind_of(face) for face in faces}
-    held = [HeldFace(face, kind == "wall") for face, kind in kinds.items() if kind in HELD]
+    held = [HeldFace(face, kind == "wall") for face, kind in kinds.items() if kind in DIRICHLET]
     pulls = face_pulls(held, filling, weights, row, neighbor, layers.extents)
     count = filling.count
     pull, flow, heat, power = (np.zeros(count) for _ in range(4))
@@ -60,7 +60,7 @@ def walls_of(
         pull += found.total(count)
         heat += found.total(count, T)
         flow += found.total(count, wall_potential(curve, T))
-    for face in (face for face, kind in kinds.items() if kind == FLUX):
+    for face in (face for face, kind in kinds.items() if kind == NEUMANN):
         flux = boundaries.flux_of(face)
         power += face_power(face, flux, filling, weights, row, neighbor, layers.extents)
     return Walls(pull, flow + power, heat, power)

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.flow_sides import FlowSides
 from lasersph.boundaries.lid import FlatLid
-from lasersph.boundaries.settings import FLUX, HELD
+from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.particles.images import LOWER, MIRROR, OPEN, PERIODIC, UPPER, FacePair, Ways
 
 Array = NDArray[np.float64]
@@ -113,11 +113,11 @@ class Sides:
                 slope[chosen] = ways.sign[1 - axis, chosen]
                 flux[chosen] = FlatLid.heat_flux
             kind, free = self.boundaries.kind_of(side), chosen & (held == 0.0)
-            if kind in HELD:
+            if kind in DIRICHLET:
                 held[free] = 1.0
                 temperature[free] = self.boundaries.temperature_of(side, self.initial_temperature)
                 varies[free] = side == WAVY and self.boundaries.surface_temperature_wave is not None
-            elif kind == FLUX:
+            elif kind == NEUMANN:
                 flux[free] = self.boundaries.flux_of(side)
             mine = chosen & ((np.abs(normal).sum(axis=0) == 0.0) | self._carries_heat(side))
             normal[:, mine] = 0.0
@@ -162,4 +162,4 @@ class Sides:
 
     def _carries_heat(self, side: str) -> bool:
         kind = self.boundaries.kind_of(side)
-        return kind in HELD or kind == FLUX
+        return kind in DIRICHLET or kind == NEUMANN
