@@ -18,15 +18,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         0 done, 1 the run failed, 2 the case or the command is wrong, 130 or 143 stopped.
     """
-    from lasersph.cli.app import app
     from lasersph.cli.failures import exit_code_of
 
     given = list(sys.argv[1:] if arguments is None else arguments)
     wants_traceback = "--debug" in given
     given = [argument for argument in given if argument != "--debug"]
+    return exit_code_of(lambda: _run(given), wants_traceback=wants_traceback)
 
-    def command() -> int:
-        code = app(given or ["--help"], standalone_mode=False)
-        return code if isinstance(code, int) else 0
 
-    return exit_code_of(command, wants_traceback=wants_traceback)
+def _run(given: Sequence[str]) -> int:
+    from lasersph import __version__
+    from lasersph.cli.app import VERBS, command_of, top_help
+    from lasersph.cli.failures import WrongCommand
+
+    verb, *rest = given or ["--help"]
+    if verb in ("-h", "--help"):
+        print(top_help())
+        return 0
+    if verb == "--version":
+        print(f"lasersph {__version__}")
+        return 0
+    if not any(verb in verbs for verbs in VERBS.values()):
+        from lasersph.input import did_you_mean
+
+        near = did_you_mean(verb, [name for verbs in VERBS.values() for name in verbs])
+        raise WrongCommand(f'no verb "{verb}"{near}; see lasersph --help')
+    code = command_of(verb)(rest)
+    return code if isinstance(code, int) else 0

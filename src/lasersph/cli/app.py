@@ -1,64 +1,118 @@
-"""All verbs of the command line."""
+"""The verbs of the command line: help of all of them, and each as a command of its own.
+
+A verb's module is imported when the verb is given, so that help answers at once.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Callable, Sequence
+from importlib import import_module
 
-import typer
+VERBS = {
+    "Cases": {
+        "new": ("cases.new", "Write a commented case file to start from."),
+        "check": (
+            "cases.check",
+            "Say what a run would need, before anything runs: particles, memory, steps, warnings.",
+        ),
+        "cases": ("cases.list_cases", "List the shipped cases."),
+        "schema": ("cases.schema", "Print the JSON Schema of case files."),
+        "material": ("material.app", "List, show and check materials."),
+    },
+    "Runs": {
+        "run": (
+            "running.run",
+            "Compute a case; the run folder then holds history, summary, particles, figures, "
+            "report.",
+        ),
+        "info": (
+            "results.info",
+            "Show what a run folder holds: the case, how far it is, the main numbers.",
+        ),
+        "plot": (
+            "results.plot",
+            "Draw the figures of a run into DIR/figures, or an animation or a 3-D scene of it.",
+        ),
+        "report": (
+            "results.report",
+            "Write DIR/report.html: figures and numbers on one self-contained page.",
+        ),
+        "export": (
+            "exporting.export",
+            "Write the height map of a crater to DIR/crater.FORMAT.",
+        ),
+    },
+    "Many runs": {
+        "converge": (
+            "studies.converge",
+            "Run a case at several spacings: order and uncertainty of every number of its summary.",
+        ),
+        "threshold": (
+            "studies.threshold",
+            "Find the fluence at which melting, boiling or ablation begins, by bisection.",
+        ),
+        "spot": (
+            "studies.spot",
+            "Ablate with a Gaussian spot at several fluences: threshold from D^2 over ln F, "
+            "efficiency.",
+        ),
+        "validate": (
+            "validating.validate",
+            "Compute published cases; print published, reference and computed numbers with "
+            "verdicts.",
+        ),
+    },
+    "Program": {
+        "cache": ("cache.cache", "Show, fill or clear the cache of compiled loops."),
+    },
+}
+"""Verbs by heading, each with module and function below `lasersph.cli` and its summary.
 
-from lasersph.cli import (
-    cache,
-    cases,
-    exporting,
-    material,
-    results,
-    running,
-    studies,
-    validating,
-)
-
-app = typer.Typer(
-    name="lasersph",
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-
-app.command(rich_help_panel="Cases")(cases.new)
-app.command(rich_help_panel="Cases")(cases.check)
-app.command("cases", rich_help_panel="Cases")(cases.list_cases)
-app.command(rich_help_panel="Cases")(cases.schema)
-app.add_typer(material.app, name="material", rich_help_panel="Cases")
-app.command(rich_help_panel="Runs")(running.run)
-app.command(rich_help_panel="Runs")(results.info)
-app.command(rich_help_panel="Runs")(results.plot)
-app.command(rich_help_panel="Runs")(results.report)
-app.command(rich_help_panel="Runs")(exporting.export)
-app.command(rich_help_panel="Many runs")(studies.converge)
-app.command(rich_help_panel="Many runs")(studies.threshold)
-app.command(rich_help_panel="Many runs")(studies.spot)
-app.command(rich_help_panel="Many runs")(validating.validate)
-app.command("cache", rich_help_panel="Program")(cache.cache)
+The summaries are the first lines of the functions' docstrings, which a test compares.
+"""
+HELP = {"help_option_names": ["-h", "--help"]}
+"""What asks for the help of a verb, as typer names it."""
+OPTIONS = {
+    "--version": "Print the version.",
+    "--debug": "Show the whole traceback of a failure.",
+    "--help": "Show this; lasersph VERB --help explains a verb.",
+}
 
 
-@app.callback()
-def program(
-    version: Annotated[
-        bool, typer.Option("--version", is_eager=True, callback=lambda value: _version(value))
-    ] = False,
-    debug: Annotated[
-        bool, typer.Option("--debug", help="Show the whole traceback of a failure.")
-    ] = False,
-) -> None:
-    """Simulate what a laser pulse does to metal, with smoothed particle hydrodynamics.
+def top_help() -> str:
+    """Text of `lasersph --help`."""
+    lines = [
+        "Usage: lasersph VERB ...",
+        "",
+        "Simulate what a laser pulse does to metal, with smoothed particle hydrodynamics.",
+        "Start with: lasersph run dlip-steel",
+    ]
+    sections = {
+        heading: {name: summary for name, (_, summary) in verbs.items()}
+        for heading, verbs in VERBS.items()
+    }
+    for heading, entries in (sections | {"Options": OPTIONS}).items():
+        lines += ["", heading, *(f"  {name:<10} {text}" for name, text in entries.items())]
+    return "\n".join(lines)
 
-    Start with: lasersph run dlip-steel
+
+def command_of(verb: str) -> Callable[[Sequence[str]], object]:
+    """The function that runs a verb on its arguments.
+
+    Raises:
+        KeyError: there is no such verb.
     """
+    places = {name: place for verbs in VERBS.values() for name, (place, _) in verbs.items()}
+    module, _, name = places[verb].partition(".")
+    import typer
 
+    target = getattr(import_module(f"lasersph.cli.{module}"), name)
+    app = target
+    if not isinstance(target, typer.Typer):
+        app = typer.Typer(add_completion=False, context_settings=HELP)
+        app.command(verb)(target)
 
-def _version(wanted: bool) -> None:
-    if wanted:
-        import lasersph
+    def command(arguments: Sequence[str]) -> object:
+        return app(list(arguments), prog_name=f"lasersph {verb}", standalone_mode=False)
 
-        print(f"lasersph {lasersph.__version__}")
-        raise typer.Exit
+    return command

@@ -57,7 +57,9 @@ def _described(error: Exception) -> tuple[str, int]:
         return str(error), WRONG
     if hasattr(error, "format_message"):  # usage errors of typer, whichever click it brings
         text = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
-        return f"{' '.join(text.split()).rstrip('.')}; see lasersph --help", WRONG
+        context = getattr(error, "ctx", None)
+        verb = context.command_path if context else "lasersph"
+        return f"{' '.join(text.split()).rstrip('.')}; see {verb} --help", WRONG
     if type(error).__name__ == "Abort":
         return "interrupted", INTERRUPTED
     from lasersph.compute.cuda_device import NoDevice

@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from lasersph.cli.app import HELP
 from lasersph.cli.tables import aligned
 
 if TYPE_CHECKING:
     from lasersph.materials import Law, Material
 
-app = typer.Typer(help="List, show and check materials.", no_args_is_help=False)
+app = typer.Typer(
+    help="List, show and check materials.", add_completion=False, context_settings=HELP
+)
 Name = Annotated[str, typer.Argument(metavar="NAME", help="A material, or the path of a file.")]
 Plot = Annotated[
     Path | None,

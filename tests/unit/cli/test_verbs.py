@@ -1,5 +1,6 @@
 """Every verb answers, with its exit code, and says the numbers it is asked for."""
 
+import importlib
 import json
 import os
 import signal
@@ -13,8 +14,10 @@ from reliability_runs import LONGEST_WAIT, wait_until
 import lasersph
 from lasersph.case import available_cases
 from lasersph.cli import main
+from lasersph.cli.app import VERBS as HEADINGS
 from lasersph.compute import cuda_device
 
+VERBS = {name: verb for verbs in HEADINGS.values() for name, verb in verbs.items()}
 PROGRAM = "import sys; from lasersph.cli import main; sys.exit(main())"
 SMALL = ["--set", "particles.spacing=2um", "--set", "time.end=200ns", "--set", "time.step=5ns"]
 
@@ -34,10 +37,20 @@ def said(capsys, *arguments: str, code: int = 0) -> str:
 def test_help_lists_every_verb(capsys):
     """No argument and --help show the same."""
     text = said(capsys, "--help")
-    verbs = "new check run info plot report validate material schema cases cache converge threshold"
-    for verb in verbs.split():
-        assert f" {verb} " in text
-    assert said(capsys) == text
+    for verb in VERBS:
+        assert f"\n  {verb} " in text
+    assert said(capsys) == said(capsys, "-h") == text
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_explains_itself(verb, capsys):
+    """`VERB --help` works, and its docstring begins with the line that `--help` lists."""
+    place, summary = VERBS[verb]
+    module, _, name = place.partition(".")
+    target = getattr(importlib.import_module(f"lasersph.cli.{module}"), name)
+    words = target.info.help if verb == "material" else target.__doc__
+    assert words.splitlines()[0] == summary
+    assert f"lasersph {verb}" in said(capsys, verb, "--help")
 
 
 def test_version(capsys):
@@ -86,8 +99,10 @@ def test_new_then_check(capsys):
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        (["chek"], "No such command 'chek'"),
-        (["check"], "Missing argument 'CASE'; see lasersph --help"),
+        (["chek"], 'no verb "chek" (do you mean "check"?); see lasersph --help'),
+        (["--quick", "run"], 'no verb "--quick"'),
+        (["material"], "Missing command; see lasersph material --help"),
+        (["check"], "Missing argument 'CASE'; see lasersph check --help"),
         (["run", "stefan", "--threads", "0"], "--threads"),
         (["run", "stefan", "--precision", "float16"], "--precision"),
         (["run", "stefan", "--nonsense"], "--nonsense"),

@@ -1,0 +1,7 @@
+"""`python -m lasersph` is `lasersph`."""
+
+import sys
+
+from lasersph.cli import main
+
+sys.exit(main())
