@@ -1,8 +1,10 @@
 """Tables and progress as text."""
 
-import time
+from dataclasses import replace
 
-from lasersph.cli.progress import ProgressDisplay
+import pytest
+
+from lasersph.cli.progress import ProgressDisplay, describe
 from lasersph.cli.tables import aligned
 from lasersph.simulation import RunProgress
 
@@ -14,35 +16,65 @@ def test_aligned_columns():
     assert aligned([]) == ""
 
 
-def test_plain_progress_off_a_terminal(capsys, monkeypatch):
-    """One line for each tenth of the time, with the time left, and no escape codes."""
-    clock = iter(range(1000))
-    monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
+STATUS = RunProgress(time=0.2194, end=1.0, steps=1207, hottest=301.6, work_done=0.42)
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({}, " 42 %  219.4 ms, step 1207, 302 K"),
+        ({"remaining_s": 105.0}, " 42 %  219.4 ms, step 1207, 302 K, 1 min 45 s left"),
+        ({"time": 2.5e-8, "remaining_s": 4.2}, " 42 %  25 ns, step 1207, 302 K, 4 s left"),
+        ({"time": 3e-12, "work_done": 0.001}, "  0 %  3 ps, step 1207, 302 K"),
+        ({"time": 7300.0, "work_done": 1.2}, "100 %  7300 s, step 1207, 302 K"),
+    ],
+)
+def test_words_of_progress(changes, text):
+    """Times in a unit that fits them, and the time left once it is known."""
+    assert describe(replace(STATUS, **changes)) == text
+
+
+def test_plain_progress_off_a_terminal(capsys):
+    """One line for each tenth of the work, and no escape codes."""
     with ProgressDisplay(is_terminal=False) as progress:
         for step in range(1, 101):
-            progress(RunProgress(step * 1e-9, 1e-7, step, 300.0 + step, step / 100))
+            progress(RunProgress(step * 1e-9, 1e-7, step, 300.0 + step, step / 100, 100.0 - step))
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 10
-    assert lines[0].startswith("  10 %  10 ns, step 10, 310 K")
-    assert lines[4].endswith(" left")
-    assert lines[-1] == " 100 %  100 ns, step 100, 400 K"
+    assert lines[0] == " 10 %  10 ns, step 10, 310 K, 1 min 30 s left"
+    assert lines[-1] == "100 %  100 ns, step 100, 400 K, 0 s left"
     assert "\x1b" not in "".join(lines)
 
 
-def test_bar_on_a_terminal(capsys):
-    """The bar names time, step and temperature."""
+def test_resumed_run_shows_what_is_new(capsys):
+    """What was done before the first step of this process is not said again."""
+    with ProgressDisplay(is_terminal=False) as progress:
+        for percent in (50, 55, 60):
+            progress(replace(STATUS, work_done=percent / 100))
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_line_on_a_terminal(capsys, monkeypatch):
+    """One line with a bar, drawn over, no wider than the terminal, and left as it ends."""
+    monkeypatch.setenv("COLUMNS", "60")
     with ProgressDisplay(is_terminal=True) as progress:
-        progress(RunProgress(5e-8, 1e-7, 7, 1234.0, 0.5))
-        progress(RunProgress(1e-7, 1e-7, 8, 1235.0, 1.0))
-    assert "step 8, 1235 K" in capsys.readouterr().err
+        progress(replace(STATUS, work_done=0.5))
+        progress(replace(STATUS, work_done=1.0, remaining_s=0.0))
+    shown = capsys.readouterr().err
+    assert shown.count("\n") == 1
+    first, *_, last = shown.rstrip("\n").split("\r\x1b[K")[1:]
+    assert first == "[============            ]  50 %  219.4 ms, step 1207, 302 "
+    assert last.startswith("[========================] 100 %  219.4 ms")
+    assert len(last) <= 59
 
 
 def test_compiling_is_said(capsys):
     """A line of its own, above the bar where there is one already."""
+    text = "compiling loops as they are needed, about a minute in all; later runs find them\n"
     with ProgressDisplay(is_terminal=False) as progress:
         progress.compiling()
-    assert capsys.readouterr().err.startswith("compiling loops as they are needed")
+    assert capsys.readouterr().err == text
     with ProgressDisplay(is_terminal=True) as progress:
-        progress(RunProgress(5e-8, 1e-7, 7, 1234.0, 0.5))
+        progress(STATUS)
         progress.compiling()
-    assert "compiling loops as they are needed" in capsys.readouterr().err
+    assert f"\r\x1b[K{text}[=====" in capsys.readouterr().err
