@@ -14,7 +14,7 @@ import pair_functions as functions
 
 from lasersph import compute
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
-from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.sph.kernels import kernel
 from lasersph.sph.laplacian import weight

@@ -8,7 +8,7 @@ import pair_functions as functions
 import setting
 
 from lasersph import compute
-from lasersph.solvers.ablation.rates import pair_rates, rates
+from lasersph.solvers.ablation.equations import pair_rates, particle_rates
 
 EDGE = 80
 CONSTANTS = {
@@ -30,7 +30,7 @@ def test_rates(benchmark):
 
     def all_rates():
         backend.pair_sum(
-            pair_rates, neighbors, fields, out, finish=rates,
+            pair_rates, neighbors, fields, out, finish=particle_rates,
             reduce=(None, None, None, "sum", "max", "max"), **CONSTANTS,
         )  # fmt: skip
 

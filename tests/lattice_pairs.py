@@ -8,7 +8,7 @@ from lasersph import compute
 from lasersph.particles import Domain, Lattice
 from lasersph.particles.filling import IMAGE, Filling, fill
 from lasersph.particles.layers import Layers, stack
-from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic, graded
 from lasersph.sph.kernels import kernel
 from lasersph.sph.laplacian import layered_weight, weight

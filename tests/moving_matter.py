@@ -50,7 +50,8 @@ def put(solver, name, values):
     array[..., : solver.body.count] = values
     solver.backend.copy(solver.backend.asarray(array), solver.fields[name])
     solver.body.refresh(solver.body.now)
-    solver._enter()
+    solver._include_active()
+    solver._is_surface_current = False
 
 
 def mass(solver):

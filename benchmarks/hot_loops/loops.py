@@ -13,7 +13,7 @@ from hot_loops.least import Least
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
 from lasersph.materials import load_material
-from lasersph.particles.neighbors import NeighborList
+from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.physics.phase_change import state
 from lasersph.sph.shifting import repulsion_terms, shift
 

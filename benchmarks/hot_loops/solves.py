@@ -16,7 +16,7 @@ from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOp
 from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.matrix import PairMatrix
 from lasersph.linear_solvers.multigrid import Multigrid
-from lasersph.particles.neighbors import NeighborList
+from lasersph.particles.neighbor_lists import NeighborList
 
 ITERATIONS = 20
 STEP, STIFF_STEP = 0.1, 10.0

@@ -18,8 +18,9 @@ from workplace import CASES, Workplace
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.compute.backend import Backend
+from lasersph.particles.verlet_list import REST
 from lasersph.simulation.build import build
-from lasersph.solvers.ablation.rates import pair_weight
+from lasersph.solvers.ablation.equations import pair_weight
 from lasersph.solvers.ablation.solver import Ablation
 from lasersph.sph.laplacian import flow
 
@@ -97,7 +98,7 @@ def heat(workplace: Workplace) -> Measurement:
 def heat_sum(workplace: Workplace) -> Measurement:
     """The sum over assembled pairs alone, as every linear conduction uses it."""
     solver = _block(workplace, moves=False)
-    solver.find_surface()  # finds the pairs
+    solver.pairs.rebuild(REST)
     matter, pairs, on = solver.body, solver.pairs.now, solver.backend
     weights = on.zeros(pairs.neighbor.shape[0])
     fields = {"V": matter.now.V}

@@ -19,9 +19,9 @@ from workplace import Workplace
 
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
-from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
-from lasersph.solvers.ablation.rates import pair_weight
+from lasersph.solvers.ablation.equations import pair_weight
 from lasersph.sph.kernels import kernel
 from lasersph.sph.laplacian import flow
 from lasersph.sph.lattice_sums import second_moment

@@ -14,7 +14,7 @@ from lasersph.boundaries.vessel import Vessel
 from lasersph.case import load_case
 from lasersph.observers import Crater, MeltPool
 from lasersph.observers.energy_budget import relative_imbalance
-from lasersph.physics.ejection import EJECTED
+from lasersph.particles.kinds import EJECTED
 from lasersph.simulation.ablation_view import ablation_view_of
 from lasersph.simulation.build import lay_out
 from lasersph.simulation.build_ablation import solver_of
@@ -81,8 +81,7 @@ def test_crater_of_a_gaussian_beam_is_round(along_the_lattice):
     """Its depth follows from the distance to the axis alone, within one layer, whether along the
     rows of the lattice or along its diagonals."""
     solver = along_the_lattice
-    solver.find_surface()
-    depth = -solver.light.tops()
+    depth = -solver.light.column_tops()
     r = np.hypot(*solver.light.center)
     assert depth.max() > 0.5e-6
     along = np.abs(np.abs(solver.light.center[0]) - np.abs(solver.light.center[1]))
@@ -116,7 +115,7 @@ def test_crater_does_not_know_the_lattice(along_the_lattice, angle):
 def boiled(solver):
     """Particles that have left, and the shares of their heat that others have taken up."""
     share = solver.backend.to_host(solver.body.now.f_v)[: solver.body.count]
-    return solver.state.left.count + share[host(solver, "kind") < EJECTED].sum()
+    return solver.state.ejecta.count + share[host(solver, "kind") < EJECTED].sum()
 
 
 def test_half_a_spot_is_enough():
@@ -182,8 +181,7 @@ def test_light_goes_through_a_foil_burnt_through():
         "laser.fluence=20 J/cm^2", "laser.reflectivity=0.75",
     )  # fmt: skip
     go(solver, end=7e-9)
-    solver.find_surface()
-    is_empty = np.isnan(solver.light.tops())
+    is_empty = np.isnan(solver.light.column_tops())
     assert 0 < is_empty.sum() < 60
     assert np.abs(solver.light.center[0, is_empty]).max() < 1e-6
     energy = solver.state.energy

@@ -76,7 +76,7 @@ def ablation(backend):
     """A column of aluminium that boils away."""
     case, solver = moving("sound-wave", *COLUMN, backend=backend)
     moving_steps(solver, steps=40)
-    assert solver.state.left.count > 0
+    assert solver.state.ejecta.count > 0
     return case, solver, ("position", "velocity", "density", "enthalpy", "kind")
 
 

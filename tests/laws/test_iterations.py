@@ -6,7 +6,7 @@ from scattered_pairs import LEFT, TOP, scattered
 
 from lasersph import compute
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
-from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.sph.kernels import kernel

@@ -1,18 +1,18 @@
-"""`CellGrid`: a box cut into equal parts, and the part that each particle is in."""
+"""`CellGrid`: a box cut into equal cells, and the cell that each particle is in."""
 
 from __future__ import annotations
 
 from math import floor
-from typing import Any
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
 
 
-def along(x, axis, low, inverse, count):
-    """Number of the tile along an axis, that at the end for what is outside.
+def cell_along(x, axis, low, inverse, count):
+    """Number of the cell along an axis, that at the end for what is outside.
 
     Args:
         x: position [m]. axis: unit vector. low: of the box [m]. inverse: 1 / width [1/m].
@@ -20,24 +20,24 @@ def along(x, axis, low, inverse, count):
     return min(max(floor((dot(x, axis) - low) * inverse), 0.0), count - 1.0)
 
 
-def tile_number(tile, place, count):
-    """Number of a tile after one more axis."""
-    return int(tile * count + place)
+def cell_number(number, place, count):
+    """Number of a cell after one more axis."""
+    return int(number * count + place)
 
 
-def as_number(tile, place, count):
-    """`tile_number` as a real number, for the axes before the last."""
-    return tile * count + place
+def partial_number(number, place, count):
+    """`cell_number` as a real number, for the axes before the last."""
+    return number * count + place
 
 
 class CellGrid:
-    """Equal tiles of a box, at least as wide as asked for where the box is.
+    """Equal cells of a box, at least as wide as asked for where the box is.
 
     Args:
         low: lower corner of the box [m]. extent: along each axis [m]. width: [m].
 
     Attributes:
-        shape: tiles along each axis; they are numbered with the last axis fastest. count: of all.
+        shape: cells along each axis; they are numbered with the last axis fastest. count: of all.
         width: along each axis [m].
     """
 
@@ -48,15 +48,17 @@ class CellGrid:
         self._low, self._inverse = low, self.shape / np.maximum(extent, width)
         self.width = 1.0 / self._inverse
 
-    def find(self, position: Any, tile: Any) -> None:
-        """Number of the tile of each position (dim, n) [m], into `tile` (n,) of kind "index"."""
-        backend, last = self.backend, len(self.shape) - 1
-        place, number = backend.zeros(tile.shape[0]), backend.zeros(tile.shape[0])
+    def find_cells(self, position: Array) -> Array:
+        """Number of the cell of each position (dim, n) [m], (n,) of kind "index"."""
+        backend, last, size = self.backend, len(self.shape) - 1, position.shape[1]
+        place, number = backend.zeros(size), backend.zeros(size)
+        cell = backend.zeros(size, "index")
         for axis, count in enumerate(self.shape):
             unit = tuple(float(k == axis) for k in range(last + 1))
-            backend.pointwise(
-                along, {"x": position}, place, axis=unit, low=float(self._low[axis]),
-                inverse=float(self._inverse[axis]), count=float(count),
-            )  # fmt: skip
-            join, out = (tile_number, tile) if axis == last else (as_number, number)
-            backend.pointwise(join, {"tile": number, "place": place}, out, count=float(count))
+            constants = {"axis": unit, "low": float(self._low[axis]), "count": float(count)}
+            inverse = float(self._inverse[axis])
+            backend.pointwise(cell_along, {"x": position}, place, inverse=inverse, **constants)
+            join, out = (cell_number, cell) if axis == last else (partial_number, number)
+            fields = {"number": number, "place": place}
+            backend.pointwise(join, fields, out, count=float(count))
+        return cell

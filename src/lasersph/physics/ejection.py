@@ -1,7 +1,7 @@
 """Ejection of particles from a surface that a laser heats: two rules, as pure functions.
 
-A particle is condensed, leaving or ejected. Ejected ones fly on at constant velocity, transparent
-to the beam and without any exchange.
+A particle is interior, leaving or ejected (`particles.kinds`). Ejected ones fly on at constant
+velocity, transparent to the beam and without any exchange.
 
     enthalpy    leaves at once when all of  c_p (T_v - T_0) + L_m + L_v  is in, and carries it away
     published   leaves from T_v on, without latent heats; moves with the vapor along the normal and
@@ -21,14 +21,13 @@ Left out: expulsion of melt by recoil, plasma, superheating above T_v and explos
 from __future__ import annotations
 
 from lasersph.compute.vectors import dot, norm
+from lasersph.particles.kinds import EJECTED, INTERIOR, LEAVING
 from lasersph.physics.evaporation import (
     effusion_velocity,
     mean_normal_velocity,
     saturation_pressure,
 )
 
-CONDENSED, LEAVING, EJECTED, GONE, WALL = 0.0, 1.0, 2.0, 3.0, 4.0
-"""Stages of a particle; gone: beyond the edge of the domain; walls stay what they are."""
 BELOW_REACH = 1.5
 """Distance over the spacing within which particles count as covered: the next layer only."""
 BELOW_ALIGNMENT = 0.85
@@ -47,10 +46,10 @@ def vapor_speed(T, R_s, is_effusion):
     return mean_normal_velocity(T, R_s)
 
 
-def covered_term(x_ij, r_ij, v_i, lift_i, kind_j, exposed_j, reach, alignment):
+def covers_neighbor(x_ij, r_ij, v_i, lift_i, kind_j, exposed_j, reach, alignment):
     """1 for a neighbor that a leaving particle still covers, else 0.
 
-    That is a condensed particle behind it in the direction of its path, in the layer next to its
+    That is an interior particle behind it in the direction of its path, in the layer next to its
     former place, which is not exposed.
 
     Args:
@@ -58,12 +57,12 @@ def covered_term(x_ij, r_ij, v_i, lift_i, kind_j, exposed_j, reach, alignment):
     """
     behind = dot(x_ij, v_i) / max(norm(v_i), 1e-30)
     is_near = behind > alignment * r_ij and behind - lift_i < reach
-    if is_near and kind_j == CONDENSED and exposed_j == 0.0:
+    if is_near and kind_j == INTERIOR and exposed_j == 0.0:
         return 1.0
     return 0.0
 
 
-def lifted(lift, kind, v, step):
+def advance_lift(lift, kind, v, step):
     """Distance that a leaving particle has moved after a step [m]; others keep theirs."""
     return lift + norm(v) * step if kind == LEAVING else lift
 
@@ -80,7 +79,7 @@ def published_departure(
         lift: distance moved [m]. covered: how many particles it covers. exposed: 1 at the surface.
         distance: at which it has left [m]; negative where it has left when it covers none.
     """
-    if kind == CONDENSED and exposed > 0.0 and T_v <= T:
+    if kind == INTERIOR and exposed > 0.0 and T_v <= T:
         return LEAVING, vapor_speed(T, R_s, is_effusion) * normal
     if kind != LEAVING:
         return kind, v
@@ -101,13 +100,13 @@ def enthalpy_departure(kind, h, m, light, exposed, T, normal, v, h_v, R_s, is_ef
             enthalpy of the vapor [J/kg]. up: where it goes if it lies in the light without being
             exposed, at the bottom of a hole, and so has no normal.
     """
-    if kind == CONDENSED and h >= h_v and (exposed > 0.0 or light > 0.0):
+    if kind == INTERIOR and h >= h_v and (exposed > 0.0 or light > 0.0):
         direction = normal if dot(normal, normal) > 0.0 else up + 0.0 * normal
         return EJECTED, vapor_speed(T, R_s, is_effusion) * direction, h_v, m * (h - h_v)
     return kind, v, h, 0.0
 
 
-def departed(kind, left_at, p_v, T, m, h, v, time, p_b, T_b, L_v, R_s):
+def ejected_quantities(kind, left_at, p_v, T, m, h, v, time, p_b, T_b, L_v, R_s):
     """What a particle that has just left takes along.
 
     Returns the time of leaving [s], the vapor pressure at it [Pa] (5), and, zero for the others,
@@ -124,7 +123,7 @@ def departed(kind, left_at, p_v, T, m, h, v, time, p_b, T_b, L_v, R_s):
     return left_at, p_v, 0.0, 0.0, 0.0, 0.0
 
 
-def light_limit(share, density, spacing, h_v, flux):
+def ejection_step_limit(share, density, spacing, h_v, flux):
     """Time step [s] in which a surface particle takes up a share of the enthalpy of the vapor.
 
     Longer steps would carry away more energy than evaporation takes:  share rho dx h_v / q.

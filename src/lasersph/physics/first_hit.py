@@ -18,7 +18,7 @@ from __future__ import annotations
 from math import floor
 
 from lasersph.compute.vectors import dot, interpolate
-from lasersph.physics.ejection import LEAVING
+from lasersph.particles.kinds import LEAVING
 
 ROUNDING = 1e-6
 """Shares of a column below which a particle does not stand in it."""
@@ -28,7 +28,7 @@ NOWHERE = -1e30
 """Height where nothing stands [m]."""
 
 
-def place_along(x, axis, low, inverse):
+def column_along(x, axis, low, inverse):
     """Column in which the lower edge of a particle's square lies, and the share beyond it.
 
     Args:
@@ -41,7 +41,7 @@ def place_along(x, axis, low, inverse):
     return column, (beyond if beyond > ROUNDING else 0.0)
 
 
-def wrapped(column, count, wraps):
+def wrap_column(column, count, wraps):
     """Number of a column, -1 outside; around the end where the columns are periodic."""
     if wraps > 0.0:
         return column - count * floor(column / count)
@@ -50,7 +50,7 @@ def wrapped(column, count, wraps):
     return column
 
 
-def corner(
+def column_at_corner(
     column_x,
     beyond_x,
     column_y,
@@ -68,12 +68,12 @@ def corner(
     The number behind the last one stands for no column.
 
     Args:
-        column_x, column_y, beyond_x, beyond_y: from `place_along`; 0 for an axis that is missing.
+        column_x, column_y, beyond_x, beyond_y: from `column_along`; 0 for an axis that is missing.
             kind: only what is condensed or leaving stands anywhere. right, back: 1 for the
             upper corner along x and y.
     """
-    x = wrapped(column_x + right, count_x, wraps_x)
-    y = wrapped(column_y + back, count_y, wraps_y)
+    x = wrap_column(column_x + right, count_x, wraps_x)
+    y = wrap_column(column_y + back, count_y, wraps_y)
     cover = (beyond_x if right > 0.0 else 1.0 - beyond_x) * (
         beyond_y if back > 0.0 else 1.0 - beyond_y
     )
@@ -88,7 +88,7 @@ def heights(x_j, cover_j, up):
     return (z if cover_j >= LEAST_COVER else NOWHERE), z
 
 
-def higher(a, b):
+def larger(a, b):
     """The larger of two heights [m]."""
     return max(a, b)
 
@@ -103,7 +103,7 @@ def cover_of_uppermost(x_j, cover_j, top_i, up, band):
     return cover_j if dot(x_j, up) > top_i - band else 0.0
 
 
-def added(a, b):
+def add(a, b):
     """Sum of two covers."""
     return a + b
 
@@ -120,7 +120,7 @@ def share_of(x, column, cover, tops, covers, up, band):
     return cover / covers[column]
 
 
-def light_of(light, column, share, energy):
+def add_light(light, column, share, energy):
     """Light on a particle [J], with that of one more column; energy: table of the columns [J]."""
     return light + share * energy[column]
 
@@ -130,7 +130,7 @@ def absorbed_light(light, T, R_T, R_R):
     return (1.0 - interpolate(T, R_T, R_R)) * light
 
 
-def owed(excess_j, cover_j, whole_j):
+def excess_for_column(excess_j, cover_j, whole_j):
     """What a particle that has left hands to one of its columns [J].
 
     Args:
@@ -140,7 +140,7 @@ def owed(excess_j, cover_j, whole_j):
     return excess_j * cover_j / whole_j if cover_j > 0.0 else 0.0 * excess_j
 
 
-def heated(h, m, given):
+def add_heat(h, m, given):
     """Enthalpy with the energy that others have handed down [J/kg], and that energy [J].
 
     Args:

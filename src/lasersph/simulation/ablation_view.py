@@ -11,7 +11,7 @@ import numpy as np
 from lasersph.case import Case
 from lasersph.observers.ablation_view import AblationView
 from lasersph.observers.view import View
-from lasersph.physics.ejection import EJECTED
+from lasersph.particles.kinds import EJECTED
 from lasersph.simulation.spot_edges import halves_spot
 from lasersph.solvers.ablation.solver import Ablation
 
@@ -27,7 +27,6 @@ def pulse_starts(case: Case) -> tuple[float, ...]:
 
 def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> View:
     """The state for observers; particles of walls are left out."""
-    solver.find_surface()
     particles, backend, state = solver.body, solver.backend, solver.state
     level, geometry = particles.now, particles.geometry
     count = _shown(solver) if step else particles.count
@@ -81,7 +80,7 @@ def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
     particles, backend, state = solver.body, solver.backend, solver.state
     level = particles.now
     flying = np.zeros(0, np.int64)
-    if state.left.count:
+    if state.ejecta.count:
         flying = backend.look(backend.rows_where(particles.kind, EJECTED)).astype(np.int64)
     look = {
         name: backend.look(array)[..., :count]
@@ -99,16 +98,16 @@ def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
         **look,
         column_center=np.zeros((dimension - 1, 0)) if columns is None else columns.center,
         column_width=float(particles.geometry.cell[0]),
-        column_top=np.zeros(0) if columns is None else columns.tops(),
+        column_top=np.zeros(0) if columns is None else columns.column_tops(),
         ejecta_position=backend.look(level.x)[:, flying],
         ejecta_velocity=look["velocity"][:, flying],
         ejecta_temperature=backend.look(level.T)[flying],
         ejecta_mass=backend.look(particles.m)[flying],
         ejecta_time=backend.look(particles.left_at)[flying],
-        ejected_count=state.left.count,
-        ejected_mass=state.left.mass,
-        ejected_energy=state.left.energy,
-        ejected_kinetic=state.left.kinetic,
+        ejected_count=state.ejecta.count,
+        ejected_mass=state.ejecta.mass,
+        ejected_energy=state.ejecta.energy,
+        ejected_kinetic=state.ejecta.kinetic,
         gone_count=state.gone,
         pressure_max=pressure,
         speed_max_condensed=speed,

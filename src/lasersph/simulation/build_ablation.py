@@ -13,15 +13,16 @@ from lasersph.compute.backend import Backend
 from lasersph.lasers import Laser
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers
+from lasersph.particles.neighbor_lists import Box
+from lasersph.particles.verlet_list import VerletList
 from lasersph.physics.artificial_viscosity import SOFTENING
 from lasersph.simulation.build_flow import wall_enthalpy
-from lasersph.solvers.ablation.active import ActiveRegion
+from lasersph.solvers.ablation.active_region import ActiveRegion
 from lasersph.solvers.ablation.ejecta import Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
 from lasersph.solvers.ablation.first_hit import FirstHitLight
 from lasersph.solvers.ablation.geometry import Geometry, InitialState, lay_out
-from lasersph.solvers.ablation.pairs import Pairs
 from lasersph.solvers.ablation.parameters import Parameters
 from lasersph.solvers.ablation.particle_state import ParticleState
 from lasersph.solvers.ablation.published.ejection import PublishedEjection
@@ -90,9 +91,19 @@ def solver_of(case: Case, backend: Backend, geometry: Geometry, initial: Initial
         light = _first_hit(case, case.laser, backend, particles)
         ejection = _ejection(case, backend, particles, curve, light)
     region = _region(case, backend, particles, settings)
+    low, high = (tuple(corner) for corner in zip(*geometry.box, strict=True))
+    pairs = VerletList(
+        backend,
+        particles.fields(),
+        particles.half.x,
+        shape,
+        Box(low, high, geometry.period),
+        geometry.spacing,
+        settings.skin * geometry.spacing,
+    )
     return Ablation(
         particles,
-        Pairs(particles, shape, settings.skin, None if region is None else region.find_pairs),
+        pairs,
         FreeSurface(
             backend,
             particles.total,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.compute.backend import Backend
-from lasersph.particles.neighbors import NeighborList, find_neighbors
+from lasersph.particles.neighbor_lists import NeighborList, find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.sph.kernels import Kernel
 

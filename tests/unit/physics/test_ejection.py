@@ -5,8 +5,8 @@ from math import exp, pi, sqrt
 import numpy as np
 import pytest
 
+from lasersph.particles.kinds import EJECTED, INTERIOR, LEAVING, WALL
 from lasersph.physics import ejection
-from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING, WALL
 
 R_S = 308.17
 UP = np.array([0.0, 0.0, 1.0])
@@ -23,12 +23,12 @@ def test_vapor_speed():
 @pytest.mark.parametrize(
     ("offset", "lift", "kind", "exposed", "counts"),
     [
-        ([0, 0, 1.0], 0.0, CONDENSED, 0.0, 1.0),  # the one below
-        ([0, 0, 1.6], 0.6, CONDENSED, 0.0, 1.0),  # still, 0.6 higher
-        ([0, 0, 2.0], 0.0, CONDENSED, 0.0, 0.0),  # two layers below
-        ([1, 0, 1.0], 0.0, CONDENSED, 0.0, 0.0),  # diagonally below
-        ([0, 0, -1.0], 0.0, CONDENSED, 0.0, 0.0),  # in front
-        ([0, 0, 1.0], 0.0, CONDENSED, 1.0, 0.0),  # exposed
+        ([0, 0, 1.0], 0.0, INTERIOR, 0.0, 1.0),  # the one below
+        ([0, 0, 1.6], 0.6, INTERIOR, 0.0, 1.0),  # still, 0.6 higher
+        ([0, 0, 2.0], 0.0, INTERIOR, 0.0, 0.0),  # two layers below
+        ([1, 0, 1.0], 0.0, INTERIOR, 0.0, 0.0),  # diagonally below
+        ([0, 0, -1.0], 0.0, INTERIOR, 0.0, 0.0),  # in front
+        ([0, 0, 1.0], 0.0, INTERIOR, 1.0, 0.0),  # exposed
         ([0, 0, 1.0], 0.0, LEAVING, 0.0, 0.0),
         ([0, 0, 1.0], 0.0, WALL, 0.0, 0.0),
     ],
@@ -36,7 +36,7 @@ def test_vapor_speed():
 def test_covered_neighbors(offset, lift, kind, exposed, counts):
     """Only condensed, hidden particles of the next layer behind the path count."""
     x_ij = np.array(offset, float)
-    found = ejection.covered_term(
+    found = ejection.covers_neighbor(
         x_ij, np.linalg.norm(x_ij), 400.0 * UP, lift, kind, exposed, 1.5, 0.85
     )
     assert found == counts
@@ -45,9 +45,9 @@ def test_covered_neighbors(offset, lift, kind, exposed, counts):
 def test_lift():
     """Leaving particles add |v| dt to their way, others do not."""
     v = np.array([3.0, 0.0, 4.0])
-    assert ejection.lifted(0.1, LEAVING, v, 0.02) == pytest.approx(0.2)
-    assert ejection.lifted(0.1, CONDENSED, v, 0.02) == 0.1
-    assert ejection.lifted(0.1, EJECTED, v, 0.02) == 0.1
+    assert ejection.advance_lift(0.1, LEAVING, v, 0.02) == pytest.approx(0.2)
+    assert ejection.advance_lift(0.1, INTERIOR, v, 0.02) == 0.1
+    assert ejection.advance_lift(0.1, EJECTED, v, 0.02) == 0.1
 
 
 def published(kind, *, T=3000.0, exposed=1.0, v=REST, lift=0.0, covered=1.0, distance=-1.0):
@@ -59,11 +59,11 @@ def published(kind, *, T=3000.0, exposed=1.0, v=REST, lift=0.0, covered=1.0, dis
 
 def test_published_rule_begins_at_the_boiling_point():
     """Exposed and at 2730 K or above: leaves along the normal with the vapor's velocity."""
-    kind, v = published(CONDENSED, T=2730.0)
+    kind, v = published(INTERIOR, T=2730.0)
     assert kind == LEAVING
     np.testing.assert_allclose(v, [0.0, 0.0, sqrt(R_S * 2730.0 / (2 * pi))])
-    for held in (published(CONDENSED, T=2729.9), published(CONDENSED, exposed=0.0)):
-        assert held[0] == CONDENSED and not held[1].any()
+    for held in (published(INTERIOR, T=2729.9), published(INTERIOR, exposed=0.0)):
+        assert held[0] == INTERIOR and not held[1].any()
 
 
 def test_published_rule_follows_the_temperature_until_it_has_left():
@@ -89,7 +89,7 @@ def test_published_rule_ends_by_cover_or_by_distance():
 def test_enthalpy_rule():
     """All of the enthalpy must be in, and the particle at the surface or in the light."""
 
-    def rule(kind=CONDENSED, h=13.2e6, light=0.0, exposed=1.0, normal=UP):
+    def rule(kind=INTERIOR, h=13.2e6, light=0.0, exposed=1.0, normal=UP):
         return ejection.enthalpy_departure(
             kind, h, 2.0, light, exposed, 2730.0, normal, REST, 13.1e6, R_S, 1.0, UP
         )
@@ -109,7 +109,7 @@ def test_what_leaves_takes_along():
     v = np.array([0.0, 300.0, 400.0])
 
     def account(kind, left_at):
-        return ejection.departed(kind, left_at, 0.0, 3744.0, 2.0, 1e7, v, 5e-9, **boiling)
+        return ejection.ejected_quantities(kind, left_at, 0.0, 3744.0, 2.0, 1e7, v, 5e-9, **boiling)
 
     time, pressure, *taken = account(EJECTED, 0.0)
     assert time == 5e-9 and pressure == pytest.approx(30.05e5, rel=1e-3)
@@ -122,5 +122,5 @@ def test_what_leaves_takes_along():
 
 def test_longest_step():
     """0.1 rho dx h_v / q: 2705 kg/m^3, 0.2 um, 13.1 MJ/kg and 2.5e12 W/m^2 give 0.283 ns."""
-    found = ejection.light_limit(0.1, 2705.0, 2e-7, 13.1e6, 2.5e12)
+    found = ejection.ejection_step_limit(0.1, 2705.0, 2e-7, 13.1e6, 2.5e12)
     assert found == pytest.approx(2.835e-10, rel=1e-3)

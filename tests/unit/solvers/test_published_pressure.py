@@ -5,7 +5,7 @@ import pytest
 from scattered_pairs import RATIO
 
 from lasersph import compute
-from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.solvers.melt_pool.published_pressure import (

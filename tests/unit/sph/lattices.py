@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.sph.kernels import kernel
 

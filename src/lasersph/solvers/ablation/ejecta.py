@@ -7,7 +7,7 @@ from typing import Any
 
 from lasersph.compute.backend import Backend
 from lasersph.materials import Material
-from lasersph.physics.ejection import departed
+from lasersph.physics.ejection import ejected_quantities
 from lasersph.physics.evaporation import STANDARD_ATMOSPHERE
 
 
@@ -47,8 +47,8 @@ class Vapor:
             fields: by symbol; kind, m, h, v, T, left_at, p_v. time: end of the step [s].
         """
         out = (fields["left_at"], fields["p_v"], None, None, None, None)
+        given = {"reduce": (None, None, *4 * ("sum",)), "time": time, **self._boiling}
         count, mass, energy, kinetic = self.backend.pointwise(
-            departed, fields, out, rows=rows, reduce=(None, None, "sum", "sum", "sum", "sum"),
-            time=time, **self._boiling,
-        )  # fmt: skip
+            ejected_quantities, fields, out, rows=rows, **given
+        )
         return Ejecta(int(count), mass, energy, kinetic)

@@ -7,7 +7,7 @@ from typing import Any
 
 from lasersph.compute.backend import Backend
 from lasersph.materials.caloric_curve import CaloricCurve
-from lasersph.physics.ejection import enthalpy_departure, light_limit
+from lasersph.physics.ejection import ejection_step_limit, enthalpy_departure
 from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
 from lasersph.solvers.ablation.first_hit import FirstHitLight
 
@@ -48,9 +48,11 @@ class EnthalpyEjection:
 
     def longest_step(self, flux: float, density: float) -> float:
         """Longest step [s] at a flux absorbed by the surface [W/m^2]."""
-        return light_limit(LIGHT_SHARE, density, self.spacing, self.enthalpy_vaporized, flux)
+        return ejection_step_limit(
+            LIGHT_SHARE, density, self.spacing, self.enthalpy_vaporized, flux
+        )
 
-    def leave(
+    def eject(
         self, fields: dict[str, Any], pairs: Any, rows: Any, time: float, step: float
     ) -> Ejecta:
         """Set kind, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
@@ -68,5 +70,5 @@ class EnthalpyEjection:
         departure = self.vapor.account(fields, rows, time)
         if excess == 0.0:
             return departure
-        given = self.light.hand_down(self._excess, fields["x"], kind, h, fields["m"])
+        given = self.light.pass_excess_down(self._excess, fields["x"], kind, h, fields["m"])
         return replace(departure, energy=departure.energy + excess - given)

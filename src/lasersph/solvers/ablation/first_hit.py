@@ -16,21 +16,20 @@ import numpy as np
 from lasersph.compute.backend import Backend
 from lasersph.lasers import Laser
 from lasersph.materials import Material
-from lasersph.particles.neighbors import NeighborList
-from lasersph.particles.support import common
-from lasersph.physics.ejection import GONE
+from lasersph.particles.kinds import GONE
+from lasersph.particles.neighbor_lists import NeighborList, members_of
 from lasersph.physics.first_hit import (
     NOWHERE,
     absorbed_light,
-    added,
-    corner,
+    add,
+    add_heat,
+    add_light,
+    column_along,
+    column_at_corner,
     cover_of_uppermost,
-    heated,
+    excess_for_column,
     heights,
-    higher,
-    light_of,
-    owed,
-    place_along,
+    larger,
     share_of,
     top_of,
 )
@@ -88,12 +87,12 @@ class FirstHitLight:
         self._top, self._covers = backend.zeros(self.count + 1), backend.zeros(self.count + 1)
         self._lit: list[tuple[Any, Any]] = []
         self._lists: list[tuple[Any, Any, NeighborList]] = []
-        self._is_met = np.zeros(self.count, bool)
+        self._is_hit = np.zeros(self.count, bool)
         self._take(backend.zeros(0, "index"))
 
     # --- who is met -----------------------------------------------------------------------------
 
-    def sort(self, position: Any, kind: Any, rows: Any) -> None:
+    def find_hit(self, position: Any, kind: Any, rows: Any) -> None:
         """Find which particles the light meets first.
 
         Args:
@@ -107,7 +106,9 @@ class FirstHitLight:
         backend.gather(position, rows, x)
         backend.gather(kind, rows, kinds)
         corners = self._corners(x, kinds)
-        self._lists = [(column, cover, self._list(x, column)) for column, cover in corners]
+        self._lists = [
+            (column, cover, members_of(backend, column, self.count, x)) for column, cover in corners
+        ]
         self._find_tops()
         shares, lit = [], backend.zeros(size)
         for column, cover, _ in self._lists:
@@ -116,15 +117,15 @@ class FirstHitLight:
                 share_of, {"x": x, "column": column, "cover": cover}, share, tops=self._top,
                 covers=self._covers, up=self.up, band=BAND * self.spacing,
             )  # fmt: skip
-            backend.pointwise(marked, {"lit": lit, "share": share}, lit)
+            backend.pointwise(mark_hit, {"lit": lit, "share": share}, lit)
             shares.append((column, share))
         met = backend.rows_where(lit, 1.0)
         self._lit = [
-            (self._gathered(column, met, "index"), self._gathered(share, met))
+            (self._gather(column, met, "index"), self._gather(share, met))
             for column, share in shares
         ]
         backend.scatter(backend.zeros(self.rows.shape[0]), self.rows, self.deposit)
-        self._take(self._gathered(rows, met, "index"))
+        self._take(self._gather(rows, met, "index"))
 
     def _take(self, rows: Any) -> None:
         """Let `rows` be what is met."""
@@ -140,7 +141,7 @@ class FirstHitLight:
         for axis in range(self.dimension - 1):
             unit = tuple(float(k == axis) for k in range(self.dimension))
             backend.pointwise(
-                place_along, {"x": x}, places[axis], axis=unit, low=self._low[axis],
+                column_along, {"x": x}, places[axis], axis=unit, low=self._low[axis],
                 inverse=1.0 / float(self.width[axis]),
             )  # fmt: skip
         fields = {
@@ -152,22 +153,12 @@ class FirstHitLight:
         for right, back in product(*ends):
             column, cover = backend.zeros(size, "index"), backend.zeros(size)
             backend.pointwise(
-                corner, fields, (column, cover), right=right, back=back,
+                column_at_corner, fields, (column, cover), right=right, back=back,
                 count_x=float(self._shape[0]), count_y=float(self._shape[1]),
                 wraps_x=self._wraps[0], wraps_y=self._wraps[1],
             )  # fmt: skip
             found.append((column, cover))
         return found
-
-    def _list(self, x: Any, column: Any) -> NeighborList:
-        """The particles of each column, as rows of a list."""
-        backend, total = self.backend, self.count + 1
-        start = backend.zeros(total + 1, "offset")
-        backend.exclusive_scan(backend.count_by_key(column, total), start)
-        order = backend.sort_by_key(column, total)
-        return NeighborList(
-            backend.head(start, total), order, x, backend.zeros(x.shape[1]), None, common, ()
-        )
 
     def _find_tops(self) -> None:
         """Height of the highest particle of each column, and the cover of its uppermost ones."""
@@ -180,8 +171,8 @@ class FirstHitLight:
                 heights, columns, {"cover": cover}, (part, other), combine=("max", "max"),
                 up=self.up,
             )  # fmt: skip
-            backend.pointwise(higher, {"a": highest, "b": part}, highest)
-            backend.pointwise(higher, {"a": any_height, "b": other}, any_height)
+            backend.pointwise(larger, {"a": highest, "b": part}, highest)
+            backend.pointwise(larger, {"a": any_height, "b": other}, any_height)
         top, covers = backend.head(self._top, count), backend.head(self._covers, count)
         backend.pointwise(top_of, {"covering": highest, "any_height": any_height}, top)
         backend.fill(covers, 0.0)
@@ -190,15 +181,15 @@ class FirstHitLight:
                 cover_of_uppermost, columns, {"cover": cover, "top": top}, part, up=self.up,
                 band=BAND * self.spacing,
             )  # fmt: skip
-            backend.pointwise(added, {"a": covers, "b": part}, covers)
-        self._is_met = backend.to_host(covers) > 0.0
+            backend.pointwise(add, {"a": covers, "b": part}, covers)
+        self._is_hit = backend.to_host(covers) > 0.0
 
-    def _gathered(self, source: Any, order: Any, kind: str = "real") -> Any:
+    def _gather(self, source: Any, order: Any, kind: str = "real") -> Any:
         out = self.backend.zeros(order.shape[0], kind)
         self.backend.gather(source, order, out)
         return out
 
-    def tops(self) -> np.ndarray:
+    def column_tops(self) -> np.ndarray:
         """z of the upper face of the highest particle of each column [m]; NaN where none is."""
         top = self.backend.to_host(self._top)[: self.count]
         return np.where(top > NOWHERE, top + 0.5 * self.spacing, np.nan)
@@ -218,17 +209,17 @@ class FirstHitLight:
         density = self.laser.energy_density(self._lower, upper, start, end)
         energy = density * np.prod(self.width)
         self.incident = float(energy.sum())
-        self.transmitted = float(energy[~self._is_met].sum())
+        self.transmitted = float(energy[~self._is_hit].sum())
         backend.copy(backend.asarray(np.append(energy, 0.0)), self._energy)
-        self._pour(self._energy)
+        self._distribute(self._energy)
 
-    def _pour(self, energy: Any) -> None:
+    def _distribute(self, energy: Any) -> None:
         """Let the energy of the columns (columns + 1,) [J] fall on what is met: `_light`."""
         backend = self.backend
         backend.fill(self._light, 0.0)
         for column, share in self._lit:
             fields = {"light": self._light, "column": column, "share": share}
-            backend.pointwise(light_of, fields, self._light, energy=energy)
+            backend.pointwise(add_light, fields, self._light, energy=energy)
 
     def absorb(self, temperature: Any) -> None:
         """Set `deposit` and `absorbed` from the temperatures (N,) of the particles [K]."""
@@ -240,7 +231,7 @@ class FirstHitLight:
         )
         backend.scatter(self._absorbed, self.rows, self.deposit)
 
-    def hand_down(self, excess: Any, position: Any, kind: Any, h: Any, m: Any) -> float:
+    def pass_excess_down(self, excess: Any, position: Any, kind: Any, h: Any, m: Any) -> float:
         """Give the excess of what has left to what is met now; sorts anew.
 
         Args:
@@ -256,21 +247,21 @@ class FirstHitLight:
         backend.gather(excess, self._sorted, own)
         total, part = backend.zeros(count + 1), backend.zeros(count)
         for _, cover, _ in self._lists:
-            backend.pointwise(added, {"a": whole, "b": cover}, whole)
+            backend.pointwise(add, {"a": whole, "b": cover}, whole)
         for _, cover, columns in self._lists:
             fields = {"excess": own, "cover": cover, "whole": whole}
-            backend.pair_sum(owed, columns, fields, part)
+            backend.pair_sum(excess_for_column, columns, fields, part)
             head = backend.head(total, count)
-            backend.pointwise(added, {"a": head, "b": part}, head)
-        self.sort(position, kind, self._sorted)
-        self._pour(total)
-        enthalpy, mass = self._gathered(h, self.rows), self._gathered(m, self.rows)
+            backend.pointwise(add, {"a": head, "b": part}, head)
+        self.find_hit(position, kind, self._sorted)
+        self._distribute(total)
+        enthalpy, mass = self._gather(h, self.rows), self._gather(m, self.rows)
         fields = {"h": enthalpy, "m": mass, "given": self._light}
-        (given,) = backend.pointwise(heated, fields, (enthalpy, None), reduce=(None, "sum"))
+        (given,) = backend.pointwise(add_heat, fields, (enthalpy, None), reduce=(None, "sum"))
         backend.scatter(enthalpy, self.rows, h)
         return given
 
 
-def marked(lit, share):
+def mark_hit(lit, share):
     """1 for a particle that takes a share of any column."""
     return 1.0 if share > 0.0 else lit

@@ -30,3 +30,8 @@ class Parameters:
     ambient: dict[str, float]
     low: tuple[float, ...]
     high: tuple[float, ...]
+
+    @property
+    def loses_heat(self) -> bool:
+        """Whether the surface loses heat to the surroundings."""
+        return self.ambient["h_c"] > 0.0 or self.ambient["eps"] > 0.0

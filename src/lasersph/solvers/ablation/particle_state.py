@@ -8,11 +8,13 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import interpolate
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
-from lasersph.physics.ejection import CONDENSED, WALL
+from lasersph.particles.kinds import INTERIOR, LEAVING, WALL
+from lasersph.physics.equation_of_state import condensed_pressure
+from lasersph.physics.phase_change import state
 from lasersph.solvers.ablation.geometry import Geometry, InitialState
-from lasersph.solvers.ablation.rates import derived
 
 HOTTEST = 5e4
 """End of the table of conductivities [K]; its last law goes on."""
@@ -42,6 +44,31 @@ class TimeLevel:
         """All zero."""
         vectors = [backend.zeros((dimension, total)) for _ in range(2)]
         return cls(*vectors, *(backend.zeros(total) for _ in range(9)))
+
+
+def evaluate_state(
+    h, rho, m, kind, conducts,
+    h_nodes, T_nodes, P_nodes, m_nodes, v_nodes, k_T, k_nodes, melts_at, rho_0, c_0, has_tension,
+):  # fmt: skip
+    """What follows from enthalpy, density and kind.
+
+    Returns temperature [K], melt and vapor fraction [1], conductivity [W/(m K)], pressure [Pa],
+    volume and acting volume [m^d], and 1 for what has not been ejected.
+
+    Args:
+        conducts: 1, or 0 for walls that let no heat pass. h_nodes ... v_nodes: of
+        `phase_change.state`. k_T, k_nodes: table of the conductivity. melts_at: where matter
+        without latent heat counts as molten [K]. Others as in `equation_of_state`.
+    """
+    T, _potential, f_m, f_v = state(h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes)
+    is_wall = kind == WALL
+    acts = 1.0 if kind == INTERIOR or is_wall else 0.0
+    opaque = 1.0 if kind <= LEAVING or is_wall else 0.0
+    melted = max(f_m, 1.0 if melts_at <= T else 0.0)
+    k = opaque * conducts * interpolate(T, k_T, k_nodes)
+    P = acts * condensed_pressure(rho, rho_0, c_0, has_tension)
+    V = m / rho
+    return T, melted, f_v, k, P, V, acts * V, opaque
 
 
 class ParticleState:
@@ -76,7 +103,7 @@ class ParticleState:
         self.half = TimeLevel.empty(backend, dimension, total)
         self.m = backend.asarray(initial.density * geometry.volume)
         self.support = backend.asarray(np.full(total, support))
-        kind = np.full(total, CONDENSED)
+        kind = np.full(total, INTERIOR)
         kind[self.count :] = WALL
         self.kind = backend.asarray(kind)
         self.conducts = backend.asarray(initial.conducts)
@@ -121,14 +148,18 @@ class ParticleState:
             "conducts": self.conducts,
         }  # fmt: skip
         out = (level.T, level.f_m, level.f_v, level.k, level.P, level.V, level.V_a, self.opaque)
-        self.backend.pointwise(derived, fields, out, rows=rows, **self._tables, **self._constants)
+        self.backend.pointwise(
+            evaluate_state, fields, out, rows=rows, **self._tables, **self._constants
+        )
 
     def enter(self, rows: Any) -> None:
         """Let the middle of the step know particles that take part from now on."""
         for name, array in vars(self.now).items():
-            self.backend.pointwise(same, {"value": array}, getattr(self.half, name), rows=rows)
+            self.backend.pointwise(
+                copy_value, {"value": array}, getattr(self.half, name), rows=rows
+            )
 
 
-def same(value):
+def copy_value(value):
     """A copy of a field, in chosen rows."""
     return 1.0 * value

@@ -1,34 +1,30 @@
-"""`Ablation`: matter that is heated, moves, compresses and leaves. `step()` is the recipe.
+"""`Ablation`: matter that is heated, moves, compresses and leaves. `_advance` is the step.
 
-    light -> rates -> half step -> rates -> whole step -> what leaves -> what flies
-
-[Alshaer2017, Sections 2 and 4.4]. Rates are evaluated anew in the middle of the step, that is the
-midpoint rule; the paper's eqs. (29), (30) do not show it. While nothing moves and no force acts,
-only heat is computed, between pairs weighed once.
+Rates are evaluated anew in the middle of the step, that is the midpoint rule; eqs. (29), (30) of
+[Alshaer2017, Sections 2 and 4.4] do not show it. While nothing moves and no force acts, only heat
+is computed, between pairs weighed once.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import sqrt
-from typing import Any
 
 import numpy as np
 
 from lasersph.boundaries.free_surface import FreeSurface
+from lasersph.compute.array_types import Array, Rows
+from lasersph.particles.kinds import EJECTED
+from lasersph.particles.verlet_list import REST, LargestMotion, VerletList
 from lasersph.physics.compressible_limits import compressible_limits
-from lasersph.physics.ejection import EJECTED
-from lasersph.solvers.ablation.active import ActiveRegion
-from lasersph.solvers.ablation.ejecta_motion import flown
+from lasersph.solvers.ablation.active_region import ActiveRegion
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
+from lasersph.solvers.ablation.equations import fly, interior_extremes, speed_squares
 from lasersph.solvers.ablation.first_hit import FirstHitLight
-from lasersph.solvers.ablation.lifting_step import LiftingStep
-from lasersph.solvers.ablation.moving_step import MovingStep
-from lasersph.solvers.ablation.pairs import REST, Pairs, Stride
 from lasersph.solvers.ablation.parameters import Parameters
 from lasersph.solvers.ablation.particle_state import ParticleState
 from lasersph.solvers.ablation.published.ejection import PublishedEjection
-from lasersph.solvers.ablation.rates import condensed_extremes, speed_squares
-from lasersph.solvers.ablation.resting_step import RestingStep
+from lasersph.solvers.ablation.rates import Moving, Rates
 from lasersph.solvers.ablation.state import AblationState
 from lasersph.solvers.step_control import (
     NotConverged,
@@ -39,43 +35,46 @@ from lasersph.solvers.step_control import (
 from lasersph.solvers.time_settings import TimeSettings
 
 LEVEL_ARRAYS = {"position": "x", "velocity": "v", "density": "rho", "enthalpy": "h"}
-MATTER_ARRAYS = ("kind", "left_at", "p_v")
+PARTICLE_ARRAYS = ("kind", "left_at", "p_v")
 
 
 class Ablation:
     """Solver of a run whose matter may move and leave.
 
     Attributes:
-        body: the particles. pairs: who is near whom. exposure: the free surface. columns: the
-            light. ejection: the rule of leaving. Both None without a laser.
+        body: the particles. pairs: who is near whom. light, ejection: what falls on the surface and
+            the rule of leaving, both None without a laser. region: what is computed, None for all.
         state: all numbers that survive a step.
     """
 
     def __init__(
         self,
         particles: ParticleState,
-        pairs: Pairs,
-        exposure: FreeSurface,
-        numbers: Parameters,
+        pairs: VerletList,
+        surface: FreeSurface,
+        parameters: Parameters,
         time: TimeSettings,
-        columns: FirstHitLight | None = None,
+        light: FirstHitLight | None = None,
         ejection: EnthalpyEjection | PublishedEjection | None = None,
         region: ActiveRegion | None = None,
     ) -> None:
-        self.body, self.pairs, self.surface = particles, pairs, exposure
-        self.parameters, self.time_settings = numbers, time
-        self.light, self.ejection, self.region = columns, ejection, region
+        self.body, self.pairs, self._surface = particles, pairs, surface
+        self.parameters, self.time_settings = parameters, time
+        self.light, self.ejection, self.region = light, ejection, region
         self.backend = particles.backend
         self.state = AblationState()
-        self._moving = MovingStep(particles, pairs, exposure, numbers, self.state)
-        self._resting = RestingStep(particles, pairs, exposure, numbers)
-        self._lifting = LiftingStep(particles, pairs, exposure, numbers)
-        self._surface_known = False
-        self._everything = self.backend.asarray(np.arange(particles.total), "index")
-        self._enter()
+        self._rates = Rates(particles, pairs, surface.area, parameters, self.state)
+        self._needs_surface = light is not None or parameters.loses_heat
+        self._is_surface_current = False
+        self._all_rows = self.backend.asarray(np.arange(particles.total), "index")
+        self._include_active()
+        if self._needs_surface:
+            self._update_surface()
+
+    # --- what the time loop asks ----------------------------------------------------------------
 
     @property
-    def rows(self) -> Any:
+    def rows(self) -> Rows | None:
         """Particles that are computed, kind "index"; None for all."""
         return None if self.region is None else self.region.rows
 
@@ -85,11 +84,11 @@ class Ablation:
         return self.body.count
 
     @property
-    def fields(self) -> dict[str, Any]:
+    def fields(self) -> dict[str, Array]:
         """Arrays of the particles by name."""
         level, particles = self.body.now, self.body
         found = {name: getattr(level, symbol) for name, symbol in LEVEL_ARRAYS.items()}
-        found |= {name: getattr(particles, name) for name in MATTER_ARRAYS}
+        found |= {name: getattr(particles, name) for name in PARTICLE_ARRAYS}
         found["listed"] = self.pairs.listed
         for part in (self.ejection, self.region):
             found |= {} if part is None else part.fields
@@ -107,37 +106,40 @@ class Ablation:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        numbers = self.state.checkpoint_scalars() | self.pairs.checkpoint_scalars()
-        return numbers | ({} if self.region is None else self.region.checkpoint_scalars())
+        scalars = self.state.checkpoint_scalars() | self.pairs.checkpoint_scalars()
+        return scalars | ({} if self.region is None else self.region.checkpoint_scalars())
 
-    def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
-        """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
+    def restore(self, arrays: Mapping[str, np.ndarray], scalars: Mapping[str, float]) -> None:
+        """Continue from the arrays of `fields` and from `checkpoint_scalars`."""
         for name, field in self.fields.items():
             self.backend.copy(self.backend.asarray(arrays[name]), field)
-        self.state.restore(numbers)
+        self.state.restore(scalars)
         if self.region is not None:
-            self.region.restore(arrays, numbers)
+            self.region.restore(arrays, scalars)
         self.body.refresh(self.body.now)
-        self._enter()
-        self._surface_known, self._resting.weights = False, None
-        self.pairs.resume(numbers)
+        self._include_active()
+        self._is_surface_current, self._rates.weights = False, None
+        self.pairs.restore(scalars)
+        if self._needs_surface:
+            self._update_surface()
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]; of flow only where something moves or is pushed."""
-        state, time, numbers = self.state, self.time_settings, self.parameters
-        pulse = None if self.light is None else self.light.laser.pulse
-        limits = common_limits(time, state.time, pulse)
+        state, time, parameters = self.state, self.time_settings, self.parameters
+        limits = common_limits(
+            time, state.time, None if self.light is None else self.light.laser.pulse
+        )
         if time.fixed_step is not None:
             return limits
         limits |= compressible_limits(
             is_still=state.is_balanced and state.speed == 0.0,
-            courant=numbers.courant,
-            smoothing=numbers.smoothing,
-            sound_speed=numbers.sound_speed,
-            closing_speed=state.closing,
+            courant=parameters.courant,
+            smoothing=parameters.smoothing,
+            sound_speed=parameters.sound_speed,
+            closing_speed=state.approach_speed,
             acceleration=state.acceleration,
-            viscous_rate=numbers.viscous_rate,
-            diffusive_rate=numbers.diffusive_rate,
+            viscous_rate=parameters.viscous_rate,
+            diffusive_rate=parameters.diffusive_rate,
         )
         if time.step is not None:
             limits[name_of_longest(self.light is not None)] = time.step
@@ -156,118 +158,156 @@ class Ablation:
         """
         return retry_step(self._advance, step)
 
+    # --- the step -------------------------------------------------------------------------------
+
     def _advance(self, step: float, _unclipped_step: float | None = None) -> None:
-        """One step of the midpoint rule."""
-        particles, state = self.body, self.state
-        rule = self._prepare(step)
+        """One step of the midpoint rule,  y' = y + dt/2 f(y),  y + dt f(y'),  of three equations:
+
+            d rho_i/dt = rho_i sum_j V_j v_ij . grad W_ij                     [Alshaer2017, (20)]
+            dv_i/dt    = -sum_j m_j ((P_i + P_j) / (rho_i rho_j) + Pi_ij) grad W_ij - g up   (22)
+            dh_i/dt    = (sum_j 4 k_i k_j / (k_i + k_j) V_i V_j (T_i - T_j) dW_ij / r_ij
+                          + Q_i - A_i q(T_i)) / m_i                                          (27)
+
+        and dx_i/dt = v_i; `equations` says how each is computed.
+        """
+        particles, rates, state = self.body, self._rates, self.state
+        now, half = particles.now, particles.half
+        # who is computed, who is near whom, what moves
+        self._prepare(step)
         rows = self.rows
-        light = self._shine(step)
-        rule.evaluate(particles.now, step, rows)
-        rule.move(particles.half, particles.now, 0.5 * step, rows)
-        particles.refresh(particles.half, rows)
-        lost = rule.evaluate(particles.half, step, rows)
-        stored = rule.foresee(step, rows)
-        rule.move(particles.now, particles.half, step, rows)
-        particles.refresh(particles.now, rows)
+        # light: Q_i = E_i / dt on what it meets first
+        light = self._absorb_light(step)
+        # half step: rates at the start of the step, y' = y + dt/2 f(y)                     (29)
+        rates.evaluate(now, step, rows)
+        rates.advance(half, now, 0.5 * step, rows)
+        # equation of state and caloric curve: P(rho'), T(h'), k(T') in the middle
+        particles.refresh(half, rows)
+        # whole step: rates in the middle, y + dt f(y'), unless that would be unstable       (30)
+        lost = rates.evaluate(half, step, rows)
+        stored = rates.energy_of_step(step, rows)
+        rates.advance(now, half, step, rows)
+        particles.refresh(now, rows)
         state.add(light | {"stored": stored, "lost": lost * step})
         state.time, state.time_step = state.time + step, step
-        self._leave(step)
-        self._fly(step)
-        self._surface_known = self._surface_known and rule is self._resting
+        self._is_surface_current &= rates.moving is Moving.NOTHING
+        # ejection: what has taken up enough heat leaves the surface; what has left flies on
+        self._eject(step)
+        self._move_ejecta(step)
+        if self._needs_surface:
+            self._update_surface()
 
-    def _prepare(self, step: float) -> MovingStep | RestingStep:
-        """Wake what heat comes near, renew pairs and surface where matter has moved.
+    def _prepare(self, step: float) -> None:
+        """Activate what heat comes near, renew pairs and surface where particles have moved.
 
-        Returns the rule of the step: that of rest where only heat changes.
+        Raises:
+            NotConverged: particles would pass their neighbors.
         """
-        particles, state = self.body, self.state
-        has_grown = self.region is not None and self.region.activate(particles.fields())
+        particles, state, pairs = self.body, self.state, self.pairs
+        has_grown = self.region is not None and self.region.grow(particles.fields())
         if has_grown:
-            self._enter()
+            self._include_active()
         fields = {"v": particles.now.v, "kind": particles.kind}
         square, leaving = self.backend.pointwise(
             speed_squares, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
         state.speed = sqrt(square)
-        stride = Stride(step, state.speed, state.acceleration)
-        if not 2.0 * stride.way <= self.pairs.skin:
+        motion = LargestMotion(step, state.speed, state.acceleration)
+        if not 2.0 * motion.displacement <= pairs.largest_skin:
             raise NotConverged(
-                f"matter moves {stride.way:.3g} m in {step:.3g} s; take shorter steps"
+                f"matter moves {motion.displacement:.3g} m in {step:.3g} s; take shorter steps"
             )
-        if has_grown or self.pairs.is_stale(stride, self.rows):
-            self.pairs.renew(stride, self.rows)
-            self._resting.weights, self._surface_known = None, False
-        if self.light is not None:
-            self.find_surface()
-        is_still = square == 0.0 and self.parameters.gravity == 0.0
-        if state.is_balanced and is_still and leaving == 0.0:
-            self._resting.weigh(self.rows)
-            return self._resting
-        self._resting.weights = None
-        return self._lifting if state.is_balanced and is_still else self._moving
+        if has_grown or pairs.is_stale(motion, self.rows):
+            pairs.rebuild(motion, self.rows)
+            self._rates.weights, self._is_surface_current = None, False
+        if self._needs_surface:
+            self._update_surface()
+        self._rates.prepare(self._what_moves(square, leaving), self.rows)
 
-    def extremes(self) -> tuple[float, float]:
-        """Largest pressure [Pa] and speed [m/s] of what is condensed."""
-        fields = {"P": self.body.now.P, "v": self.body.now.v, "kind": self.body.kind}
-        pressure, square = self.backend.pointwise(
-            condensed_extremes, fields, (None, None), rows=self.rows, reduce=("max", "max")
-        )
-        return pressure, sqrt(square)
+    def _what_moves(self, interior: float, leaving: float) -> Moving:
+        """What moves, by the largest |v|^2 of the interior and of what leaves [m^2/s^2]."""
+        if not self.state.is_balanced or interior > 0.0 or self.parameters.gravity > 0.0:
+            return Moving.ALL
+        return Moving.VAPOR if leaving > 0.0 else Moving.NOTHING
 
-    def find_surface(self) -> None:
-        """Surface, normals and open areas of what has not been ejected, where not known."""
-        if self._surface_known:
-            return
-        if self.pairs.margin == 0.0:
-            self.pairs.renew(REST, self.rows)
-        particles = self.body
-        self.surface.find(self.pairs.now, particles.now.V, particles.opaque, self.rows)
-        if self.light is not None:
-            rows = self._everything if self.rows is None else self.rows
-            self.light.sort(particles.now.x, particles.kind, rows)
-        self._surface_known = True
+    def _include_active(self) -> None:
+        """Let pairs and the middle of the step know what is computed, and its neighbors."""
+        subset = None if self.region is None else self.region.subset
+        self.pairs.subset = subset
+        self.body.enter(None if subset is None else subset.members)
 
-    def _shine(self, step: float) -> dict[str, float]:
+    def _absorb_light(self, step: float) -> dict[str, float]:
         """Light of the step: where what falls on the surface goes [J], by ENERGIES."""
-        columns, time = self.light, self.state.time
-        if columns is None:
+        light, time = self.light, self.state.time
+        if light is None:
             return {}
-        columns.shine(time, time + step)
-        columns.absorb(self.body.now.T)
+        light.shine(time, time + step)
+        light.absorb(self.body.now.T)
         return {
-            "incident": columns.incident,
-            "absorbed": columns.absorbed,
-            "transmitted": columns.transmitted,
-            "reflected": columns.incident - columns.absorbed - columns.transmitted,
+            "incident": light.incident,
+            "absorbed": light.absorbed,
+            "transmitted": light.transmitted,
+            "reflected": light.incident - light.absorbed - light.transmitted,
         }
 
-    def _enter(self) -> None:
-        """Let the middle of the step know what is computed, and its neighbors."""
-        self.body.enter(None if self.region is None else self.region.near)
-
-    def _leave(self, step: float) -> None:
+    def _eject(self, step: float) -> None:
         """Let what has taken up enough heat leave the surface."""
         if self.ejection is None:
             return
-        particles, surface = self.body, self.surface
-        fields = particles.fields() | {
-            "exposed": surface.exposed, "normal": surface.normal,
-        }  # fmt: skip
-        departure = self.ejection.leave(fields, self.pairs.now, self.rows, self.state.time, step)
+        particles, surface = self.body, self._surface
+        fields = particles.fields() | {"exposed": surface.exposed, "normal": surface.normal}
+        ejecta = self.ejection.eject(fields, self.pairs.now, self.rows, self.state.time, step)
         particles.refresh(particles.now, self.rows)
-        if departure.count:
-            self.state.leave(departure)
-            self._surface_known = False
+        if ejecta.count:
+            self.state.count_ejecta(ejecta)
+            self._is_surface_current = False
 
-    def _fly(self, step: float) -> None:
-        """Move what has been ejected."""
-        if not self.state.left.count:
+    def _move_ejecta(self, step: float) -> None:
+        """Move what has been ejected, straight on until it passes the edge of what is followed."""
+        if not self.state.ejecta.count:
             return
-        particles = self.body
-        fields = {"x": particles.now.x, "v": particles.now.v, "kind": particles.kind}
+        x, kind = self.body.now.x, self.body.kind
+        fields = {"x": x, "v": self.body.now.v, "kind": kind}
+        rows = self.backend.rows_where(kind, EJECTED)
+        flight = {"step": step, "low": self.parameters.low, "high": self.parameters.high}
         (gone,) = self.backend.pointwise(
-            flown, fields, (particles.now.x, particles.kind, None),
-            rows=self.backend.rows_where(particles.kind, EJECTED), reduce=(None, None, "sum"),
-            step=step, low=self.parameters.low, high=self.parameters.high,
-        )  # fmt: skip
+            fly,
+            fields,
+            (x, kind, None),
+            rows=rows,
+            reduce=(None, None, "sum"),
+            **flight,
+        )
         self.state.gone += int(gone)
+
+    # --- what observers ask ---------------------------------------------------------------------
+
+    @property
+    def surface(self) -> FreeSurface:
+        """The free surface of what has not been ejected, where particles are now."""
+        self._update_surface()
+        return self._surface
+
+    def extremes(self) -> tuple[float, float]:
+        """Largest pressure [Pa] and speed [m/s] of what has not left."""
+        fields = {"P": self.body.now.P, "v": self.body.now.v, "kind": self.body.kind}
+        pressure, square = self.backend.pointwise(
+            interior_extremes, fields, (None, None), rows=self.rows, reduce=("max", "max")
+        )
+        return pressure, sqrt(square)
+
+    def _update_surface(self) -> None:
+        """Find surface, normals, open areas and what light meets, unless they are current.
+
+        Steps do it where light falls or heat is lost. Else they never read the surface, and it is
+        found when it is asked for.
+        """
+        if self._is_surface_current:
+            return
+        if self.pairs.skin == 0.0:
+            self.pairs.rebuild(REST, self.rows)
+        particles = self.body
+        self._surface.find(self.pairs.now, particles.now.V, particles.opaque, self.rows)
+        if self.light is not None:
+            rows = self._all_rows if self.rows is None else self.rows
+            self.light.find_hit(particles.now.x, particles.kind, rows)
+        self._is_surface_current = True

@@ -15,8 +15,8 @@ class AblationState:
     Attributes:
         time, time_step: [s]. energy: exchanged since the start [J], by ENERGIES.
         speed: largest of what was condensed at the start of the last step [m/s]. acceleration,
-            closing: largest |dv/dt| [m/s^2], and bound of |mu| [m/s], when last looked for.
-        left: all that ever left. gone: how many of them have passed the edge.
+            approach_speed: largest |dv/dt| [m/s^2], and bound of |mu| [m/s], when last looked for.
+        ejecta: all that ever left. gone: how many of them have passed the edge.
         is_balanced: no force was found when forces were last looked for.
     """
 
@@ -24,30 +24,31 @@ class AblationState:
     time_step: float = 0.0
     speed: float = 0.0
     acceleration: float = 0.0
-    closing: float = 0.0
+    approach_speed: float = 0.0
     is_balanced: bool = False
     gone: int = 0
-    left: Ejecta = field(default_factory=Ejecta)
+    ejecta: Ejecta = field(default_factory=Ejecta)
     energy: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """All numbers by name."""
         numbers = {f"energy.{name}": value for name, value in self.energy.items()}
-        return numbers | {f"left.{name}": value for name, value in vars(self.left).items()} | {
+        return numbers | {f"ejecta.{name}": value for name, value in vars(self.ejecta).items()} | {
             "time": self.time, "time_step": self.time_step, "speed": self.speed,
             "acceleration": self.acceleration,
-            "closing": self.closing, "is_balanced": float(self.is_balanced), "gone": self.gone,
+            "approach_speed": self.approach_speed,
+            "is_balanced": float(self.is_balanced), "gone": self.gone,
         }  # fmt: skip
 
     def restore(self, numbers: dict[str, float]) -> None:
         """Set all numbers from `checkpoint_scalars`."""
         self.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
-        self.left = Ejecta(
-            int(numbers["left.count"]), numbers["left.mass"], numbers["left.energy"],
-            numbers["left.kinetic"],
+        self.ejecta = Ejecta(
+            int(numbers["ejecta.count"]), numbers["ejecta.mass"], numbers["ejecta.energy"],
+            numbers["ejecta.kinetic"],
         )  # fmt: skip
         self.time, self.time_step = numbers["time"], numbers["time_step"]
-        self.speed, self.closing = numbers["speed"], numbers["closing"]
+        self.speed, self.approach_speed = numbers["speed"], numbers["approach_speed"]
         self.acceleration = numbers["acceleration"]
         self.is_balanced, self.gone = bool(numbers["is_balanced"]), int(numbers["gone"])
 
@@ -56,12 +57,12 @@ class AblationState:
         for name, value in exchanged.items():
             self.energy[name] += value
 
-    def leave(self, departure: Ejecta) -> None:
+    def count_ejecta(self, ejecta: Ejecta) -> None:
         """Count what left in a step."""
-        was = self.left
-        self.left = Ejecta(
-            was.count + departure.count, was.mass + departure.mass,
-            was.energy + departure.energy, was.kinetic + departure.kinetic,
+        was = self.ejecta
+        self.ejecta = Ejecta(
+            was.count + ejecta.count, was.mass + ejecta.mass,
+            was.energy + ejecta.energy, was.kinetic + ejecta.kinetic,
         )  # fmt: skip
-        self.energy["removed"] += departure.energy
-        self.energy["stored"] -= departure.energy
+        self.energy["removed"] += ejecta.energy
+        self.energy["stored"] -= ejecta.energy

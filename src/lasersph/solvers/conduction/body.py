@@ -18,7 +18,7 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles import Lattice
 from lasersph.particles.filling import FREE, HELD, IMAGE, PERIODIC, Filling, fill
 from lasersph.particles.layers import Layers
-from lasersph.particles.neighbors import NeighborList, find_neighbors
+from lasersph.particles.neighbor_lists import NeighborList, find_neighbors
 from lasersph.particles.particles import Particles
 from lasersph.particles.support import arithmetic, graded
 from lasersph.physics.heating import Irradiation

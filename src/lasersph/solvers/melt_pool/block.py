@@ -22,7 +22,7 @@ from lasersph.compute import search
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, matmul, outer
 from lasersph.particles.images import LOWER, UPPER, Images, ways_of
-from lasersph.particles.neighbors import NeighborList
+from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.solvers.conduction.body import Weighing
 from lasersph.solvers.melt_pool.near_melt import NearMelt
 from lasersph.solvers.melt_pool.sides import Sides

@@ -9,9 +9,9 @@ from pydantic import ValidationError
 from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.lasers import Laser
 from lasersph.materials import load_material
-from lasersph.particles.neighbors import find_neighbors
+from lasersph.particles.kinds import EJECTED, INTERIOR, LEAVING
+from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
-from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING
 from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
@@ -66,9 +66,9 @@ class Sample:
         """A field at some particles."""
         return self.backend.to_host(self.fields[name])[..., rows]
 
-    def leave(self, rule, time, step=5e-11):
+    def eject(self, rule, time, step=5e-11):
         """Apply a rule."""
-        return rule.leave(self.fields, self.pairs, None, time, step)
+        return rule.eject(self.fields, self.pairs, None, time, step)
 
 
 @pytest.fixture
@@ -96,7 +96,7 @@ def enthalpy_rule(sample, vapor, *, phase_change=True):
     )  # fmt: skip
     count = sample.host.shape[1]
     rows = sample.backend.asarray(np.arange(count), "index")
-    columns.sort(sample.fields["x"], sample.fields["kind"], rows)
+    columns.find_hit(sample.fields["x"], sample.fields["kind"], rows)
     curve = ALUMINIUM.caloric_curve(300.0, "hold", phase_change=phase_change)
     return EnthalpyEjection(sample.backend, vapor, curve, columns, count, DX)
 
@@ -110,19 +110,19 @@ def test_enthalpy_rule_takes_all_along(sample, vapor, backend):
         sample.put("h", particle, rule.enthalpy_vaporized)
         sample.put("T", particle, 2730.0)
     assert sample.get("exposed", sample.middle) == 1.0 and sample.get("exposed", below) == 0.0
-    left = sample.leave(rule, 3e-9)
+    left = sample.eject(rule, 3e-9)
     speed = sqrt(R_S * 2730.0 / (2 * pi))
     assert left.count == 1 and left.mass == pytest.approx(MASS)
     assert left.energy == pytest.approx(MASS * rule.enthalpy_vaporized)
     assert left.kinetic == pytest.approx(0.5 * MASS * speed**2)
     assert sample.get("kind", sample.middle) == EJECTED
-    assert sample.get("kind", below) == CONDENSED
+    assert sample.get("kind", below) == INTERIOR
     np.testing.assert_allclose(sample.get("v", sample.middle), [0.0, 0.0, speed], atol=1e-9 * speed)
     assert sample.get("left_at", sample.middle) == 3e-9
     assert sample.get("p_v", sample.middle) == pytest.approx(101325.0)
-    assert sample.leave(rule, 4e-9) == Ejecta()
+    assert sample.eject(rule, 4e-9) == Ejecta()
     sample.put("E", below, 1e-12)  # in the light at the bottom of a hole
-    assert sample.leave(rule, 5e-9).count == 1
+    assert sample.eject(rule, 5e-9).count == 1
     np.testing.assert_allclose(sample.get("v", below), [0.0, 0.0, speed])
 
 
@@ -130,7 +130,7 @@ def test_excess_goes_to_what_is_uncovered(sample, vapor):
     """What the step brought beyond the enthalpy of the vapor heats the particle below."""
     rule = enthalpy_rule(sample, vapor)
     sample.put("h", sample.middle, rule.enthalpy_vaporized + 3e5)
-    left = sample.leave(rule, 3e-9)
+    left = sample.eject(rule, 3e-9)
     assert left.count == 1
     assert left.energy == pytest.approx(MASS * rule.enthalpy_vaporized)
     assert sample.get("h", sample.middle) == pytest.approx(rule.enthalpy_vaporized)
@@ -146,7 +146,7 @@ def test_excess_without_a_receiver_leaves_too(sample, vapor):
     column = sample.middle + SIDE**2 * np.arange(LAYERS)
     sample.put("h", column, rule.enthalpy_vaporized + 3e5)
     sample.put("E", column, 1e-12)
-    left = sample.leave(rule, 3e-9)
+    left = sample.eject(rule, 3e-9)
     assert left.count == LAYERS
     assert left.energy == pytest.approx(LAYERS * MASS * (rule.enthalpy_vaporized + 3e5))
 
@@ -168,7 +168,7 @@ def lift_layer(sample, rule, T, height):
     top = np.arange(SIDE**2)
     sample.put("T", top, T)
     step, lift = 5e-12, 0.0
-    assert sample.leave(rule, 1e-9, step) == Ejecta()
+    assert sample.eject(rule, 1e-9, step) == Ejecta()
     assert np.all(sample.get("kind", top)[sample.get("exposed", top) > 0.0] == LEAVING)
     while lift < height:
         v = sample.get("v", slice(None))
@@ -176,7 +176,7 @@ def lift_layer(sample, rule, T, height):
         sample.backend.copy(sample.backend.asarray(position), sample.fields["x"])
         sample.find()
         lift = position[2, sample.middle] + 0.5 * DX
-        sample.leave(rule, 2e-9, step)
+        sample.eject(rule, 2e-9, step)
         if sample.get("kind", sample.middle) == EJECTED:
             return lift
     return None

@@ -5,8 +5,8 @@ import pytest
 
 from lasersph.lasers import Laser
 from lasersph.materials import load_material
+from lasersph.particles.kinds import EJECTED, INTERIOR, LEAVING, WALL
 from lasersph.physics import first_hit as rules
-from lasersph.physics.ejection import CONDENSED, EJECTED, LEAVING, WALL
 from lasersph.solvers.ablation.first_hit import FirstHitLight
 
 DX = 2e-7
@@ -42,10 +42,10 @@ def columns_of(backend, position, *, beam=None, periodic=True, rows=None):
         backend, laser(beam), load_material("aluminium-aa6014"),
         ((-half, half),) * (dimension - 1), DX, (periodic,) * (dimension - 1), deposit,
     )  # fmt: skip
-    kind = np.full(count, CONDENSED if rows is None else EJECTED)
+    kind = np.full(count, INTERIOR if rows is None else EJECTED)
     if rows is not None:
-        kind[rows] = CONDENSED
-    found.sort(
+        kind[rows] = INTERIOR
+    found.find_hit(
         backend.asarray(position),
         backend.asarray(kind),
         backend.asarray(np.arange(count), "index"),
@@ -144,7 +144,7 @@ def test_what_has_left_is_transparent(backend):
     found, deposit = columns_of(backend, position, rows=below)
     assert not deposit[position[1] > -DX].any()
     assert found.transmitted == 0.0
-    np.testing.assert_allclose(found.tops(), -DX)
+    np.testing.assert_allclose(found.column_tops(), -DX)
 
 
 def test_light_through_a_hole_is_transmitted(backend):
@@ -154,7 +154,7 @@ def test_light_through_a_hole_is_transmitted(backend):
     found, deposit = columns_of(backend, position, rows=rows)
     assert found.transmitted == pytest.approx(0.5 * found.incident, rel=1e-12)
     assert deposit.sum() == pytest.approx((1.0 - R) * 0.5 * found.incident, rel=1e-12)
-    assert np.isnan(found.tops()).sum() == SIDE / 2
+    assert np.isnan(found.column_tops()).sum() == SIDE / 2
 
 
 def test_old_light_goes_out(backend):
@@ -163,17 +163,19 @@ def test_old_light_goes_out(backend):
     found, _ = columns_of(backend, position)
     below = np.flatnonzero(position[1] < -DX)
     kind = backend.zeros(position.shape[1])
-    found.sort(backend.asarray(position), kind, backend.asarray(below, "index"))
+    found.find_hit(backend.asarray(position), kind, backend.asarray(below, "index"))
     assert not backend.to_host(found.deposit)[position[1] > -DX].any()
 
 
 def test_place_and_corner():
     """A particle at 2.3 spacings from the edge covers 0.2 of column 1 and 0.8 of column 2."""
-    column, beyond = rules.place_along(np.array([2.3, 0.0]), (1.0, 0.0), 0.0, 1.0)
+    column, beyond = rules.column_along(np.array([2.3, 0.0]), (1.0, 0.0), 0.0, 1.0)
     assert column == 1.0 and beyond == pytest.approx(0.8)
 
     def corner(right, column=column, wraps=0.0, kind=LEAVING):
-        return rules.corner(column, beyond, 0.0, 0.0, kind, right, 0.0, 4.0, 1.0, wraps, 0.0)
+        return rules.column_at_corner(
+            column, beyond, 0.0, 0.0, kind, right, 0.0, 4.0, 1.0, wraps, 0.0
+        )
 
     assert corner(0.0) == (1, pytest.approx(0.2))
     assert corner(1.0) == (2, pytest.approx(0.8))

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.backend import Backend
+from lasersph.particles.kinds import LEAVING
 from lasersph.physics.ejection import (
     BELOW_ALIGNMENT,
     BELOW_REACH,
-    LEAVING,
-    covered_term,
-    lifted,
+    advance_lift,
+    covers_neighbor,
     published_departure,
 )
 from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
@@ -50,7 +50,7 @@ class PublishedEjection:
         """No limit: the rule depends on the step, as published."""
         return np.inf
 
-    def leave(
+    def eject(
         self, fields: dict[str, Any], pairs: Any, rows: Any, time: float, step: float
     ) -> Ejecta:
         """Set kind, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
@@ -60,10 +60,10 @@ class PublishedEjection:
         """
         backend, kind, v = self.backend, fields["kind"], fields["v"]
         own = fields | {"lift": self.lift, "covered": self._covered}
-        backend.pointwise(lifted, own, self.lift, rows=rows, step=step)
+        backend.pointwise(advance_lift, own, self.lift, rows=rows, step=step)
         leaving = backend.rows_where(kind, LEAVING)
         backend.pair_sum(
-            covered_term, pairs, own, self._covered, rows=leaving, reach=self.reach,
+            covers_neighbor, pairs, own, self._covered, rows=leaving, reach=self.reach,
             alignment=BELOW_ALIGNMENT,
         )  # fmt: skip
         backend.pointwise(

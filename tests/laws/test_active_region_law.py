@@ -1,11 +1,11 @@
-"""Cold matter that sleeps changes nothing: craters with and without sleepers are the same."""
+"""Inactive cold matter changes nothing: craters with and without it are the same."""
 
 import numpy as np
 import pytest
 
 from lasersph import compute
 from lasersph.case import load_case
-from lasersph.physics.ejection import LEAVING
+from lasersph.particles.kinds import LEAVING
 from lasersph.simulation.build import build
 from lasersph.solvers.step_control import binding_limit
 
@@ -18,7 +18,7 @@ PUBLISHED = ("ejection.model=published", "ejection.preset=timeline")
 
 
 def computed(*settings):
-    """The solver after its run, with the particles awake at most."""
+    """The solver after its run."""
     case = load_case("ablation-depth", list(settings))
     _, solver = build(case, compute.cpu(threads=1))
     while solver.state.time < case.time.end * (1.0 - 1e-12):
@@ -31,15 +31,15 @@ def computed(*settings):
     [UNIFORM, (*UNIFORM, *PUBLISHED), (*SPOT, *TOP_HAT)],
     ids=["enthalpy", "published", "spot"],
 )
-def test_sleepers_change_nothing(settings):
+def test_inactive_matter_changes_nothing(settings):
     """Temperatures agree within 1e-8 of the rise, and the same particles have left."""
-    asleep, awake = computed(*settings), computed(*settings, "solver.sleep=false")
-    assert awake.region is None and asleep.region.active_count < 0.95 * asleep.body.total
-    assert asleep.state.left.count == awake.state.left.count > 0
-    T, expected = (s.backend.to_host(s.body.now.T) for s in (asleep, awake))
-    kind, other = (s.backend.to_host(s.body.kind) for s in (asleep, awake))
+    partial, whole = computed(*settings), computed(*settings, "solver.sleep=false")
+    assert whole.region is None and partial.region.active_count < 0.95 * partial.body.total
+    assert partial.state.ejecta.count == whole.state.ejecta.count > 0
+    T, expected = (s.backend.to_host(s.body.now.T) for s in (partial, whole))
+    kind, other = (s.backend.to_host(s.body.kind) for s in (partial, whole))
     np.testing.assert_array_equal(kind, other)
     body = kind <= LEAVING
     rise = expected[body].max() - 300.0
     assert np.abs(T - expected)[body].max() < 1e-8 * rise
-    assert asleep.state.energy["removed"] == pytest.approx(awake.state.energy["removed"], rel=1e-9)
+    assert partial.state.energy["removed"] == pytest.approx(whole.state.energy["removed"], rel=1e-9)

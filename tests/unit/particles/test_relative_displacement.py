@@ -4,37 +4,44 @@ import numpy as np
 import pytest
 from moving_matter import DRIFTING_BLOCK, host, moving, put
 
-from lasersph.physics.ejection import CONDENSED, LEAVING
-from lasersph.solvers.ablation.relative_motion import (
-    RelativeMotion,
-    apart_square,
-    between_square,
-    way_ahead,
+from lasersph.particles.kinds import INTERIOR, LEAVING
+from lasersph.particles.relative_displacement import (
+    RelativeDisplacement,
+    bound_square,
+    difference_square,
+    predicted_displacement,
 )
 
 
+def relative_of(solver, distance):
+    """The bound for the particles of a solver whose pairs reach so far [m]."""
+    pairs = solver.pairs
+    fields = solver.body.fields()
+    return RelativeDisplacement(solver.backend, fields, pairs.listed, pairs.box, distance)
+
+
 def block(dimension, backend=None):
-    """A block that is periodic on all sides, and how its tiles have moved."""
+    """A block that is periodic on all sides, and how its cells have moved."""
     settings = (f"solver.dimensions={dimension}", "domain.depth=24 um", "domain.width=12 um")
     _, solver = moving("sound-wave", *DRIFTING_BLOCK, *settings, "motion=", backend=backend)
-    return solver, RelativeMotion(solver.body, solver.pairs.listed, 3.3e-6)
+    return solver, relative_of(solver, 3.3e-6)
 
 
-def test_way_ahead():
+def test_predicted_displacement():
     """From where it was listed to where it will be; what has left counts as at rest."""
     x, listed, v = np.array([3.0, 4.0]), np.array([1.0, 1.0]), np.array([2.0, 0.0])
-    assert way_ahead(x, listed, v, CONDENSED, 0.5).tolist() == [3.0, 3.0]
-    assert way_ahead(x, listed, v, LEAVING, 0.5).tolist() == [0.0, 0.0]
+    assert predicted_displacement(x, listed, v, INTERIOR, 0.5).tolist() == [3.0, 3.0]
+    assert predicted_displacement(x, listed, v, LEAVING, 0.5).tolist() == [0.0, 0.0]
 
 
-def test_bound_of_a_tile():
-    """The largest difference of each component; a tile without particles has none."""
-    assert between_square(2.0, 1.0, 5.0, 0.5) == 16.0
-    assert between_square(-np.inf, np.inf, 5.0, 0.5) == 0.0
+def test_bound_of_a_cell():
+    """The largest difference of each component; a cell without particles has none."""
+    assert difference_square(2.0, 1.0, 5.0, 0.5) == 16.0
+    assert difference_square(-np.inf, np.inf, 5.0, 0.5) == 0.0
     two, three = np.array([2.0, 3.0]), np.array([5.0, 4.0])
-    assert apart_square(two, two, three, two) == 9.0 + 1.0
-    assert apart_square(two[:1], two[:1], three[:1], two[:1]) == 9.0
-    assert apart_square(*(np.append(a, 1.0) for a in (two, two, three, two))) == 10.0
+    assert bound_square(two, two, three, two) == 9.0 + 1.0
+    assert bound_square(two[:1], two[:1], three[:1], two[:1]) == 9.0
+    assert bound_square(*(np.append(a, 1.0) for a in (two, two, three, two))) == 10.0
 
 
 @pytest.mark.parametrize("dimension", [1, 2, 3])
@@ -76,7 +83,7 @@ def test_every_backend(backend):
     assert bounds[0] > 2.0**-20
 
 
-def test_tiles_are_made_anew():
+def test_cells_are_made_anew():
     """What is forgotten is found again from the places of the list."""
     solver, relative = block(2)
     x = host(solver, "position")
@@ -85,14 +92,14 @@ def test_tiles_are_made_anew():
     swapped = solver.backend.to_host(solver.pairs.listed)[:, ::-1].copy()
     put(solver, "velocity", 0.0)
     solver.backend.copy(solver.backend.asarray(swapped), solver.pairs.listed)
-    relative.forget()
+    relative.reset()
     most = np.abs(x - swapped).max()
     assert relative.bound(1.0) > most
 
 
-def test_no_more_tiles_than_particles():
-    """A sparse vessel has wider tiles."""
+def test_no_more_cells_than_particles():
+    """A sparse vessel has wider cells."""
     _, solver = moving("dam-break", "particles.spacing=5.715 mm")
-    wide = RelativeMotion(solver.body, solver.pairs.listed, 1e-4)
+    wide = relative_of(solver, 1e-4)
     assert wide.clear > 4e-4
     assert wide.bound(1.0) == 0.0
