@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from case_keys import case_keys
+from result_keys import history_columns, summary_keys
 from validation_table import validation_table
 
 DOCS = Path(__file__).resolve().parent.parent
@@ -32,6 +33,8 @@ def write_pages(_app: object) -> None:
     results = DOCS / "validation_results.json"
     pages = {
         "case_keys.md": case_keys(Case.model_json_schema()),
+        "summary_keys.md": summary_keys(),
+        "history_columns.md": history_columns(),
         "examples.md": gallery(ROOT / "examples"),
         "validation.md": validation_table(json.loads(results.read_text(encoding="utf-8"))),
     }

@@ -86,53 +86,12 @@ def opened(folder: Path) -> Run:
 def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     """The main numbers of summary.json, with units."""
     from lasersph.input import format_duration, format_quantity
+    from lasersph.report.tables import main_numbers
 
-    energy = summary["energy"]
-    rows = [
+    return [
         ("case", str(summary.get("title") or summary["case"])),
         ("particles", str(summary["particles"])),
         ("time", f"{format_quantity(summary['time_s'], 's')} in {summary['steps']} steps"),
         ("computed in", format_duration(summary["wall_time_s"])),
-        ("highest temperature", f"{summary['temperature_max_K']:.1f} K"),
+        *main_numbers(summary),
     ]
-    rows += crater_rows(summary)
-    melt = summary.get("melt") or {}
-    if melt.get("start_s") is not None:
-        span = (format_quantity(melt[key], "s") for key in ("start_s", "end_s"))
-        rows.append(("molten (f_m = 1)", " to ".join(span)))
-        for word in ("depth", "width"):
-            if melt.get(f"{word}_max_m") is not None:
-                size = format_quantity(melt[f"{word}_max_m"], "m")
-                rows.append(
-                    (f"melt {word}", f"{size} at {format_quantity(melt[f'{word}_max_at_s'], 's')}")
-                )
-    flow = summary.get("flow") or {}
-    for key, text in (("surface_speed_max", "at the surface"), ("speed_max", "of any particle")):
-        if flow.get(f"{key}_m_s"):
-            at = format_quantity(flow[f"{key}_at_s"], "s")
-            rows.append((f"speed {text}", f"{flow[f'{key}_m_s']:.4g} m/s at {at}"))
-    unit = energy.get("unit", "J")
-    rows.append(("absorbed energy", f"{energy['absorbed_J']:.5g} {unit}"))
-    rows.append(("energy imbalance", f"{energy['imbalance_relative']:.1e} of the absorbed"))
-    return rows
-
-
-def crater_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
-    """The crater and what left it; nothing for a run without ablation."""
-    from lasersph.input import format_quantity
-
-    crater, ejecta = summary.get("crater"), summary.get("ejecta")
-    if crater is None or ejecta is None:
-        return []
-    names = {"depth_m": "crater depth", "depth_mean_m": "mean crater depth",
-             "diameter_m": "crater diameter"}  # fmt: skip
-    rows = [
-        (text, format_quantity(crater[key], "m"))
-        for key, text in names.items()
-        if crater[key] is not None
-    ]
-    rows.append(("ejected", f"{ejecta['count']} particles, {ejecta['mass_kg']:.4g} "
-                 f"{ejecta['mass_unit']}"))  # fmt: skip
-    if ejecta["speed_mean_m_s"] is not None:
-        rows.append(("their mean speed", f"{ejecta['speed_mean_m_s']:.4g} m/s"))
-    return rows

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import math
 
-PREFIXED = ("m", "s", "J", "W", "Pa", "Hz", "rad")
-"""Units that are one symbol and take a prefix; temperatures and compound units take none."""
+PREFIXED = {"m": 1, "m^2": 2, "m^3": 3, "s": 1, "J": 1, "W": 1, "Pa": 1, "Hz": 1, "rad": 1}
+"""Units of one symbol, which take a prefix, with the power of it that counts: 1 um^3 = 1e-18 m^3.
+Temperatures and compound units take none."""
 PREFIXES = ("f", "p", "n", "u", "m", "", "k", "M", "G", "T")
-WITHOUT_KILO = ("m", "s")
+WITHOUT_KILO = ("m", "m^2", "m^3", "s")
 """Nobody says kilosecond, and no body here is a kilometer long."""
 SMALLEST = 1e-15
 """Lengths [m] and times [s] below this are rounding errors: a proton, a light period."""
@@ -33,17 +34,18 @@ def format_quantity(
     if value is None or not math.isfinite(value):
         return "–"
     prefix = ""
-    if unit in WITHOUT_KILO and abs(value) < SMALLEST:
+    if unit in ("m", "s") and abs(value) < SMALLEST:
         value = 0.0
     if unit in PREFIXED and value:
-        power = math.floor(math.log10(abs(value)) / 3)
+        step = 1000.0 ** PREFIXED[unit]
+        power = math.floor(math.log10(abs(value)) / math.log10(step))
         # 999.96 with four digits is 1000, the next prefix's 1
-        power += abs(float(f"{value / 1000.0**power:.{digits}g}")) >= 1000.0
+        power += abs(float(f"{value / step**power:.{digits}g}")) >= step
         power = max(-5, min(power, 0 if unit in WITHOUT_KILO else 4))
-        prefix, value = PREFIXES[power + 5], value / 1000.0**power
+        prefix, value = PREFIXES[power + 5], value / step**power
     if typographic:
         prefix = prefix.replace("u", "µ")
-        unit = unit.replace("^2", "²").replace("^3", "³")
+        unit = "°" if unit == "deg" else unit.replace("^2", "²").replace("^3", "³")
     return f"{format_number(value, digits, typographic=typographic)} {prefix}{unit}".rstrip()
 
 

@@ -7,23 +7,27 @@ from lasersph.observers.ejecta import Ejecta
 from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_view import FlowView
 from lasersph.observers.melt_pool import MeltPool
+from lasersph.observers.observer import Observer
 from lasersph.observers.observer_list import (
-    Observer,
+    COLUMNS,
+    RESULTS,
     Observers,
     ablation_observers,
     flow_observers,
     heat_observers,
 )
 from lasersph.observers.probes import Probe, Probes
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.snapshots import SnapshotPlan, SnapshotSchedule, snapshot_fields
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_temperature import SurfaceTemperature
 from lasersph.observers.traces import Trace, Traces
 from lasersph.observers.vaporization import Vaporization
-from lasersph.observers.view import ENERGY_UNITS, View
+from lasersph.observers.view import View
 
 __all__ = [
-    "ENERGY_UNITS",
+    "COLUMNS",
+    "RESULTS",
     "AblationView",
     "Crater",
     "CraterShape",
@@ -35,6 +39,7 @@ __all__ = [
     "Observers",
     "Probe",
     "Probes",
+    "Quantity",
     "SnapshotPlan",
     "SnapshotSchedule",
     "Steps",

@@ -13,6 +13,7 @@ the history repeats the last value.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,8 @@ from lasersph.observers.box_sections import (
     wall_temperature,
 )
 from lasersph.observers.flow_speed import flow_of
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.quantity import Quantity, suffix
 from lasersph.observers.view import View
 
 EVERY = 50
@@ -37,90 +40,127 @@ NODES = 41
 """Nodes of the stream function's grid along each side."""
 SMALLEST_DIFFERENCE = 1e-9
 """Part of the temperature below which differences between sides are rounding."""
+CENTER = {
+    "u_max": "largest u at half the width",
+    "u_min": "smallest u at half the width",
+    "w_max": "largest w at half the height",
+    "w_min": "smallest w at half the height",
+}
+EDDIES = {"max": "largest stream function", "min": "smallest stream function"}
 
 
-class BoxFlow:
+class BoxFlow(Observer):
     """Observes center lines, stream function and Nusselt numbers of a box."""
 
-    columns: tuple[str, ...] = (
-        "box_u_max_m_s",
-        "box_u_min_m_s",
-        "box_w_max_m_s",
-        "box_w_min_m_s",
-        "box_stream_function_max_m2_s",
-        "box_stream_function_min_m2_s",
-        *(f"box_nusselt_{side}" for side in SIDES),
+    title = "box, at the end"
+    note = "u = dpsi/dz, w = -dpsi/dx, psi = 0 at the bottom; evaluated in every 50th step."
+    columns = (
+        *(Quantity(f"box_{name}_m_s", "m/s", words) for name, words in CENTER.items()),
+        *(
+            Quantity(f"box_stream_function_{name}_m2_s", "m^2/s", words)
+            for name, words in EDDIES.items()
+        ),
+        *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in SIDES),
     )
+    results = (
+        Quantity("box.time_s", "s", "time of these values"),
+        Quantity("box.width_m", "m", "width"),
+        Quantity("box.height_m", "m", "height"),
+        *(
+            Quantity(
+                f"box.center.{name}_m_s",
+                "m/s",
+                words,
+                at=(f"box.center.{name}_at_{'z' if name[0] == 'u' else 'x'}_m",),
+            )
+            for name, words in CENTER.items()
+        ),
+        *(
+            Quantity(f"box.lines.{name}{suffix(unit)}", unit, f"{name} on a center line")
+            for name, unit in (("z", "m"), ("u", "m/s"), ("x", "m"), ("w", "m/s"))
+        ),
+        *(
+            Quantity(
+                f"box.stream_function.{name}_m2_s",
+                "m^2/s",
+                words,
+                at=(f"box.stream_function.{name}_x_m", f"box.stream_function.{name}_z_m"),
+            )
+            for name, words in EDDIES.items()
+        ),
+        *(
+            one
+            for side in SIDES
+            for one in (
+                Quantity(f"box.heat.temperature_{side}_K", "K", f"mean temperature, {side}"),
+                Quantity(
+                    f"box.heat.flux_{side}_W_m2", "W/m^2", f"mean heat flux into the box, {side}"
+                ),
+                Quantity(f"box.heat.nusselt_{side}", "", f"Nusselt number, {side}"),
+            )
+        ),
+        Quantity("box.heat.between", "", "sides that drive the flow"),
+        Quantity("box.heat.difference_K", "K", "difference of their temperatures"),
+    )
+    kept = ("edges", "found")
 
     def __init__(self) -> None:
-        self.edges: Box | None = None
-        self.row = dict.fromkeys(self.columns, 0.0)
+        super().__init__()
+        self.edges: list[float] = []
         self.found: dict[str, Any] = {}
         self.unseen: View | None = None
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Extrema on the center lines [m/s] and of the stream function [m^2/s], Nusselt numbers.
 
         Nusselt numbers are 0 where there is no temperature difference.
         """
-        if self.edges is None:
-            self.edges = Box.around(view.position, view.width)
+        if not self.edges:
+            box = Box.around(view.position, view.width)
+            self.edges = [box.left, box.right, box.bottom, box.top]
         self.unseen = view
-        if view.step % EVERY == 0:
-            self._look()
-        return dict(self.row)
+        if view.step % EVERY:
+            return dict(self.last)
+        self._measure()
+        center, eddies = self.found["center"], self.found["stream_function"]
+        values = (
+            *(center[f"{name}_m_s"] for name in CENTER),
+            *(eddies[f"{name}_m2_s"] for name in EDDIES),
+            *(self.found["heat"].get(f"nusselt_{side}") or 0.0 for side in SIDES),
+        )
+        return self.record(view.time, values)
 
-    def _look(self) -> None:
+    def _measure(self) -> None:
         """Evaluate the last state, if that is not done."""
-        view, box = self.unseen, self.edges
-        if view is None or box is None:
+        view, self.unseen = self.unseen, None
+        if view is None:
             return
-        self.unseen = None
-        lines = lines_of(view, box)
-        eddies = eddies_of(view, box)
-        heat = heat_of(view, box)
+        box = Box(*self.edges)
         self.found = {
             "time_s": view.time,
             "width_m": box.width,
             "height_m": box.height,
-            **lines,
-            "stream_function": eddies,
-            "heat": heat,
-        }
-        center = lines["center"]
-        self.row = {
-            **{f"box_{name}_m_s": center[f"{name}_m_s"] for name in CENTER},
-            "box_stream_function_max_m2_s": eddies["max_m2_s"],
-            "box_stream_function_min_m2_s": eddies["min_m2_s"],
-            **{f"box_nusselt_{side}": heat.get(f"nusselt_{side}") or 0.0 for side in SIDES},
+            **lines_of(view, box),
+            "stream_function": eddies_of(view, box),
+            "heat": heat_of(view, box),
         }
 
     def summary(self) -> dict[str, Any]:
         """`box`: size, center lines and their extrema, stream function, heat; at the end."""
-        self._look()
+        self._measure()
         return {"box": self.found} if self.found else {}
 
     def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        edges = self.edges
-        box = None if edges is None else [edges.left, edges.right, edges.bottom, edges.top]
-        return {"edges": box, "row": dict(self.row), "found": self._ahead()}
+        """What `restore` needs; `found` as if the run ended here."""
+        ahead = BoxFlow()
+        ahead.edges, ahead.unseen, ahead.found = self.edges, self.unseen, self.found
+        ahead._measure()
+        return {**super().state(), "found": ahead.found}
 
-    def _ahead(self) -> dict[str, Any]:
-        """What the summary would hold if the run ended here."""
-        shown = BoxFlow()
-        shown.edges, shown.unseen = self.edges, self.unseen
-        shown._look()
-        return shown.found or self.found
-
-    def restore(self, state: dict[str, Any]) -> None:
+    def restore(self, state: Mapping[str, Any]) -> None:
         """Continue from a state."""
-        edges = state["edges"]
-        self.edges = None if edges is None else Box(*edges)
-        self.row, self.found, self.unseen = dict(state["row"]), state["found"], None
-
-
-CENTER = ("u_max", "u_min", "w_max", "w_min")
+        super().restore(state)
+        self.unseen = None
 
 
 def lines_of(view: View, box: Box) -> dict[str, Any]:

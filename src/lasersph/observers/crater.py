@@ -8,21 +8,62 @@ gives its heat to the metal below.
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from lasersph.observers.ablation_view import CONDENSED, AblationView
 from lasersph.observers.crater_shape import CraterShape, crater_shape
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.quantity import Quantity, unit_in
 from lasersph.observers.view import View, lower_faces
 
-SIZES = ("depth", "depth_mean", "depth_max", "width", "diameter")
+SIZES = {
+    "depth": "depth of the crater at the axis",
+    "depth_mean": "mean depth of the crater",
+    "depth_max": "largest depth of the crater",
+    "width": "width of the crater along x at the original surface",
+    "diameter": "diameter of the circle of the same area",
+}
+REMOVED = Quantity("crater_removed_volume_m3", "m^3", "volume of what left")
+VAPORIZED = Quantity(
+    "crater_vaporized_volume_m3", "m^3", "the same with the shares of what was about to leave"
+)
 
 
-class Crater:
+class Crater(Observer):
     """Observes the crater of a beam."""
+
+    title = "crater"
+    note = (
+        "Volumes are those of the computed part, widths those of the whole crater; in 2-D they are"
+        " per unit length, in 1-D per unit area."
+    )
+    columns = (
+        *(
+            Quantity(
+                f"crater_{name}_m",
+                "m",
+                words,
+                end=f"crater.{name}_m",
+                is_main=name in ("depth", "depth_mean", "diameter"),
+            )
+            for name, words in SIZES.items()
+        ),
+        REMOVED,
+        VAPORIZED,
+    )
+    results = (
+        Quantity("crater.taper_deg", "deg", "taper of the walls from the vertical"),
+        Quantity("crater.volume_unit", "", "unit of the volumes"),
+        Quantity("crater.volume_m3", "m^3", "volume below the original surface"),
+        Quantity("crater.removed_volume_m3", "m^3", "volume of what left"),
+        Quantity("crater.vaporized_volume_max_m3", "m^3", f"{VAPORIZED.words}, at most"),
+        Quantity("crater.mirror_images", "", "computed parts that make up the crater"),
+        Quantity("crater.depth_of_pulse_m", "m", "depth that each pulse added at the axis"),
+    )
+    kept = ("shape", "removed", "vaporized_max", "bottom", "depth_at_start")
 
     def __init__(
         self,
@@ -37,23 +78,23 @@ class Crater:
             axis: where the beam's axis meets the surface, x and y [m].
             pulse_starts: times at which the pulses begin [s].
         """
+        self.names = list(SIZES) if dimension > 1 else list(SIZES)[:3]
+        self.unit = unit_in("m^3", dimension)
+        end = self.unit.replace("^", "")
+        volumes = (
+            replace(one, key=one.key.replace("_m3", f"_{end}"), unit=self.unit)
+            for one in (REMOVED, VAPORIZED)
+        )
+        self.columns = (*type(self).columns[: len(self.names)], *volumes)
+        super().__init__()
         self.axis = np.array(axis[: dimension - 1])
-        self.unit = "m" if dimension == 1 else f"m{dimension}"
-        self.names = SIZES if dimension > 1 else SIZES[:3]
         self.pulse_starts = pulse_starts
         self.shape = CraterShape()
         self.removed = self.vaporized_max = 0.0
         self.bottom: float | None = None
         self.depth_at_start: list[float] = []
 
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the history columns."""
-        sizes = tuple(f"crater_{name}_m" for name in self.names)
-        volumes = (f"crater_removed_volume_{self.unit}", f"crater_vaporized_volume_{self.unit}")
-        return (*sizes, *volumes)
-
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Sizes of the crater [m] and volumes at this step."""
         seen = ablation_of(view)
         if self.bottom is None:
@@ -70,46 +111,22 @@ class Crater:
         vaporized = self.removed + share
         self.vaporized_max = max(self.vaporized_max, vaporized)
         sizes = [float(getattr(self.shape, name)) for name in self.names]
-        return dict(zip(self.columns, [*sizes, self.removed, vaporized], strict=True))
+        return self.record(view.time, (*sizes, self.removed, vaporized))
 
-    def summary(self) -> dict[str, Any]:
-        """`crater`: sizes at the end, volumes, and the depth of each pulse.
-
-        Volumes of 1-D and 2-D runs are per unit area and length: see `volume_unit`.
-        """
-        shape = asdict(self.shape)
-        sizes = {f"{name}_m": shape[name] if name in self.names else None for name in SIZES}
+    def values(self) -> dict[str, object]:
+        """Volumes and the depth of each pulse; in 1-D there is no width and no taper."""
         depths = [*self.depth_at_start, self.shape.depth]
-        per_pulse = [after - before for before, after in pairwise(depths)]
+        absent = (f"crater.{name}_m" for name in SIZES if name not in self.names)
         return {
-            "crater": {
-                **sizes,
-                "taper_deg": float(np.degrees(self.shape.taper)) if self.axis.size else None,
-                "volume_unit": self.unit.replace("m2", "m^2").replace("m3", "m^3"),
-                "volume_m3": self.shape.volume,
-                "removed_volume_m3": self.removed,
-                "vaporized_volume_max_m3": self.vaporized_max,
-                "mirror_images": self.shape.mirror_images,
-                "depth_of_pulse_m": per_pulse,
-            }
+            **dict.fromkeys(absent),
+            "crater.taper_deg": float(np.degrees(self.shape.taper)) if self.axis.size else None,
+            "crater.volume_unit": self.unit,
+            "crater.volume_m3": self.shape.volume,
+            "crater.removed_volume_m3": self.removed,
+            "crater.vaporized_volume_max_m3": self.vaporized_max,
+            "crater.mirror_images": self.shape.mirror_images,
+            "crater.depth_of_pulse_m": [after - before for before, after in pairwise(depths)],
         }
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return {
-            "shape": asdict(self.shape),
-            "removed": self.removed,
-            "vaporized_max": self.vaporized_max,
-            "bottom": self.bottom,
-            "depth_at_start": list(self.depth_at_start),
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.shape = CraterShape(**state["shape"])
-        self.removed, self.vaporized_max = state["removed"], state["vaporized_max"]
-        self.bottom = state["bottom"]
-        self.depth_at_start = list(state["depth_at_start"])
 
 
 def ablation_of(view: View) -> AblationView:

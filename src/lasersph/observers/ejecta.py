@@ -5,24 +5,18 @@ Every particle counts once, with what it has when it leaves: from then on its ve
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from lasersph.observers.ablation_view import AblationView
 from lasersph.observers.crater import ablation_of
-from lasersph.observers.view import ENERGY_UNITS, View
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.quantity import Quantity, suffix, unit_in
+from lasersph.observers.view import View
 
-COLUMNS = (
-    "ejected_count",
-    "ejected_mass_kg",
-    "ejected_energy_J",
-    "ejected_kinetic_energy_J",
-    "ejecta_speed_mean_m_s",
-    "ejecta_temperature_mean_K",
-)
-MASS_UNITS = {1: "kg/m^2", 2: "kg/m", 3: "kg"}
+RANGES = {"speed": "m/s", "temperature": "K", "angle": "deg"}
+"""What each particle has when it leaves; the angle is that from the vertical."""
 
 
 @dataclass
@@ -47,93 +41,108 @@ class Range:
         """Mean of all values; 0 before any."""
         return self.total / self.count if self.count else 0.0
 
-    def named(self, name: str, unit: str) -> dict[str, float | None]:
+    def entries(self, stem: str, unit: str) -> dict[str, float | None]:
         """Mean, smallest and largest as entries of a summary; None before any value."""
-        values = (self.mean, self.smallest, self.largest)
-        words = ("mean", "min", "max")
+        values = {"mean": self.mean, "min": self.smallest, "max": self.largest}
         return {
-            f"{name}_{word}_{unit}": value if self.count else None
-            for word, value in zip(words, values, strict=True)
+            f"{stem}_{word}{suffix(unit)}": value if self.count else None
+            for word, value in values.items()
         }
 
 
-class Ejecta:
+class Ejecta(Observer):
     """Observes what leaves the surface."""
 
-    columns = COLUMNS
+    title = "ejecta"
+    note = "Each particle counts once, with what it had when it left."
+    columns = (
+        Quantity("ejected_count", "", "ejected particles"),
+        Quantity("ejected_mass_kg", "kg", "ejected mass", end="ejecta.mass_kg", is_main=True),
+        Quantity("ejected_energy_J", "J", "energy carried away by ejecta", end="ejecta.energy_J"),
+        Quantity(
+            "ejected_kinetic_energy_J",
+            "J",
+            "kinetic energy of the ejecta",
+            end="ejecta.kinetic_energy_J",
+        ),
+        Quantity("ejecta_speed_mean_m_s", "m/s", "mean speed of all ejecta"),
+        Quantity("ejecta_temperature_mean_K", "K", "mean temperature of all ejecta"),
+    )
+    results = (
+        Quantity("ejecta.count", "", "ejected particles", is_main=True),
+        Quantity("ejecta.gone_count", "", "of these beyond the box"),
+        Quantity("ejecta.mass_unit", "", "unit of the mass"),
+        Quantity("ejecta.energy_unit", "", "unit of the energies"),
+        Quantity("ejecta.start_s", "s", "first ejecta"),
+        Quantity("ejecta.end_s", "s", "last ejecta"),
+        *(
+            Quantity(
+                f"ejecta.{name}_{word}{suffix(unit)}",
+                unit,
+                f"{text} {name} when it left",
+                is_main=(name, word) == ("speed", "mean"),
+            )
+            for name, unit in RANGES.items()
+            for word, text in (("mean", "mean"), ("min", "smallest"), ("max", "largest"))
+        ),
+        Quantity("ejecta.vapor_pressure_max_Pa", "Pa", "largest vapor pressure, eq. (5)"),
+    )
+    kept = ("ranges", "vapor_pressure", "times", "seen_until", "counts")
 
     def __init__(self, dimension: int) -> None:
+        super().__init__()
         self.dimension = dimension
-        self.speed, self.temperature, self.angle = Range(), Range(), Range()
+        self.ranges = {name: Range() for name in RANGES}
         self.vapor_pressure = 0.0
-        self.first: float | None = None
-        self.last: float | None = None
+        self.times: list[float] = []
         self.seen_until = -np.inf
-        self.totals = dict.fromkeys(("count", "gone", "mass", "energy", "kinetic"), 0.0)
+        self.counts = [0, 0]
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Totals since the start, and means over all that left so far; 0 before any did."""
         seen = ablation_of(view)
         new = seen.ejecta_time > self.seen_until
         if np.any(new):
-            self._take(seen, new)
+            self._add(seen, new)
         self.seen_until = view.time
-        self.totals = {
-            "count": float(seen.ejected_count),
-            "gone": float(seen.gone_count),
-            "mass": seen.ejected_mass,
-            "energy": seen.ejected_energy,
-            "kinetic": seen.ejected_kinetic,
-        }
-        values = [self.totals[name] for name in ("count", "mass", "energy", "kinetic")]
-        return dict(zip(COLUMNS, [*values, self.speed.mean, self.temperature.mean], strict=True))
+        self.counts = [int(seen.ejected_count), int(seen.gone_count)]
+        values = (
+            float(seen.ejected_count),
+            seen.ejected_mass,
+            seen.ejected_energy,
+            seen.ejected_kinetic,
+            self.ranges["speed"].mean,
+            self.ranges["temperature"].mean,
+        )
+        return self.record(view.time, values)
 
-    def _take(self, seen: AblationView, new: np.ndarray) -> None:
+    def _add(self, seen: AblationView, new: np.ndarray) -> None:
         """Take the particles that just left into account."""
         velocity = seen.ejecta_velocity[:, new]
         speed = np.sqrt(np.sum(velocity * velocity, axis=0))
-        self.speed.add(speed)
-        self.temperature.add(seen.ejecta_temperature[new])
         upward = velocity[-1] / np.maximum(speed, 1e-300)
-        self.angle.add(np.degrees(np.arccos(np.clip(upward, -1.0, 1.0))))
+        self.ranges["speed"].add(speed)
+        self.ranges["temperature"].add(seen.ejecta_temperature[new])
+        self.ranges["angle"].add(np.degrees(np.arccos(np.clip(upward, -1.0, 1.0))))
         self.vapor_pressure = max(self.vapor_pressure, float(np.max(seen.vapor_pressure)))
         times = seen.ejecta_time[new]
-        self.first = float(np.min(times)) if self.first is None else self.first
-        self.last = float(np.max(times))
+        first = self.times[0] if self.times else float(np.min(times))
+        self.times = [first, float(np.max(times))]
 
-    def summary(self) -> dict[str, Any]:
-        """`ejecta`: totals with their units, and what the particles had when they left."""
-        totals = self.totals
-        return {
-            "ejecta": {
-                "count": int(totals["count"]),
-                "gone_count": int(totals["gone"]),
-                "mass_unit": MASS_UNITS[self.dimension],
-                "mass_kg": totals["mass"],
-                "energy_unit": ENERGY_UNITS[self.dimension],
-                "energy_J": totals["energy"],
-                "kinetic_energy_J": totals["kinetic"],
-                "start_s": self.first,
-                "end_s": self.last,
-                **self.speed.named("speed", "m_s"),
-                **self.temperature.named("temperature", "K"),
-                **self.angle.named("angle", "deg"),
-                "vapor_pressure_max_Pa": self.vapor_pressure if self.speed.count else None,
-            }
+    def values(self) -> dict[str, object]:
+        """Numbers and units, and what the particles had when they left."""
+        first, last = self.times or (None, None)
+        found: dict[str, object] = {
+            "ejecta.count": self.counts[0],
+            "ejecta.gone_count": self.counts[1],
+            "ejecta.mass_unit": unit_in("kg", self.dimension),
+            "ejecta.energy_unit": unit_in("J", self.dimension),
+            "ejecta.start_s": first,
+            "ejecta.end_s": last,
+            "ejecta.vapor_pressure_max_Pa": (
+                self.vapor_pressure if self.ranges["speed"].count else None
+            ),
         }
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return {
-            "ranges": [asdict(r) for r in (self.speed, self.temperature, self.angle)],
-            "vapor_pressure": self.vapor_pressure,
-            "times": [self.first, self.last, self.seen_until],
-            "totals": dict(self.totals),
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.speed, self.temperature, self.angle = (Range(**r) for r in state["ranges"])
-        self.vapor_pressure = state["vapor_pressure"]
-        self.first, self.last, self.seen_until = state["times"]
-        self.totals = dict(state["totals"])
+        for name, unit in RANGES.items():
+            found |= self.ranges[name].entries(f"ejecta.{name}", unit)
+        return found

@@ -11,56 +11,58 @@ boundaries or was stored.
 
 from __future__ import annotations
 
-from typing import Any
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.quantity import Quantity, unit_in
+from lasersph.observers.view import View
 
-from lasersph.observers.view import ENERGY_UNITS, View
-
-TERMS: tuple[str, ...] = (
-    "incident",
-    "absorbed",
-    "reflected",
-    "transmitted",
-    "stored",
-    "lost",
-    "removed",
-    "discarded",
-)
+TERMS = {
+    "incident": "energy of the light",
+    "absorbed": "absorbed energy",
+    "reflected": "reflected energy",
+    "transmitted": "energy through holes in the metal",
+    "stored": "energy in the metal",
+    "lost": "energy lost through boundaries",
+    "removed": "energy removed with vapor",
+    "discarded": "energy discarded by the plateau rule",
+}
 IMBALANCE_ALLOWED = 1e-6
 """Relative imbalance up to which a run is sound."""
 IMBALANCE_ALLOWED_WITH_FLOW = 1e-4
 """The same for a run whose particles move and are shifted."""
 
 
-class EnergyBudget:
+class EnergyBudget(Observer):
     """Observes the energy budget of a run of a given dimension."""
 
-    columns = (*(f"energy_{name}_J" for name in TERMS), "energy_imbalance_relative")
+    title = "energy"
+    note = "In 1-D per unit area, in 2-D per unit length, of the part that is computed."
+    columns = (
+        *(
+            Quantity(f"energy_{k}_J", "J", words, end=f"energy.{k}_J", is_main=k == "absorbed")
+            for k, words in TERMS.items()
+        ),
+        Quantity(
+            "energy_imbalance_relative",
+            "",
+            "energy imbalance, relative to the absorbed",
+            end="energy.imbalance_relative",
+            is_main=True,
+        ),
+    )
+    results = (Quantity("energy.unit", "", "unit of the energies"),)
 
     def __init__(self, dimension: int) -> None:
-        self.unit = ENERGY_UNITS[dimension]
-        self.terms: dict[str, float] = dict.fromkeys(TERMS, 0.0)
+        super().__init__()
+        self.unit = unit_in("J", dimension)
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """The terms since the start, and the relative imbalance."""
-        terms: dict[str, float] = {name: float(view.energy.get(name, 0.0)) for name in TERMS}
-        self.terms = terms
-        row = {f"energy_{name}_J": value for name, value in terms.items()}
-        return {**row, "energy_imbalance_relative": relative_imbalance(terms)}
+        terms = {name: float(view.energy.get(name, 0.0)) for name in TERMS}
+        return self.record(view.time, (*terms.values(), relative_imbalance(terms)))
 
-    def summary(self) -> dict[str, Any]:
-        """`energy`: the unit, the terms at the end, the relative imbalance."""
-        energy: dict[str, Any] = {"unit": self.unit}
-        energy.update({f"{name}_J": value for name, value in self.terms.items()})
-        energy["imbalance_relative"] = relative_imbalance(self.terms)
-        return {"energy": energy}
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return dict(self.terms)
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.terms = dict(state)
+    def values(self) -> dict[str, object]:
+        """The unit of the terms."""
+        return {"energy.unit": self.unit}
 
 
 def relative_imbalance(terms: dict[str, float]) -> float:

@@ -17,12 +17,12 @@ law of its own checks.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from lasersph.observers.flow_speed import flow_of, time_of
-from lasersph.observers.peak import Peak, Span
+from lasersph.observers.flow_speed import flow_of
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.peak import Span
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 PROMINENCE = 0.05
@@ -32,54 +32,73 @@ EDGE = 4.0
 """Spacings from the edge of the liquid within which no extremum counts at first."""
 NEARLY = 1.0 - 1e-9
 """Of the vaporization temperature: at it, but for rounding."""
+STATES = {
+    "inner": "an inner extremum",
+    "coexist": "both extrema",
+    "inner_exceeds": "both, the inner one faster",
+}
 
 Place = tuple[float, float]
 """Speed [m/s] and x [m] of an extremum."""
 
 
-class FlowExtrema:
+class FlowExtrema(Observer):
     """Observes the inner and the outer extremum of the speed at the surface."""
 
-    columns: tuple[str, ...] = (
-        "flow_outer_speed_m_s",
-        "flow_outer_x_m",
-        "flow_inner_speed_m_s",
-        "flow_inner_x_m",
+    title = "extrema of the surface speed"
+    note = "On the side x > 0; 0 where one does not exist."
+    columns = tuple(
+        one
+        for name in ("outer", "inner")
+        for one in (
+            Quantity(
+                f"flow_{name}_speed_m_s",
+                "m/s",
+                f"speed of the {name} extremum of the surface",
+                largest=f"flow.extrema.{name}_speed_max_m_s",
+            ),
+            Quantity(f"flow_{name}_x_m", "m", f"place of the {name} extremum"),
+        )
     )
+    results = tuple(
+        Quantity(f"flow.extrema.{name}_{key}_s", "s", f"{text}: {words}")
+        for name, text in STATES.items()
+        for key, words in (("start", "first"), ("end", "last"), ("lasted", "in all"))
+    )
+    kept = ("span", "lasted", "last_place", "has_boiled")
 
     def __init__(self) -> None:
-        self.peak = {"outer": Peak(), "inner": Peak()}
-        self.span = {"inner": Span(), "coexist": Span(), "inner_exceeds": Span()}
-        self.lasted = dict.fromkeys(self.span, 0.0)
+        super().__init__()
+        self.span = {name: Span() for name in STATES}
+        self.lasted = dict.fromkeys(STATES, 0.0)
         self.last_place: dict[str, float] = {}
         self.has_boiled = False
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Speed [m/s] and place [m] of both extrema; 0 where one does not exist."""
         if view.vaporization is not None:
             hottest = float(np.max(view.temperature[view.surface]))
             self.has_boiled |= hottest >= view.vaporization * NEARLY
-        found = self._named(surface_extrema(view, 0.0 if self.has_boiled else EDGE))
+        found = self._by_name(surface_extrema(view, 0.0 if self.has_boiled else EDGE))
         self.last_place = {name: x for name, (_, x) in found.items()}
         outer, inner = found.get("outer", (0.0, 0.0)), found.get("inner", (0.0, 0.0))
-        for name, (speed, _) in (("outer", outer), ("inner", inner)):
-            self.peak[name].update(speed, view.time)
-        states = {
-            "inner": "inner" in found,
-            "coexist": len(found) == 2,
-            "inner_exceeds": len(found) == 2 and inner[0] > outer[0],
-        }
-        for name, holds in states.items():
+        both = len(found) == 2
+        for name, holds in zip(
+            STATES, ("inner" in found, both, both and inner[0] > outer[0]), strict=True
+        ):
             self.span[name].update(holds, view.time)
             self.lasted[name] += view.time_step if holds else 0.0
-        return dict(zip(self.columns, (*outer, *inner), strict=True))
+        return self.record(view.time, (*outer, *inner))
 
-    def _named(self, extrema: list[Place]) -> dict[str, Place]:
+    def _by_name(self, extrema: list[Place]) -> dict[str, Place]:
         """Extrema in order of x, one or two, by name."""
         if not extrema:
             return {}
         if len(extrema) == 2:
-            one = self._continued(extrema)
+            # of two, the one that goes on with the outer one; the larger, where none is known
+            one = max(extrema)
+            if "outer" in self.last_place:
+                one = min(extrema, key=lambda place: abs(place[1] - self.last_place["outer"]))
             is_closer = one is extrema[1] or "outer" not in self.last_place
             if "inner" in self.last_place or (self.has_boiled and is_closer):
                 return {"inner": extrema[0], "outer": extrema[1]}
@@ -89,43 +108,18 @@ class FlowExtrema:
         name = min(apart, key=lambda known: apart[known]) if apart else "outer"
         return {name: extrema[0]}
 
-    def _continued(self, extrema: list[Place]) -> Place:
-        """That of two which goes on with the outer one; the larger one, where none is known."""
-        if "outer" not in self.last_place:
-            return max(extrema)
-        return min(extrema, key=lambda place: abs(place[1] - self.last_place["outer"]))
-
-    def summary(self) -> dict[str, Any]:
-        """`flow.extrema`: both largest speeds, and for how long the inner one was there, beside
-        the outer one, and faster than that; nothing where the surface never moved.
-        """
-        if self.peak["outer"].value == 0.0 and self.peak["inner"].value == 0.0:
-            return {}
-        extrema: dict[str, Any] = {}
-        for name, peak in self.peak.items():
-            extrema[f"{name}_speed_max_m_s"] = peak.value
-            extrema[f"{name}_speed_max_at_s"] = time_of(peak)
+    def values(self) -> dict[str, object]:
+        """For how long the inner one was there, beside the outer one, and faster than that."""
+        found: dict[str, object] = {}
         for name, span in self.span.items():
-            extrema[f"{name}_start_s"], extrema[f"{name}_end_s"] = span.first, span.last
-            extrema[f"{name}_lasted_s"] = self.lasted[name]
-        return {"flow": {"extrema": extrema}}
+            stem = f"flow.extrema.{name}"
+            found |= {f"{stem}_start_s": span.first, f"{stem}_end_s": span.last}
+            found[f"{stem}_lasted_s"] = self.lasted[name]
+        return found
 
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return {
-            "peak": {name: peak.state() for name, peak in self.peak.items()},
-            "span": {name: span.state() for name, span in self.span.items()},
-            "lasted": dict(self.lasted),
-            "last_place": dict(self.last_place),
-            "has_boiled": self.has_boiled,
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.peak = {name: Peak(**values) for name, values in state["peak"].items()}
-        self.span = {name: Span(**values) for name, values in state["span"].items()}
-        self.lasted, self.last_place = dict(state["lasted"]), dict(state["last_place"])
-        self.has_boiled = state["has_boiled"]
+    def summary(self) -> dict[str, object]:
+        """Nothing where the surface never moved."""
+        return super().summary() if any(peak.value for peak in self.peak.values()) else {}
 
 
 def surface_extrema(view: View, margin: float = 0.0) -> list[Place]:

@@ -9,42 +9,79 @@ a share of |v|max over the spacing, the largest that one particle could have.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lasersph.observers.flow_view import FlowView
-from lasersph.observers.peak import Peak, Span
-from lasersph.observers.view import ENERGY_UNITS, View
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.peak import Span
+from lasersph.observers.quantity import Quantity, unit_in
+from lasersph.observers.view import View
 
 
-class FlowSpeed:
+class FlowSpeed(Observer):
     """Observes the largest speed, the kinetic energy, the divergence and the smallest spacing."""
 
-    columns: tuple[str, ...] = (
-        "flow_speed_max_m_s",
-        "flow_kinetic_energy_J",
-        "flow_divergence_rms_1_s",
-        "flow_divergence_max_1_s",
-        "flow_divergence_relative",
-        "flow_spacing_min_m",
+    title = "flow"
+    columns = (
+        Quantity(
+            "flow_speed_max_m_s",
+            "m/s",
+            "speed of any particle",
+            largest="flow.speed_max_m_s",
+            is_main=True,
+        ),
+        Quantity(
+            "flow_kinetic_energy_J", "J", "kinetic energy", largest="flow.kinetic_energy_max_J"
+        ),
+        Quantity(
+            "flow_divergence_rms_1_s",
+            "1/s",
+            "root mean square of the divergence that the projection leaves",
+            largest="flow.divergence_rms_max_1_s",
+        ),
+        Quantity(
+            "flow_divergence_max_1_s",
+            "1/s",
+            "divergence that the projection leaves",
+            largest="flow.divergence_max_1_s",
+        ),
+        Quantity(
+            "flow_divergence_relative",
+            "",
+            "root mean square of the divergence times spacing over the largest speed",
+            largest="flow.divergence_relative_max",
+        ),
+        Quantity("flow_spacing_min_m", "m", "smallest distance of two particles"),
     )
+    results = (
+        Quantity("flow.start_s", "s", "first flow"),
+        Quantity("flow.end_s", "s", "last flow"),
+        Quantity("flow.particles_max", "", "flowing particles at most"),
+        Quantity("flow.spacing_min_m", "m", "smallest distance of two particles in a flow"),
+        Quantity("flow.kinetic_energy_unit", "", "unit of the kinetic energy"),
+    )
+    kept = ("span", "spacing_min", "particles_max")
 
     def __init__(self, dimension: int) -> None:
-        self.unit = ENERGY_UNITS[dimension]
+        super().__init__()
+        self.unit = unit_in("J", dimension)
         self.span = Span()
-        self.peak = {name: Peak() for name in self.columns[:-1]}
         self.spacing_min: float | None = None
         self.particles_max = 0
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Largest speed [m/s], kinetic energy, divergence [1/s], smallest distance [m]."""
         flow = flow_of(view)
         square = np.sum(flow.velocity * flow.velocity, axis=0)
         fastest = float(np.sqrt(np.max(square)))
         count = int(np.count_nonzero(flow.flows))
-        spacing = float(np.min(view.width))
-        largest = fastest / spacing
+        largest = fastest / float(np.min(view.width))
+        self.span.update(count > 0, view.time)
+        self.particles_max = max(self.particles_max, count)
+        if count > 0:
+            least = self.spacing_min
+            now = float(flow.spacing_min)
+            self.spacing_min = now if least is None else min(least, now)
         values = (
             fastest,
             0.5 * flow.density * float(np.sum(view.volume * square)),
@@ -53,51 +90,17 @@ class FlowSpeed:
             float(flow.divergence_rms) / largest if largest > 0.0 else 0.0,
             float(flow.spacing_min),
         )
-        row = dict(zip(self.columns, values, strict=True))
-        for name, peak in self.peak.items():
-            peak.update(row[name], view.time)
-        self.span.update(count > 0, view.time)
-        self.particles_max = max(self.particles_max, count)
-        if count > 0:
-            least = self.spacing_min
-            self.spacing_min = values[-1] if least is None else min(least, values[-1])
-        return row
+        return self.record(view.time, values)
 
-    def summary(self) -> dict[str, Any]:
-        """`flow`: largest values and when, first and last time at which anything flowed."""
-        peak = self.peak
+    def values(self) -> dict[str, object]:
+        """When something flowed, how many particles, how close they came."""
         return {
-            "flow": {
-                "start_s": self.span.first,
-                "end_s": self.span.last,
-                "particles_max": self.particles_max,
-                "speed_max_m_s": peak["flow_speed_max_m_s"].value,
-                "speed_max_at_s": time_of(peak["flow_speed_max_m_s"]),
-                "kinetic_energy_unit": self.unit,
-                "kinetic_energy_max_J": peak["flow_kinetic_energy_J"].value,
-                "kinetic_energy_max_at_s": time_of(peak["flow_kinetic_energy_J"]),
-                "divergence_rms_max_1_s": peak["flow_divergence_rms_1_s"].value,
-                "divergence_max_1_s": peak["flow_divergence_max_1_s"].value,
-                "divergence_relative_max": peak["flow_divergence_relative"].value,
-                "spacing_min_m": self.spacing_min,
-            }
+            "flow.start_s": self.span.first,
+            "flow.end_s": self.span.last,
+            "flow.particles_max": self.particles_max,
+            "flow.spacing_min_m": self.spacing_min,
+            "flow.kinetic_energy_unit": self.unit,
         }
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return {
-            "span": self.span.state(),
-            "peak": {name: peak.state() for name, peak in self.peak.items()},
-            "spacing_min": self.spacing_min,
-            "particles_max": self.particles_max,
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.span = Span(**state["span"])
-        self.peak = {name: Peak(**values) for name, values in state["peak"].items()}
-        self.spacing_min = state["spacing_min"]
-        self.particles_max = state["particles_max"]
 
 
 def flow_of(view: View) -> FlowView:
@@ -105,8 +108,3 @@ def flow_of(view: View) -> FlowView:
     if view.flow is None:
         raise ValueError("the view of a run without flow was given to an observer of flow")
     return view.flow
-
-
-def time_of(peak: Peak) -> float | None:
-    """When a size peaked [s]; None where it never was above zero."""
-    return peak.time if peak.value > 0.0 else None

@@ -14,85 +14,96 @@ width is taken along x through the hottest surface cell).
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lasersph.observers.ablation_view import EJECTED
-from lasersph.observers.peak import Peak, Span
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.peak import Span
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View, deepest, hottest_surface_cell, lower_faces
 
 FULL, HALF = 1.0 - 1e-9, 0.5
-LEVELS = {"": FULL, "half_": HALF, "any_": 0.0}
-"""Part of a column's name and the melt fraction that a fluid cell has at least (any: above 0)."""
+LEVELS = {
+    "": (FULL, "completely fluid metal (f_m = 1)"),
+    "_half": (HALF, "half molten metal (f_m = 0.5)"),
+    "_any": (0.0, "any melt (f_m > 0)"),
+}
+"""Part of a key, the melt fraction that a fluid cell has at least (any: above 0), and its name."""
 
 
-class MeltPool:
+def sizes(name: str, unit: str = "m") -> tuple[Quantity, ...]:
+    """A size of the pool at each level."""
+    return tuple(
+        Quantity(
+            f"melt_{name}{level}_{unit.replace('^', '')}",
+            unit,
+            f"{name} of {words}",
+            largest=f"melt.{name}{level}_max_{unit.replace('^', '')}",
+            is_main=level == "",
+        )
+        for level, (_, words) in LEVELS.items()
+    )
+
+
+class MeltPool(Observer):
     """Observes the melt pool; in 1-D it has a depth and no width."""
 
+    title = "melt pool"
+    note = (
+        "Depth: lower face of the deepest such cell below the original surface. Width: full"
+        " width of one pool at the surface. Sizes are whole cells, but for the width at f_m = 0.5,"
+        " which is interpolated."
+    )
+    columns = (*sizes("depth"), *sizes("width"))
+    results = (
+        *(
+            Quantity(f"melt.{name}{level}_s", "s", f"{text} {words}", is_main=level == "")
+            for level, (_, words) in LEVELS.items()
+            for name, text in (("start", "first"), ("end", "last"))
+        ),
+        Quantity("melt.molten_at_end", "", "fluid at the end of the run, without ejecta"),
+    )
+    kept = ("span", "end_time")
+
     def __init__(self, dimension: int) -> None:
-        self.quantities = ("depth",) if dimension == 1 else ("depth", "width")
+        if dimension == 1:
+            self.columns = sizes("depth")
+        super().__init__()
+        self.dimension = dimension
         self.span = {level: Span() for level in LEVELS}
-        self.peak = {f"{q}_{level}": Peak() for q in self.quantities for level in LEVELS}
         self.end_time = 0.0
 
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the history columns."""
-        return tuple(f"melt_{name}m" for name in self.peak)
-
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Sizes of the pool at this step [m]; 0 where nothing is fluid."""
         fraction = remaining_fraction(view)
         largest = float(np.max(fraction))
         faces = lower_faces(view) if largest > 0.0 else np.zeros(0)
-        sizes: dict[str, float] = {}
-        for level, least in LEVELS.items():
+        depth, width = dict.fromkeys(LEVELS, 0.0), dict.fromkeys(LEVELS, 0.0)
+        for level, (least, _) in LEVELS.items():
             exists = largest > 0.0 and largest >= least
             self.span[level].update(exists, view.time)
-            sizes[f"depth_{level}"] = deepest(faces, is_fluid(fraction, least)) if exists else 0.0
-            if "width" in self.quantities:
-                sizes[f"width_{level}"] = pool_width(view, least) if exists else 0.0
-        for name, size in sizes.items():
-            self.peak[name].update(size, view.time)
+            if exists:
+                depth[level] = deepest(faces, is_fluid(fraction, least))
+                width[level] = pool_width(view, least) if self.dimension > 1 else 0.0
         self.end_time = view.time
-        return {f"melt_{name}m": sizes[name] for name in self.peak}
+        values = (*depth.values(), *width.values())
+        return self.record(view.time, values[: len(self.columns)])
 
-    def summary(self) -> dict[str, Any]:
+    def values(self) -> dict[str, object]:
+        """Times, None where no such cell was seen; in 1-D there are no widths."""
+        absent = (one for column in sizes("width") for one in (column.largest, column.largest_at))
+        found: dict[str, object] = dict.fromkeys(absent if self.dimension == 1 else ())
+        for level, span in self.span.items():
+            found |= {f"melt.start{level}_s": span.first, f"melt.end{level}_s": span.last}
+        return {**found, "melt.molten_at_end": self.span[""].last == self.end_time}
+
+    def summary(self) -> dict[str, object]:
         """`melt`: times and largest sizes; nothing where nothing began to melt.
 
-        Keys without a level mean completely fluid material; times are None where it never was.
         `end_s` is the last time at which it was seen; `molten_at_end` says that the run ended
         before it was solid.
         """
-        if self.span["any_"].first is None:
-            return {}
-        melt: dict[str, Any] = {}
-        for level in LEVELS:
-            suffix = f"_{level[:-1]}" if level else ""
-            span = self.span[level]
-            melt[f"start{suffix}_s"], melt[f"end{suffix}_s"] = span.first, span.last
-            for quantity in ("depth", "width"):
-                peak = self.peak.get(f"{quantity}_{level}")
-                melt[f"{quantity}{suffix}_max_m"] = peak.value if peak else None
-                reached = peak is not None and peak.value > 0.0
-                melt[f"{quantity}{suffix}_max_at_s"] = peak.time if peak and reached else None
-        melt["molten_at_end"] = self.span[""].last == self.end_time
-        return {"melt": melt}
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return {
-            "span": {level: span.state() for level, span in self.span.items()},
-            "peak": {name: peak.state() for name, peak in self.peak.items()},
-            "end_time": self.end_time,
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.span = {level: Span(**values) for level, values in state["span"].items()}
-        self.peak = {name: Peak(**values) for name, values in state["peak"].items()}
-        self.end_time = state["end_time"]
+        return super().summary() if self.span["_any"].first is not None else {}
 
 
 def remaining_fraction(view: View) -> np.ndarray:

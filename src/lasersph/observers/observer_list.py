@@ -1,9 +1,9 @@
-"""The observers of a run, asked together: one history row, one summary, one state."""
+"""The observers of a run as one: one history row, one summary, one state."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from lasersph.observers.box_flow import BoxFlow
 from lasersph.observers.crater import Crater
@@ -13,6 +13,7 @@ from lasersph.observers.flow_extrema import FlowExtrema
 from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
+from lasersph.observers.observer import Observer, Row
 from lasersph.observers.probes import Probe, Probes
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_pressure import SurfacePressure
@@ -22,30 +23,28 @@ from lasersph.observers.traces import Trace, Traces
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import View
 
-
-class Observer(Protocol):
-    """Looks at every step and never changes anything but itself."""
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of its history columns, with unit."""
-        ...
-
-    def observe(self, view: View) -> dict[str, Any]:
-        """Values of its columns at this step."""
-        ...
-
-    def summary(self) -> dict[str, Any]:
-        """Its part of the summary."""
-        ...
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs: numbers, texts, lists and dicts."""
-        ...
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        ...
+OBSERVERS: tuple[type[Observer], ...] = (
+    Steps,
+    SurfaceTemperature,
+    MeltPool,
+    Vaporization,
+    Crater,
+    Ejecta,
+    Traces,
+    MatterMotion,
+    FlowSpeed,
+    SurfaceSpeed,
+    FlowExtrema,
+    SurfacePressure,
+    BoxFlow,
+    EnergyBudget,
+    Probes,
+)
+"""All that exist, in the order in which a report tells of them."""
+COLUMNS = {one.key: one for kind in OBSERVERS for one in kind.columns}
+"""What each column of history.csv holds."""
+RESULTS = {one.key: one for kind in OBSERVERS for one in kind.all_results()}
+"""What each key of summary.json holds that an observer fills."""
 
 
 class Observers:
@@ -60,13 +59,13 @@ class Observers:
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the history columns, in order."""
-        return tuple(name for member in self.members for name in member.columns)
+        return tuple(one.key for member in self.members for one in member.columns)
 
-    def observe(self, view: View) -> dict[str, Any]:
+    def observe(self, view: View) -> Row:
         """The history row of this step."""
-        row: dict[str, Any] = {}
+        row: Row = {}
         for member in self.members:
-            row.update(member.observe(view))
+            row |= member.observe(view)
         return row
 
     def summary(self) -> dict[str, Any]:

@@ -14,13 +14,14 @@ vaporization temperature where no particle does.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, field_validator
 
 from lasersph.input import Length, Model
-from lasersph.observers.peak import Peak
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 SUPPORT = {1: 2, 2: 6, 3: 12}
@@ -61,28 +62,48 @@ class Probe(Model):
         return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
 
 
-class Probes:
+class Probes(Observer):
     """Observes the temperature at probes."""
+
+    title = "probes"
+    columns = (
+        Quantity(
+            "probe_<name>_K",
+            "K",
+            "temperature",
+            largest="probes.<name>.temperature_max_K",
+            end="probes.<name>.temperature_end_K",
+        ),
+    )
+    results = (
+        Quantity("probes.<name>.method", "", "method"),
+        Quantity("probes.<name>.depth_m", "m", "depth asked for"),
+        Quantity("probes.<name>.x_m", "m", "x asked for"),
+        Quantity("probes.<name>.y_m", "m", "y asked for"),
+        Quantity("probes.<name>.depth_used_m", "m", "depth used"),
+        Quantity("probes.<name>.lateral_used_m", "m", "x and y used"),
+    )
+    kept = ("where",)
 
     def __init__(self, probes: tuple[Probe, ...]) -> None:
         """Raises ValueError where two probes have the same name."""
         self.probes = probes
         if len({probe.name for probe in probes}) < len(probes):
             raise ValueError("two probes have the same name")
-        self.columns = tuple(f"probe_{probe.name}_K" for probe in probes)
-        self.peak = [Peak() for _ in probes]
-        self.last = [0.0 for _ in probes]
+        (temperature,) = type(self).columns
+        self.columns = tuple(temperature.of(probe.name) for probe in probes)
+        super().__init__()
         self.where: list[list[float]] = [[] for _ in probes]
         self._found: list[tuple[np.ndarray, np.ndarray, np.ndarray] | None] = [None] * len(probes)
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Temperature of each probe [K]."""
+        values = []
         for k, probe in enumerate(self.probes):
             particles, weights = self._weights(k, probe, view)
-            self.last[k] = combined(view.temperature[particles], weights, view.vaporization)
-            self.peak[k].update(self.last[k], view.time)
-            self.where[k] = represented(view.position[:, particles], weights, probe.method)
-        return dict(zip(self.columns, self.last, strict=True))
+            values.append(limited_mean(view.temperature[particles], weights, view.vaporization))
+            self.where[k] = mean_place(view.position[:, particles], weights, probe.method)
+        return self.record(view.time, values)
 
     def _weights(self, k: int, probe: Probe, view: View) -> tuple[np.ndarray, np.ndarray]:
         """Particles and weights of a probe, found again only when the particles have moved."""
@@ -95,43 +116,24 @@ class Probes:
         self._found[k] = (particles, weights, view.position[:, particles].copy())
         return particles, weights
 
-    def summary(self) -> dict[str, Any]:
-        """`probes`: asked and used place, method, largest and last temperature of each."""
-        if not self.probes:
-            return {}
-        return {
-            "probes": {
-                probe.name: {
-                    "method": probe.method,
-                    "depth_m": probe.depth,
-                    "x_m": probe.x,
-                    "y_m": probe.y,
-                    "depth_used_m": -self.where[k][-1] if self.where[k] else None,
-                    "lateral_used_m": self.where[k][:-1],
-                    "temperature_max_K": self.peak[k].value,
-                    "temperature_max_at_s": self.peak[k].first,
-                    "temperature_end_K": self.last[k],
-                }
-                for k, probe in enumerate(self.probes)
+    def values(self) -> dict[str, object]:
+        """Asked and used place and method of each, and when it was first hottest."""
+        found: dict[str, object] = {}
+        for probe, where, column in zip(self.probes, self.where, self.columns, strict=True):
+            stem = f"probes.{probe.name}"
+            found |= {
+                f"{stem}.method": probe.method,
+                f"{stem}.depth_m": probe.depth,
+                f"{stem}.x_m": probe.x,
+                f"{stem}.y_m": probe.y,
+                f"{stem}.depth_used_m": -where[-1] if where else None,
+                f"{stem}.lateral_used_m": where[:-1],
+                f"{stem}.temperature_max_at_s": self.peak[column.key].first,
             }
-        }
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return {
-            "peak": [peak.state() for peak in self.peak],
-            "last": list(self.last),
-            "where": [list(place) for place in self.where],
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.peak = [Peak(**values) for values in state["peak"]]
-        self.last = list(state["last"])
-        self.where = [list(place) for place in state["where"]]
+        return found
 
 
-def represented(position: np.ndarray, weights: np.ndarray, method: str) -> list[float]:
+def mean_place(position: np.ndarray, weights: np.ndarray, method: str) -> list[float]:
     """Place that a probe stands for, from particles at `position` (dim, k), (dim,) [m].
 
     `even` combines z^2, not z.
@@ -142,7 +144,7 @@ def represented(position: np.ndarray, weights: np.ndarray, method: str) -> list[
     return [float(value) for value in place]
 
 
-def combined(temperature: np.ndarray, weights: np.ndarray, vaporization: float | None) -> float:
+def limited_mean(temperature: np.ndarray, weights: np.ndarray, vaporization: float | None) -> float:
     """Weighted temperature [K], which does not pass T_v where no particle does.
 
     Beside a plateau at T_v a straight line would overshoot it.

@@ -2,71 +2,57 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 
-class Steps:
+class Steps(Observer):
     """Observes the time stepping. The view of the initial state counts as step 0."""
+
+    title = "steps"
+    columns = (
+        Quantity("time_s", "s", "time", end="time_s"),
+        Quantity("step", "", "number of the step", end="steps"),
+        Quantity("time_step_s", "s", "time step"),
+        Quantity("limit", "", "limit that bound the time step"),
+        Quantity("iterations_<name>", "", "iterations of newton, linear, ..."),
+    )
+    results = (
+        Quantity("time_step.min_s", "s", "smallest time step"),
+        Quantity("time_step.max_s", "s", "largest time step"),
+        Quantity("time_step.limits", "", "how often each limit bound the time step"),
+        Quantity("iterations", "", "iterations of all steps, by part of the solver"),
+    )
+    kept = ("iterations", "limits", "smallest", "largest")
 
     def __init__(self, iterations: tuple[str, ...] = ()) -> None:
         """`iterations`: names of the solver parts that count iterations."""
+        *always, counted = type(self).columns
+        self.columns = (*always, *(counted.of(name) for name in iterations))
+        super().__init__()
         self.iterations = dict.fromkeys(iterations, 0)
         self.limits: dict[str, int] = {}
-        self.count = 0
-        self.time = 0.0
         self.smallest: float | None = None
         self.largest: float | None = None
 
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the history columns."""
-        counts = (f"iterations_{name}" for name in self.iterations)
-        return ("time_s", "step", "time_step_s", "limit", *counts)
-
-    def observe(self, view: View) -> dict[str, Any]:
+    def observe(self, view: View) -> Row:
         """Time [s], step number, time step [s], binding limit, iterations."""
+        counts = {name: int(view.iterations.get(name, 0)) for name in self.iterations}
+        step = float(view.time_step)
         if view.step > 0:
             self.limits[view.limit] = self.limits.get(view.limit, 0) + 1
-            for name in self.iterations:
-                self.iterations[name] += view.iterations.get(name, 0)
-            step = float(view.time_step)
+            self.iterations = {name: n + counts[name] for name, n in self.iterations.items()}
             self.smallest = step if self.smallest is None else min(self.smallest, step)
             self.largest = step if self.largest is None else max(self.largest, step)
-        self.count, self.time = int(view.step), float(view.time)
-        counts = {f"iterations_{n}": int(view.iterations.get(n, 0)) for n in self.iterations}
-        return {
-            "time_s": self.time,
-            "step": self.count,
-            "time_step_s": float(view.time_step),
-            "limit": view.limit,
-            **counts,
-        }
+        values = (float(view.time), int(view.step), step, view.limit, *counts.values())
+        return self.record(view.time, values)
 
-    def summary(self) -> dict[str, Any]:
-        """Steps, end time, range of the time step, how often each limit bound it."""
+    def values(self) -> dict[str, object]:
+        """Range of the time step, how often each limit bound it, iterations."""
         return {
-            "steps": self.count,
-            "time_s": self.time,
-            "time_step": {"min_s": self.smallest, "max_s": self.largest, "limits": self.limits},
+            "time_step.min_s": self.smallest,
+            "time_step.max_s": self.largest,
+            "time_step.limits": dict(self.limits),
             "iterations": dict(self.iterations),
         }
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return {
-            "iterations": dict(self.iterations),
-            "limits": dict(self.limits),
-            "count": self.count,
-            "time": self.time,
-            "smallest": self.smallest,
-            "largest": self.largest,
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.iterations = dict(state["iterations"])
-        self.limits = dict(state["limits"])
-        self.count, self.time = state["count"], state["time"]
-        self.smallest, self.largest = state["smallest"], state["largest"]

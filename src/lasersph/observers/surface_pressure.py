@@ -11,29 +11,56 @@ step shrinks. Steps that are shortened to end at a given time are therefore pass
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from lasersph.observers.flow_speed import flow_of, time_of
+from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.flow_view import FlowView
+from lasersph.observers.observer import Observer, Row, time_of
 from lasersph.observers.peak import Peak
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
+RECOIL = "recoil pressure 0.54 p_sat(T) of a free surface"
 
-class SurfacePressure:
+
+class SurfacePressure(Observer):
     """Observes the pressure at the surface of the liquid."""
 
-    columns: tuple[str, ...] = ("lid_pressure_max_Pa", "lid_pressure_min_Pa", "lid_recoil_max_Pa")
+    title = "pressure of the flat surface"
+    note = (
+        "Its mean over the liquid is zero. It drives a return flow that a free surface, which"
+        " would rise or sink instead, does not have."
+    )
+    columns = (
+        Quantity("lid_pressure_max_Pa", "Pa", "largest pressure of the flat surface"),
+        Quantity("lid_pressure_min_Pa", "Pa", "smallest pressure of the flat surface"),
+        Quantity("lid_recoil_max_Pa", "Pa", f"largest {RECOIL}"),
+    )
+    results = (
+        *(
+            one
+            for name, text in (("max", "largest"), ("min", "smallest"))
+            for one in (
+                Quantity(
+                    f"lid.pressure_{name}_Pa",
+                    "Pa",
+                    f"{text} pressure of the flat surface",
+                    at=(f"lid.pressure_{name}_at_s", f"lid.pressure_{name}_x_m"),
+                ),
+                Quantity(f"lid.recoil_at_pressure_{name}_Pa", "Pa", f"{RECOIL} there"),
+            )
+        ),
+        Quantity("lid.recoil_max_Pa", "Pa", f"largest {RECOIL}", at=("lid.recoil_max_at_s",)),
+    )
+    kept = ("largest", "lowest", "recoil", "places", "has_vapor")
 
     def __init__(self) -> None:
+        super().__init__()
         self.largest, self.lowest, self.recoil = Peak(), Peak(), Peak()
-        self.at_largest: dict[str, float] = {}
-        self.at_lowest: dict[str, float] = {}
+        self.places: dict[str, list[float]] = {}
         self.has_vapor = False
-        self.row = dict.fromkeys(self.columns, 0.0)
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Largest and smallest pressure of the surface and largest recoil pressure [Pa].
 
         Those of the step before where this one is shortened.
@@ -41,12 +68,12 @@ class SurfacePressure:
         flow = flow_of(view)
         wet = np.flatnonzero(flow.flows[flow.surface])
         if wet.size == 0:
-            self.row = dict.fromkeys(self.columns, 0.0)
-        elif not flow.is_shortened:
-            self.row = self._look(view, flow, wet)
-        return self.row
+            return self.record(view.time, (0.0, 0.0, 0.0))
+        if flow.is_shortened:
+            return dict(self.last)
+        return self.record(view.time, self._measure(view, flow, wet))
 
-    def _look(self, view: View, flow: FlowView, wet: np.ndarray) -> dict[str, float]:
+    def _measure(self, view: View, flow: FlowView, wet: np.ndarray) -> tuple[float, ...]:
         vapor = flow.recoil_pressure
         self.has_vapor = vapor is not None
         recoil = np.zeros(wet.size) if vapor is None else vapor[wet]
@@ -56,46 +83,25 @@ class SurfacePressure:
         self.largest.update(values[0], view.time)
         self.lowest.update(-values[1], view.time)
         self.recoil.update(values[2], view.time)
-        if self.largest.last == view.time:
-            self.at_largest = {"x_m": float(x[high]), "recoil_there_Pa": float(recoil[high])}
-        if self.lowest.last == view.time:
-            self.at_lowest = {"x_m": float(x[low]), "recoil_there_Pa": float(recoil[low])}
-        return dict(zip(self.columns, values, strict=True))
+        for name, peak, k in (("max", self.largest, high), ("min", self.lowest, low)):
+            if peak.last == view.time:
+                self.places[name] = [float(x[k]), float(recoil[k])]
+        return values
 
-    def summary(self) -> dict[str, Any]:
-        """`lid`: largest and smallest pressure, where, when, and the recoil pressure there.
+    def values(self) -> dict[str, object]:
+        """Largest and smallest pressure, where, when, and the recoil pressure there.
 
-        Nothing where the surface was never liquid; recoil None without data of the vapor.
+        Recoil None without data of the vapor.
         """
-        if not self.at_largest:
-            return {}
-        lid: dict[str, Any] = {}
-        for name, peak, sign, at in (
-            ("pressure_max", self.largest, 1.0, self.at_largest),
-            ("pressure_min", self.lowest, -1.0, self.at_lowest),
-        ):
-            lid[f"{name}_Pa"], lid[f"{name}_at_s"] = sign * peak.value, peak.time
-            lid[f"{name}_x_m"] = at["x_m"]
-            lid[f"recoil_at_{name}_Pa"] = at["recoil_there_Pa"] if self.has_vapor else None
-        lid["recoil_max_Pa"] = self.recoil.value if self.has_vapor else None
-        lid["recoil_max_at_s"] = time_of(self.recoil) if self.has_vapor else None
-        return {"lid": lid}
+        found: dict[str, object] = {}
+        for name, peak, sign in (("max", self.largest, 1.0), ("min", self.lowest, -1.0)):
+            stem, (x, recoil) = f"lid.pressure_{name}", self.places[name]
+            found |= {f"{stem}_Pa": sign * peak.value, f"{stem}_at_s": peak.time, f"{stem}_x_m": x}
+            found[f"lid.recoil_at_pressure_{name}_Pa"] = recoil if self.has_vapor else None
+        found["lid.recoil_max_Pa"] = self.recoil.value if self.has_vapor else None
+        found["lid.recoil_max_at_s"] = time_of(self.recoil) if self.has_vapor else None
+        return found
 
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        return {
-            "largest": self.largest.state(),
-            "lowest": self.lowest.state(),
-            "recoil": self.recoil.state(),
-            "at_largest": dict(self.at_largest),
-            "at_lowest": dict(self.at_lowest),
-            "has_vapor": self.has_vapor,
-            "row": dict(self.row),
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        for name in ("largest", "lowest", "recoil"):
-            setattr(self, name, Peak(**state[name]))
-        self.at_largest, self.at_lowest = dict(state["at_largest"]), dict(state["at_lowest"])
-        self.has_vapor, self.row = state["has_vapor"], dict(state["row"])
+    def summary(self) -> dict[str, object]:
+        """Nothing where the surface was never liquid."""
+        return super().summary() if self.places else {}

@@ -14,106 +14,130 @@ layer reaches down to the lowest flowing particle below x_m.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from lasersph.observers.flow_speed import flow_of, time_of
+from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.flow_view import FlowView
 from lasersph.observers.interpolation import interpolate
-from lasersph.observers.peak import Peak
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 COLUMN_WIDTH = 5.0
 """Half width, in spacings, of the column of particles from which u(z) is interpolated."""
-AT_PEAK = (
-    "flow_surface_speed_max_x_m",
-    "flow_below_speed_m_s",
-    "flow_return_speed_m_s",
-    "flow_layer_thickness_m",
-    "flow_gradient_mean_K_m",
-    "flow_estimate_m_s",
-)
-"""Columns whose values at the time of the largest surface speed go to the summary."""
+AT_PEAK = {
+    "flow_surface_speed_max_x_m": "flow.surface_speed_max_x_m",
+    "flow_layer_thickness_m": "flow.layer_thickness_m",
+    "flow_gradient_mean_K_m": "flow.estimate.gradient_mean_K_m",
+    "flow_estimate_m_s": "flow.estimate.speed_m_s",
+}
+"""Columns whose values at the time of the largest surface speed go to these keys."""
 
 
-class SurfaceSpeed:
+class SurfaceSpeed(Observer):
     """Observes the velocity at the surface and the layer below its largest value."""
 
-    columns: tuple[str, ...] = ("flow_surface_speed_max_m_s", "flow_row_speed_max_m_s", *AT_PEAK)
+    title = "flow at the surface"
+    note = (
+        "The layer is taken where and when the surface was fastest; the estimates from it are"
+        " eqs. (79) and (80) of Demuth and Lasagni (2020)."
+    )
+    columns = (
+        Quantity(
+            "flow_surface_speed_max_m_s",
+            "m/s",
+            "speed at the surface itself, extrapolated with the stress there",
+            largest="flow.surface_speed_max_m_s",
+            at=("flow.surface_speed_max_x_m",),
+            is_main=True,
+        ),
+        Quantity(
+            "flow_row_speed_max_m_s",
+            "m/s",
+            "horizontal speed of the first row of particles",
+            largest="flow.row_speed_max_m_s",
+        ),
+        Quantity("flow_surface_speed_max_x_m", "m", "fastest place of the surface"),
+        Quantity(
+            "flow_below_speed_m_s",
+            "m/s",
+            "horizontal speed one spacing below the fastest place of the surface",
+            largest="flow.below_speed_max_m_s",
+        ),
+        Quantity(
+            "flow_return_speed_m_s",
+            "m/s",
+            "horizontal speed against the surface's, on its side of x = 0",
+            largest="flow.return_speed_max_m_s",
+        ),
+        Quantity("flow_layer_thickness_m", "m", "thickness of the layer that flows outward"),
+        Quantity("flow_gradient_mean_K_m", "K/m", "mean of |dT/dx| along the liquid surface"),
+        Quantity("flow_estimate_m_s", "m/s", "speed estimated from that layer"),
+    )
+    results = (
+        Quantity("flow.row_depth_m", "m", "depth of the first row of particles"),
+        Quantity("flow.below_depth_m", "m", "one spacing"),
+        Quantity(
+            "flow.layer_thickness_m",
+            "m",
+            "depth at which u changes sign below the fastest place of the surface",
+        ),
+        Quantity(
+            "flow.estimate.gradient_mean_K_m",
+            "K/m",
+            "mean of |dT/dx| along the liquid surface on that side",
+        ),
+        Quantity("flow.estimate.speed_m_s", "m/s", "estimated speed, eq. (79)"),
+        Quantity("flow.estimate.time_s", "s", "estimated time to cross half the width, eq. (80)"),
+        Quantity(
+            "flow.estimate.surface_speed_over_estimate", "", "surface speed over the estimate"
+        ),
+    )
+    kept = ("at_peak",)
 
     def __init__(self) -> None:
-        self.peak = {name: Peak() for name in self.columns}
+        super().__init__()
         self.at_peak: dict[str, float] = {}
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Speeds [m/s], place and thickness [m], mean gradient [K/m]; 0 where nothing flows."""
         flow = flow_of(view)
-        row = dict.fromkeys(self.columns, 0.0)
         is_wet = flow.flows[flow.surface]
+        values = (0.0,) * len(self.columns)
         if np.any(is_wet):
             speed = np.where(is_wet, np.abs(flow.surface_velocity), 0.0)
-            row["flow_surface_speed_max_m_s"] = float(np.max(speed))
-            u = np.abs(flow.velocity[0, flow.surface])
-            row["flow_row_speed_max_m_s"] = float(np.max(u))
-            row |= below_the_peak(view, flow, int(np.argmax(speed)))
-        for name, peak in self.peak.items():
-            peak.update(row[name], view.time)
+            of_row = float(np.max(np.abs(flow.velocity[0, flow.surface])))
+            fastest = int(np.argmax(speed))
+            values = (float(np.max(speed)), of_row, *below_the_peak(view, flow, fastest))
+        row = self.record(view.time, values)
         surface = self.peak["flow_surface_speed_max_m_s"]
         if surface.last == view.time and surface.value > 0.0:
-            self.at_peak = {name: row[name] for name in AT_PEAK}
-            self.at_peak["period"] = period(view)
-            row_depth = float(-view.position[-1, flow.surface].mean())
-            self.at_peak["row_depth"] = row_depth
-            self.at_peak["below_depth"] = spacing_at(view, flow)
+            self.at_peak = {key: float(row[column]) for column, key in AT_PEAK.items()}
+            self.at_peak |= {
+                "flow.row_depth_m": float(-view.position[-1, flow.surface].mean()),
+                "flow.below_depth_m": spacing_at(view, flow),
+                "period": period(view),
+            }
         return row
 
-    def summary(self) -> dict[str, Any]:
-        """`flow`: the surface and the layer below it, when the surface was fastest.
+    def values(self) -> dict[str, object]:
+        """The layer below the surface when that was fastest, and the estimates from it."""
+        found: dict[str, object] = {k: v for k, v in self.at_peak.items() if k != "period"}
+        estimate = self.at_peak["flow.estimate.speed_m_s"]
+        surface = self.peak["flow_surface_speed_max_m_s"].value
+        found["flow.estimate.time_s"] = found["flow.estimate.surface_speed_over_estimate"] = None
+        if estimate > 0.0:
+            found["flow.estimate.time_s"] = 0.5 * self.at_peak["period"] / estimate
+            found["flow.estimate.surface_speed_over_estimate"] = surface / estimate
+        return found
 
-        Nothing where no surface moved.
-        """
-        surface = self.peak["flow_surface_speed_max_m_s"]
-        if surface.value == 0.0:
-            return {}
-        at, peak = self.at_peak, self.peak
-        estimate = at["flow_estimate_m_s"]
-        return {
-            "flow": {
-                "surface_speed_max_m_s": surface.value,
-                "surface_speed_max_at_s": surface.time,
-                "surface_speed_max_x_m": at["flow_surface_speed_max_x_m"],
-                "row_depth_m": at["row_depth"],
-                "row_speed_max_m_s": peak["flow_row_speed_max_m_s"].value,
-                "row_speed_max_at_s": time_of(peak["flow_row_speed_max_m_s"]),
-                "below_depth_m": at["below_depth"],
-                "below_speed_max_m_s": peak["flow_below_speed_m_s"].value,
-                "below_speed_max_at_s": time_of(peak["flow_below_speed_m_s"]),
-                "return_speed_max_m_s": peak["flow_return_speed_m_s"].value,
-                "return_speed_max_at_s": time_of(peak["flow_return_speed_m_s"]),
-                "layer_thickness_m": at["flow_layer_thickness_m"],
-                "estimate": {
-                    "gradient_mean_K_m": at["flow_gradient_mean_K_m"],
-                    "speed_m_s": estimate,
-                    "time_s": 0.5 * at["period"] / estimate if estimate > 0.0 else None,
-                    "surface_speed_over_estimate": surface.value / estimate if estimate else None,
-                },
-            }
-        }
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        peaks = {name: peak.state() for name, peak in self.peak.items()}
-        return {"peak": peaks, "at_peak": dict(self.at_peak)}
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.peak = {name: Peak(**values) for name, values in state["peak"].items()}
-        self.at_peak = dict(state["at_peak"])
+    def summary(self) -> dict[str, object]:
+        """Nothing where no surface moved."""
+        return super().summary() if self.at_peak else {}
 
 
-def below_the_peak(view: View, flow: FlowView, place: int) -> dict[str, float]:
-    """The columns `AT_PEAK` for the surface particle number `place` of `flow.surface`."""
+def below_the_peak(view: View, flow: FlowView, place: int) -> tuple[float, ...]:
+    """The columns from the fastest place on, for surface particle number `place`."""
     x = float(view.position[0, flow.surface[place]])
     u = float(flow.surface_velocity[place])
     direction = 1.0 if u >= 0.0 else -1.0
@@ -123,16 +147,8 @@ def below_the_peak(view: View, flow: FlowView, place: int) -> dict[str, float]:
     thickness = zero_of(depth, direction * along)
     gradient = mean_gradient(view, flow, x)
     stress = abs(flow.surface_tension_slope * gradient)
-    step = spacing_at(view, flow)
-    values = (
-        x,
-        abs(float(np.interp(step, depth, along))),
-        float(against),
-        thickness,
-        gradient,
-        thickness * stress / flow.viscosity,
-    )
-    return dict(zip(AT_PEAK, values, strict=True))
+    below = abs(float(np.interp(spacing_at(view, flow), depth, along)))
+    return x, below, float(against), thickness, gradient, thickness * stress / flow.viscosity
 
 
 def velocity_below(view: View, flow: FlowView, place: int) -> tuple[np.ndarray, np.ndarray]:

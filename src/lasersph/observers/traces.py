@@ -13,6 +13,7 @@ the step in which it starts to move, it is the speed over that step.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Annotated, Any
 
@@ -22,7 +23,9 @@ from pydantic import Field
 from lasersph.input import Length, Model
 from lasersph.observers.ablation_view import CONDENSED, EJECTED, AblationView
 from lasersph.observers.crater import ablation_of
+from lasersph.observers.observer import Observer, Row
 from lasersph.observers.probes import weights_at
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 AT_BOILING = 1e-9
@@ -109,68 +112,86 @@ class Life:
         return self.speed_left / self.step_moved if self.step_moved > 0.0 else None
 
 
-class Traces:
+class Traces(Observer):
     """Observes named particles."""
 
-    quantities = ("temperature_K", "speed_m_s", "z_m", "stage")
+    title = "traced particles"
+    columns = (
+        Quantity("trace_<name>_temperature_K", "K", "temperature"),
+        Quantity("trace_<name>_speed_m_s", "m/s", "speed"),
+        Quantity("trace_<name>_z_m", "m", "height"),
+        Quantity("trace_<name>_stage", "", "0 body, 1 leaving, 2 in flight, 3 beyond the box"),
+    )
+    results = tuple(
+        Quantity(f"traces.<name>.{key}", unit, words)
+        for key, unit, words in (
+            ("start_m", "m", "place at the start"),
+            ("melted_at_s", "s", "melted"),
+            ("boiled_at_s", "s", "boiled"),
+            ("moved_at_s", "s", "took on the velocity of the vapor"),
+            ("left_at_s", "s", "left"),
+            ("temperature_max_K", "K", "largest temperature"),
+            ("temperature_left_K", "K", "temperature when it left"),
+            ("temperature_end_K", "K", "temperature at the end"),
+            ("speed_moved_m_s", "m/s", "speed when it began to move"),
+            ("speed_left_m_s", "m/s", "speed when it left"),
+            ("acceleration_m_s2", "m/s^2", "acceleration between both"),
+            ("vapor_pressure_Pa", "Pa", "vapor pressure when it left"),
+        )
+    )
 
     def __init__(self, traces: tuple[Trace, ...]) -> None:
         """Raises ValueError where two traces have the same name."""
         self.traces = traces
         if len({trace.name for trace in traces}) < len(traces):
             raise ValueError("two traces have the same name")
+        self.columns = tuple(one.of(t.name) for t in traces for one in type(self).columns)
+        super().__init__()
         self.lives: list[Life] = []
 
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the history columns."""
-        return tuple(f"trace_{t.name}_{name}" for t in self.traces for name in self.quantities)
-
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Temperature [K], speed [m/s], height z [m] and stage of each particle."""
         seen = ablation_of(view)
         if not self.lives:
-            self.lives = [found(trace, view) for trace in self.traces]
-        row: list[float] = []
+            self.lives = [life_at_start(trace, view) for trace in self.traces]
+        values: list[float] = []
         for life in self.lives:
             life.update(view, seen)
-            row += [life.temperature, life.speed, life.height, float(life.stage)]
-        return dict(zip(self.columns, row, strict=True))
+            values += [life.temperature, life.speed, life.height, float(life.stage)]
+        return self.record(view.time, values)
 
-    def summary(self) -> dict[str, Any]:
-        """`traces`: where each particle began and when it melted, boiled and left."""
-        if not self.traces:
-            return {}
+    def values(self) -> dict[str, object]:
+        """Where each particle began and when it melted, boiled and left."""
         return {
-            "traces": {
-                trace.name: {
-                    "start_m": life.start,
-                    "melted_at_s": life.melted_at,
-                    "boiled_at_s": life.boiled_at,
-                    "moved_at_s": life.moved_at,
-                    "left_at_s": life.left_at,
-                    "temperature_max_K": life.temperature_max,
-                    "temperature_left_K": life.temperature_left,
-                    "temperature_end_K": life.temperature,
-                    "speed_moved_m_s": life.speed_moved,
-                    "speed_left_m_s": life.speed_left,
-                    "acceleration_m_s2": life.acceleration,
-                    "vapor_pressure_Pa": life.vapor_pressure,
-                }
-                for trace, life in zip(self.traces, self.lives, strict=True)
-            }
+            f"traces.{trace.name}.{key}": value
+            for trace, life in zip(self.traces, self.lives, strict=True)
+            for key, value in {
+                "start_m": life.start,
+                "melted_at_s": life.melted_at,
+                "boiled_at_s": life.boiled_at,
+                "moved_at_s": life.moved_at,
+                "left_at_s": life.left_at,
+                "temperature_max_K": life.temperature_max,
+                "temperature_left_K": life.temperature_left,
+                "temperature_end_K": life.temperature,
+                "speed_moved_m_s": life.speed_moved,
+                "speed_left_m_s": life.speed_left,
+                "acceleration_m_s2": life.acceleration,
+                "vapor_pressure_Pa": life.vapor_pressure,
+            }.items()
         }
 
     def state(self) -> dict[str, Any]:
         """What `restore` needs."""
-        return {"lives": [asdict(life) for life in self.lives]}
+        return {**super().state(), "lives": [asdict(life) for life in self.lives]}
 
-    def restore(self, state: dict[str, Any]) -> None:
+    def restore(self, state: Mapping[str, Any]) -> None:
         """Continue from a state."""
+        super().restore(state)
         self.lives = [Life(**values) for values in state["lives"]]
 
 
-def found(trace: Trace, view: View) -> Life:
+def life_at_start(trace: Trace, view: View) -> Life:
     """The particle of a trace, as it is in the first view."""
     particles, _ = weights_at(view.position, trace.place(view.dimension), "nearest")
     k = int(particles[0])

@@ -7,33 +7,60 @@ vaporization; the times are the first and the last at which a surface cell was a
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lasersph.observers.melt_pool import FULL
-from lasersph.observers.peak import Peak, Span
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.peak import Span
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View, deepest, lower_faces
 
 TOLERANCE = 1e-6
 """Relative distance below T_v that still counts as T_v."""
 
 
-class Vaporization:
+class Vaporization(Observer):
     """Observes material at the vaporization temperature."""
 
-    columns: tuple[str, ...] = (
-        "vapor_fraction_max",
-        "vapor_depth_any_m",
-        "vapor_depth_m",
-        "evaporated_max_m",
+    title = "vaporization"
+    note = "Depths are those of the lower faces of cells."
+    columns = (
+        Quantity(
+            "vapor_fraction_max",
+            "",
+            "share of the heat of vaporization that a cell took up",
+            largest="vaporization.fraction_max",
+        ),
+        Quantity(
+            "vapor_depth_any_m",
+            "m",
+            "depth of cells that took up some of it",
+            largest="vaporization.depth_any_max_m",
+        ),
+        Quantity(
+            "vapor_depth_m",
+            "m",
+            "depth of cells that took up all of it",
+            largest="vaporization.depth_max_m",
+        ),
+        Quantity(
+            "evaporated_max_m",
+            "m",
+            "evaporated thickness",
+            largest="vaporization.evaporated_thickness_max_m",
+        ),
     )
+    results = (
+        Quantity("vaporization.start_s", "s", "first at the vaporization temperature"),
+        Quantity("vaporization.end_s", "s", "last at the vaporization temperature"),
+    )
+    kept = ("span",)
 
     def __init__(self) -> None:
+        super().__init__()
         self.span = Span()
-        self.peak = {name: Peak() for name in self.columns}
 
-    def observe(self, view: View) -> dict[str, float]:
+    def observe(self, view: View) -> Row:
         """Largest vapor fraction, depth of its occurrence and evaporated thickness [m]."""
         fraction = view.vapor_fraction
         largest = float(np.max(fraction))
@@ -47,35 +74,13 @@ class Vaporization:
             deepest(faces, fraction >= FULL) if largest >= FULL else 0.0,
             0.0 if view.evaporated is None else float(np.max(view.evaporated)),
         )
-        row = dict(zip(self.columns, values, strict=True))
-        for name, value in row.items():
-            self.peak[name].update(value, view.time)
-        return row
+        return self.record(view.time, values)
 
-    def summary(self) -> dict[str, Any]:
-        """`vaporization`: times at T_v, depths of f_v = 1 and f_v > 0, evaporated thickness.
+    def values(self) -> dict[str, object]:
+        """Times at the vaporization temperature."""
+        return {"vaporization.start_s": self.span.first, "vaporization.end_s": self.span.last}
 
-        Nothing where the surface never reached T_v and nothing evaporated.
-        """
-        if self.span.first is None and self.peak["evaporated_max_m"].value == 0.0:
-            return {}
-        return {
-            "vaporization": {
-                "start_s": self.span.first,
-                "end_s": self.span.last,
-                "fraction_max": self.peak["vapor_fraction_max"].value,
-                "depth_max_m": self.peak["vapor_depth_m"].value,
-                "depth_any_max_m": self.peak["vapor_depth_any_m"].value,
-                "evaporated_thickness_max_m": self.peak["evaporated_max_m"].value,
-            }
-        }
-
-    def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
-        peaks = {name: peak.state() for name, peak in self.peak.items()}
-        return {"span": self.span.state(), "peak": peaks}
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from a state."""
-        self.span = Span(**state["span"])
-        self.peak = {name: Peak(**values) for name, values in state["peak"].items()}
+    def summary(self) -> dict[str, object]:
+        """Nothing where the surface never reached T_v and nothing evaporated."""
+        is_seen = self.span.first is not None or self.peak["evaporated_max_m"].value > 0.0
+        return super().summary() if is_seen else {}

@@ -9,9 +9,6 @@ import numpy as np
 from lasersph.observers.ablation_view import AblationView
 from lasersph.observers.flow_view import FlowView
 
-ENERGY_UNITS = {1: "J/m^2", 2: "J/m", 3: "J"}
-"""Unit of energies by dimension: a 1-D run holds a unit area, a 2-D run a unit length."""
-
 
 @dataclass(frozen=True)
 class View:
@@ -30,7 +27,8 @@ class View:
         halves_spot: whether the axis of a resting spot lies on the lower or the upper end of x, so
             that its other half is not computed.
         energy: incident, absorbed, reflected, transmitted, stored, lost, removed, discarded since
-            the start, in `ENERGY_UNITS`; lost and removed leave, stored stays.
+            the start, per unit area in 1-D, per unit length in 2-D; lost and removed leave, stored
+            stays.
         iterations: iterations of this step, by solver part.
         limit: name of the limit that bound the time step.
         solidus, liquidus, vaporization: corner temperatures of the material [K], None where it

@@ -6,29 +6,16 @@ from functools import partial
 from typing import Any
 
 from lasersph.input import format_number, format_quantity
+from lasersph.observers.quantity import suffix
 
 quantity = partial(format_quantity, typographic=True)
 shown = partial(format_number, typographic=True)
 
 MOST_LISTED = 8
 """Longer lists are not written out."""
-SUFFIXES = (
-    ("_K_s", "K/s"),
-    ("_K_m", "K/m"),
-    ("_m2_s", "m²/s"),
-    ("_m_s2", "m/s²"),
-    ("_1_s", "1/s"),
-    ("_1_m", "1/m"),
-    ("_W_m2", "W/m²"),
-    ("_Pa", "Pa"),
-    ("_m_s", "m/s"),
-    ("_m3", "m³"),
-    ("_m", "m"),
-    ("_s", "s"),
-    ("_K", "K"),
-    ("_J", "J"),
-    ("_deg", "°"),
-)
+UNITS = ("K/s", "K/m", "m^2/s", "m/s^2", "1/s", "1/m", "W/m^2", "Pa", "m/s", "m^3", "m^2", "m", "s")
+UNITS += ("K", "J", "deg")
+"""Units that keys end in, those with two parts first."""
 
 
 def entry(key: str, value: Any, energy_unit: str = "J") -> str:
@@ -43,5 +30,5 @@ def entry(key: str, value: Any, energy_unit: str = "J") -> str:
         return f"{len(value)} numbers"
     if isinstance(value, list):
         return ", ".join(entry(key, item, energy_unit) for item in value) or "–"
-    unit = next((unit for suffix, unit in SUFFIXES if key.endswith(suffix)), "")
+    unit = next((unit for unit in UNITS if key.endswith(suffix(unit))), "")
     return quantity(float(value), energy_unit if unit == "J" else unit)

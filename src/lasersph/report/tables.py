@@ -1,149 +1,118 @@
-"""The tables of a report, from summary.json and resolved.json: rows of name and text."""
+"""The tables of a report, from summary.json alone: rows of words, value, and when or where.
+
+What an observer measured has the words and the unit that it declares there; a quantity that is
+added appears here by itself.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
-from lasersph.input import format_duration
-from lasersph.report.numbers import entry, quantity, shown
+from lasersph.input import format_duration, format_number, format_quantity
+from lasersph.observers import EnergyBudget, Observer, Quantity
+from lasersph.observers.observer_list import OBSERVERS
+from lasersph.observers.quantity import unit_in
+from lasersph.report.numbers import MOST_LISTED, entry, quantity, shown
 
 Rows = list[tuple[str, ...]]
-
-MELT_LEVELS = (("completely fluid (f_m = 1)", ""), ("half molten", "_half"), ("any melt", "_any"))
-ENERGY_NAMES = {
-    "incident": "incident light",
-    "reflected": "reflected",
-    "transmitted": "through holes in the metal",
-    "absorbed": "absorbed",
-    "stored": "in the metal at the end",
-    "lost": "lost through boundaries",
-    "removed": "removed with vapor",
-    "discarded": "discarded by the plateau rule",
+ENERGY_HEAD = ("energy", "amount", "of the incident")
+NUMBERS = {
+    "Fo": "Fourier number Fo",
+    "La": "laser number La",
+    "Ph_solid_liquid": "phase change number of melting",
+    "Ph_liquid_vapor": "phase change number of vaporization",
+    "Pr": "Prandtl number Pr",
+    "Ra": "Rayleigh number Ra",
+    "Ma": "Marangoni number Ma",
+    "Re": "Reynolds number Re",
 }
 
 
+def value_at(summary: dict[str, Any], key: str) -> Any:
+    """What a dotted key of a summary holds; None where it is missing."""
+    found: Any = summary
+    for part in key.split("."):
+        found = found.get(part) if isinstance(found, dict) else None
+    return found
+
+
+def measured(summary: dict[str, Any], kind: type[Observer], name: str = "") -> Rows:
+    """What an observer found: words, value, and when or where.
+
+    Args:
+        summary: content of summary.json.
+        kind: class of the observer.
+        name: of one of several probes or traces.
+    """
+    rows: Rows = []
+    for one in kind.all_results():
+        value = value_at(summary, one.key.replace("<name>", name))
+        if is_shown(one, value):
+            at = (place_text(summary, key.replace("<name>", name)) for key in one.at)
+            rows.append((one.words, text_of(one, value, summary), ", ".join(filter(None, at))))
+    return rows
+
+
+def is_shown(one: Quantity, value: object) -> bool:
+    """Whether a value is a number, a text or a short list, and not the name of a unit."""
+    is_unit = one.key.endswith("unit")
+    is_long = isinstance(value, list) and not 0 < len(value) <= MOST_LISTED
+    return not (value is None or isinstance(value, dict) or is_unit or is_long)
+
+
+def text_of(one: Quantity, value: Any, summary: dict[str, Any], *, typographic: bool = True) -> str:
+    """A value of a summary with its unit."""
+    if isinstance(value, list):
+        return ", ".join(text_of(one, item, summary, typographic=typographic) for item in value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, str):
+        return value
+    unit = unit_in(one.unit, int(summary.get("dimensions", 3)))
+    return format_quantity(float(value), unit, typographic=typographic)
+
+
+def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -> str:
+    """A time, or a place as "x = 3 nm"; nothing where there is none."""
+    value = value_at(summary, key)
+    if value is None:
+        return ""
+    if key.endswith("_s"):
+        return format_quantity(value, "s", typographic=typographic)
+    return f"{key[-3]} = {format_quantity(value, 'm', typographic=typographic)}"
+
+
+def main_numbers(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """What `lasersph info` says of a run beside its size: words and value, as plain text."""
+    rows = []
+    for kind in OBSERVERS:
+        for one in kind.all_results():
+            value = value_at(summary, one.key)
+            if one.is_main and is_shown(one, value) and value != 0.0:
+                text = text_of(one, value, summary, typographic=False)
+                at = place_text(summary, one.at[0], typographic=False) if one.at else ""
+                rows.append((one.words, f"{text} at {at}" if at else text))
+    return rows
+
+
 def computation(summary: dict[str, Any]) -> Rows:
-    """How the run was computed."""
+    """How the run was computed: size, time, steps, what limited them, iterations."""
+    steps, count = summary.get("time_step", {}), max(summary["steps"], 1)
     rows: Rows = [
         ("solver", str(summary["solver"])),
         ("dimensions", str(summary.get("dimensions", "–"))),
-        ("particles", f"{summary['particles']:,}".replace(",", " ")),
+        ("particles", shown(summary["particles"], 9)),
         ("finest spacing", quantity(summary.get("spacing_m"), "m")),
         ("simulated time", quantity(summary["time_s"], "s")),
-        ("steps", f"{summary['steps']:,}".replace(",", " ")),
+        ("steps", shown(summary["steps"], 9)),
         ("wall time", format_duration(summary["wall_time_s"])),
+        ("smallest time step", entry("_s", steps.get("min_s"))),
+        ("largest time step", entry("_s", steps.get("max_s"))),
     ]
     if summary.get("device"):
         rows.append(("device, precision", f"{summary['device']}, {summary['precision']}"))
     elif "threads" in summary:
         rows.append(("threads, precision", f"{summary['threads']}, {summary['precision']}"))
-    return rows
-
-
-def temperatures(summary: dict[str, Any]) -> Rows:
-    """Temperatures, rates, and the melting and boiling points that they compare with."""
-    surface, material = summary.get("surface", {}), summary.get("material", {})
-    rows: Rows = [
-        ("largest temperature", entry("_K", summary["temperature_max_K"])),
-        ("reached at", entry("_s", summary.get("temperature_max_at_s"))),
-    ]
-    names = {
-        "temperature_at_maximum_max_K": "largest of the surface at x = 0",
-        "temperature_at_maximum_end_K": "there at the end",
-        "depth_of_particle_m": "depth of that particle",
-        "heating_rate_max_K_s": "fastest heating",
-        "cooling_rate_max_K_s": "fastest cooling",
-    }
-    rows += [(text, entry(key, surface[key])) for key, text in names.items() if key in surface]
-    points = {"solidus_K": "solidus", "liquidus_K": "liquidus", "vaporization_K": "vaporization"}
-    rows += [
-        (f"{text} of the metal", entry(key, material[key]))
-        for key, text in points.items()
-        if material.get(key) is not None
-    ]
-    return rows
-
-
-def melt_pool(summary: dict[str, Any]) -> Rows:
-    """Times and sizes at the three levels of melt."""
-    melt = summary.get("melt")
-    if melt is None:
-        return []
-    rows: Rows = []
-    for text, level in MELT_LEVELS:
-        cells = [entry("_s", melt[f"start{level}_s"]), entry("_s", melt[f"end{level}_s"])]
-        for size in ("width", "depth"):
-            cells.append(entry("_m", melt[f"{size}{level}_max_m"]))
-            cells.append(entry("_s", melt[f"{size}{level}_max_at_s"]))
-        rows.append((text, *cells))
-    return rows
-
-
-MELT_HEAD = ("melt pool", "from", "to", "largest width", "at", "largest depth", "at")
-
-
-def vaporization(summary: dict[str, Any]) -> Rows:
-    """Times at the vaporization temperature, depths, evaporated thickness."""
-    vapor = summary.get("vaporization")
-    if vapor is None:
-        return []
-    names = {
-        "start_s": "first at the vaporization temperature",
-        "end_s": "last at the vaporization temperature",
-        "fraction_max": "largest share of the heat of vaporization taken up",
-        "depth_any_max_m": "depth of cells that took up some of it",
-        "depth_max_m": "depth of cells that took up all of it",
-        "evaporated_thickness_max_m": "evaporated thickness",
-    }
-    return [(text, entry(key, vapor[key])) for key, text in names.items()]
-
-
-def probes(summary: dict[str, Any]) -> Rows:
-    """What the probes saw, and where they really are."""
-    return [
-        (
-            name,
-            entry("_m", probe["depth_m"]),
-            entry("_m", probe["depth_used_m"]),
-            probe["method"],
-            entry("_K", probe["temperature_max_K"]),
-            entry("_s", probe["temperature_max_at_s"]),
-            entry("_K", probe["temperature_end_K"]),
-        )
-        for name, probe in summary.get("probes", {}).items()
-    ]
-
-
-PROBE_HEAD = ("probe", "depth asked", "depth used", "method", "largest", "at", "at the end")
-
-
-def energy(summary: dict[str, Any]) -> Rows:
-    """The energy budget, absolute and relative to the incident energy."""
-    terms = summary["energy"]
-    incident = terms["incident_J"]
-    rows: Rows = []
-    for name, text in ENERGY_NAMES.items():
-        value = terms[f"{name}_J"]
-        if name == "transmitted" and not value:
-            continue
-        share = f"{shown(100.0 * value / incident)} %" if incident > 0.0 else "–"
-        rows.append((text, quantity(value, terms["unit"]), share))
-    imbalance = shown(terms["imbalance_relative"], 3)
-    rows.append(("imbalance, relative to the absorbed energy", imbalance, ""))
-    return rows
-
-
-ENERGY_HEAD = ("energy", "amount", "of the incident")
-
-
-def time_steps(summary: dict[str, Any]) -> Rows:
-    """Range of the time step, how often each limit bound it, iterations per step."""
-    steps = summary.get("time_step", {})
-    count = max(summary["steps"], 1)
-    rows: Rows = [
-        ("smallest time step", entry("_s", steps.get("min_s"))),
-        ("largest time step", entry("_s", steps.get("max_s"))),
-    ]
     for name, times in sorted(steps.get("limits", {}).items(), key=lambda item: -item[1]):
         share = shown(100.0 * times / count, 3)
         rows.append((f"steps limited by: {name or 'unnamed'}", f"{times} ({share} %)"))
@@ -151,6 +120,35 @@ def time_steps(summary: dict[str, Any]) -> Rows:
         text = name.replace("_", " ")
         rows.append((f"iterations per step, {text}", shown(total / count, 3)))
     return rows
+
+
+def energy(summary: dict[str, Any]) -> Rows:
+    """The energy budget, absolute and relative to the incident energy."""
+    incident = summary["energy"]["incident_J"]
+    rows: Rows = []
+    for one in EnergyBudget.all_results():
+        value = value_at(summary, one.key)
+        if not is_shown(one, value) or (one.key == "energy.transmitted_J" and not value):
+            continue
+        is_amount = one.unit == "J" and incident > 0.0
+        share = f"{shown(100.0 * value / incident)} %" if is_amount else ""
+        rows.append((one.words, text_of(one, value, summary), share))
+    return rows
+
+
+def removal_efficiency(summary: dict[str, Any]) -> Rows:
+    """Removed volume over the incident energy, in 1-D and 2-D of the same area or length."""
+    incident = summary["energy"]["incident_J"]
+    if "crater" not in summary or not incident:
+        return []
+    per_joule = 1e12 * summary["crater"]["removed_volume_m3"] / incident
+    return [("removed volume over energy of the light", f"{format_number(per_joule)} µm³/µJ", "")]
+
+
+def dimensionless(summary: dict[str, Any]) -> Rows:
+    """The dimensionless numbers of the case."""
+    numbers = summary.get("dimensionless", {}).get("numbers", {})
+    return [(NUMBERS.get(name, str(name)), shown(value)) for name, value in numbers.items()]
 
 
 def flat(value: Any, name: str = "", unit: str = "J") -> Rows:

@@ -8,6 +8,8 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from lasersph.observers import Crater, EnergyBudget, Observer, Steps, Vaporization
+from lasersph.observers.observer_list import OBSERVERS
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.atomic import replace_text
 from lasersph.output.errors import clear_errors
@@ -15,17 +17,8 @@ from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.animation import LEAST_FRAMES, animate_run
 from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.run_figures import DRAWINGS, draw_run
-from lasersph.report import ablation_tables, flow_tables, tables
-from lasersph.report.page import (
-    contents,
-    figure,
-    folded,
-    heading,
-    listing,
-    page,
-    paragraph,
-    table,
-)
+from lasersph.report import estimate_tables, tables
+from lasersph.report.page import contents, figure, folded, heading, listing, page, paragraph, table
 from lasersph.report.summary_text import notes_of, verdict, warnings_of
 
 ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
@@ -81,8 +74,8 @@ def report_page(run: Run, images: list[Path]) -> str:
     parts = (
         results(summary),
         figures(images),
-        [table(tables.energy(summary), tables.ENERGY_HEAD)],
-        asked(run),
+        [table(tables.energy(summary), tables.ENERGY_HEAD), paragraph(EnergyBudget.note)],
+        case_as_read(run),
         computation(summary),
         reproduce(run, versions),
     )
@@ -92,37 +85,34 @@ def report_page(run: Run, images: list[Path]) -> str:
 
 
 def results(summary: dict[str, Any]) -> list[str]:
-    """Tables of the results."""
-    body = [table(tables.temperatures(summary))]
-    if rows := tables.melt_pool(summary):
-        body.append(table(rows, tables.MELT_HEAD))
-        body.append(
-            paragraph(
-                "Depth: lower face of the deepest such cell below the original surface. Width:"
-                " full width of one pool at the surface. Sizes are whole cells, but for the"
-                " width at f_m = 0.5, which is interpolated."
-            )
-        )
-    if (rows := tables.vaporization(summary)) and "crater" not in summary:
-        body.append(table(rows))
+    """A table for each observer that found something, the estimates, and all numbers."""
+    body = []
+    for kind in OBSERVERS:
+        body += measured(summary, kind)
     for rows, head in (
-        (ablation_tables.crater(summary), ("crater", "")),
-        (ablation_tables.ejecta(summary), ("ejecta", "")),
-        (ablation_tables.traces(summary), ablation_tables.TRACE_HEAD),
-        (ablation_tables.estimates(summary), ablation_tables.ESTIMATE_HEAD),
-        (ablation_tables.left_out(summary), ablation_tables.LEFT_OUT_HEAD),
-        (flow_tables.speeds(summary), flow_tables.SPEED_HEAD),
-        (flow_tables.layer(summary), ()),
-        (flow_tables.extrema(summary), flow_tables.EXTREMA_HEAD),
-        (flow_tables.lid(summary), flow_tables.LID_HEAD),
-        (flow_tables.box(summary), flow_tables.BOX_HEAD),
-        (flow_tables.walls(summary), flow_tables.WALLS_HEAD),
-        (tables.probes(summary), tables.PROBE_HEAD),
+        (estimate_tables.estimates(summary), estimate_tables.ESTIMATE_HEAD),
+        (estimate_tables.left_out(summary), estimate_tables.LEFT_OUT_HEAD),
     ):
         if rows:
             body.append(table(rows, head))
     body.append(folded("All numbers of summary.json", table(tables.flat(summary))))
     return body
+
+
+def measured(summary: dict[str, Any], kind: type[Observer]) -> list[str]:
+    """The table of an observer, or one for each of its probes or traces, and its note."""
+    if kind in (Steps, EnergyBudget) or (kind is Vaporization and "crater" in summary):
+        return []  # steps and energy have sections of their own; ejecta say what vaporized
+    section = kind.all_results()[0].key.split(".")[0]
+    names = summary.get(section, {}) if "<name>" in kind.all_results()[0].key else [""]
+    body = []
+    for name in names:
+        rows = tables.measured(summary, kind, name)
+        if kind is Crater:
+            rows += tables.removal_efficiency(summary)
+        if rows:
+            body.append(table(rows, (f"{kind.title} {name}".rstrip(), "", "at")))
+    return [*body, paragraph(kind.note)] if body and kind.note else body
 
 
 def figures(images: list[Path]) -> list[str]:
@@ -132,13 +122,12 @@ def figures(images: list[Path]) -> list[str]:
 
 
 def computation(summary: dict[str, Any]) -> list[str]:
-    """How the run was computed, its steps and, with flow, how sound that is."""
-    parts = (tables.computation(summary), tables.time_steps(summary))
-    parts += (flow_tables.soundness(summary), flow_tables.dimensionless(summary))
+    """How the run was computed, its steps, and its dimensionless numbers."""
+    parts = (tables.computation(summary), tables.dimensionless(summary))
     return [table(rows) for rows in parts if rows]
 
 
-def asked(run: Run) -> list[str]:
+def case_as_read(run: Run) -> list[str]:
     """The case as given and as the program read it."""
     resolved = json.dumps(run.case, indent=2, ensure_ascii=False)
     return [

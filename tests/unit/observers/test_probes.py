@@ -6,7 +6,7 @@ import synthetic_run
 from pydantic import ValidationError
 
 from lasersph.observers import Probe, Probes
-from lasersph.observers.probes import represented, weights_at
+from lasersph.observers.probes import mean_place, weights_at
 
 
 @pytest.fixture(scope="module")
@@ -82,8 +82,8 @@ def test_place_that_a_probe_stands_for(method, depth) -> None:
     x, z = np.meshgrid((np.arange(6) + 0.5), -(np.arange(6) + 0.5))
     position = np.vstack([x.ravel(), z.ravel()])
     particles, weights = weights_at(position, np.array([2.0, -depth]), method)
-    place = represented(position[:, particles], weights, method)
+    place = mean_place(position[:, particles], weights, method)
     assert place == pytest.approx([2.0, -depth], abs=1e-6)
     particles, weights = weights_at(position, np.array([2.2, -depth]), "nearest")
-    nearest = represented(position[:, particles], weights, "nearest")
+    nearest = mean_place(position[:, particles], weights, "nearest")
     assert nearest == pytest.approx([2.5, -np.floor(depth) - 0.5])

@@ -6,9 +6,9 @@ import pytest
 import synthetic_ablation
 
 from lasersph.case import load_case
-from lasersph.observers import Trace, ablation_observers
+from lasersph.observers import Crater, Ejecta, Trace, Traces, ablation_observers
 from lasersph.plots import animation, style
-from lasersph.report import ablation_tables, ablation_text, tables, write_report
+from lasersph.report import ablation_text, estimate_tables, tables, write_report
 from lasersph.report.summary_text import notes_of, verdict
 from lasersph.simulation.ablation_estimates import ablation_estimates
 
@@ -37,7 +37,7 @@ def test_words_and_rows_about_a_hole(summary):
     energy = summary["energy"]
     through = {**energy, "transmitted_J": 0.25 * energy["incident_J"]}
     assert "25 % went through a hole" in ablation_text.crater({**summary, "energy": through})[-1]
-    assert ("through holes in the metal", "25 %") in [
+    assert ("energy through holes in the metal", "25 %") in [
         (name, share) for name, _, share in tables.energy({"energy": through})
     ]
     assert "hole" not in verdict(summary)
@@ -68,28 +68,29 @@ def test_no_crater(summary):
 
 def test_tables_with_units(summary):
     """Crater, ejecta, traces and estimates; each pulse and the removal efficiency."""
-    crater = dict(ablation_tables.crater(summary))
-    assert crater["depth at the axis"] == "800 nm"
-    assert crater["removed volume"] == "7.52 µm³"
-    assert crater["depth of each pulse"] == "400 nm, 400 nm"
-    incident = summary["energy"]["incident_J"]
-    expected = f"{1e12 * 7.52e-18 / incident:.4g}"
-    assert crater["removed volume over energy of the light"].startswith(expected[:4])
-    ejecta = dict(ablation_tables.ejecta(summary))
-    assert ejecta["speed, mean (smallest to largest)"] == "400 (400 to 400) m/s"
-    ((name, *_, acceleration, pressure),) = ablation_tables.traces(summary)
-    assert (name, acceleration, pressure) == ("center", "8·10¹¹ m/s²", "200 kPa")
-    assert any("24.4 nm" in row for row in ablation_tables.estimates(summary))
-    *_, (_, largest, cited) = ablation_tables.estimates(summary)
-    assert largest == acceleration and "10⁸" in cited and "1.4·10¹¹" in cited
-    assert len(ablation_tables.left_out(summary)) == 3
+    crater = {words: value for words, value, _ in tables.measured(summary, Crater)}
+    assert crater["depth of the crater at the axis"] == "800 nm"
+    assert crater["volume of what left"] == "7.52 µm³"
+    assert crater["depth that each pulse added at the axis"] == "400 nm, 400 nm"
+    expected = f"{1e12 * 7.52e-18 / summary['energy']['incident_J']:.4g}"
+    ((_, efficiency, _),) = tables.removal_efficiency(summary)
+    assert efficiency.startswith(expected[:4])
+    ejecta = {words: value for words, value, _ in tables.measured(summary, Ejecta)}
+    assert ejecta["mean speed when it left"] == "400 m/s"
+    traced = {words: value for words, value, _ in tables.measured(summary, Traces, "center")}
+    assert traced["acceleration between both"] == "8·10¹¹ m/s²"
+    assert traced["vapor pressure when it left"] == "200 kPa"
+    assert any("24.4 nm" in row for row in estimate_tables.estimates(summary))
+    *_, (_, largest, cited) = estimate_tables.estimates(summary)
+    assert largest == traced["acceleration between both"]
+    assert "10⁸" in cited and "1.4·10¹¹" in cited
+    assert len(estimate_tables.left_out(summary)) == 3
 
 
 def test_nothing_without_ablation():
     """All tables are empty for another run."""
-    for rows in (ablation_tables.crater, ablation_tables.ejecta, ablation_tables.traces,
-                 ablation_tables.estimates, ablation_tables.left_out):  # fmt: skip
-        assert rows({}) == []
+    assert not any(tables.measured({}, kind) for kind in (Crater, Ejecta, Traces))
+    assert estimate_tables.estimates({}) == estimate_tables.left_out({}) == []
 
 
 def test_report_of_a_crater(tmp_path, monkeypatch):

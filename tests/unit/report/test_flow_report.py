@@ -6,9 +6,14 @@ import pytest
 import synthetic_flow
 
 from lasersph.observers import flow_observers
+from lasersph.observers.box_flow import BoxFlow
+from lasersph.observers.flow_extrema import FlowExtrema
+from lasersph.observers.flow_speed import FlowSpeed
+from lasersph.observers.surface_pressure import SurfacePressure
+from lasersph.observers.surface_speed import SurfaceSpeed
 from lasersph.output import open_run
 from lasersph.plots import animation, run_figures
-from lasersph.report import flow_tables, write_report
+from lasersph.report import tables, write_report
 from lasersph.report.numbers import entry
 from lasersph.report.summary_text import verdict, warnings_of
 
@@ -64,18 +69,28 @@ def test_flow_may_close_less_well(pool):
 
 
 def test_tables_have_units(pool, box):
-    """Every number in every table of the flow carries its unit."""
-    cells = [
-        cell
-        for summary in (pool, box)
-        for part in ("speeds", "layer", "extrema", "lid", "box", "walls")
-        for row in getattr(flow_tables, part)(summary)
-        for cell in row[1:]
-        if re.match(r"-?\d", cell)
-    ]
-    bare = [cell for cell in cells if re.fullmatch(r"-?[\d .]+", cell)]
-    assert len(cells) > 50
-    assert len(bare) == 3  # surface speed over estimate, two Nusselt numbers
+    """Every number in every table of the flow carries its unit, but for numbers without one."""
+    kinds = (FlowSpeed, SurfaceSpeed, FlowExtrema, SurfacePressure, BoxFlow)
+    rows = [row for one in (pool, box) for kind in kinds for row in tables.measured(one, kind)]
+    bare = {words for words, value, _ in rows if re.fullmatch(r"-?[\d .]+", value)}
+    assert len(rows) > 50
+    assert bare <= {
+        "flowing particles at most",
+        "largest root mean square of the divergence times spacing over the largest speed",
+        "surface speed over the estimate",
+        "Nusselt number, left",
+        "Nusselt number, right",
+    }
+
+
+def test_when_and_where_stand_beside_the_value(pool, box):
+    """The time and the place of the fastest surface; the height of the largest u."""
+    rows = tables.measured(pool, SurfaceSpeed) + tables.measured(pool, FlowSpeed)
+    at = {words: at for words, _, at in rows}
+    assert re.fullmatch(r"[\d.]+ ns, x = 425 nm", at[f"largest {SurfaceSpeed.columns[0].words}"])
+    assert at["smallest distance of two particles in a flow"] == ""
+    places = {words: at for words, _, at in tables.measured(box, BoxFlow)}
+    assert places["largest u at half the width"].startswith("z = ")
 
 
 def test_units_of_flow_keys():
@@ -95,5 +110,5 @@ def test_page_with_an_animation(tmp_path, monkeypatch):
     page = write_report(folder).read_text(encoding="utf-8")
     assert page.count("data:image/gif;base64,") == 1
     assert "Nusselt number" in page
-    assert "largest divergence of the velocity" in page
+    assert "largest divergence that the projection leaves" in page
     assert str(open_run(folder).summary["flow"]["particles_max"]) == "576"

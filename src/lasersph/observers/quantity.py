@@ -1,0 +1,72 @@
+"""What observers measure: key, unit and words of each quantity, declared once beside its formula.
+
+The columns of history.csv, the keys of summary.json, the tables of the report, `lasersph info` and
+the page "Results" of the documentation all derive from these declarations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+EXTENSIVE = {"J": ("J/m^2", "J/m", "J"), "kg": ("kg/m^2", "kg/m", "kg"), "m^3": ("m", "m^2", "m^3")}
+"""Units of amounts in 1-D, 2-D and 3-D: a 1-D run holds a unit area, a 2-D run a unit length."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Something that an observer measures.
+
+    Attributes:
+        key: column of history.csv, or dotted key of summary.json; it ends in the unit (`_m_s`).
+            `<name>` in it stands for the name of a probe, a trace, ...
+        unit: SI, "" for a pure number or a text. Amounts: in 3-D, see `EXTENSIVE`.
+        words: what it is, as a table says it.
+        largest: key of summary.json for its largest value; `..._at_s` beside it says when.
+        end: key of summary.json for its value at the end of the run.
+        at: keys of summary.json that say when and where.
+        is_main: whether `lasersph info` shows it.
+    """
+
+    key: str
+    unit: str
+    words: str
+    largest: str = ""
+    end: str = ""
+    at: tuple[str, ...] = ()
+    is_main: bool = False
+
+    def __post_init__(self) -> None:
+        """Raises ValueError where a key does not say the unit."""
+        for key in (self.key, self.largest, self.end):
+            if key and suffix(self.unit) + "_" not in key + "_":
+                raise ValueError(f'"{key}" must have "{suffix(self.unit)}" at its end: {self.unit}')
+
+    @property
+    def largest_at(self) -> str:
+        """Key of the time at which it was largest."""
+        return f"{self.largest.removesuffix(suffix(self.unit))}_at_s"
+
+    def of(self, name: str) -> Quantity:
+        """The same of something with a name."""
+        keys = (key.replace("<name>", name) for key in (self.key, self.largest, self.end))
+        return replace(self, **dict(zip(("key", "largest", "end"), keys, strict=True)))
+
+    def results(self) -> Iterator[Quantity]:
+        """The keys of summary.json that follow from a column."""
+        if self.largest:
+            words, at = f"largest {self.words}", (self.largest_at, *self.at)
+            yield Quantity(self.largest, self.unit, words, at=at, is_main=self.is_main)
+        if self.end:
+            words = f"{self.words}, at the end" if self.largest else self.words
+            yield Quantity(self.end, self.unit, words, is_main=self.is_main and not self.largest)
+
+
+def suffix(unit: str) -> str:
+    """End of a key that says the unit: m/s -> _m_s, m^2/s -> _m2_s, 1/s -> _1_s."""
+    return "_" + unit.replace("^", "").replace("/", "_") if unit else ""
+
+
+def unit_in(unit: str, dimension: int) -> str:
+    """Unit in a run of a dimension: amounts are per area in 1-D, per length in 2-D."""
+    return EXTENSIVE[unit][dimension - 1] if unit in EXTENSIVE else unit
