@@ -27,6 +27,7 @@ check: $(VENV)/.check
 	$(VENV)/bin/python -m pytest $(PYTEST_ARGS)
 
 docs: $(VENV)/.docs
+	$(VENV)/bin/python docs/draw_architecture.py
 	$(VENV)/bin/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
 	@echo "Open docs/_build/html/index.html in a browser."
 
