@@ -40,7 +40,7 @@ def _handed_over(context: Any, builder: Any, _signature: Any, _arguments: Any) -
     loop.attributes.add("noinline")
     word, byte = loop.args[_BEGIN].type, cgutils.voidptr_t
     with builder.goto_entry_block():
-        frame = builder.alloca(_frame(loop))  # `alloca_once` would fill it with zeros at each call
+        frame = builder.alloca(_frame(loop))  # alloca_once would fill it with zeros at each call
     builder.store(ir.Constant(ir.IntType(32), 0), cgutils.gep_inbounds(builder, frame, 0, 0))
     for k, argument in enumerate(loop.args):
         builder.store(argument, cgutils.gep_inbounds(builder, frame, 0, k + 1))

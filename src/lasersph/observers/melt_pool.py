@@ -26,7 +26,7 @@ FULL, HALF = 1.0 - 1e-9, 0.5
 LEVELS = {
     "": (FULL, "completely fluid metal (f_m = 1)"),
     "_half": (HALF, "half molten metal (f_m = 0.5)"),
-    "_any": (0.0, "any melt (f_m > 0)"),
+    "_any": (0.0, "melt of any fraction (f_m > 0)"),
 }
 """Part of a key, the melt fraction that a fluid cell has at least (any: above 0), and its name."""
 
@@ -61,7 +61,7 @@ class MeltPool(Observer):
             for level, (_, words) in LEVELS.items()
             for name, text in (("start", "first"), ("end", "last"))
         ),
-        Quantity("melt.molten_at_end", "", "fluid at the end of the run, without ejecta"),
+        Quantity("melt.molten_at_end", "", "still fluid at the end of the run"),
     )
     kept = ("span", "end_time")
 

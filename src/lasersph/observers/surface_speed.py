@@ -39,14 +39,15 @@ class SurfaceSpeed(Observer):
 
     title = "flow at the surface"
     note = (
-        "The layer is taken where and when the surface was fastest; the estimates from it are"
-        " eqs. (79) and (80) of Demuth and Lasagni (2020)."
+        "The speed at the surface is that of the first row, extrapolated by its depth times the"
+        " stress over the viscosity. The layer is taken where and when the surface was fastest;"
+        " the estimates from it are eqs. (79) and (80) of Demuth and Lasagni (2020)."
     )
     columns = (
         Quantity(
             "flow_surface_speed_max_m_s",
             "m/s",
-            "speed at the surface itself, extrapolated with the stress there",
+            "speed at the surface",
             largest="flow.surface_speed_max_m_s",
             at=("flow.surface_speed_max_x_m",),
             is_main=True,
@@ -76,7 +77,7 @@ class SurfaceSpeed(Observer):
     )
     results = (
         Quantity("flow.row_depth_m", "m", "depth of the first row of particles"),
-        Quantity("flow.below_depth_m", "m", "one spacing"),
+        Quantity("flow.below_depth_m", "m", "depth one spacing below"),
         Quantity(
             "flow.layer_thickness_m",
             "m",

@@ -3,7 +3,7 @@
     d rho_i/dt = rho_i sum_j V_j (v_i - v_j) . grad W_ij,    V_j = m_j / rho_j
 
 [Alshaer2017, eq. (20); the paper prints rho_j inside the sum and the opposite sign, with which a
-compressed body thins]. With `momentum.pressure_acceleration` the sum of kinetic and elastic energy
+compressed body thins]. With `momentum.pair_acceleration` the sum of kinetic and elastic energy
 is conserved exactly in continuous time.
 """
 

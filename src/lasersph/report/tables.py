@@ -88,7 +88,7 @@ def main_numbers(summary: dict[str, Any]) -> list[tuple[str, str]]:
     for kind in OBSERVERS:
         for one in kind.all_results():
             value = value_at(summary, one.key)
-            if one.is_main and is_shown(one, value) and value != 0.0:
+            if one.is_main and is_shown(one, value):
                 text = text_of(one, value, summary, typographic=False)
                 at = place_text(summary, one.at[0], typographic=False) if one.at else ""
                 rows.append((one.words, f"{text} at {at}" if at else text))

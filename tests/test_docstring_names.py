@@ -1,0 +1,117 @@
+"""Names in backticks exist: docstrings and comments name no file, module or name that is gone.
+
+Three rules. A path that ends in .py, or that begins with a room of the package and ends in .md or
+.toml, is a file of the repository. A dotted name that begins with `lasersph` or a room resolves by
+import. Any other name stands somewhere in the code: as a name, or as a word of a text such as a key
+of a case file or a verb of the command line.
+"""
+
+import ast
+import importlib
+import io
+import re
+import tokenize
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SOURCE = ROOT / "src" / "lasersph"
+FILES = sorted(SOURCE.rglob("*.py"))
+ROOMS = {folder.name for folder in SOURCE.iterdir() if folder.is_dir()}
+BACKTICKS = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
+WORD = re.compile(r"[A-Za-z_]\w*")
+PLACEHOLDER = re.compile(r"name_*[ij01]")
+"""Stands for any field of a pair function: `name_i`, `name__0`."""
+
+
+def prose_and_words(text):
+    """Docstrings and comments of a source text, and every word of its code."""
+    doc_lines = set()
+    prose = []
+    for node in ast.walk(ast.parse(text)):
+        match node:
+            case ast.Expr(value=ast.Constant(value=str(found))):
+                prose.append(found)
+                doc_lines.add((node.lineno, node.col_offset))
+    words = set()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            prose.append(token.string)
+        elif token.type == tokenize.NAME or (
+            token.type in (tokenize.STRING, getattr(tokenize, "FSTRING_MIDDLE", -1))
+            and token.start not in doc_lines
+        ):
+            words.update(WORD.findall(token.string))
+    return prose, words
+
+
+def known_words():
+    """Words of the code, of case files and of materials."""
+    words = set()
+    for file in FILES:
+        words |= prose_and_words(file.read_text(encoding="utf-8"))[1]
+    for file in SOURCE.rglob("*.toml"):
+        words.update(WORD.findall(file.read_text(encoding="utf-8")))
+    return words
+
+
+WORDS = known_words()
+PATHS = {str(path.relative_to(ROOT)) for path in ROOT.rglob("*.*") if ".venv" not in path.parts}
+
+
+def is_file(name):
+    """Whether a path names a file of the repository, in full or from a folder on."""
+    return any(path == name or path.endswith(f"/{name}") for path in PATHS)
+
+
+def resolves(name):
+    """Whether a dotted name of the package can be imported; rooms stand for `lasersph.room`."""
+    parts = name.split(".")
+    parts = parts if parts[0] == "lasersph" else ["lasersph", *parts]
+    found, module = importlib.import_module("lasersph"), "lasersph"
+    for k, part in enumerate(parts[1:], start=1):
+        module = f"{module}.{part}"
+        if hasattr(found, part):
+            found = getattr(found, part)
+            continue
+        try:
+            found = importlib.import_module(module)
+        except ImportError:
+            fields = getattr(found, "model_fields", {}) | getattr(found, "__annotations__", {})
+            return part in fields and k == len(parts) - 1
+    return True
+
+
+def is_stale(name):
+    """Whether a name in backticks names nothing."""
+    name = name.strip().rstrip("()")
+    if PLACEHOLDER.fullmatch(name):
+        return False
+    if re.fullmatch(r"[\w./<>-]+\.py", name):
+        return not is_file(name)
+    first = re.split(r"[./]", name)[0]
+    if re.fullmatch(r"[\w./-]+\.(md|toml)", name) and "/" in name and first in ROOMS:
+        return not is_file(name)
+    if re.fullmatch(r"\w+(\.\w+)+", name) and first in {"lasersph", *ROOMS}:
+        return not resolves(name) and not set(name.split(".")) <= WORDS
+    if re.fullmatch(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*", name, re.ASCII):
+        return not set(name.split(".")) <= WORDS
+    return False
+
+
+def test_names_in_backticks_exist():
+    """In every docstring and comment of the package."""
+    stale = {}
+    for file in FILES:
+        prose, _ = prose_and_words(file.read_text(encoding="utf-8"))
+        names = {name for text in prose for name in BACKTICKS.findall(text)}
+        if gone := sorted(name for name in names if is_stale(name)):
+            stale[str(file.relative_to(SOURCE))] = gone
+    assert not stale
+
+
+def test_the_rules_catch_what_is_gone():
+    """Two names that once were left behind, and names that are no names of the package."""
+    assert is_stale("physics/continuities.py") and is_stale("plots/ablations_history.py")
+    assert is_stale("lasersph.no_such_room") and is_stale("no_such_function_anywhere")
+    assert not is_stale("observers.View") and not is_stale("tests/test_architecture.py")
+    assert not is_stale("history.csv") and not is_stale("x_ij = x_i - x_j")
