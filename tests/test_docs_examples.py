@@ -21,7 +21,7 @@ def test_example_material_can_be_read():
 def test_named_files_exist():
     """Every path below src or tests that a page or ARCHITECTURE.md names in `code` is there."""
     missing = []
-    for page in [*PAGES, ROOT / "ARCHITECTURE.md", ROOT / "README.md"]:
+    for page in [*PAGES, *ROOT.glob("*.md")]:
         text = page.read_text(encoding="utf-8").partition("## Where the next things go")[0]
         for name in re.findall(r"`((?:src|tests|examples|docs|lasersph)/[\w./-]*)`", text):
             place = ROOT / "src" / name if name.startswith("lasersph/") else ROOT / name
