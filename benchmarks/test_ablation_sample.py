@@ -47,7 +47,7 @@ def seconds_per_step(*changes, before, steps):
     begin = perf_counter()
     for _ in range(steps):
         solver.step(5e-11)
-    awake = solver.body.total if solver.region is None else solver.region.active_count
+    awake = solver.particles.capacity if solver.region is None else solver.region.active_count
     return (perf_counter() - begin) / steps, awake
 
 

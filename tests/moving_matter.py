@@ -49,14 +49,14 @@ def put(solver, name, values):
     array = solver.backend.to_host(solver.fields[name])
     array[..., : solver.body.count] = values
     solver.backend.copy(solver.backend.asarray(array), solver.fields[name])
-    solver.body.refresh(solver.body.now)
+    solver.body.refresh(solver.particles)
     solver._include_active()
     solver._is_surface_current = False
 
 
 def mass(solver):
     """Masses of the material particles [kg]."""
-    return solver.backend.to_host(solver.body.m)[: solver.body.count]
+    return solver.backend.to_host(solver.particles["mass"])[: solver.body.count]
 
 
 def momentum(solver):

@@ -101,10 +101,10 @@ def heat_sum(workplace: Workplace) -> Measurement:
     solver.pairs.rebuild(REST)
     matter, pairs, on = solver.body, solver.pairs.now, solver.backend
     weights = on.zeros(pairs.neighbor.shape[0])
-    fields = {"V": matter.now.V}
+    fields = {"V": matter.now["volume"]}
     on.pair_values(pair_weight, pairs, fields, weights, factor=solver.parameters.weight_factor)
-    fields = {"g_ij": weights, "P": matter.now.T}
-    product = on.prepare(flow, fields, on.zeros(matter.total), neighbors=pairs)
+    fields = {"g_ij": weights, "P": matter.now["temperature"]}
+    product = on.prepare(flow, fields, on.zeros(matter.now.capacity), neighbors=pairs)
     wall, processor = timed(product, workplace)
     counted = particles.directed_pairs(workplace.edge, is_periodic=True)
     detail = {"GB/s of values and neighbors": 12e-9 * counted / workplace.time(wall, processor)}

@@ -114,7 +114,7 @@ def test_crater_does_not_know_the_lattice(along_the_lattice, angle):
 
 def boiled(solver):
     """Particles that have left, and the shares of their heat that others have taken up."""
-    share = solver.backend.to_host(solver.body.now.f_v)[: solver.body.count]
+    share = solver.backend.to_host(solver.particles["vapor_fraction"])[: solver.body.count]
     return solver.state.ejecta.count + share[host(solver, "kind") < EJECTED].sum()
 
 
@@ -153,8 +153,8 @@ def test_heat_spreads_sideways_as_from_a_disc():
     )  # fmt: skip
     go(solver, end=end)
     matter = solver.body
-    x = solver.backend.to_host(matter.now.x)[:, : matter.count]
-    T = solver.backend.to_host(matter.now.T)[: matter.count] - 300.0
+    x = solver.backend.to_host(matter.now["position"])[:, : matter.count]
+    T = solver.backend.to_host(matter.now["temperature"])[: matter.count] - 300.0
     below = np.flatnonzero(np.hypot(x[0], x[1]) < 0.1 * spacing)
     material = matter.material
     exact = step_rise(

@@ -86,6 +86,17 @@ ABLATION = _table(
     Field("acting_volume", "V_a", "m^d", "volume that acts on neighbors"),
     Field("vapor_pressure", "p_v", "Pa", "vapor pressure at leaving", is_kept=True),
     Field("leaving_time", "left_at", "s", "time of leaving, 0 before", is_kept=True),
+    Field("conducts", "conducts", "1", "1, or 0 of walls that let no heat pass"),
+    Field("opaque", "opaque", "1", "1 until it has been ejected"),
+    Field(
+        "listed_position",
+        "x_listed",
+        "m",
+        "place when its neighbors were found",
+        "vector",
+        is_kept=True,
+    ),
+    Field("lift", "lift", "m", "distance moved since it began to leave", is_kept=True),
     Field("stage", "stage", "1", "see `AblationView`"),
 )
 FIELDS = GEOMETRY | HEAT | FLOW | ABLATION

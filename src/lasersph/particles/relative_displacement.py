@@ -67,8 +67,8 @@ class RelativeDisplacement:
     """Bound of the displacements of particles relative to others near them.
 
     Args:
-        fields: by symbol: positions x, velocities v and kinds, as they are whenever asked.
-        listed: (dim, N) positions where the pairs were found, kept up to date [m].
+        fields: by symbol: positions x, velocities v, kinds, and positions x_listed where the pairs
+            were found, all kept up to date.
         box: around all particles. distance: longest distance of listed pairs [m].
 
     Attributes:
@@ -79,14 +79,12 @@ class RelativeDisplacement:
         self,
         backend: Backend,
         fields: Mapping[str, Array],
-        listed: Array,
         box: Box,
         distance: float,
     ) -> None:
         self.backend, self.period = backend, box.period
-        dimension, total = listed.shape
-        self._fields = {symbol: fields[symbol] for symbol in ("x", "v", "kind")}
-        self._fields["x_listed"] = listed
+        self._fields = dict(fields)
+        dimension, total = fields["x"].shape
         self._members: NeighborList | None = None
         low, high = np.array(box.low), np.array(box.high)
         width = WIDTH * distance

@@ -88,8 +88,8 @@ class VerletList:
     """Neighbor lists of the start and of the middle of a step.
 
     Args:
-        fields: by symbol: x, v, kind, opaque, and supports l, all the same. half: (dim, N)
-            positions in the middle of a step [m]. box: around all particles. spacing: [m].
+        fields: by symbol: x, v, kind, opaque, x_listed, and supports l, all the same. half:
+            (dim, N) positions in the middle of a step [m]. box: around all particles. spacing: [m].
             largest_skin: [m].
 
     Attributes:
@@ -115,16 +115,13 @@ class VerletList:
         self.backend, self.kernel, self.box = backend, kernel, box
         self.largest_skin, self._least_skin = largest_skin, LEAST_SKIN * spacing
         self.subset: Subset | None = None
-        self.listed = backend.zeros(half.shape)
+        self.listed, self._fields = fields["x_listed"], dict(fields)
         backend.copy(fields["x"], self.listed)
-        self._fields = dict(fields) | {"x_listed": self.listed}
         self._positions = fields["x"], half
         self.skin, self.is_compared = 0.0, False
         self._radius, self._room = backend.zeros(half.shape[1]), search.Room()
         self._support = float(backend.look(fields["l"])[0])
-        self._relative = RelativeDisplacement(
-            backend, fields, self.listed, box, self._support + largest_skin
-        )
+        self._relative = RelativeDisplacement(backend, fields, box, self._support + largest_skin)
 
     def is_stale(self, motion: LargestMotion, rows: Rows | None = None) -> bool:
         """Whether particles may come nearer than listed in a step."""

@@ -27,10 +27,10 @@ def pulse_starts(case: Case) -> tuple[float, ...]:
 
 def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> View:
     """The state for observers; particles of walls are left out."""
-    particles, backend, state = solver.body, solver.backend, solver.state
-    level, geometry = particles.now, particles.geometry
+    particles, backend, state = solver.particles, solver.backend, solver.state
+    geometry, curve = solver.body.geometry, solver.body.curve
     count = _shown(solver) if step else particles.count
-    position = backend.look(level.x)[:, :count]
+    position = backend.look(particles["position"])[:, :count]
     return View(
         time=state.time,
         step=step,
@@ -38,19 +38,19 @@ def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> Vie
         position=position,
         width=np.broadcast_to(np.array(geometry.cell)[:, None], position.shape),
         volume=np.broadcast_to(np.array(geometry.volume), (count,)),
-        temperature=backend.look(level.T)[:count],
-        enthalpy=backend.look(level.h)[:count],
-        melt_fraction=backend.look(level.f_m)[:count],
-        vapor_fraction=backend.look(level.f_v)[:count],
+        temperature=backend.look(particles["temperature"])[:count],
+        enthalpy=backend.look(particles["enthalpy"])[:count],
+        melt_fraction=backend.look(particles["melt_fraction"])[:count],
+        vapor_fraction=backend.look(particles["vapor_fraction"])[:count],
         surface=_surface(solver, count),
         symmetry_factor=case.domain.symmetry_factor,
         halves_spot=halves_spot(case),
         energy=dict(state.energy),
         iterations=solver.iterations,
         limit=limit,
-        solidus=particles.curve.solidus,
-        liquidus=particles.curve.liquidus,
-        vaporization=particles.curve.vaporization,
+        solidus=curve.solidus,
+        liquidus=curve.liquidus,
+        vaporization=curve.vaporization,
         ablation=_moving(case, solver, count),
     )
 
@@ -77,33 +77,29 @@ def _surface(solver: Ablation, count: int) -> np.ndarray:
 
 def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
     """Crater, ejecta and flow."""
-    particles, backend, state = solver.body, solver.backend, solver.state
-    level = particles.now
+    particles, backend, state = solver.particles, solver.backend, solver.state
+    geometry = solver.body.geometry
     flying = np.zeros(0, np.int64)
     if state.ejecta.count:
-        flying = backend.look(backend.rows_where(particles.kind, EJECTED)).astype(np.int64)
-    look = {
-        name: backend.look(array)[..., :count]
-        for name, array in (
-            ("stage", particles.kind), ("velocity", level.v), ("density", level.rho),
-            ("pressure", level.P), ("vapor_pressure", particles.p_v),
-            ("normal", solver.surface.normal),
-        )
-    }  # fmt: skip
+        flying = backend.look(backend.rows_where(particles["kind"], EJECTED)).astype(np.int64)
+    look = {"stage": particles["kind"], "normal": solver.surface.normal}
+    names = ("velocity", "density", "pressure", "vapor_pressure")
+    look |= {name: particles[name] for name in names}
+    look = {name: backend.look(array)[..., :count] for name, array in look.items()}
     columns = solver.light
-    dimension = particles.geometry.dimension
+    dimension = geometry.dimension
     pressure, speed = solver.extremes()
     vapor = case.material.vaporization
     return AblationView(
         **look,
         column_center=np.zeros((dimension - 1, 0)) if columns is None else columns.center,
-        column_width=float(particles.geometry.cell[0]),
+        column_width=float(geometry.cell[0]),
         column_top=np.zeros(0) if columns is None else columns.column_tops(),
-        ejecta_position=backend.look(level.x)[:, flying],
+        ejecta_position=backend.look(particles["position"])[:, flying],
         ejecta_velocity=look["velocity"][:, flying],
-        ejecta_temperature=backend.look(level.T)[flying],
-        ejecta_mass=backend.look(particles.m)[flying],
-        ejecta_time=backend.look(particles.left_at)[flying],
+        ejecta_temperature=backend.look(particles["temperature"])[flying],
+        ejecta_mass=backend.look(particles["mass"])[flying],
+        ejecta_time=backend.look(particles["leaving_time"])[flying],
         ejected_count=state.ejecta.count,
         ejected_mass=state.ejecta.mass,
         ejected_energy=state.ejecta.energy,
@@ -111,7 +107,7 @@ def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
         gone_count=state.gone,
         pressure_max=pressure,
         speed_max_condensed=speed,
-        particle_mass=case.material.density_reference * particles.geometry.volume,
+        particle_mass=case.material.density_reference * geometry.volume,
         density_reference=case.material.density_reference,
         gas_constant=None if vapor is None else vapor.specific_gas_constant,
     )

@@ -95,7 +95,7 @@ def solver_of(case: Case, backend: Backend, geometry: Geometry, initial: Initial
     pairs = VerletList(
         backend,
         particles.fields(),
-        particles.half.x,
+        particles.half["position"],
         shape,
         Box(low, high, geometry.period),
         geometry.spacing,
@@ -106,7 +106,7 @@ def solver_of(case: Case, backend: Backend, geometry: Geometry, initial: Initial
         pairs,
         FreeSurface(
             backend,
-            particles.total,
+            particles.now.capacity,
             geometry.dimension,
             geometry.spacing,
             surface_threshold(shape, ratio),
@@ -189,7 +189,7 @@ def _first_hit(
         geometry.bounds[:-1],
         geometry.spacing,
         [width > 0.0 for width in geometry.period[:-1]],
-        particles.E,
+        particles.now["absorbed_light"],
     )
 
 
@@ -200,9 +200,9 @@ def _region(
     if not sleeps(case):
         return None
     geometry = particles.geometry
-    support = float(backend.look(particles.support)[0]) + settings.skin * geometry.spacing
+    support = float(backend.look(particles.now["support"])[0]) + settings.skin * geometry.spacing
     lit = backend.asarray(np.arange(geometry.surface_count), "index")
-    return ActiveRegion(backend, particles.now.x, support, geometry.period, lit)
+    return ActiveRegion(backend, particles.now["position"], support, geometry.period, lit)
 
 
 def _ejection(
@@ -217,8 +217,9 @@ def _ejection(
     vapor = Vapor(backend, case.material, is_effusion=rule.velocity == "effusion")
     spacing = particles.geometry.spacing
     if rule.model == "enthalpy":
-        return EnthalpyEjection(backend, vapor, curve, light, particles.total, spacing)
-    support = float(backend.to_host(particles.support)[0])
+        return EnthalpyEjection(backend, vapor, curve, light, particles.now.capacity, spacing)
+    support = float(backend.to_host(particles.now["support"])[0])
+    particles.now.add("lift")
     return PublishedEjection(
-        backend, vapor, particles.total, spacing, rule.left_after(spacing, support)
+        backend, vapor, particles.now.capacity, spacing, rule.left_after(spacing, support)
     )

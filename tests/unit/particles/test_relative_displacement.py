@@ -16,8 +16,8 @@ from lasersph.particles.relative_displacement import (
 def relative_of(solver, distance):
     """The bound for the particles of a solver whose pairs reach so far [m]."""
     pairs = solver.pairs
-    fields = solver.body.fields()
-    return RelativeDisplacement(solver.backend, fields, pairs.listed, pairs.box, distance)
+    fields = solver.particles.by_symbol()
+    return RelativeDisplacement(solver.backend, fields, pairs.box, distance)
 
 
 def block(dimension, backend=None):

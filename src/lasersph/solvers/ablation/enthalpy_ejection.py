@@ -41,11 +41,6 @@ class EnthalpyEjection:
         self.enthalpy_vaporized = curve.enthalpy_vaporized
         self._excess = backend.zeros(count)
 
-    @property
-    def fields(self) -> dict[str, Any]:
-        """Arrays that survive a step beside those of the particles: none."""
-        return {}
-
     def longest_step(self, flux: float, density: float) -> float:
         """Longest step [s] at a flux absorbed by the surface [W/m^2]."""
         return ejection_step_limit(

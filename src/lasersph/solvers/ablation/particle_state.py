@@ -2,48 +2,35 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import interpolate
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.particles.fields import FIELDS
 from lasersph.particles.kinds import INTERIOR, LEAVING, WALL
+from lasersph.particles.particles import Particles
 from lasersph.physics.equation_of_state import condensed_pressure
 from lasersph.physics.phase_change import state
 from lasersph.solvers.ablation.geometry import Geometry, InitialState
 
 HOTTEST = 5e4
 """End of the table of conductivities [K]; its last law goes on."""
-
-
-@dataclass(frozen=True)
-class TimeLevel:
-    """Fields at one time, (N,) and (dim, N): x, v, rho, h, and what follows from them.
-
-    V_a: acting volume, see `rates`.
-    """
-
-    x: Any
-    v: Any
-    rho: Any
-    h: Any
-    T: Any
-    f_m: Any
-    f_v: Any
-    k: Any
-    P: Any
-    V: Any
-    V_a: Any
-
-    @classmethod
-    def empty(cls, backend: Backend, dimension: int, total: int) -> TimeLevel:
-        """All zero."""
-        vectors = [backend.zeros((dimension, total)) for _ in range(2)]
-        return cls(*vectors, *(backend.zeros(total) for _ in range(9)))
+DERIVED = (
+    "temperature", "melt_fraction", "vapor_fraction", "conductivity",
+    replace(FIELDS["pressure"], symbol="P", is_kept=False), "volume", "acting_volume",
+)  # fmt: skip
+"""What `evaluate_state` finds, in its order."""
+LEVEL = ("position", "velocity", "density", "enthalpy", *DERIVED)
+"""What changes within a step."""
+OTHERS = (
+    "mass", "support", replace(FIELDS["kind"], storage="real", is_kept=True), "conducts", "opaque",
+    "absorbed_light", "leaving_time", "vapor_pressure", "listed_position",
+)  # fmt: skip
 
 
 def evaluate_state(
@@ -72,14 +59,11 @@ def evaluate_state(
 
 
 class ParticleState:
-    """Fields of the particles; the first `count` of N are material, the others walls.
+    """Fields of the particles; the first `count` of them are material, the others walls.
 
     Attributes:
-        now, half: fields at the start and in the middle of the step. m: mass [kg per (3 - d)
-            lengths]. support: [m]. kind: of the life of each particle.
-        conducts: 1, or 0 of walls without heat. opaque: 1 of what has not been ejected.
-        E: light absorbed in the step [J]. left_at: time of leaving [s], 0 before. p_v: vapor
-            pressure at leaving [Pa].
+        now, half: at the start and in the middle of the step; the latter has the fields of `LEVEL`
+            alone.
     """
 
     def __init__(
@@ -97,17 +81,10 @@ class ParticleState:
         melts_at: float,
     ) -> None:
         self.backend, self.geometry, self.material, self.curve = backend, geometry, material, curve
-        self.count, self.total = geometry.count, geometry.total
-        total, dimension = self.total, geometry.dimension
-        self.now = TimeLevel.empty(backend, dimension, total)
-        self.half = TimeLevel.empty(backend, dimension, total)
-        self.m = backend.asarray(initial.density * geometry.volume)
-        self.support = backend.asarray(np.full(total, support))
-        kind = np.full(total, INTERIOR)
-        kind[self.count :] = WALL
-        self.kind = backend.asarray(kind)
-        self.conducts = backend.asarray(initial.conducts)
-        self.opaque, self.E, self.left_at, self.p_v = (backend.zeros(total) for _ in range(4))
+        self.count, total = geometry.count, geometry.total
+        size = (backend, self.count, geometry.dimension)
+        self.now = Particles(*size, (*LEVEL, *OTHERS), capacity=total)
+        self.half = Particles(*size, LEVEL, capacity=total)
         T, k = material.table("conductivity", 1.0, HOTTEST)
         self._tables = {
             "h_nodes": backend.asarray(curve.enthalpy),
@@ -117,47 +94,42 @@ class ParticleState:
             "v_nodes": backend.asarray(curve.vapor_fraction),
             "k_T": backend.asarray(T),
             "k_nodes": backend.asarray(k),
-        }
-        self._constants = {
             "melts_at": melts_at,
             "rho_0": material.density_reference,
             "c_0": sound_speed,
             "has_tension": float(has_tension),
         }
-        for array, target in (
-            (initial.position, self.now.x),
-            (initial.velocity, self.now.v),
-            (initial.density, self.now.rho),
-            (enthalpy, self.now.h),
-        ):
-            backend.copy(backend.asarray(array), target)
+        start = {
+            "position": initial.position,
+            "velocity": initial.velocity,
+            "density": initial.density,
+            "enthalpy": enthalpy,
+            "mass": initial.density * geometry.volume,
+            "support": np.full(total, support),
+            "kind": np.where(np.arange(total) < self.count, INTERIOR, WALL),
+            "conducts": initial.conducts,
+        }
+        for name, values in start.items():
+            self.now.set(name, values)
         self.refresh(self.now)
 
-    def fields(self, level: TimeLevel | None = None) -> dict[str, Any]:
+    def fields(self, level: Particles | None = None) -> dict[str, Array]:
         """Arrays by symbol, those of `level` or of the start of the step."""
-        return vars(level or self.now) | {
-            "m": self.m, "l": self.support, "kind": self.kind,
-            "opaque": self.opaque, "conducts": self.conducts, "E": self.E,
-            "left_at": self.left_at, "p_v": self.p_v,
-        }  # fmt: skip
+        fields = self.now.by_symbol()
+        return fields if level is None or level is self.now else fields | level.by_symbol()
 
-    def refresh(self, level: TimeLevel, rows: Any = None) -> None:
+    def refresh(self, level: Particles, rows: Rows | None = None) -> None:
         """Set what follows from enthalpy, density and kind."""
-        fields = {
-            "h": level.h, "rho": level.rho, "m": self.m, "kind": self.kind,
-            "conducts": self.conducts,
-        }  # fmt: skip
-        out = (level.T, level.f_m, level.f_v, level.k, level.P, level.V, level.V_a, self.opaque)
-        self.backend.pointwise(
-            evaluate_state, fields, out, rows=rows, **self._tables, **self._constants
-        )
+        names = [name if isinstance(name, str) else name.name for name in DERIVED]
+        out = (*(level[name] for name in names), self.now["opaque"])
+        fields = self.fields(level)
+        self.backend.pointwise(evaluate_state, fields, out, rows=rows, **self._tables)
 
-    def enter(self, rows: Any) -> None:
+    def enter(self, rows: Rows | None) -> None:
         """Let the middle of the step know particles that take part from now on."""
-        for name, array in vars(self.now).items():
-            self.backend.pointwise(
-                copy_value, {"value": array}, getattr(self.half, name), rows=rows
-            )
+        for name in self.half:
+            value = {"value": self.now[name]}
+            self.backend.pointwise(copy_value, value, self.half[name], rows=rows)
 
 
 def copy_value(value):

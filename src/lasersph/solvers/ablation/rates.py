@@ -15,6 +15,7 @@ from enum import Enum
 from math import isfinite, sqrt
 
 from lasersph.compute.array_types import Array, Rows
+from lasersph.particles.particles import Particles
 from lasersph.particles.verlet_list import VerletList
 from lasersph.solvers.ablation.equations import (
     advance,
@@ -29,7 +30,7 @@ from lasersph.solvers.ablation.equations import (
     trial_step,
 )
 from lasersph.solvers.ablation.parameters import Parameters
-from lasersph.solvers.ablation.particle_state import ParticleState, TimeLevel
+from lasersph.solvers.ablation.particle_state import ParticleState
 from lasersph.solvers.ablation.state import AblationState
 from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.laplacian import harmonic_flow
@@ -69,8 +70,8 @@ class Rates:
         self.particles, self.pairs, self.area = particles, pairs, area
         self.parameters, self.state = parameters, state
         backend, dimension = particles.backend, particles.geometry.dimension
-        self._a = backend.zeros((dimension, particles.total))
-        self._drho, self._dh = (backend.zeros(particles.total) for _ in range(2))
+        self._a = backend.zeros((dimension, particles.now.capacity))
+        self._drho, self._dh = (backend.zeros(particles.now.capacity) for _ in range(2))
         self._constants = {
             "h_s": parameters.smoothing,
             "c_0": parameters.sound_speed,
@@ -94,7 +95,7 @@ class Rates:
             factor = self.parameters.weight_factor
             backend.pair_values(pair_weight, pairs, fields, self.weights, rows=rows, factor=factor)
 
-    def evaluate(self, level: TimeLevel, step: float, rows: Rows | None) -> float:
+    def evaluate(self, level: Particles, step: float, rows: Rows | None) -> float:
         """Find the rates at a level, and what limits the next step; returns the heat lost [W]."""
         particles, state, pair_sum = self.particles, self.state, self.particles.backend.pair_sum
         pairs = self.pairs.now if level is particles.now else self.pairs.half
@@ -124,12 +125,12 @@ class Rates:
             NotConverged: it is not finite, or matter would be torn apart.
         """
         particles, pointwise = self.particles, self.particles.backend.pointwise
-        fields = {"m": particles.m, "dh": self._dh}
+        fields = {"m": particles.now["mass"], "dh": self._dh}
         if self.moving is not Moving.ALL:
             (stored,) = pointwise(energy_gain, fields, (None,), rows=rows, reduce=("sum",), dt=step)
             is_stable = isfinite(stored)
         else:
-            fields |= {"rho": particles.now.rho, "a": self._a, "drho": self._drho}
+            fields |= {"rho": particles.now["density"], "a": self._a, "drho": self._drho}
             reduce = ("sum", "min", "sum")
             stored, thinnest, force = pointwise(
                 trial_step, fields, (None, None, None), rows=rows, reduce=reduce, dt=step
@@ -140,20 +141,19 @@ class Rates:
             raise NotConverged(f"a step of {step:.4g} s is unstable; take shorter ones")
         return stored
 
-    def advance(self, target: TimeLevel, source: TimeLevel, step: float, rows: Rows | None) -> None:
+    def advance(self, target: Particles, source: Particles, step: float, rows: Rows | None) -> None:
         """Write the start of the step advanced by `step` [s] into a level.
 
         Args:
             source: level that the rates were found at; positions move with its velocity.
         """
         particles, pointwise = self.particles, self.particles.backend.pointwise
-        now = particles.now
-        fields = {"x": now.x, "v": now.v, "rho": now.rho, "h": now.h, "kind": particles.kind}
-        fields |= {"v_rate": source.v, "a": self._a, "drho": self._drho, "dh": self._dh}
+        fields = particles.now.by_symbol() | {"v_rate": source["velocity"]}
+        fields |= {"a": self._a, "drho": self._drho, "dh": self._dh}
+        x, v, rho, h = (target[name] for name in ("position", "velocity", "density", "enthalpy"))
         if self.moving is Moving.NOTHING:
-            pointwise(advance_enthalpy, fields, target.h, rows=rows, dt=step)
+            pointwise(advance_enthalpy, fields, h, rows=rows, dt=step)
         elif self.moving is Moving.VAPOR:
-            pointwise(advance_vapor, fields, (target.x, target.h), rows=rows, dt=step)
+            pointwise(advance_vapor, fields, (x, h), rows=rows, dt=step)
         else:
-            out = (target.x, target.v, target.rho, target.h)
-            pointwise(advance, fields, out, rows=rows, dt=step)
+            pointwise(advance, fields, (x, v, rho, h), rows=rows, dt=step)

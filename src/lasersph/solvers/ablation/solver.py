@@ -15,6 +15,7 @@ import numpy as np
 from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.compute.array_types import Array, Rows
 from lasersph.particles.kinds import EJECTED
+from lasersph.particles.particles import Particles
 from lasersph.particles.verlet_list import REST, LargestMotion, VerletList
 from lasersph.physics.compressible_limits import compressible_limits
 from lasersph.solvers.ablation.active_region import ActiveRegion
@@ -33,9 +34,6 @@ from lasersph.solvers.step_control import (
     retry_step,
 )
 from lasersph.solvers.time_settings import TimeSettings
-
-LEVEL_ARRAYS = {"position": "x", "velocity": "v", "density": "rho", "enthalpy": "h"}
-PARTICLE_ARRAYS = ("kind", "left_at", "p_v")
 
 
 class Ablation:
@@ -66,7 +64,7 @@ class Ablation:
         self._rates = Rates(particles, pairs, surface.area, parameters, self.state)
         self._needs_surface = light is not None or parameters.loses_heat
         self._is_surface_current = False
-        self._all_rows = self.backend.asarray(np.arange(particles.total), "index")
+        self._all_rows = self.backend.asarray(np.arange(particles.now.capacity), "index")
         self._include_active()
         if self._needs_surface:
             self._update_surface()
@@ -79,20 +77,19 @@ class Ablation:
         return None if self.region is None else self.region.rows
 
     @property
+    def particles(self) -> Particles:
+        """The particles where they are now."""
+        return self.body.now
+
+    @property
     def particle_count(self) -> int:
         """Particles of the body, without walls."""
         return self.body.count
 
     @property
     def fields(self) -> dict[str, Array]:
-        """Arrays of the particles by name."""
-        level, particles = self.body.now, self.body
-        found = {name: getattr(level, symbol) for name, symbol in LEVEL_ARRAYS.items()}
-        found |= {name: getattr(particles, name) for name in PARTICLE_ARRAYS}
-        found["listed"] = self.pairs.listed
-        for part in (self.ejection, self.region):
-            found |= {} if part is None else part.fields
-        return found
+        """Arrays that a checkpoint keeps, by name."""
+        return self.particles.kept | ({} if self.region is None else self.region.fields)
 
     @property
     def iterations(self) -> dict[str, int]:
@@ -111,12 +108,11 @@ class Ablation:
 
     def restore(self, arrays: Mapping[str, np.ndarray], scalars: Mapping[str, float]) -> None:
         """Continue from the arrays of `fields` and from `checkpoint_scalars`."""
-        for name, field in self.fields.items():
-            self.backend.copy(self.backend.asarray(arrays[name]), field)
+        self.particles.restore(arrays)
         self.state.restore(scalars)
         if self.region is not None:
             self.region.restore(arrays, scalars)
-        self.body.refresh(self.body.now)
+        self.body.refresh(self.particles)
         self._include_active()
         self._is_surface_current, self._rates.weights = False, None
         self.pairs.restore(scalars)
@@ -170,8 +166,8 @@ class Ablation:
 
         and dx_i/dt = v_i; `equations` says how each is computed.
         """
-        particles, rates, state = self.body, self._rates, self.state
-        now, half = particles.now, particles.half
+        body, rates, state = self.body, self._rates, self.state
+        now, half = body.now, body.half
         # who is computed, who is near whom, what moves
         self._prepare(step)
         rows = self.rows
@@ -181,12 +177,12 @@ class Ablation:
         rates.evaluate(now, step, rows)
         rates.advance(half, now, 0.5 * step, rows)
         # equation of state and caloric curve: P(rho'), T(h'), k(T') in the middle
-        particles.refresh(half, rows)
+        body.refresh(half, rows)
         # whole step: rates in the middle, y + dt f(y'), unless that would be unstable       (30)
         lost = rates.evaluate(half, step, rows)
         stored = rates.energy_of_step(step, rows)
         rates.advance(now, half, step, rows)
-        particles.refresh(now, rows)
+        body.refresh(now, rows)
         state.add(light | {"stored": stored, "lost": lost * step})
         state.time, state.time_step = state.time + step, step
         self._is_surface_current &= rates.moving is Moving.NOTHING
@@ -202,11 +198,10 @@ class Ablation:
         Raises:
             NotConverged: particles would pass their neighbors.
         """
-        particles, state, pairs = self.body, self.state, self.pairs
-        has_grown = self.region is not None and self.region.grow(particles.fields())
+        fields, state, pairs = self.particles.by_symbol(), self.state, self.pairs
+        has_grown = self.region is not None and self.region.grow(fields)
         if has_grown:
             self._include_active()
-        fields = {"v": particles.now.v, "kind": particles.kind}
         square, leaving = self.backend.pointwise(
             speed_squares, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
@@ -241,7 +236,7 @@ class Ablation:
         if light is None:
             return {}
         light.shine(time, time + step)
-        light.absorb(self.body.now.T)
+        light.absorb(self.particles["temperature"])
         return {
             "incident": light.incident,
             "absorbed": light.absorbed,
@@ -253,10 +248,10 @@ class Ablation:
         """Let what has taken up enough heat leave the surface."""
         if self.ejection is None:
             return
-        particles, surface = self.body, self._surface
-        fields = particles.fields() | {"exposed": surface.exposed, "normal": surface.normal}
+        surface = self._surface
+        fields = self.particles.by_symbol() | {"exposed": surface.exposed, "normal": surface.normal}
         ejecta = self.ejection.eject(fields, self.pairs.now, self.rows, self.state.time, step)
-        particles.refresh(particles.now, self.rows)
+        self.body.refresh(self.particles, self.rows)
         if ejecta.count:
             self.state.count_ejecta(ejecta)
             self._is_surface_current = False
@@ -265,13 +260,12 @@ class Ablation:
         """Move what has been ejected, straight on until it passes the edge of what is followed."""
         if not self.state.ejecta.count:
             return
-        x, kind = self.body.now.x, self.body.kind
-        fields = {"x": x, "v": self.body.now.v, "kind": kind}
+        x, kind = self.particles["position"], self.particles["kind"]
         rows = self.backend.rows_where(kind, EJECTED)
         flight = {"step": step, "low": self.parameters.low, "high": self.parameters.high}
         (gone,) = self.backend.pointwise(
             fly,
-            fields,
+            self.particles.by_symbol(),
             (x, kind, None),
             rows=rows,
             reduce=(None, None, "sum"),
@@ -289,7 +283,7 @@ class Ablation:
 
     def extremes(self) -> tuple[float, float]:
         """Largest pressure [Pa] and speed [m/s] of what has not left."""
-        fields = {"P": self.body.now.P, "v": self.body.now.v, "kind": self.body.kind}
+        fields = self.particles.by_symbol()
         pressure, square = self.backend.pointwise(
             interior_extremes, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
@@ -305,9 +299,9 @@ class Ablation:
             return
         if self.pairs.skin == 0.0:
             self.pairs.rebuild(REST, self.rows)
-        particles = self.body
-        self._surface.find(self.pairs.now, particles.now.V, particles.opaque, self.rows)
+        particles = self.particles
+        self._surface.find(self.pairs.now, particles["volume"], particles["opaque"], self.rows)
         if self.light is not None:
             rows = self._all_rows if self.rows is None else self.rows
-            self.light.find_hit(particles.now.x, particles.kind, rows)
+            self.light.find_hit(particles["position"], particles["kind"], rows)
         self._is_surface_current = True

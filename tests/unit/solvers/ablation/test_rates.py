@@ -43,6 +43,6 @@ def test_same_as_with_all_motion():
         found.append(solver)
     quick, general = found
     assert quick.state.ejecta.count == general.state.ejecta.count > 0
-    for symbol in ("T", "x"):
-        values = [s.backend.to_host(getattr(s.body.now, symbol)) for s in found]
+    for name in ("temperature", "position"):
+        values = [s.backend.to_host(s.particles[name]) for s in found]
         np.testing.assert_allclose(*values, rtol=1e-11, atol=1e-20)

@@ -28,9 +28,6 @@ class PublishedEjection:
     Args:
         left_after: distance after which a particle has left [m]; negative where it has left when
             it covers no particle any more.
-
-    Attributes:
-        lift: (n,) distance that leaving particles have moved [m].
     """
 
     def __init__(
@@ -38,13 +35,7 @@ class PublishedEjection:
     ) -> None:
         self.backend, self.vapor, self.left_after = backend, vapor, left_after
         self.reach = BELOW_REACH * spacing
-        self.lift = backend.zeros(count)
         self._covered = backend.zeros(count)
-
-    @property
-    def fields(self) -> dict[str, Any]:
-        """Arrays that survive a step beside those of the particles."""
-        return {"lift": self.lift}
 
     def longest_step(self, flux: float, density: float) -> float:
         """No limit: the rule depends on the step, as published."""
@@ -56,11 +47,11 @@ class PublishedEjection:
         """Set kind, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
 
         Args:
-            fields: by symbol; kind, v, h, T, m, exposed, normal, left_at, p_v.
+            fields: by symbol; kind, lift, v, h, T, m, exposed, normal, left_at, p_v.
         """
         backend, kind, v = self.backend, fields["kind"], fields["v"]
-        own = fields | {"lift": self.lift, "covered": self._covered}
-        backend.pointwise(advance_lift, own, self.lift, rows=rows, step=step)
+        own = fields | {"covered": self._covered}
+        backend.pointwise(advance_lift, own, fields["lift"], rows=rows, step=step)
         leaving = backend.rows_where(kind, LEAVING)
         backend.pair_sum(
             covers_neighbor, pairs, own, self._covered, rows=leaving, reach=self.reach,
