@@ -46,16 +46,16 @@ class Pool:
         source = np.arange(x.size)
         for axis in (0, 1):
             near = np.flatnonzero(np.abs(position[axis]) < SUPPORT)
-            image = position[:, near].copy()
-            image[axis] *= -1.0
-            position = np.hstack([position, image])
+            ghost = position[:, near].copy()
+            ghost[axis] *= -1.0
+            position = np.hstack([position, ghost])
             source = np.concatenate([source, source[near]])
         self.source = backend.asarray(source, "index")
         self.neighbors = find_neighbors(
             backend, backend.asarray(position), backend.asarray(np.full(source.size, SUPPORT)),
             self.count, kernel=kernel("quintic-spline", 2), mean=arithmetic,
         )  # fmt: skip
-        self.folded = self.neighbors.folded(backend, self.source)
+        self.folded = self.neighbors.without_ghosts(backend, self.source)
         self.weights = backend.zeros(backend.to_host(self.neighbors.neighbor).size)
         ones = backend.asarray(np.ones(source.size))
         backend.pair_values(weight, self.neighbors, {"V": ones}, self.weights)

@@ -73,7 +73,7 @@ def block_of(solver, position=None):
     backend = solver.backend
     if position is not None:
         backend.copy(backend.asarray(position), solver.position)
-    solver.fluid_count = solver.roles.find_fluid(solver.particles["melt_fraction"])
+    solver.fluid_count = solver.kinds.find_fluid(solver.particles["melt_fraction"])
     solver.advect(0.0)
     return solver.flow.block
 
@@ -109,5 +109,7 @@ def go(solver, steps):
 
 
 def host_fields(solver):
-    """Copies of all fields of the particles."""
-    return {name: solver.backend.to_host(solver.particles[name]) for name in solver.particles}
+    """Copies of all fields of the particles but their kind, which each step finds anew."""
+    table, host = solver.particles.table, solver.backend.to_host
+    names = [name for name, field in table.items() if field.storage == "real"]
+    return {name: host(solver.particles[name]) for name in names}

@@ -6,7 +6,7 @@ import numpy as np
 
 from lasersph import compute
 from lasersph.particles import Domain, Lattice
-from lasersph.particles.filling import IMAGE, Filling, fill
+from lasersph.particles.filling import MIRROR, Filling, fill
 from lasersph.particles.layers import Layers, stack
 from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic, graded
@@ -54,7 +54,7 @@ def pairs_of(dimension, name="quintic-spline", *, ratio=3.75, corrected=True, is
     arrangement = "graded" if is_graded else "uniform"
     lattice = Lattice(spacing=spacing, arrangement=arrangement, coarsest=4e-7)
     layers = stack(domain, lattice, dimension, fine_layers * spacing)
-    filling = fill(layers, surface=IMAGE, bottom=IMAGE, sides=IMAGE)
+    filling = fill(layers, surface=MIRROR, bottom=MIRROR, sides=MIRROR)
     backend = compute.cpu(threads=2)
     shape, mean = kernel(name, dimension), graded if is_graded else arithmetic
     neighbors = find_neighbors(

@@ -1,8 +1,8 @@
 """Boundaries: named regions and what holds there."""
 
-from lasersph.boundaries.flow_sides import FlowSide, FlowSides
+from lasersph.boundaries.flow_conditions import FlowCondition, FlowConditions
 from lasersph.boundaries.initial_motion import InitialMotion
 from lasersph.boundaries.settings import Boundaries
 from lasersph.boundaries.vessel import Vessel
 
-__all__ = ["Boundaries", "FlowSide", "FlowSides", "InitialMotion", "Vessel"]
+__all__ = ["Boundaries", "FlowCondition", "FlowConditions", "InitialMotion", "Vessel"]

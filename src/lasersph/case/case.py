@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, model_validator
 
-from lasersph.boundaries import Boundaries, FlowSides, InitialMotion, Vessel
+from lasersph.boundaries import Boundaries, FlowConditions, InitialMotion, Vessel
 from lasersph.case.checks import problems_of
 from lasersph.case.material_choice import MaterialChoice
 from lasersph.case.outputs import OutputSettings
@@ -41,7 +41,7 @@ class Case(Model):
     particles: Lattice
     boundaries: Boundaries = Boundaries.model_validate({})
     laser: Laser | None = None
-    flow: FlowSides | None = Field(
+    flow: FlowConditions | None = Field(
         default=None,
         description="only for a closed box that is all fluid; without it what is molten flows",
     )

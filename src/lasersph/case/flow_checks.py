@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.boundaries.flow_sides import SIDES, FlowSides
+from lasersph.boundaries.flow_conditions import FACES, FlowConditions
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.size import LARGEST_STEPS
@@ -113,7 +113,7 @@ def _pool(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
         yield "boundaries.surface", 'a pool lies below a surface; write surface = "adiabatic"'
 
 
-def _box(case: Case, flow: FlowSides) -> Iterator[tuple[str, str]]:
+def _box(case: Case, flow: FlowConditions) -> Iterator[tuple[str, str]]:
     """A closed box that is all fluid."""
     if case.material.melting is not None and case.solver.phase_change:
         yield (
@@ -126,8 +126,8 @@ def _box(case: Case, flow: FlowSides) -> Iterator[tuple[str, str]]:
             "particles.arrangement",
             'particles that flow through the whole box need one size; write "uniform"',
         )
-    for side in SIDES:
-        heat, kind = case.boundaries.kind_of(side), flow.sides[side].kind
+    for side in FACES:
+        heat, kind = case.boundaries.kind_of(side), flow.faces[side].kind
         if (heat == "periodic") == (kind == "periodic"):
             continue
         own = getattr(case.boundaries, side) is not None
@@ -170,7 +170,7 @@ def _steps(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
     speeds = {}
     if case.flow is not None:
         speeds = {
-            f"flow.{name}.velocity": abs(side.velocity) for name, side in case.flow.sides.items()
+            f"flow.{name}.velocity": abs(side.velocity) for name, side in case.flow.faces.items()
         }
         if isinstance(case.flow.initial, TaylorGreenFlow):
             speeds["flow.initial.speed"] = case.flow.initial.speed

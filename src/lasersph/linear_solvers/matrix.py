@@ -3,7 +3,7 @@
     (A p)_i = d_i p_i + sum_j a_ij p_j
 
 Entries are stored pair by pair, in the order of the list; the neighbors must all have rows (a
-`folded` list where there are dummies). Left out: dense and blocked forms.
+list `without_ghosts` where there are dummies). Left out: dense and blocked forms.
 """
 
 from __future__ import annotations

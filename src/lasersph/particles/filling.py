@@ -1,7 +1,7 @@
 """Filling a domain: a particle in the middle of each cell, and dummy particles beyond the faces.
 
 Dummy layers and columns continue the lattice past each face that is not free. Each dummy knows
-which inner particle it stands for (mirror image or periodic image) or which face holds its
+which inner particle it stands for (mirror image or periodic image) or which face gives its
 temperature. Patterns that repeat within one support radius are unfolded as often as needed.
 Faces are named surface and bottom (z), left and right (x), front and back (y); `sides` are the
 last four.
@@ -23,7 +23,7 @@ GHOSTS = 5
 """Dummy layers, and columns of uniform layers: enough for a support radius of 6 spacings."""
 GRADED_GHOSTS = 12
 """Dummy columns of graded layers: a coarse particle reaches over many columns of a finer layer."""
-FREE, IMAGE, PERIODIC, HELD = "free", "image", "periodic", "held"
+FREE, MIRROR, PERIODIC, DIRICHLET = "free", "mirror", "periodic", "dirichlet"
 FACES = ("none", "surface", "bottom", "left", "right", "front", "back")
 LATERAL = (("left", "right"), ("front", "back"))
 """Faces at the lower and the upper end of x and of y."""
@@ -36,7 +36,7 @@ class Filling:
     Attributes:
         position, width: (dim, N) [m]. layer: (N,) number of the layer, negative above z = 0.
         source: (N,) the inner particle that a dummy stands for; the particle itself where real.
-        held: (N,) index in FACES of the face that holds the dummy's temperature, 0 if none.
+        dirichlet: (N,) index in FACES of the Dirichlet face that a dummy lies beyond, 0 if none.
         surface: the particles of the first layer. above: (count,) the surface particle over each.
     """
 
@@ -45,7 +45,7 @@ class Filling:
     width: Array
     layer: NDArray[np.int64]
     source: NDArray[np.uint32]
-    held: NDArray[np.uint8]
+    dirichlet: NDArray[np.uint8]
     surface: NDArray[np.int64]
     above: NDArray[np.int64]
 
@@ -64,7 +64,7 @@ def fill(
     left: str | None = None,
     right: str | None = None,
 ) -> Filling:
-    """Particles of the layers with dummies as the faces ask: FREE, IMAGE, PERIODIC or HELD.
+    """Particles of the layers with dummies as the faces ask: FREE, MIRROR, PERIODIC or DIRICHLET.
 
     Left and right are as the sides where not given; opposite faces are periodic in pairs.
     """
@@ -78,9 +78,9 @@ def fill(
     for number in range(first, last):
         inside = _inside(number, total, is_periodic=surface == PERIODIC)
         face = 0
-        if number < 0 and surface == HELD:
+        if number < 0 and surface == DIRICHLET:
             face = FACES.index("surface")
-        if number >= total and bottom == HELD:
+        if number >= total and bottom == DIRICHLET:
             face = FACES.index("bottom")
         block = _layer(layers, number, inside, int(starts[inside]), face, kinds)
         is_real = np.logical_and(block["real"], 0 <= number < total)
@@ -98,7 +98,7 @@ def fill(
         width=np.ascontiguousarray(merged["width"]),
         layer=merged["layer"],
         source=source,
-        held=merged["held"].astype(np.uint8),
+        dirichlet=merged["dirichlet"].astype(np.uint8),
         surface=np.arange(surface_count),
         above=_above(layers, merged["position"][:-1, :count]),
     )
@@ -143,9 +143,9 @@ def _layer(
         is_periodic = kinds[low] == PERIODIC
         sources.append(index % columns if is_periodic else _reflected(index, columns))
         holder = np.zeros(index.size, int)
-        if kinds[low] == HELD:
+        if kinds[low] == DIRICHLET:
             holder[index < 0] = FACES.index(low)
-        if kinds[high] == HELD:
+        if kinds[high] == DIRICHLET:
             holder[index >= columns] = FACES.index(high)
         holders.append(holder)
         widths.append(width)
@@ -153,13 +153,13 @@ def _layer(
     position = np.empty((layers.dimension, int(np.prod(shape))))
     is_real = np.ones(shape, bool)
     source = np.zeros(shape, np.int64)
-    held = np.full(shape, face)
+    dirichlet = np.full(shape, face)
     for axis, values in enumerate(axes):
         view = [1] * len(shape)
         view[axis] = -1
         position[axis] = np.broadcast_to(values.reshape(view), shape).ravel()
         is_real &= reals[axis].reshape(view)
-        held = np.where(held == 0, holders[axis].reshape(view), held)
+        dirichlet = np.where(dirichlet == 0, holders[axis].reshape(view), dirichlet)
         source = source * int(layers.columns[axis, inside]) + sources[axis].reshape(view)
     position[-1] = z
     width = np.broadcast_to(
@@ -171,7 +171,7 @@ def _layer(
         "real": is_real.ravel(),
         "layer": np.full(position.shape[1], number),
         "source": start + source.ravel(),
-        "held": held.ravel(),
+        "dirichlet": dirichlet.ravel(),
     }
 
 

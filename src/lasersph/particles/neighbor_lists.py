@@ -50,7 +50,7 @@ class NeighborList:
     mean: Mean = common
     period: tuple[float, ...] = ()
 
-    def folded(self, backend: Backend, source: Array) -> NeighborList:
+    def without_ghosts(self, backend: Backend, source: Array) -> NeighborList:
         """The same pairs with every dummy replaced by the particle that it stands for.
 
         Fit for sums with per-pair weights: positions of real particles only remain.

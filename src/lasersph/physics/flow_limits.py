@@ -9,8 +9,7 @@ l is the support radius, v the largest speed, f the largest acceleration. Correc
 the energy of a vortex within a tenth of its turn; viscosity 0.05 l^2 / nu where it is explicit,
 since forward Euler with the SPH Laplacian diverges beyond 0.0575 l^2 / nu, and 0.2 l^2 / nu where
 it is implicit: the split of viscous forces from pressure errs within sqrt(nu dt) of the walls. Heat
-is implicit and has no limit; a flat lid has neither capillary waves nor a surface that recoil
-pressure moves, so that both are infinite.
+is implicit and has no limit. What a surface that moves asks for is said by itself.
 """
 
 from __future__ import annotations
@@ -35,8 +34,6 @@ def flow_limits(
     density: float = 0.0,
     surface_tension: float = 0.0,
     is_implicit: bool = True,
-    capillary: float = inf,
-    recoil: float = inf,
 ) -> dict[str, float]:
     """Named limits [s]; infinite where a quantity is zero or nothing can become unstable.
 
@@ -44,7 +41,6 @@ def flow_limits(
         rule: "corrected" or "published". support: l [m]. speed: v [m/s]. acceleration: f [m/s^2].
         viscosity: nu [m^2/s]. diffusivity: a [m^2/s]. density: rho of the liquid [kg/m^3].
         surface_tension: gamma [N/m]; only for the published rule. is_implicit: the viscosity.
-        capillary, recoil: what the surface itself asks for [s]; a flat lid nothing.
     """
     is_published = rule == "published"
     advection = PUBLISHED_ADVECTION if is_published else ADVECTION
@@ -52,8 +48,6 @@ def flow_limits(
         "advection": advection * support / speed if speed else inf,
         "force": FORCE * sqrt(support / acceleration) if acceleration else inf,
         "viscosity": inf,
-        "capillary": capillary,
-        "recoil": recoil,
     }
     if is_published:
         limits["viscosity"] = PUBLISHED_DIFFUSION * support**2 / viscosity

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lasersph.boundaries.lid import FlatLid, ImposedTemperature
+from lasersph.boundaries.flat_surface import FlatSurface, ImposedTemperature
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
 from lasersph.materials.caloric_curve import CaloricCurve
@@ -12,11 +12,11 @@ from lasersph.particles.layers import Layers
 from lasersph.solvers.conduction.body import weighing_of
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.walls import wall_potential
-from lasersph.solvers.melt_pool.block import Carried
+from lasersph.solvers.melt_pool.block import StaticParticleData
 from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.flow import Flow, Liquid
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
-from lasersph.solvers.melt_pool.sides import Sides
 from lasersph.solvers.melt_pool.solver import MeltPool
 
 
@@ -30,7 +30,7 @@ def with_flow(case: Case, layers: Layers, heat: Conduction) -> MeltPool:
     weighing = weighing_of(
         case.particles, layers, use_second_moment=settings.weights == "second-moment"
     )
-    carried = Carried(
+    static = StaticParticleData(
         support=weighing.ratio * filling.width[-1, :count],
         volume=filling.volume[:count],
         layer=filling.layer[:count],
@@ -39,27 +39,27 @@ def with_flow(case: Case, layers: Layers, heat: Conduction) -> MeltPool:
     )
     (x,) = case.domain.lateral(2)
     box = (x, (-float(layers.thickness.sum()), 0.0))
-    sides = Sides(box, case.boundaries, case.flow, case.initial_temperature)
+    conditions = FaceConditions(box, case.boundaries, case.flow, case.initial_temperature)
     liquid = liquid_of(case, settings)
-    lid = None
-    if sides.flow_kind("surface") == "free-surface":
-        lid = FlatLid(
+    surface = None
+    if conditions.flow_kind("surface") == "free-surface":
+        surface = FlatSurface(
             backend,
             count,
             plane=0.0,
             spacing=layers.spacing,
-            support=float(carried.support.min()),
+            support=float(static.support.min()),
             material=case.material,
             viscosity=liquid.viscosity * liquid.density,
             has_stress=settings.marangoni,
             held=_held_surface(case),
         )
     domain = PoolDomain(
-        backend, layers, carried, sides, lid,
+        backend, layers, static, conditions, surface,
         lambda T: wall_potential(curve, T), lambda T: wall_enthalpy(curve, T),
     )  # fmt: skip
-    flow = Flow(body.particles, liquid, lid, settings, layers.spacing)
-    body.particles.set("volume", carried.volume)
+    flow = Flow(body.particles, liquid, surface, settings, layers.spacing)
+    body.particles.set("volume", static.volume)
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.begin(start)

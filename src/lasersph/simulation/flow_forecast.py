@@ -123,7 +123,7 @@ def _imposed_gradient(case: Case) -> float:
 def _box_speed(case: Case, viscosity: float, density: float, slope: float) -> float:
     """Largest speed to expect in a box [m/s]."""
     assert case.flow is not None and isinstance(case.solver, MeltPoolSettings)
-    speeds = [abs(side.velocity) for side in case.flow.sides.values()]
+    speeds = [abs(side.velocity) for side in case.flow.faces.values()]
     if isinstance(case.flow.initial, TaylorGreenFlow):
         speeds.append(case.flow.initial.speed)
     difference = _temperature_range(case)

@@ -32,27 +32,27 @@ def taking(case: Case, backend: Backend) -> Callable[[Any], Any]:
 
 def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
     """The flow for observers."""
-    flow, lid, backend = solver.flow, solver.domain.lid, solver.backend
+    flow, free, backend = solver.flow, solver.domain.surface, solver.backend
     take = taking(case, backend)
     liquid, material = flow.liquid, case.material
     position, velocity = take(solver.position), take(flow.velocity)
     pressure = take(flow.pressure)
     surface = np.zeros(0, np.int64)
     temperature = gradient = speed = np.zeros(0)
-    if lid is not None:
-        lid.find_surface(solver.position)
-        found = np.asarray(backend.look(backend.rows_where(lid.at_surface, 1.0)), np.int64)
+    if free is not None:
+        free.find(solver.position)
+        found = np.asarray(backend.look(backend.rows_where(free.at_surface, 1.0)), np.int64)
         surface = found[np.argsort(position[0, found], kind="stable")]
         temperature = backend.look(solver.particles["temperature"])[surface]
         if solver.fluid_count > 0.0 and flow.current_block is not None:
-            temperature = backend.look(lid.temperature)[surface]
+            temperature = backend.look(free.temperature)[surface]
         gradient = np.gradient(temperature, position[0, surface])
         if solver.fluid_count > 0.0 and flow.current_block is not None:
-            flowing = backend.look(solver.roles.active)[surface] > 0.0
-            gradient = np.where(flowing, backend.look(lid.gradient)[surface], gradient)
-        flows = backend.look(solver.roles.fluid)[surface]
-        reach = 0.5 * backend.look(lid.reach)[surface]
-        speed = velocity[0, surface] + flows * reach
+            flowing = backend.look(solver.kinds.active)[surface] > 0.0
+            gradient = np.where(flowing, backend.look(free.gradient)[surface], gradient)
+        flows = backend.look(solver.kinds.fluid)[surface]
+        jump = backend.look(free.ghost_velocity_jump)[surface]
+        speed = velocity[0, surface] + flows * (0.5 * jump)
     T = material.flow_temperature
     has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
     is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in SIDES}
@@ -64,7 +64,7 @@ def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
     return FlowView(
         velocity=velocity,
         pressure=pressure,
-        flows=backend.look(solver.roles.fluid) > 0.0,
+        flows=backend.look(solver.kinds.fluid) > 0.0,
         surface=surface,
         surface_temperature=temperature,
         surface_gradient=gradient,

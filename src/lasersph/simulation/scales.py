@@ -92,7 +92,7 @@ def box_numbers(case: Case) -> dict[str, float]:
     T = material.flow_temperature
     nu, a = float(material.kinematic_viscosity_at(T)), material.diffusivity_reference
     numbers = {"Pr": prandtl_number(nu, a)}
-    fastest = max(abs(side.velocity) for side in flow.sides.values())
+    fastest = max(abs(side.velocity) for side in flow.faces.values())
     if fastest > 0.0:
         numbers["Re"] = reynolds_number(fastest, case.domain.width, nu)
     difference, length = held_apart(case)

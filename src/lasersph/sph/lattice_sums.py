@@ -4,7 +4,7 @@ They tell how far a kernel on a lattice is from the continuum, and how fast its 
 
     second_moment      sum_j V_j |dW| r / d                 1 where gradients of lines are exact;
                        its d-fold is the divergence of positions inside a body
-    crowding           sum_j V_j W                          1 less the part of the particle itself
+    kernel_sum         sum_j V_j W                          1 less the part of the particle itself
     surface_threshold  mean of that divergence in the first and the second layer of a half space
     diffusive_rate     L = max over k of dx^2 sum_j 2 V_j |dW| / r (1 - cos(k . r_ij))
     viscous_rate       N = h dx sum_j V_j |dW| / r z^2 / (r^2 + s h^2) (1 - cos(pi z / dx))
@@ -46,7 +46,7 @@ def second_moment(kernel: Kernel, ratio: float) -> float:
     return float(np.sum(slope * _distance(place))) / kernel.dimension
 
 
-def crowding(kernel: Kernel, ratio: float) -> float:
+def kernel_sum(kernel: Kernel, ratio: float) -> float:
     """Sum of the kernel over the neighbors inside a body [1]."""
     place, _ = lattice_neighbors(kernel, ratio)
     return sum(kernel.value(float(r), ratio) for r in _distance(place))

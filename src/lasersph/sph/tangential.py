@@ -38,15 +38,15 @@ def tangential_gradient(total_0, total_1, n, s):
     return matvec(inverse(M), slope)
 
 
-def spread_terms(f_j, s_j, W_ij):
-    """Terms s_j f_j W_ij and s_j W_ij of the mean over the surface particles in reach."""
+def extension_terms(f_j, s_j, W_ij):
+    """Terms s_j f_j W_ij and s_j W_ij of the Shepard mean over surface particles in the support."""
     return s_j * f_j * W_ij, s_j * W_ij
 
 
-def spread(total_0, total_1, f, s):
-    """Value of the surface for a particle near it: its own at the surface, else the mean in reach.
+def extend_from_surface(total_0, total_1, f, s):
+    """Value of the surface for a particle near it: its own at the surface, else their mean.
 
-    Zero where no particle of the surface is in reach.
+    Zero where no particle of the surface is within the support.
     """
     if s > 0.0:
         return f

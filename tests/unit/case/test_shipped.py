@@ -70,7 +70,7 @@ def test_boxes_of_one():
         assert round(estimate(case.domain, case.particles, 2).particles) == 2500
     assert cavity.flow is not None and cavity.flow.surface.velocity == 1.0
     assert vortices.flow is not None
-    assert {side.kind for side in vortices.flow.sides.values()} == {"periodic"}
+    assert {side.kind for side in vortices.flow.faces.values()} == {"periodic"}
 
 
 def test_marangoni_layer_has_the_speed_that_it_states():

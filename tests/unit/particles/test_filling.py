@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lasersph.particles import Domain, Lattice
-from lasersph.particles.filling import FACES, FREE, GHOSTS, HELD, IMAGE, PERIODIC, fill
+from lasersph.particles.filling import DIRICHLET, FACES, FREE, GHOSTS, MIRROR, PERIODIC, fill
 from lasersph.particles.layers import Layers, stack
 
 
@@ -23,7 +23,7 @@ def test_real_particles_fill_the_box(dimensions):
     box = 8e-7 * 6e-7 ** (dimensions - 1)
     assert filling.volume.sum() == pytest.approx(box, rel=1e-12)
     assert np.all(filling.source == np.arange(count))
-    assert not filling.held.any()
+    assert not filling.dirichlet.any()
     assert np.all(filling.layer[filling.surface] == 0)
     assert np.all(filling.position[-1, filling.surface] == pytest.approx(-0.5e-7))
     assert filling.surface.size == 6 ** (dimensions - 1)
@@ -31,7 +31,7 @@ def test_real_particles_fill_the_box(dimensions):
 
 def test_image_dummies_mirror_surface_bottom_and_sides():
     """Every dummy lies at the mirror image of its source about the face (twice at corners)."""
-    filling = fill(block(), surface=IMAGE, bottom=IMAGE, sides=IMAGE)
+    filling = fill(block(), surface=MIRROR, bottom=MIRROR, sides=MIRROR)
     count = filling.count
     x, z = filling.position[:, count:]
     sx, sz = filling.position[:, filling.source[count:]]
@@ -56,7 +56,7 @@ def test_periodic_dummies_are_translated():
 
 def test_narrow_patterns_are_unfolded():
     """One column: periodic images and mirror images all stand for the only particle of the row."""
-    for sides in (IMAGE, PERIODIC):
+    for sides in (MIRROR, PERIODIC):
         filling = fill(block(width=1e-7), surface=FREE, bottom=FREE, sides=sides)
         row = filling.layer == 3
         assert row.sum() == 1 + 2 * GHOSTS
@@ -68,7 +68,7 @@ def test_narrow_patterns_are_unfolded():
 
 def test_two_columns_are_reflected_repeatedly():
     """Columns a b between mirrors continue as b a | a b | b a a b ..."""
-    filling = fill(block(width=2e-7), surface=FREE, bottom=FREE, sides=IMAGE)
+    filling = fill(block(width=2e-7), surface=FREE, bottom=FREE, sides=MIRROR)
     row = np.flatnonzero(filling.layer == 0)
     row = row[np.argsort(filling.position[0, row])]
     assert filling.source[row].tolist() == [0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1]
@@ -76,32 +76,32 @@ def test_two_columns_are_reflected_repeatedly():
 
 def test_held_faces_are_marked():
     """Dummies of a held bottom carry its index, at the corners too; mirrored sides carry none."""
-    filling = fill(block(), surface=IMAGE, bottom=HELD, sides=IMAGE)
+    filling = fill(block(), surface=MIRROR, bottom=DIRICHLET, sides=MIRROR)
     beyond = filling.position[-1] < -8e-7
-    assert np.all(filling.held[beyond] == FACES.index("bottom"))
-    assert not filling.held[~beyond].any()
+    assert np.all(filling.dirichlet[beyond] == FACES.index("bottom"))
+    assert not filling.dirichlet[~beyond].any()
 
 
 def test_corners_belong_to_the_bottom_where_both_hold():
     """Where sides and bottom hold temperatures, the corner dummies take that of the bottom."""
-    filling = fill(block(), surface=FREE, bottom=HELD, sides=HELD)
+    filling = fill(block(), surface=FREE, bottom=DIRICHLET, sides=DIRICHLET)
     x, z = filling.position
     outside = np.abs(x) > 3e-7
-    assert np.all(filling.held[z < -8e-7] == FACES.index("bottom"))
-    assert np.all(filling.held[(z > -8e-7) & (x < -3e-7)] == FACES.index("left"))
-    assert np.all(filling.held[(z > -8e-7) & (x > 3e-7)] == FACES.index("right"))
-    assert not filling.held[~outside & (z > -8e-7)].any()
-    assert not filling.held[: filling.count].any()
+    assert np.all(filling.dirichlet[z < -8e-7] == FACES.index("bottom"))
+    assert np.all(filling.dirichlet[(z > -8e-7) & (x < -3e-7)] == FACES.index("left"))
+    assert np.all(filling.dirichlet[(z > -8e-7) & (x > 3e-7)] == FACES.index("right"))
+    assert not filling.dirichlet[~outside & (z > -8e-7)].any()
+    assert not filling.dirichlet[: filling.count].any()
 
 
 def test_ends_of_different_kind():
     """The left end holds, the right one mirrors; each marks its own dummies only."""
-    filling = fill(block(), surface=FREE, bottom=FREE, sides=IMAGE, left=HELD)
+    filling = fill(block(), surface=FREE, bottom=FREE, sides=MIRROR, left=DIRICHLET)
     x = filling.position[0]
-    assert np.all(filling.held[x < -3e-7] == FACES.index("left"))
-    assert not filling.held[x > -3e-7].any()
+    assert np.all(filling.dirichlet[x < -3e-7] == FACES.index("left"))
+    assert not filling.dirichlet[x > -3e-7].any()
     assert np.sum(x < -3e-7) == np.sum(x > 3e-7) == GHOSTS * 8
-    cut = fill(block(), surface=FREE, bottom=FREE, sides=IMAGE, right=FREE)
+    cut = fill(block(), surface=FREE, bottom=FREE, sides=MIRROR, right=FREE)
     assert cut.position[0].max() < 3e-7
 
 
@@ -114,7 +114,7 @@ def test_periodic_in_depth():
     assert steps == pytest.approx(np.rint(steps), abs=1e-9)
     assert set(np.rint(steps[1]).astype(int)) == {-1, 0, 1}
     assert np.sum(filling.position[-1] > 0.0) == GHOSTS * (6 + 2 * GHOSTS)
-    assert not filling.held.any()
+    assert not filling.dirichlet.any()
 
 
 def test_above_is_the_surface_cell_over_a_particle():

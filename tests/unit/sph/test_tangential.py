@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 from lattices import lattice, with_neighbors
 
-from lasersph.sph.tangential import spread, spread_terms, tangential_gradient, tangential_terms
+from lasersph.sph.tangential import (
+    extend_from_surface,
+    extension_terms,
+    tangential_gradient,
+    tangential_terms,
+)
 
 SLOPES = {2: np.array([2.0, 3.0]), 3: np.array([2.0, 3.0, -1.0])}
 
@@ -86,11 +91,11 @@ def test_two_terms_by_hand():
     assert not below.any() and not nothing.any()
 
 
-def test_spread():
+def test_extension():
     """Its own value at the surface; near it the mean of the surface by W; far below none."""
-    terms = np.array([spread_terms(4.0, 1.0, 0.5), spread_terms(1.0, 1.0, 1.0)])
+    terms = np.array([extension_terms(4.0, 1.0, 0.5), extension_terms(1.0, 1.0, 1.0)])
     total = terms.sum(axis=0)
-    assert spread(*total, 7.0, 1.0) == 7.0
-    assert spread(*total, 0.0, 0.0) == pytest.approx((4.0 * 0.5 + 1.0) / 1.5)
-    assert spread_terms(9.0, 0.0, 0.5) == (0.0, 0.0)
-    assert spread(0.0, 0.0, 9.0, 0.0) == 0.0
+    assert extend_from_surface(*total, 7.0, 1.0) == 7.0
+    assert extend_from_surface(*total, 0.0, 0.0) == pytest.approx((4.0 * 0.5 + 1.0) / 1.5)
+    assert extension_terms(9.0, 0.0, 0.5) == (0.0, 0.0)
+    assert extend_from_surface(0.0, 0.0, 9.0, 0.0) == 0.0

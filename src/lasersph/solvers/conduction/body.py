@@ -16,7 +16,7 @@ from lasersph.linear_solvers.conjugate_gradient import PairOperator
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles import Lattice
-from lasersph.particles.filling import FREE, HELD, IMAGE, PERIODIC, Filling, fill
+from lasersph.particles.filling import DIRICHLET, FREE, MIRROR, PERIODIC, Filling, fill
 from lasersph.particles.layers import Layers
 from lasersph.particles.neighbor_lists import NeighborList, find_neighbors
 from lasersph.particles.particles import Particles
@@ -29,8 +29,8 @@ from lasersph.sph.laplacian import layered_weight, weight
 from lasersph.sph.second_moment import layer_factors
 
 KINDS = {
-    "adiabatic": IMAGE, "periodic": PERIODIC, "free": FREE,
-    "fixed-temperature": HELD, "wall": HELD, "prescribed-flux": IMAGE,
+    "adiabatic": MIRROR, "periodic": PERIODIC, "free": FREE,
+    "fixed-temperature": DIRICHLET, "wall": DIRICHLET, "prescribed-flux": MIRROR,
 }  # fmt: skip
 FIELDS = (
     "mass", "enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before",
@@ -47,7 +47,7 @@ class Body:
     Attributes:
         filling: host arrays of the lattice. particles: their fields, at rest at the initial
             temperature, h = 0. pairs: assembled weights g_ij [m^(d-2)]. wall_flow, wall_heat:
-            (n,) sums over the pairs with held faces of weight times P_w and times T_w.
+            (n,) sums over the pairs with Dirichlet faces of weight times P_w and times T_w.
             wall_power: (n,) power of prescribed fluxes [W per (3 - d) lengths].
         area: (n,) exposed cross-section of surface particles [m^(d-1)], 0 for all others.
         tables: nodes of the caloric curve as tables of the backend.
@@ -102,9 +102,9 @@ def assemble(
     )
     count = filling.count
     pairs = PairOperator(
-        neighbors=neighbors.folded(backend, backend.asarray(filling.source, "index")),
+        neighbors=neighbors.without_ghosts(backend, backend.asarray(filling.source, "index")),
         weights=backend.asarray(weights),
-        pull=backend.asarray(walls.pull),
+        pull=backend.asarray(walls.coefficient),
         total=backend.asarray(np.bincount(row, weights, minlength=count)),
     )
     area = np.zeros(count)

@@ -47,7 +47,7 @@ ROUNDING = 4.0
 MAX_LINEAR = 400
 
 
-def foresee(h, excess, h_old, h_older, ratio, near, far, h_nodes, P_nodes):
+def initial_guess(h, excess, h_old, h_older, ratio, near, far, h_nodes, P_nodes):
     """Enthalpy, P and dP/dh extrapolated from three steps of P; on plateaus from two of h.
 
     Args:
@@ -100,7 +100,7 @@ def same(new):
     return new
 
 
-def settle(h, r, m, h0, excess, previous):
+def close_balance(h, r, m, h0, excess, previous):
     """Enthalpy with the last residual added, what was added, the enthalpies of one and two steps
     ago without that, and the energy stored by the particle [J]."""
     more = r / m
@@ -143,7 +143,7 @@ class ImplicitStep:
         backend = self.body.backend
         self.newton = self.linear = 0
         self.forcing = FIRST_FORCING
-        self._foresee(state, step)
+        self._set_initial_guess(state, step)
         error, energy = self._residual(step)
         allowed = self.tolerance * max(exchanged, energy["absorbed"] + abs(energy["lost"]), error)
         allowed = max(allowed, self.rounding * self.size)
@@ -163,10 +163,10 @@ class ImplicitStep:
         fields = {"h": self.h, "r": self.r, "m": self.mass, "h0": h_0}
         fields |= {"excess": excess, "previous": h_old}
         out = (h_0, excess, h_old, h_older, None)
-        (stored,) = backend.pointwise(settle, fields, out, reduce=(None,) * 4 + ("sum",))
+        (stored,) = backend.pointwise(close_balance, fields, out, reduce=(None,) * 4 + ("sum",))
         return energy | {"stored": stored}
 
-    def _foresee(self, state: HeatState, step: float) -> None:
+    def _set_initial_guess(self, state: HeatState, step: float) -> None:
         """Set the first guess of enthalpy and potential."""
         last, before = state.time_step, state.time_step_before
         ratio = near = step / last if last > 0.0 else 0.0
@@ -178,7 +178,7 @@ class ImplicitStep:
             "enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before"
         )
         self.body.backend.pointwise(
-            foresee,
+            initial_guess,
             fields,
             (self.h, self.P, self.slope),
             ratio=ratio,

@@ -127,9 +127,9 @@ class Conduction:
                 limits["cooling"] = max(longest, time.cooling * dark)
             if state.unclipped_step > 0.0:
                 limits["growth"] = time.growth * state.unclipped_step
-                if state.fastest > 0.0:
+                if state.temperature_change > 0.0:
                     limits["temperature change"] = (
-                        state.time_step * time.temperature_change / state.fastest
+                        state.time_step * time.temperature_change / state.temperature_change
                     )
             else:
                 limits["first step"] = 1e-3 * time.end
@@ -167,7 +167,7 @@ class Conduction:
             backend.pointwise(accumulate_evaporated_mass, fields, mass, step=step)
         self._account(energy, discarded)
         fields = {"T": temperature, "T_old": self._before}
-        (state.fastest,) = backend.pointwise(change, fields, (None,), reduce=("max",))
+        (state.temperature_change,) = backend.pointwise(change, fields, (None,), reduce=("max",))
         if self.laser is not None and self.laser.pulse.active(state.time, state.time + step):
             state.lit_until = state.time + step
         state.time_step_before = state.time_step

@@ -17,16 +17,15 @@ class HeatState:
     Attributes:
         energy: exchanged since the start [J], by ENERGIES.
         time, time_step, time_step_before: [s]; the last steps, 0 before the first and second.
-        fastest: largest change of temperature in the last step [K]. lit_until: end of the last
-            step with light [s]. unclipped_step:
-            the last step, had no time been to be hit [s].
+        temperature_change: largest in the last step [K]. lit_until: end of the last step with
+            light [s]. unclipped_step: the last step, had no time been to be hit [s].
     """
 
     energy: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
     time: float = 0.0
     time_step: float = 0.0
     time_step_before: float = 0.0
-    fastest: float = 0.0
+    temperature_change: float = 0.0
     lit_until: float = 0.0
     unclipped_step: float = 0.0
 

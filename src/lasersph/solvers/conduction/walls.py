@@ -1,8 +1,9 @@
-"""Heat that the faces of the body bring to each particle: held temperatures and given fluxes.
+"""Heat that the faces of the body bring to each particle: given temperatures and given fluxes.
 
     q_i = B_i - A_i P_i,    B_i = sum g_ij c_ij P_w + b_i,    A_i = sum g_ij c_ij
 
-with the pulls of `boundaries.held_faces` and the powers b of `boundaries.heated_faces`.
+with the coefficients A of `boundaries.dirichlet_faces` and the powers b of
+`boundaries.neumann_faces`.
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
-from lasersph.boundaries.heated_faces import face_power
-from lasersph.boundaries.held_faces import HeldFace, face_pulls
+from lasersph.boundaries.dirichlet_faces import DirichletFace, boundary_coefficients
+from lasersph.boundaries.neumann_faces import face_power
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.filling import LATERAL, Filling
@@ -25,10 +26,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Walls:
-    """Host arrays (n,): pull A [m^(d-2)], flow: sum of A P_w and b [W per (3 - d) lengths],
-    heat: sum of A T_w [K m^(d-2)], power: b."""
+    """Host arrays (n,).
 
-    pull: Array
+    Attributes:
+        coefficient: A [m^(d-2)]. flow: sum of A P_w and b [W per (3 - d) lengths]. heat: sum of
+            A T_w [K m^(d-2)]. power: b.
+    """
+
+    coefficient: Array
     flow: Array
     heat: Array
     power: Array
@@ -43,7 +48,7 @@ def walls_of(
     row: NDArray[np.int64],
     neighbor: NDArray[np.uint32],
 ) -> Walls:
-    """What the faces bring; weights of the pairs with held faces are set to zero.
+    """What the faces bring; weights of the pairs with Dirichlet faces are set to zero.
 
     Args:
         weights: (pairs,) g_ij, changed in place. row, neighbor: (pairs,) i and j.
@@ -51,19 +56,21 @@ def walls_of(
     faces = ["surface", "bottom"]
     faces += [face for ends in LATERAL[: layers.dimension - 1] for face in ends]
     kinds = {face: boundaries.kind_of(face) for face in faces}
-    held = [HeldFace(face, kind == "wall") for face, kind in kinds.items() if kind in DIRICHLET]
-    pulls = face_pulls(held, filling, weights, row, neighbor, layers.extents)
+    faces = [
+        DirichletFace(face, kind == "wall") for face, kind in kinds.items() if kind in DIRICHLET
+    ]
+    found = boundary_coefficients(faces, filling, weights, row, neighbor, layers.extents)
     count = filling.count
-    pull, flow, heat, power = (np.zeros(count) for _ in range(4))
-    for face, found in pulls.items():
-        T = boundaries.temperature_along(face, found.place[0], curve.initial_temperature)
-        pull += found.total(count)
-        heat += found.total(count, T)
-        flow += found.total(count, wall_potential(curve, T))
+    coefficient, flow, heat, power = (np.zeros(count) for _ in range(4))
+    for face, pairs in found.items():
+        T = boundaries.temperature_along(face, pairs.place[0], curve.initial_temperature)
+        coefficient += pairs.total(count)
+        heat += pairs.total(count, T)
+        flow += pairs.total(count, wall_potential(curve, T))
     for face in (face for face, kind in kinds.items() if kind == NEUMANN):
         flux = boundaries.flux_of(face)
         power += face_power(face, flux, filling, weights, row, neighbor, layers.extents)
-    return Walls(pull, flow + power, heat, power)
+    return Walls(coefficient, flow + power, heat, power)
 
 
 def wall_potential(curve: CaloricCurve, temperature: Array) -> Array:

@@ -1,19 +1,18 @@
-"""The domain of a flow: its sides and lid, and the block of particles that may move in it."""
+"""The domain of a flow: its faces and surface, and the block of particles that may move in it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
-from lasersph.boundaries.lid import FlatLid
+from lasersph.boundaries.surface import Surface
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import dot
 from lasersph.particles.layers import Layers
-from lasersph.solvers.melt_pool.block import Block, Carried
-from lasersph.solvers.melt_pool.roles import Roles
-from lasersph.solvers.melt_pool.sides import FACES, Sides
+from lasersph.solvers.melt_pool.block import Block, StaticParticleData
+from lasersph.solvers.melt_pool.face_conditions import FACES, FaceConditions
+from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.step_control import StepFailed
 
 ROOM = 16
@@ -28,13 +27,13 @@ class PoolTooDeep(StepFailed):
     """The melt reaches layers that are too coarse for its flow."""
 
 
-def fluid_depth(x, fluid, up):
-    """Depth of a fluid particle below z = 0 [m]."""
-    return -fluid * dot(x, up)
+def fluid_depth(x, fluid):
+    """Depth of a fluid particle below the top of the layers [m]."""
+    return -fluid * x[1]
 
 
 class PoolDomain:
-    """Sides, lid and blocks.
+    """Conditions at the faces, surface and blocks.
 
     Attributes:
         box: ((x0, x1), (z0, z1)) [m]. periods: width along each axis where it repeats, else 0.
@@ -46,20 +45,20 @@ class PoolDomain:
         self,
         backend: Backend,
         layers: Layers,
-        lattice: Carried,
-        sides: Sides,
-        lid: FlatLid | None,
+        lattice: StaticParticleData,
+        conditions: FaceConditions,
+        surface: Surface | None,
         potential: Callable[[np.ndarray], np.ndarray],
         enthalpy: Callable[[np.ndarray], np.ndarray],
     ) -> None:
         self.backend, self.layers, self.lattice = backend, layers, lattice
-        self.sides, self.lid = sides, lid
+        self.conditions, self.surface = conditions, surface
         self.potential, self.enthalpy = potential, enthalpy
-        self.is_box = sides.flow is not None
+        self.is_box = conditions.flow is not None
         self.spacing, self.support = layers.spacing, float(lattice.support.min())
-        self.box = sides.box
+        self.box = conditions.box
         across, along = (
-            high - low if sides.flow_kind(names[0]) == "periodic" else 0.0
+            high - low if conditions.flow_kind(names[0]) == "periodic" else 0.0
             for names, (low, high) in zip(FACES, self.box, strict=True)
         )
         self.periods = across, along
@@ -76,16 +75,14 @@ class PoolDomain:
         """Of the domain [m]."""
         return self.box[0][1] - self.box[0][0]
 
-    def block_for(self, position: Any, roles: Roles) -> Block:
+    def block_for(self, position: Array, kinds: ParticleKinds) -> Block:
         """Block that holds what flows, with room below it; it grows and never shrinks.
 
         Raises:
             PoolTooDeep: a particle below the finest layers flows.
         """
-        fields = {"x": position, "fluid": roles.fluid}
-        (deepest,) = self.backend.pointwise(
-            fluid_depth, fields, (None,), reduce=("max",), up=(0.0, 1.0)
-        )
+        fields = {"x": position, "fluid": kinds.fluid}
+        (deepest,) = self.backend.pointwise(fluid_depth, fields, (None,), reduce=("max",))
         if deepest > self.fine_depth and not self.is_box:
             raise PoolTooDeep(
                 f"the melt is {deepest:.4g} m deep and flows into layers coarser than "
@@ -103,9 +100,16 @@ class PoolDomain:
             last = int(np.searchsorted(self._bottom, below * (1.0 + 1e-9))) + 1
             last = min(last, total)
             self._block = Block(
-                self.backend, self.lattice, self.sides, layers=self.block_layers,
-                rows=int(self._starts[self.block_layers]), count=int(self._starts[last]),
-                bottom=-float(self._bottom[last - 1]), has_bottom=last == total,
-                potential=self.potential, enthalpy=self.enthalpy,
-            )  # fmt: skip
+                self.backend,
+                self.lattice,
+                self.conditions,
+                self.surface,
+                layers=self.block_layers,
+                complete_rows=int(self._starts[self.block_layers]),
+                count=int(self._starts[last]),
+                bottom=-float(self._bottom[last - 1]),
+                has_bottom=last == total,
+                potential=self.potential,
+                enthalpy=self.enthalpy,
+            )
         return self._block

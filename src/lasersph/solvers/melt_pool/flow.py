@@ -3,31 +3,31 @@
 Velocities and pressures are fields of all particles, 0 where nothing flows. Each method is one line
 of the algorithm; `solver` puts them in order. Gradient and divergence are corrected by the same
 matrix C, so that the divergence is exact on linear fields and both are skew-adjoint to each other;
-for that images carry the mirrored pressure and, in the divergence, the mirrored velocity, so that
-nothing crosses a side, whatever its motion, which viscosity alone sees.
+for that ghosts carry the mirrored pressure and, in the divergence, the mirrored velocity, so that
+nothing crosses a face, whatever its motion, which viscosity alone sees.
 
-Deviations from the paper: where particles crowd the projection is asked for a divergence that parts
-them again (`sph.crowding`), 0 on an even spread. And the constant of the pressure, which nothing
-fixes, is such that its gradient sees none below 0: where p < 0 the symmetric gradient pulls
-particles together [Monaghan2000].
+Deviations from the paper: where particles are too dense the projection is asked for a divergence
+that parts them again (`sph.density_drift`), 0 on a lattice. And the constant of the pressure, which
+nothing fixes, is such that its gradient sees none below 0: where p < 0 the symmetric gradient
+contracts the particles [Monaghan2000].
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any
 
 import numpy as np
 
-from lasersph.boundaries.lid import FlatLid
+from lasersph.boundaries.surface import Surface
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.vectors import dot
 from lasersph.particles.particles import Particles
 from lasersph.physics.buoyancy import buoyancy
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.solvers.melt_pool.published_pressure import PublishedPressure
-from lasersph.solvers.melt_pool.roles import Roles
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.viscous_step import ViscousStep
 from lasersph.solvers.step_control import NotConverged
@@ -37,13 +37,13 @@ from lasersph.sph.correction import (
     corrected_symmetric_term,
     correction_term,
 )
-from lasersph.sph.crowding import crowding_term, relaxation
-from lasersph.sph.lattice_sums import crowding
+from lasersph.sph.density_drift import density_drift_source, kernel_sum_term
+from lasersph.sph.lattice_sums import kernel_sum
 
 ACCEPTED = 10.0
 """Residual of the pressure equation over its tolerance with which a step is still taken."""
-PARTING = 0.1
-"""Rate at which crowded particles part, over the largest speed per spacing."""
+DRIFT_RATE = 0.1
+"""Rate at which particles that are too dense part, over the largest speed per spacing."""
 
 
 @dataclass(frozen=True)
@@ -60,53 +60,53 @@ class Liquid:
     surface_tension: float
 
 
-def advected(x, v, step):
+def advect(x, v, step):
     """x + v dt [m] (67)."""
     return x + step * v
 
 
-def updated(x, v_old, v, step):
+def move(x, v_old, v, step):
     """x + (v^n + v^(n+1)) dt / 2 [m] (71)."""
     return x + 0.5 * step * (v_old + v)
 
 
-def stopped(v, fluid):
+def stop_solid(v, fluid):
     """Velocity of what flows, 0 of all others [m/s]; and |v|^2."""
-    kept = fluid * v
-    return kept, dot(kept, kept)
+    flowing = fluid * v
+    return flowing, dot(flowing, flowing)
 
 
 def divergence_terms(v_i, v_j, V_j, C_i, x_ij, r_ij, dW_ij, W_ij):
-    """Terms of D [1/s] and of the crowding S [1]."""
+    """Terms of D [1/s] and of the kernel sum S [1]."""
     return (
         corrected_divergence_term(v_i, v_j, V_j, C_i, x_ij, r_ij, dW_ij),
-        crowding_term(V_j, W_ij),
+        kernel_sum_term(V_j, W_ij),
     )
 
 
-def divergence_load(total_0, total_1, V, fraction, even, rate):
+def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):
     """rho / dt V (D - d) [Pa m^(d-2)], and D [1/s]."""
-    return fraction * V * (total_0 - relaxation(total_1, even, rate)), total_0
+    return fraction * V * (total_0 - density_drift_source(total_1, lattice_sum, rate)), total_0
 
 
-def shared(p_j, unknown_j, W_ij):
+def edge_pressure_terms(p_j, unknown_j, W_ij):
     """Terms of the mean pressure of the edge."""
     return unknown_j * p_j * W_ij, unknown_j * W_ij
 
 
 def dummy_pressure(total_0, total_1, p, dummy):
-    """Pressure of a dummy: the mean of the edge in reach; of others their own."""
+    """Pressure of a dummy: the mean of the edge within its support; of others their own."""
     if dummy > 0.0:
         return total_0 / max(total_1, 1.0e-300)
     return p
 
 
-def least(p):
+def pressure_of(p):
     """The pressure itself, for its minimum [Pa]."""
     return 1.0 * p
 
 
-def above(p, lowest):
+def subtract_lowest(p, lowest):
     """Pressure over the lowest one [Pa]."""
     return p - lowest
 
@@ -117,12 +117,12 @@ def correct(total, v, step, density):
     return v - step * a, dot(a, a)
 
 
-def kinetic(v, V, density):
+def kinetic_energy(v, V, density):
     """Kinetic energy of a particle [J per meter]."""
     return 0.5 * density * V * dot(v, v)
 
 
-def sizes(D, fluid):
+def divergence_sizes(D, fluid):
     """Square and size of the divergence of what flows."""
     return fluid * D * D, fluid * abs(D)
 
@@ -132,27 +132,27 @@ class Flow:
 
     Attributes:
         spacing: of the particles that move [m].
-        velocity: (2, n) [m/s]. pressure: (n,) [Pa]. fastest: largest speed [m/s]. push: largest
-            acceleration [m/s^2]. iterations: of the last step. divergence: rms and largest D after
-            the projection [1/s].
+        velocity: (2, n) [m/s]. pressure: (n,) [Pa]. largest_speed [m/s].
+            largest_acceleration by the pressure [m/s^2]. iterations: of the last step. divergence:
+            rms and largest D after the projection [1/s].
     """
 
     def __init__(
         self,
         particles: Particles,
         liquid: Liquid,
-        lid: FlatLid | None,
+        surface: Surface | None,
         settings: MeltPoolSettings,
         spacing: float,
     ) -> None:
         backend, count = particles.backend, particles.count
         particles.add("volume", "velocity", "pressure")
         self.spacing, self.particles = spacing, particles
-        self.backend, self.liquid, self.lid, self.settings = backend, liquid, lid, settings
+        self.backend, self.liquid, self.surface, self.settings = backend, liquid, surface, settings
         self.velocity, self.pressure = particles["velocity"], particles["pressure"]
         self.before, self.body_force = backend.zeros((2, count)), backend.zeros((2, count))
         self._nothing = backend.zeros(count)
-        self.fastest = self.push = 0.0
+        self.largest_speed = self.largest_acceleration = 0.0
         self.iterations = {"pressure": 0, "viscosity": 0}
         self.divergence = (0.0, 0.0)
         self.viscous = ViscousStep(
@@ -163,7 +163,7 @@ class Flow:
     def begin(self, velocity: np.ndarray) -> None:
         """Start from velocities, host array (2, n) [m/s]."""
         self.backend.copy(self.backend.asarray(velocity), self.velocity)
-        self.fastest = float(np.sqrt(np.max(np.sum(velocity * velocity, axis=0))))
+        self.largest_speed = float(np.sqrt(np.max(np.sum(velocity * velocity, axis=0))))
 
     def enter(self, block: Block, periods: tuple[float, float]) -> None:
         """Work on a new block; periods: width along each axis that repeats, else 0 [m]."""
@@ -172,7 +172,7 @@ class Flow:
         self._rhs, self._mask, self._p = (backend.zeros(count) for _ in range(3))
         self._D, self._V = backend.zeros(count), block.volume
         weighing = block.lattice.weighing
-        self._even = crowding(weighing.kernel, weighing.ratio)
+        self._lattice_sum = kernel_sum(weighing.kernel, weighing.ratio)
         tolerance = self.settings.pressure_tolerance
         self.equation = PressureEquation(
             backend, count, block.moving_support, tolerance=tolerance, period=periods
@@ -187,7 +187,7 @@ class Flow:
         return self._block
 
     @property
-    def correction(self) -> Any:
+    def correction(self) -> Array:
         """(2, 2, count) correction matrices of the block."""
         return self._C
 
@@ -197,55 +197,59 @@ class Flow:
         assert self._block is not None
         return self._block
 
-    def reach(self) -> Any:
-        """(n,) by how much the lid makes images faster than their sources [m/s]."""
-        return self._nothing if self.lid is None else self.lid.reach
+    def ghost_velocity_jump(self) -> Array:
+        """(n,) by how much the surface makes ghosts faster than their sources [m/s]."""
+        return self._nothing if self.surface is None else self.surface.ghost_velocity_jump
 
-    def correct_kernel(self, rows: Any) -> None:
+    def correct_kernel(self, rows: Rows) -> None:
         """Correction matrices of some rows at the present positions."""
         block = self.block
+        fields, finish = {"V": block.V}, bounded_inverse
         self.backend.pair_sum(
-            correction_term, block.pairs, {"V": block.V}, self._C, finish=bounded_inverse,
-            rows=rows,
-        )  # fmt: skip
+            correction_term, block.pairs, fields, self._C, finish=finish, rows=rows
+        )
 
-    def predict(self, T: Any, roles: Roles, step: float) -> None:
+    def predict(self, T: Array, kinds: ParticleKinds, step: float) -> None:
         """Velocity after viscous and body forces (68)."""
         backend, liquid, block = self.backend, self.liquid, self.block
         backend.copy(self.velocity, self.before)
         backend.pointwise(
-            buoyancy, {"T": T}, self.body_force, beta=liquid.expansion,
-            T_l=liquid.reference_temperature, g=liquid.gravity, up=(0.0, 1.0),
-        )  # fmt: skip
-        self.iterations["viscosity"] = self.viscous.advance(
-            block, self.velocity, self.body_force, self.reach(), roles, step
+            buoyancy,
+            {"T": T},
+            self.body_force,
+            beta=liquid.expansion,
+            T_l=liquid.reference_temperature,
+            g=liquid.gravity,
+            up=(0.0, 1.0),
         )
-        self.stop(roles)
+        self.iterations["viscosity"] = self.viscous.advance(
+            block, self.velocity, self.body_force, self.ghost_velocity_jump(), kinds, step
+        )
+        self.stop(kinds)
 
-    def project(self, roles: Roles, step: float) -> None:
+    def project(self, kinds: ParticleKinds, step: float) -> None:
         """Pressure that makes the velocity free of divergence (69).
 
         Raises:
             NotConverged: the pressure equation is not solved.
         """
         backend, block = self.backend, self.block
-        speed = max(self.fastest, block.sides.fastest_wall())
-        rate = PARTING * speed / self.spacing
-        self._diverge(roles.unknown_rows, self.liquid.density / step, rate)
+        speed = max(self.largest_speed, block.conditions.largest_wall_speed())
+        rate = DRIFT_RATE * speed / self.spacing
+        self._find_divergence(kinds.unknown_rows, self.liquid.density / step, rate)
         head, count = backend.head, block.count
         backend.copy(head(self.pressure, count), self._p)
-        mask = head(roles.unknown, count)
+        mask = head(kinds.unknown, count)
         if self.published is not None:
             self.published.set_operator(
-                block.pairs, block.source, block.weights, head(roles.role, count), self._V
+                block.pairs, block.source, block.weights, head(kinds.kind, count), self._V
             )
             outcome = self.published.solve(self._rhs, self._p)
         else:
-            pull = value = flux = None
-            if self.lid is not None:
-                lid = self.lid
-                pull, value, flux = lid.pressure_pull, lid.pressure_value, lid.pressure_flux
-            self.equation.set_operator(block.folded(), block.weights, mask, self._V, pull)
+            given = None if self.surface is None else self.surface.pressure
+            coefficient, value, flux = given or (None, None, None)
+            pairs = block.without_ghosts()
+            self.equation.set_operator(pairs, block.weights, mask, self._V, coefficient)
             outcome = self.equation.solve(self._rhs, self._p, value=value, flux=flux)
         if not outcome.residual <= ACCEPTED * self.settings.pressure_tolerance:
             raise NotConverged(
@@ -253,9 +257,9 @@ class Flow:
                 f"right-hand side after {outcome.iterations} iterations"
             )
         self.iterations["pressure"] = outcome.iterations
-        self._share(roles)
+        self._set_dummy_pressure(kinds)
 
-    def correct(self, roles: Roles, step: float) -> None:
+    def correct(self, kinds: ParticleKinds, step: float) -> None:
         """Velocity after the pressure (70).
 
         Raises:
@@ -263,30 +267,33 @@ class Flow:
         """
         backend, block = self.backend, self.block
         (lowest,) = backend.pointwise(
-            least, {"p": self.pressure}, (None,), rows=roles.unknown_rows, reduce=("min",)
+            pressure_of, {"p": self.pressure}, (None,), rows=kinds.unknown_rows, reduce=("min",)
         )
         p = block.gather(self.pressure)
-        backend.pointwise(above, {"p": p}, p, lowest=lowest)
-        fields = {
-            "p": p, "V": block.V, "C": block.tensor(self._C),
-            "v": self.velocity,
-        }  # fmt: skip
-        (push,) = backend.pair_sum(
-            corrected_symmetric_term, block.pairs, fields, (self.velocity, None),
-            rows=roles.fluid_rows, finish=correct, reduce=(None, "max"),
-            step=step, density=self.liquid.density,
-        )  # fmt: skip
-        self.push = max(push, 0.0) ** 0.5
-        self.stop(roles)
-        if not isfinite(self.fastest):
+        backend.pointwise(subtract_lowest, {"p": p}, p, lowest=lowest)
+        C = block.extend_tensor(self._C)
+        (square,) = backend.pair_sum(
+            corrected_symmetric_term,
+            block.pairs,
+            {"p": p, "V": block.V, "C": C, "v": self.velocity},
+            (self.velocity, None),
+            rows=kinds.fluid_rows,
+            finish=correct,
+            reduce=(None, "max"),
+            step=step,
+            density=self.liquid.density,
+        )
+        self.largest_acceleration = max(square, 0.0) ** 0.5
+        self.stop(kinds)
+        if not isfinite(self.largest_speed):
             raise NotConverged("the velocity is not finite")
 
-    def measure_divergence(self, roles: Roles, count: float) -> None:
+    def measure_divergence(self, kinds: ParticleKinds, count: float) -> None:
         """Divergence that the projection left, for observers."""
-        self._diverge(roles.fluid_rows, 1.0, 0.0)
-        fields = {"D": self._D, "fluid": self.backend.head(roles.fluid, self.block.count)}
+        self._find_divergence(kinds.fluid_rows, 1.0, 0.0)
+        fields = {"D": self._D, "fluid": self.backend.head(kinds.fluid, self.block.count)}
         square, largest = self.backend.pointwise(
-            sizes, fields, (None, None), rows=roles.fluid_rows, reduce=("sum", "max")
+            divergence_sizes, fields, (None, None), rows=kinds.fluid_rows, reduce=("sum", "max")
         )
         self.divergence = ((square / max(count, 1.0)) ** 0.5, largest)
 
@@ -294,45 +301,48 @@ class Flow:
         """Of all that flows [J per meter]."""
         fields = self.particles.by_symbol("velocity", "volume")
         (energy,) = self.backend.pointwise(
-            kinetic, fields, (None,), reduce=("sum",), density=self.liquid.density
+            kinetic_energy, fields, (None,), reduce=("sum",), density=self.liquid.density
         )
         return energy
 
     def rest(self) -> None:
         """Nothing flows any more."""
-        if self.fastest > 0.0:
+        if self.largest_speed > 0.0:
             self.backend.fill(self.velocity, 0.0)
             self.backend.fill(self.pressure, 0.0)
-        self.fastest = self.push = 0.0
+        self.largest_speed = self.largest_acceleration = 0.0
         self.divergence = (0.0, 0.0)
         self.iterations = {"pressure": 0, "viscosity": 0}
 
-    def _diverge(self, rows: Any, fraction: float, rate: float) -> None:
+    def _find_divergence(self, rows: Rows, fraction: float, rate: float) -> None:
         block = self.block
-        fields = {"v": block.reflected(self.velocity, self.reach()), "V": block.V, "C": self._C}
+        v = block.mirror_velocity(self.velocity, self.ghost_velocity_jump())
         self.backend.pair_sum(
-            divergence_terms, block.pairs, fields, (self._rhs, self._D),
-            finish=divergence_load, rows=rows, fraction=fraction, even=self._even, rate=rate,
-        )  # fmt: skip
+            divergence_terms,
+            block.pairs,
+            {"v": v, "V": block.V, "C": self._C},
+            (self._rhs, self._D),
+            finish=divergence_load,
+            rows=rows,
+            fraction=fraction,
+            lattice_sum=self._lattice_sum,
+            rate=rate,
+        )
 
-    def _share(self, roles: Roles) -> None:
+    def _set_dummy_pressure(self, kinds: ParticleKinds) -> None:
         """Give dummies the pressure of the edge."""
         backend, block, head = self.backend, self.block, self.backend.head
         backend.copy(self._p, head(self.pressure, block.count))
-        fields = {
-            "p": block.gather(self.pressure), "unknown": block.gather(roles.unknown),
-            "dummy": roles.dummy,
-        }  # fmt: skip
-        backend.pair_sum(
-            shared, block.pairs, fields, self._p, finish=dummy_pressure,
-            rows=roles.dummy_rows,
-        )  # fmt: skip
+        fields = {"p": block.gather(self.pressure), "unknown": block.gather(kinds.unknown)}
+        fields["dummy"], rows = kinds.dummy, kinds.dummy_rows
+        terms, finish = edge_pressure_terms, dummy_pressure
+        backend.pair_sum(terms, block.pairs, fields, self._p, finish=finish, rows=rows)
         backend.copy(self._p, head(self.pressure, block.count))
 
-    def stop(self, roles: Roles) -> None:
-        """Hold everything but the fluid; find the largest speed."""
-        fields = {"v": self.velocity, "fluid": roles.fluid}
+    def stop(self, kinds: ParticleKinds) -> None:
+        """Stop everything but the fluid; find the largest speed."""
+        fields = {"v": self.velocity, "fluid": kinds.fluid}
         (square,) = self.backend.pointwise(
-            stopped, fields, (self.velocity, None), reduce=(None, "max")
+            stop_solid, fields, (self.velocity, None), reduce=(None, "max")
         )
-        self.fastest = max(square, 0.0) ** 0.5
+        self.largest_speed = max(square, 0.0) ** 0.5

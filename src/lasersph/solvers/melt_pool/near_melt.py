@@ -1,21 +1,20 @@
-"""`NearMelt`: which particles of a block are in reach of a fluid one, or nearly so.
+"""`NearMelt`: which particles of a block are within the support of a fluid one, or nearly so.
 
-Particles and their neighbors lie in cells as wide as the reach that touch each other, corners
-included. A cell is marked where it or one that touches it holds a fluid particle; on a period the
-columns near both ends share their marks.
+Particles and their neighbors lie in cells, as wide as the search radius, that touch each other,
+corners included. A cell is marked where it or one that touches it holds a fluid particle; on a
+period the columns near both ends share their marks.
 """
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lasersph.compute import search
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 
 AT_ENDS = 5
-"""Columns at either end of a period whose marks are shared: two outside, two of images, one."""
+"""Columns at either end of a period whose marks are shared: two outside, two of ghosts, one."""
 
 
 def cell_of(x, fluid, low, high, corner, inverse, columns, lines):
@@ -53,7 +52,7 @@ def at_ends(k, marks, columns, lines, last):
     return 0.0
 
 
-def shared(k, mark, line_marks, lines, last):
+def periodic_mark(k, mark, line_marks, lines, last):
     """Mark of a cell, which near the ends is that of its line."""
     c = k // lines
     if c < AT_ENDS or c >= last:
@@ -61,7 +60,7 @@ def shared(k, mark, line_marks, lines, last):
     return mark
 
 
-def of_cell(cell, marks):
+def mark_of_cell(cell, marks):
     """Mark of a particle's cell."""
     return marks[cell]
 
@@ -70,63 +69,62 @@ class NearMelt:
     """Cells around the first `count` particles.
 
     Args:
-        sides: ((x0, x1), (z0, z1)) that particles may pass by `reach` [m]. period: whether those
-            along x repeat.
+        bounds: ((x0, x1), (z0, z1)) that particles may pass by `radius` [m]. repeats: whether
+            those along x do.
     """
 
     def __init__(
         self,
         backend: Backend,
         count: int,
-        sides: tuple[tuple[float, float], tuple[float, float]],
-        reach: float,
+        bounds: tuple[tuple[float, float], tuple[float, float]],
+        radius: float,
         *,
         repeats: bool,
     ) -> None:
         self.backend, self.count, self.repeats = backend, count, repeats
         self._low, self._high = (
-            tuple(pair[end] + outward * reach for pair in sides)
+            tuple(pair[end] + outward * radius for pair in bounds)
             for end, outward in ((0, -1.0), (1, 1.0))
         )
-        width = [int((high - low) / reach) + AT_ENDS for low, high in sides]
+        width = [int((high - low) / radius) + AT_ENDS for low, high in bounds]
         self._shape = {"columns": width[0], "lines": width[1]}
-        self._corner = tuple(low - 2.0 * reach for low, _ in sides)
-        self._inverse = 1.0 / reach
-        (x0, x1), _ = sides
-        self._last = max(round((x1 - x0) / reach) - 1, 0)
+        corner = tuple(low - 2.0 * radius for low, _ in bounds)
+        self._grid = {"low": self._low, "high": self._high, "corner": corner}
+        self._grid |= {"inverse": 1.0 / radius, **self._shape}
+        (x0, x1), _ = bounds
+        self._last = max(round((x1 - x0) / radius) - 1, 0)
         self._cells = {"k": backend.asarray(np.arange(width[0] * width[1]), "index")}
         self._marks = backend.zeros(width[0] * width[1])
         self._line_marks = backend.zeros(width[1])
         self._cell, self._fluid_cell = (backend.zeros(count, "index") for _ in range(2))
 
-    def find(self, position: Any, fluid: Any) -> Any:
-        """(count,) 1 for particles in reach of a fluid one, else 0.
+    def find(self, position: Array, fluid: Array) -> Array:
+        """(count,) 1 for particles within the radius of a fluid one, else 0.
 
         Args:
             position: (2, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
 
         Raises:
-            EscapedParticle: a position is not finite or beyond the sides.
+            EscapedParticle: a position is not finite or beyond the bounds.
         """
         backend, marks, cells = self.backend, self._marks, self._cells
         place = backend.head(position, self.count)
-        (escaped,) = backend.pointwise(
-            cell_of, {"x": place, "fluid": backend.head(fluid, self.count)},
-            (self._cell, self._fluid_cell, None), reduce=(None, None, "max"), low=self._low,
-            high=self._high, corner=self._corner, inverse=self._inverse, **self._shape,
-        )  # fmt: skip
+        fields = {"x": place, "fluid": backend.head(fluid, self.count)}
+        out, reduce = (self._cell, self._fluid_cell, None), (None, None, "max")
+        (escaped,) = backend.pointwise(cell_of, fields, out, reduce=reduce, **self._grid)
         if escaped > 0.0:
             search.refuse_escape(backend.to_host(place), self._low, self._high)
         fluid_count = backend.count_by_key(self._fluid_cell, marks.shape[0] + 1)
         backend.pointwise(near_fluid, cells, marks, fluid_count=fluid_count, **self._shape)
         if self.repeats:
             lines = {"lines": self._shape["lines"], "last": self._last}
+            ends, columns = {"k": backend.head(cells["k"], lines["lines"])}, self._shape["columns"]
             backend.pointwise(
-                at_ends, {"k": backend.head(cells["k"], lines["lines"])}, self._line_marks,
-                marks=marks, columns=self._shape["columns"], **lines,
-            )  # fmt: skip
+                at_ends, ends, self._line_marks, marks=marks, columns=columns, **lines
+            )
             fields = cells | {"mark": marks}
-            backend.pointwise(shared, fields, marks, line_marks=self._line_marks, **lines)
+            backend.pointwise(periodic_mark, fields, marks, line_marks=self._line_marks, **lines)
         found = backend.zeros(self.count)
-        backend.pointwise(of_cell, {"cell": self._cell}, found, marks=marks)
+        backend.pointwise(mark_of_cell, {"cell": self._cell}, found, marks=marks)
         return found

@@ -23,24 +23,23 @@ import numpy as np
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.bicgstab import BiCGStab
 from lasersph.linear_solvers.matrix import PairMatrix
+from lasersph.particles.kinds import DUMMY, EDGE, FLUID
 from lasersph.solvers.melt_pool.pressure_equation import Outcome
 
-FLUID, EDGE, DUMMY = 1, 2, 3
-"""Roles of particles; others take no part."""
 REINFORCEMENT = 1e-6
 FAR = 1e30
 
 
-def edge_distance(role_j, r_ij):
+def edge_distance(kind_j, r_ij):
     """Distance of an edge particle."""
-    if role_j == EDGE:
+    if kind_j == EDGE:
         return r_ij
     return FAR + 0.0 * r_ij
 
 
-def edge_number(role_j, source_j, r_ij, nearest_i):
+def edge_number(kind_j, source_j, r_ij, nearest_i):
     """Number of an edge particle as near as the nearest."""
-    if role_j == EDGE and r_ij <= nearest_i * (1.0 + 1e-6):
+    if kind_j == EDGE and r_ij <= nearest_i * (1.0 + 1e-6):
         return 1.0 * source_j
     return FAR + 0.0 * r_ij
 
@@ -52,16 +51,16 @@ def assigned(total, k):
     return k
 
 
-def is_known(role, column, k):
+def is_known(kind, column, k):
     """1 for particles whose pressure is an unknown or that of one."""
-    if FLUID <= role <= EDGE or (role == DUMMY and column != k):
+    if FLUID <= kind <= EDGE or (kind == DUMMY and column != k):
         return 1.0
     return 0.0
 
 
-def entry(g_ij, V_i, role_i, known_j, column_j, k_i):
+def entry(g_ij, V_i, kind_i, known_j, column_j, k_i):
     """Element beside the diagonal, with the sign that makes the diagonal positive."""
-    if FLUID <= role_i <= EDGE and column_j != k_i:
+    if FLUID <= kind_i <= EDGE and column_j != k_i:
         return -g_ij * known_j / V_i
     return 0.0 * g_ij
 
@@ -78,17 +77,17 @@ def diagonal(total, reinforcement):
     return 1.0 + 0.0 * total
 
 
-def right_side(b, V, role):
+def right_side(b, V, kind):
     """-b / V, for the positive matrix, and 1 to count rows."""
-    if FLUID <= role <= EDGE:
+    if FLUID <= kind <= EDGE:
         return -b / V, 1.0
     return 0.0 * b, 0.0
 
 
-def less(p, role, mean):
+def less(p, kind, mean):
     """Value less the mean in rows that count, else 0; and its square."""
     rest = 0.0 * p
-    if FLUID <= role <= EDGE:
+    if FLUID <= kind <= EDGE:
         rest = p - mean
     return rest, rest * rest
 
@@ -116,38 +115,38 @@ class PublishedPressure:
         self._known, self._b, self._d = (backend.zeros(count) for _ in range(3))
 
     def set_operator(
-        self, neighbors: Any, source: Any, weights: Any, role: Any, volume: Any
+        self, neighbors: Any, source: Any, weights: Any, kind: Any, volume: Any
     ) -> None:
         """Take the matrix of the present particles.
 
         Args:
-            neighbors: list of pairs with images, of fluid, edge and dummy particles.
-            source: (N,) kind "index", the particle that each is, or is an image of.
-            weights: (pairs,) g_ij of all pairs. role: (n,) kind "flag". volume: (n,) V_i [m^2].
+            neighbors: list of pairs with ghosts, of fluid, edge and dummy particles.
+            source: (N,) kind "index", the particle that each is, or is a ghost of.
+            weights: (pairs,) g_ij of all pairs. kind: (n,) kind "flag". volume: (n,) V_i [m^2].
         """
         backend, total = self.backend, source.shape[0]
-        folded = neighbors.folded(backend, source)
-        role_all = backend.zeros(total, "flag")
-        backend.gather(role, source, role_all)
-        near = {"role": role_all, "source": source, "nearest": self._nearest}
-        dummies = backend.rows_where(role, DUMMY)
+        inner = neighbors.without_ghosts(backend, source)
+        kind_all = backend.zeros(total, "flag")
+        backend.gather(kind, source, kind_all)
+        near = {"kind": kind_all, "source": source, "nearest": self._nearest}
+        dummies = backend.rows_where(kind, DUMMY)
         backend.pair_sum(edge_distance, neighbors, near, self._nearest, rows=dummies, combine="min")
         backend.copy(self._number, self._column)
         backend.pair_sum(
             edge_number, neighbors, near | {"k": self._number}, self._column,
             rows=dummies, combine="min", finish=assigned,
         )  # fmt: skip
-        fields = {"role": role, "column": self._column, "k": self._number}
+        fields = {"kind": kind, "column": self._column, "k": self._number}
         backend.pointwise(is_known, fields, self._known)
         entries = backend.zeros(weights.shape[0])
         fields |= {"g_ij": weights, "V": volume, "known": self._known}
-        backend.pair_values(entry, folded, fields, entries)
+        backend.pair_values(entry, inner, fields, entries)
         backend.pair_sum(
-            opposite, folded, {"a_ij": entries}, self._d,
+            opposite, inner, {"a_ij": entries}, self._d,
             finish=diagonal, reinforcement=REINFORCEMENT,
         )  # fmt: skip
-        columns = folded.folded(backend, self._column)
-        self._role, self._volume = role, volume
+        columns = inner.without_ghosts(backend, self._column)
+        self._kind, self._volume = kind, volume
         self._solver = BiCGStab(backend, PairMatrix(columns, entries, self._d))
 
     def solve(self, b: Any, pressure: Any) -> Outcome:
@@ -160,7 +159,7 @@ class PublishedPressure:
                 constant, which a later first guess then lacks.
         """
         backend, solver = self.backend, self._solver
-        fields = {"b": b, "V": self._volume, "role": self._role}
+        fields = {"b": b, "V": self._volume, "kind": self._kind}
         total, rows = backend.pointwise(right_side, fields, (self._b, None), reduce=("sum", "sum"))
         mean = total / rows if rows else 0.0
         scale = self._less(self._b, mean) ** 0.5
@@ -175,7 +174,7 @@ class PublishedPressure:
         return Outcome(outcome.iterations, outcome.residual / scale if scale > 0.0 else 0.0)
 
     def _less(self, values: Any, mean: float) -> float:
-        fields = {"p": values, "role": self._role}
+        fields = {"p": values, "kind": self._kind}
         return self.backend.pointwise(
             less, fields, (values, None), reduce=(None, "sum"), mean=mean
         )[0]

@@ -11,14 +11,15 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.domain import PoolDomain
-from lasersph.solvers.melt_pool.flow import Flow, advected, updated
+from lasersph.solvers.melt_pool.flow import Flow, advect, move
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
-from lasersph.solvers.melt_pool.rearrange import Rearrangement
-from lasersph.solvers.melt_pool.roles import Roles
+from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
+from lasersph.solvers.melt_pool.particle_shifting import ParticleShifting
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
 from lasersph.solvers.step_control import NotConverged, retry_step
@@ -28,7 +29,7 @@ SHORTEST = 1e-9
 takes less its speeds have grown without bound."""
 
 
-def either(a, b):
+def larger(a, b):
     """1 where one of two marks is 1."""
     return max(a, b)
 
@@ -37,8 +38,8 @@ class MeltPool:
     """Solver of a run whose melt flows.
 
     Attributes:
-        heat: the solver of enthalpies. flow: velocity and pressure. domain: lid, sides, blocks.
-        position: (2, n) of all particles [m]. roles: which flow. fluid_count: how many do.
+        heat: the solver of enthalpies. flow: velocity and pressure. domain: faces, surface, blocks.
+        position: (2, n) of all particles [m]. kinds: of the particles. fluid_count: how many do.
         spacing_min: smallest distance of two particles of the block [m].
     """
 
@@ -49,12 +50,12 @@ class MeltPool:
         self.heat, self.flow, self.domain, self.settings = heat, flow, domain, settings
         self.body, self.backend = heat.body, backend
         self.particles = heat.particles
-        self.particles.add("position", "was_fluid", "has_moving_pairs")
+        self.particles.add("position", "has_moving_pairs")
         self.position = self.particles["position"]
         self.particles.set("position", heat.body.filling.position[:, :count])
         self._advected = backend.zeros((2, count))
-        self.roles = Roles(self.particles, domain.spacing, is_box=domain.is_box)
-        self.rearrangement = Rearrangement(
+        self.kinds = ParticleKinds(self.particles, domain.spacing, is_box=domain.is_box)
+        self.shifting = ParticleShifting(
             backend, count, settings.shifting, domain.spacing, domain.box, domain.periods
         )
         self.pairs = HeatPairs(heat.body)
@@ -91,8 +92,8 @@ class MeltPool:
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
         return self.heat.checkpoint_scalars() | self.steadiness.checkpoint_scalars() | {
-            "fastest_flow": self.flow.fastest,
-            "push": self.flow.push,
+            "largest_speed": self.flow.largest_speed,
+            "largest_acceleration": self.flow.largest_acceleration,
             "block_layers": self.domain.block_layers,
             "has_moved": float(self._has_moved),
             "spacing_min": self.spacing_min,
@@ -106,7 +107,7 @@ class MeltPool:
         self.heat.restore(arrays, numbers)
         self._restore_numbers(numbers)
         if backend.rows_where(self.particles["has_moving_pairs"], 1.0).shape[0]:
-            block = self.domain.block_for(self.position, self.roles)
+            block = self.domain.block_for(self.position, self.kinds)
             block.find_pairs(
                 self.position, backend.head(self.particles["has_moving_pairs"], block.count)
             )
@@ -117,20 +118,20 @@ class MeltPool:
         limits = self.heat.time_step_limits()
         if not self._melt():
             return limits
-        flow, liquid, lid = self.flow, self.flow.liquid, self.domain.lid
+        flow, liquid, surface = self.flow, self.flow.liquid, self.domain.surface
         found = flow_limits(
             self.settings.step_limits,
             support=self.domain.support,
-            speed=max(flow.fastest, self.domain.sides.fastest_wall()),
-            acceleration=flow.push,
+            speed=max(flow.largest_speed, self.domain.conditions.largest_wall_speed()),
+            acceleration=flow.largest_acceleration,
             viscosity=liquid.viscosity,
             diffusivity=liquid.diffusivity,
             density=liquid.density,
             surface_tension=liquid.surface_tension,
             is_implicit=self.settings.viscosity == "implicit",
-            capillary=np.inf if lid is None else lid.capillary_limit,
-            recoil=np.inf if lid is None else lid.recoil_limit,
         )
+        if surface is not None:
+            found |= surface.time_step_limits()
         return limits | {name: limit for name, limit in found.items() if limit < np.inf}
 
     def step(self, step: float, unclipped_step: float | None = None) -> float:
@@ -141,57 +142,58 @@ class MeltPool:
                 the state is as before.
             PoolTooDeep: the melt reaches the graded layers.
         """
-        if self.flow.fastest * SHORTEST * self.heat.time_settings.end > self.domain.support:
-            raise NotConverged(f"the flow has become unstable: {self.flow.fastest:.3g} m/s")
+        if self.flow.largest_speed * SHORTEST * self.heat.time_settings.end > self.domain.support:
+            raise NotConverged(f"the flow has become unstable: {self.flow.largest_speed:.3g} m/s")
         self._keep()
         return retry_step(self._advance, step, unclipped_step, undo=self._return)
 
     def _advance(self, step: float, unclipped_step: float | None) -> None:
         if not self._melt():
-            self._settle_pairs()
+            self._update_resting_pairs()
             if self.domain.block_layers:
                 self.illuminate(step)
             self.heat.attempt(step, unclipped_step)
             return
         self._has_moved = True
-        self.flow.stop(self.roles)  # what has frozen since the last step
+        self.flow.stop(self.kinds)  # what has frozen since the last step
         self.advect(step)
-        self.flow.predict(self.particles["temperature"], self.roles, step)
-        self.flow.project(self.roles, step)
-        self.flow.correct(self.roles, step)
+        self.flow.predict(self.particles["temperature"], self.kinds, step)
+        self.flow.project(self.kinds, step)
+        self.flow.correct(self.kinds, step)
         self.update_positions(step)
         self.illuminate(step)
         self.heat.attempt(step, unclipped_step)
         self.shift(step)
         self.adjust()
         self._measure()
-        self.roles.remember()
+        self.kinds.remember()
 
     def advect(self, step: float) -> None:
         """Advected positions with their pairs, walls and surface (67)."""
         domain, flow = self.domain, self.flow
         fields = {"x": self.position, "v": flow.velocity}
-        self.backend.pointwise(advected, fields, self._advected, step=step)
-        block = domain.block_for(self.position, self.roles)
+        self.backend.pointwise(advect, fields, self._advected, step=step)
+        block = domain.block_for(self.position, self.kinds)
         if block is not flow.current_block:
             flow.enter(block, domain.periods)
-        block.find_pairs(self._advected, self._touched(block, self._advected))
-        self.roles.find_walls(block.pairs, block.gather, block.count, block.wanted)
-        if domain.lid is not None:
-            domain.lid.find_surface(self._advected)
-            domain.lid.drive(
-                self.particles["temperature"], self._advected, block.pairs, block.V, block.gather,
-                self.roles.active,
-            )  # fmt: skip
-        flow.correct_kernel(self.roles.active_rows)
+        block.find_pairs(self._advected, self._rows_to_find(block, self._advected))
+        self.kinds.find_walls(block.pairs, block.gather, block.count, block.rows)
+        if domain.surface is not None:
+            domain.surface.find(self._advected)
+            temperature, active = self.particles["temperature"], self.kinds.active
+            domain.surface.update_stress(temperature, self._advected, block, active)
+        flow.correct_kernel(self.kinds.active_rows)
 
     def update_positions(self, step: float) -> None:
         """Positions at the end of the step, and the weights of heat there (71)."""
         block = self.flow.block
         fields = {"x": self.position, "v_old": self.flow.before, "v": self.flow.velocity}
-        self.backend.pointwise(updated, fields, self.position, step=step)
+        self.backend.pointwise(move, fields, self.position, step=step)
+        if self.domain.surface is not None:
+            mass = self.particles["evaporated_mass"]
+            self.domain.surface.move(step, self.flow.velocity, mass)
         block.move(self.position)
-        self.flow.correct_kernel(self.roles.fluid_rows)
+        self.flow.correct_kernel(self.kinds.fluid_rows)
         self.pairs.renew(block)
 
     def illuminate(self, step: float) -> None:
@@ -204,54 +206,55 @@ class MeltPool:
 
     def shift(self, step: float) -> None:
         """Displacements that keep the particles evenly spread (73)."""
-        lid = self.domain.lid
-        at_face = self.roles.dummy if lid is None else lid.at_surface
-        speed = max(self.flow.fastest, self.domain.sides.fastest_wall())
-        self.rearrangement.shift(self.flow.block, self.roles, at_face, speed, step)
+        surface = self.domain.surface
+        at_face = self.kinds.dummy if surface is None else surface.at_surface
+        speed = max(self.flow.largest_speed, self.domain.conditions.largest_wall_speed())
+        self.shifting.shift(self.flow.block, self.kinds, at_face, speed, step)
 
     def adjust(self) -> None:
         """Velocity and enthalpy at the shifted positions (74), (75)."""
         flow, particles, block = self.flow, self.particles, self.flow.block
         C = flow.correction
-        self.rearrangement.adjust_velocity(block, self.roles, flow.velocity, flow.reach(), C)
-        self.rearrangement.adjust_enthalpy(
-            block, self.roles, particles["enthalpy"], particles["vapor_fraction"],
-            particles["mass"], C,
-        )  # fmt: skip
-        self.rearrangement.settle(self.position, self.roles)
+        self.shifting.adjust_velocity(
+            block, self.kinds, flow.velocity, flow.ghost_velocity_jump(), C
+        )
+        names = ("enthalpy", "vapor_fraction", "mass")
+        heat = (particles[name] for name in names)
+        self.shifting.adjust_enthalpy(block, self.kinds, *heat, C)
+        self.shifting.move(self.position, self.kinds)
         self.body.update_temperature()
 
     def _melt(self) -> bool:
         """Whether anything flows."""
-        self.fluid_count = self.roles.find_fluid(self.particles["melt_fraction"])
+        self.fluid_count = self.kinds.find_fluid(self.particles["melt_fraction"])
         if self.fluid_count == 0.0:
             self.flow.rest()
         return self.fluid_count > 0.0
 
-    def _settle_pairs(self) -> None:
+    def _update_resting_pairs(self) -> None:
         """Where the flow has ended, conduct between the final positions from now on."""
         if not self._has_moved:
             return
-        block = self.domain.block_for(self.position, self.roles)
-        block.find_pairs(self.position, self._touched(block, self.position))
+        block = self.domain.block_for(self.position, self.kinds)
+        block.find_pairs(self.position, self._rows_to_find(block, self.position))
         self.pairs.renew(block)
-        self.roles.remember()
+        self.kinds.remember()
         self._has_moved = False
 
-    def _touched(self, block: Block, position: Any) -> Any:
+    def _rows_to_find(self, block: Block, position: Array) -> Array:
         """(count,) 1 for rows whose neighbors move now, or have just come to rest."""
-        now = block.touched(position, self.roles.fluid)
-        fields = {"a": now, "b": block.touched(self.position, self.roles.before)}
-        self.backend.pointwise(either, fields, now)
+        now = block.find_near_fluid(position, self.kinds.fluid)
+        fields = {"a": now, "b": block.find_near_fluid(self.position, self.kinds.before)}
+        self.backend.pointwise(larger, fields, now)
         return now
 
     def _measure(self) -> None:
         """What observers want to know of the step."""
         flow, block = self.flow, self.flow.block
-        flow.measure_divergence(self.roles, self.fluid_count)
-        self.spacing_min = block.smallest_distance(self.position, self.roles.fluid_rows)
+        flow.measure_divergence(self.kinds, self.fluid_count)
+        self.spacing_min = block.smallest_distance(self.position, self.kinds.fluid_rows)
         energy = flow.kinetic_energy()
-        self.steadiness.look(self.state.time, flow.fastest, energy)
+        self.steadiness.look(self.state.time, flow.largest_speed, energy)
 
     def _keep(self) -> None:
         """Remember the state, for a step that fails."""
@@ -267,10 +270,13 @@ class MeltPool:
 
     def _restore_numbers(self, numbers: dict[str, float]) -> None:
         flow = self.flow
-        flow.fastest, flow.push = numbers["fastest_flow"], numbers["push"]
+        flow.largest_speed, flow.largest_acceleration = (
+            numbers["largest_speed"],
+            numbers["largest_acceleration"],
+        )
         flow.divergence = (numbers["divergence_rms"], numbers["divergence_max"])
         self.domain.block_layers = int(numbers["block_layers"])
         self._has_moved = bool(numbers["has_moved"])
         self.spacing_min = numbers["spacing_min"]
         self.steadiness.restore(numbers)
-        self.fluid_count = self.roles.find_fluid(self.particles["melt_fraction"])
+        self.fluid_count = self.kinds.find_fluid(self.particles["melt_fraction"])

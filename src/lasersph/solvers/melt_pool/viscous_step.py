@@ -1,9 +1,9 @@
 """Viscous forces of a step: explicit as published, or those at the end of the step.
 
 Implicit: (V_i + s sum_j g_ij) v_i - s sum_j g_ij v_j = V_i (v_i + dt b_i), s = nu dt, for the fluid
-particles, both components at once, by conjugate gradients from the present velocity. Images count
-with the velocity that the sides give them, resting particles with zero; the system is symmetric and
-positive, since an image changes at most the sign of a component.
+particles, both components at once, by conjugate gradients from the present velocity. Ghosts
+count with the velocity that the faces give them, resting particles with zero; the system is
+symmetric and positive, since a ghost changes at most the sign of a component.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from lasersph.physics.viscosity import (
     weight_of,
 )
 from lasersph.solvers.melt_pool.block import Block
-from lasersph.solvers.melt_pool.roles import Roles
+from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 
 TOLERANCE = 1e-8
 """Residual over that of the first guess, in 2-norms."""
@@ -43,14 +43,16 @@ class ViscousStep:
         self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
         self._g_sum = backend.zeros(count)
 
-    def advance(self, block: Block, v: Any, b: Any, reach: Any, roles: Roles, step: float) -> int:
+    def advance(
+        self, block: Block, v: Any, b: Any, jump: Any, kinds: ParticleKinds, step: float
+    ) -> int:
         """Advance v (2, n) [m/s] under viscosity and the body force b [m/s^2]; iterations."""
         backend = self.backend
-        rows = roles.fluid_rows
+        rows = kinds.fluid_rows
         if rows.shape[0] == 0:
             return 0
         fields = {
-            "v": block.velocity(v, reach), "g_ij": block.weights, "V": block.V, "b": b,
+            "v": block.extend_velocity(v, jump), "g_ij": block.weights, "V": block.V, "b": b,
         }  # fmt: skip
         if not self.is_implicit:
             backend.pair_sum(
@@ -75,7 +77,12 @@ class ViscousStep:
         points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume,
                   "g_sum": self._g_sum}  # fmt: skip
         while r_r > wanted and iterations < MOST:
-            fields = {"v": block.homogeneous(d), "d": d, "g_ij": block.weights, "V": block.V}
+            fields = {
+                "v": block.extend_velocity_change(d),
+                "d": d,
+                "g_ij": block.weights,
+                "V": block.V,
+            }
             (d_q,) = backend.pair_sum(
                 momentum, block.pairs, fields, (q, None), rows=rows, finish=multiply,
                 reduce=(None, "sum"), s=s,

@@ -1,70 +1,72 @@
-"""Images of moving particles beyond the faces of a box, placed by hand."""
+"""GhostParticles of moving particles beyond the faces of a box, placed by hand."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from lasersph.particles.images import (
+from lasersph.particles.ghosts import (
     LOWER,
     MIRROR,
     OPEN,
     PERIODIC,
     UPPER,
     FacePair,
-    Images,
-    ways_of,
+    GhostParticles,
+    ghost_types_of,
 )
 
 X, Z = (0.0, 1.0), (-1.0, 0.0)
 
 
 @pytest.fixture
-def images(backend):
-    """Finds the images of `position` in the unit box and their places.
+def ghosts(backend):
+    """Finds the ghosts of `position` in the unit box and their places.
 
     Args of what it returns: kinds of left, right, bottom, top; `count` of the first particles that
-    have images.
+    have ghosts.
     """
 
     def find(position, *kinds, reach=0.3, count=None):
         faces = (FacePair(kinds[0], kinds[1], *X), FacePair(kinds[2], kinds[3], *Z))
         position = np.array(position, float).T
         count = count or position.shape[1]
-        found = Images(backend, count, reach, ways_of(faces))
+        found = GhostParticles(backend, count, reach, ghost_types_of(faces))
         found.find(backend.asarray(position))
-        source, way = (backend.to_host(part).astype(int) for part in (found.source, found.way))
+        source, ghost_type = (
+            backend.to_host(part).astype(int) for part in (found.source, found.ghost_type)
+        )
         assert found.total == source.size and source[:count].tolist() == list(range(count))
-        assert not way[:count].any() and way[count:].all()
+        assert not ghost_type[:count].any() and ghost_type[count:].all()
         sign, offset = (backend.to_host(part) for part in (found.sign, found.offset))
         place = sign * position[:, source] + offset
         assert np.array_equal(place[:, :count], position[:, :count])
         return SimpleNamespace(
             source=source[count:], sign=sign[:, count:], count=source.size - count,
-            crossed=found.ways.crossed[:, way[count:]],
+            crossed=found.ghost_types.crossed[:, ghost_type[count:]],
         ), place[:, count:]  # fmt: skip
 
     return find
 
 
-def test_far_from_all_faces(images):
-    """A particle in the middle has no image."""
-    found, _ = images([(0.5, -0.5)], *[MIRROR] * 4)
+def test_far_from_all_faces(ghosts):
+    """A particle in the middle has no ghost."""
+    found, _ = ghosts([(0.5, -0.5)], *[MIRROR] * 4)
     assert found.count == 0
 
 
-def test_mirror(images):
+def test_mirror(ghosts):
     """x' = 2 x_face - x beyond the near face, the other coordinate kept; the far face has none."""
-    found, place = images([(0.5, -0.5), (0.9, -0.4)], *[MIRROR] * 4)
+    found, place = ghosts([(0.5, -0.5), (0.9, -0.4)], *[MIRROR] * 4)
     assert found.source.tolist() == [1]
     assert place[:, 0] == pytest.approx([1.1, -0.4])
     assert found.sign[:, 0].tolist() == [-1.0, 1.0]
     assert found.crossed[:, 0].tolist() == [UPPER, 0]
 
 
-def test_periodic(images):
-    """A particle near one side appears beyond the other; both ways for two particles."""
-    found, place = images([(0.1, -0.5), (0.8, -0.5)], PERIODIC, PERIODIC, OPEN, OPEN)
+def test_periodic(ghosts):
+    """A particle near one side appears beyond the other; both ghost_types for two particles."""
+    found, place = ghosts([(0.1, -0.5), (0.8, -0.5)], PERIODIC, PERIODIC, OPEN, OPEN)
     by_source = dict(zip(found.source.tolist(), place.T, strict=True))
     assert by_source[0] == pytest.approx([1.1, -0.5])
     assert by_source[1] == pytest.approx([-0.2, -0.5])
@@ -73,17 +75,17 @@ def test_periodic(images):
     assert crossed == {0: UPPER, 1: LOWER}
 
 
-def test_open(images):
+def test_open(ghosts):
     """Beyond an open face there is nothing."""
-    found, place = images([(0.1, -0.9)], MIRROR, MIRROR, OPEN, MIRROR)
+    found, place = ghosts([(0.1, -0.9)], MIRROR, MIRROR, OPEN, MIRROR)
     assert place[:, 0] == pytest.approx([-0.1, -0.9])
     assert found.count == 1
     assert found.crossed[:, 0].tolist() == [LOWER, 0]
 
 
-def test_corner(images):
-    """Near two faces: an image beyond each and one beyond both, which turns by 180 degrees."""
-    found, place = images([(0.1, -0.2)], *[MIRROR] * 4)
+def test_corner(ghosts):
+    """Near two faces: an ghost beyond each and one beyond both, which turns by 180 degrees."""
+    found, place = ghosts([(0.1, -0.2)], *[MIRROR] * 4)
     places = {tuple(np.round(p, 12)) for p in place.T}
     assert places == {(-0.1, -0.2), (0.1, 0.2), (-0.1, 0.2)}
     (corner,) = np.flatnonzero((found.crossed != 0).all(axis=0))
@@ -91,35 +93,41 @@ def test_corner(images):
     assert found.sign[:, corner].tolist() == [-1.0, -1.0]
 
 
-def test_corner_of_a_period_and_a_mirror(images):
+def test_corner_of_a_period_and_a_mirror(ghosts):
     """One period away and mirrored at the top at once."""
-    found, place = images([(0.9, -0.1)], PERIODIC, PERIODIC, MIRROR, MIRROR)
+    found, place = ghosts([(0.9, -0.1)], PERIODIC, PERIODIC, MIRROR, MIRROR)
     (corner,) = np.flatnonzero((found.crossed != 0).all(axis=0))
     assert place[:, corner] == pytest.approx([-0.1, 0.1])
     assert found.sign[:, corner].tolist() == [1.0, -1.0]
 
 
-def test_reach(images):
-    """Strictly closer than `reach`: 0.29 has an image, 0.3 has none."""
-    found, _ = images([(0.29, -0.5), (0.3, -0.5)], MIRROR, MIRROR, OPEN, OPEN)
+def test_reach(ghosts):
+    """Strictly closer than `reach`: 0.29 has an ghost, 0.3 has none."""
+    found, _ = ghosts([(0.29, -0.5), (0.3, -0.5)], MIRROR, MIRROR, OPEN, OPEN)
     assert found.source.tolist() == [0]
 
 
-def test_box_narrower_than_the_reach(images):
-    """A particle near both faces of a narrow box has an image beyond each."""
-    _, place = images([(0.4, -0.5)], MIRROR, MIRROR, OPEN, OPEN, reach=0.8)
+def test_box_narrower_than_the_reach(ghosts):
+    """A particle near both faces of a narrow box has an ghost beyond each."""
+    _, place = ghosts([(0.4, -0.5)], MIRROR, MIRROR, OPEN, OPEN, reach=0.8)
     assert sorted(place[0]) == pytest.approx([-0.4, 1.6])
 
 
-def test_order(images):
-    """Those of x come first, then those of z with their corners; of each way in the order of i."""
-    found, _ = images([(0.9, -0.9), (0.5, -0.5), (0.1, -0.9), (0.2, -0.6)], *[MIRROR] * 4)
-    ways = [*zip(*found.crossed.tolist(), found.source.tolist(), strict=True)]
+def test_order(ghosts):
+    """Those of x come first, then those of z with their corners; of each type in the order of i."""
+    found, _ = ghosts([(0.9, -0.9), (0.5, -0.5), (0.1, -0.9), (0.2, -0.6)], *[MIRROR] * 4)
+    ghost_types = [*zip(*found.crossed.tolist(), found.source.tolist(), strict=True)]
     left = [(LOWER, 0, 2), (LOWER, 0, 3), (UPPER, 0, 0)]
-    assert ways == [*left, (0, LOWER, 0), (0, LOWER, 2), (LOWER, LOWER, 2), (UPPER, LOWER, 0)]
+    assert ghost_types == [
+        *left,
+        (0, LOWER, 0),
+        (0, LOWER, 2),
+        (LOWER, LOWER, 2),
+        (UPPER, LOWER, 0),
+    ]
 
 
-def test_first_particles_alone(images):
-    """Particles beyond the first ones have no images."""
-    found, _ = images([(0.5, -0.5), (0.1, -0.5), (0.2, -0.5)], *[MIRROR] * 4, count=2)
+def test_first_particles_alone(ghosts):
+    """Particles beyond the first ones have no ghosts."""
+    found, _ = ghosts([(0.5, -0.5), (0.1, -0.5), (0.2, -0.5)], *[MIRROR] * 4, count=2)
     assert found.source.tolist() == [1]

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from lasersph.boundaries import Boundaries
-from lasersph.boundaries.heated_faces import face_power
+from lasersph.boundaries.neumann_faces import face_power
 from lasersph.particles import Domain, Lattice
-from lasersph.particles.filling import IMAGE, fill
+from lasersph.particles.filling import MIRROR, fill
 from lasersph.particles.layers import stack
 
 
 def test_shares_by_hand():
     """Weights times depth of the dummies: 4 * 0.5 and 1 * 1.5 on particle 0, 1 * 0.5 on 1."""
     layers = stack(Domain(depth=4.0), Lattice(spacing=1.0), 1, 0.0)
-    filling = fill(layers, surface=IMAGE, bottom=IMAGE, sides=IMAGE)
+    filling = fill(layers, surface=MIRROR, bottom=MIRROR, sides=MIRROR)
     z = filling.position[-1]
     first, second = (int(np.argmin(np.abs(z - place))) for place in (0.5, 1.5))
     row = np.array([0, 0, 1, 0])

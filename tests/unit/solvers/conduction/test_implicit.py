@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from law_runs import go, host, solver_of
 
-from lasersph.solvers.conduction.implicit import FORCING, foresee, linearize, settle
+from lasersph.solvers.conduction.implicit import FORCING, close_balance, initial_guess, linearize
 
 # c = 1000 J/(kg K), k = 20 W/(m K), melting at 500 K with 2e5 J/kg, T_0 = 300 K
 H = np.array([0.0, 2e5, 4e5, 6e5])
@@ -15,13 +15,13 @@ P = np.array([0.0, 4000.0, 4000.0, 8000.0])
 def test_guess_is_a_parabola_of_the_potential():
     """P = 100, 400, 900 W/m at equal steps goes on with 1600; the excess is left out."""
     h_older, h_old, h = (value / 0.02 for value in (100.0, 400.0, 900.0))
-    found = foresee(h + 7.0, 7.0, h_old, h_older, 1.0, 2.0, -1.0, H, P)
+    found = initial_guess(h + 7.0, 7.0, h_old, h_older, 1.0, 2.0, -1.0, H, P)
     assert found == pytest.approx((1600.0 / 0.02, 1600.0, 0.02))
 
 
 def test_guess_on_a_plateau_is_a_line_of_the_enthalpy():
     """3.0e5, then 3.2e5 J/kg: 3.6e5 after a step twice as long."""
-    found = foresee(3.2e5, 0.0, 3.0e5, 2.9e5, 2.0, 9.0, -9.0, H, P)
+    found = initial_guess(3.2e5, 0.0, 3.0e5, 2.9e5, 2.0, 9.0, -9.0, H, P)
     assert found == pytest.approx((3.6e5, 4000.0, 0.0))
 
 
@@ -33,7 +33,7 @@ def test_linearize_by_hand():
 
 def test_settle_by_hand():
     """r / m = 3 is added and remembered; 2 (13 - 7) J are stored."""
-    assert settle(10.0, 6.0, 2.0, 7.0, 1.0, 5.0) == (13.0, 3.0, 6.0, 5.0, 12.0)
+    assert close_balance(10.0, 6.0, 2.0, 7.0, 1.0, 5.0) == (13.0, 3.0, 6.0, 5.0, 12.0)
 
 
 def test_few_iterations_where_heat_flows_smoothly():

@@ -17,14 +17,14 @@ def molten_to(depth, *settings):
 def block_after(solver):
     """The block for what flows now."""
     solver.time_step_limits()
-    return solver.domain.block_for(solver.position, solver.roles)
+    return solver.domain.block_for(solver.position, solver.kinds)
 
 
 def test_block_of_a_box():
     """All particles, down to the bottom."""
     solver = box()
     block = block_after(solver)
-    assert (block.count, block.rows, block.has_bottom) == (100, 100, True)
+    assert (block.count, block.complete_rows, block.has_bottom) == (100, 100, True)
     assert solver.domain.width == 1.0
     assert solver.domain.periods == (0.0, 0.0)
 
@@ -36,7 +36,7 @@ def test_block_reaches_below_the_pool():
     domain = solver.domain
     needed = 3.5 * SPACING + BELOW * domain.support
     assert 0.0 <= domain.block_layers - ROOM - needed / SPACING + 1e-9 <= 1.0
-    assert block.rows == 20 * domain.block_layers < block.count < solver.body.count
+    assert block.complete_rows == 20 * domain.block_layers < block.count < solver.body.count
     assert not block.has_bottom
 
 
@@ -49,7 +49,7 @@ def test_block_is_kept_and_grows():
     solver.backend.copy(other.particles["enthalpy"], solver.particles["enthalpy"])
     solver.body.update_temperature()
     larger = block_after(solver)
-    assert larger.rows > first.rows
+    assert larger.complete_rows > first.complete_rows
     small = molten_to(2.0 * SPACING, *DEEP)
     solver.backend.copy(small.particles["enthalpy"], solver.particles["enthalpy"])
     solver.body.update_temperature()
@@ -81,5 +81,5 @@ def test_pressure_does_not_see_the_coarser_layers():
         solver = pool(lambda x, z: (x < 2.2e-6) & (z > -1.25e-6), *settings, slope=1e8)
         go(solver, 2)
         counts.append(solver.iterations["pressure"])
-    assert solver.flow.block.reach > 5.0 * solver.flow.block.moving_support
+    assert solver.flow.block.search_radius > 5.0 * solver.flow.block.moving_support
     assert counts[0] == counts[1] > 0

@@ -5,13 +5,11 @@ import pytest
 from scattered_pairs import RATIO
 
 from lasersph import compute
+from lasersph.particles.kinds import DUMMY, EDGE, FLUID, INTERIOR
 from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.solvers.melt_pool.published_pressure import (
-    DUMMY,
-    EDGE,
-    FLUID,
     REINFORCEMENT,
     PublishedPressure,
 )
@@ -30,16 +28,17 @@ class Pool:
         x, z = np.meshgrid(np.arange(-side, side + 1) * 1.0, -(np.arange(side) + 0.5))
         r = np.hypot(x, z).ravel()
         step = np.random.default_rng(3).uniform(-jitter, jitter, (2, r.size))
-        self.role = np.select([r < radius, r < radius + 1.5, r < radius + 4.5], [1, 2, 3], 0)
+        rings = [r < radius, r < radius + 1.5, r < radius + 4.5]
+        self.kind = np.select(rings, [FLUID, EDGE, DUMMY], INTERIOR)
         self.position = SPACING * (
-            np.array([x.ravel(), z.ravel()]) + np.where(self.role == FLUID, step, 0.0)
+            np.array([x.ravel(), z.ravel()]) + np.where(self.kind == FLUID, step, 0.0)
         )
         self.count = r.size
         self.volume = SPACING**2 * (1.0 + unevenness * np.cos(np.arange(self.count)))
         near = np.flatnonzero(self.position[1] > -RATIO * SPACING)
         self.source = np.concatenate([np.arange(self.count), near])
-        image = self.position[:, near] * np.array([[1.0], [-1.0]])
-        self.all = np.hstack([self.position, image])
+        ghost = self.position[:, near] * np.array([[1.0], [-1.0]])
+        self.all = np.hstack([self.position, ghost])
         self.backend = backend
         self.neighbors = find_neighbors(
             backend, backend.asarray(self.all),
@@ -56,22 +55,22 @@ class Pool:
         solver = PublishedPressure(backend, self.count, **options)
         solver.set_operator(
             self.neighbors, backend.asarray(self.source, "index"), self.weights,
-            backend.asarray(self.role, "flag"), backend.asarray(self.volume),
+            backend.asarray(self.kind, "flag"), backend.asarray(self.volume),
         )  # fmt: skip
         return solver
 
     def table_1(self):
         """A as printed, before it is regularized: rows and columns of fluid and edge particles."""
-        edges = np.flatnonzero(self.role == EDGE)
+        edges = np.flatnonzero(self.kind == EDGE)
         A = np.zeros((self.count, self.count))
-        for i in np.flatnonzero((self.role == FLUID) | (self.role == EDGE)):
+        for i in np.flatnonzero((self.kind == FLUID) | (self.kind == EDGE)):
             for k in range(self.source.size):
                 j = self.source[k]
                 r = np.hypot(*(self.position[:, i] - self.all[:, k]))
-                if r < 1e-9 or r >= RATIO * SPACING or self.role[j] == 0:
+                if r < 1e-9 or r >= RATIO * SPACING or self.kind[j] == 0:
                     continue
                 e = 2.0 * self.volume[j] * SHAPE.derivative(r, RATIO * SPACING) / r
-                if self.role[j] == DUMMY:
+                if self.kind[j] == DUMMY:
                     offset = self.position[:, edges] - self.position[:, [j]]
                     distance = np.round(np.hypot(*offset), 9)
                     j = edges[np.argmin(distance)]
@@ -98,7 +97,7 @@ def test_matrix_is_that_of_table_1(make):
     """Elements of fluid and edge rows, dummies' columns with their edge particles, row sums 0."""
     pool = Pool(make(threads=2), 3.0)
     expected = -pool.table_1()
-    is_row = (pool.role == FLUID) | (pool.role == EDGE)
+    is_row = (pool.kind == FLUID) | (pool.kind == EDGE)
     A = dense_of(pool.solver(), pool.count)
     diagonal = np.diag(A)
     assert np.array_equal(A[~is_row], np.eye(pool.count)[~is_row])
@@ -112,7 +111,7 @@ def test_dummies_have_the_pressure_of_the_nearest_edge_particle():
     """Of two at the same distance the first; without one within the support, nobody's."""
     backend = compute.cpu(threads=1)
     position = np.array([[0.0, 2.0, 1.0, 3.0, 5.5], [0.0, 0.0, 0.0, 0.0, 0.0]])
-    role = backend.asarray([EDGE, EDGE, DUMMY, DUMMY, DUMMY], "flag")
+    kind = backend.asarray([EDGE, EDGE, DUMMY, DUMMY, DUMMY], "flag")
     neighbors = find_neighbors(
         backend, backend.asarray(position), backend.asarray(np.full(5, 3.0)), 5,
         kernel=SHAPE, mean=arithmetic,
@@ -120,7 +119,7 @@ def test_dummies_have_the_pressure_of_the_nearest_edge_particle():
     weights = backend.asarray(np.ones(backend.to_host(neighbors.neighbor).size))
     solver = PublishedPressure(backend, 5)
     numbers = backend.asarray(np.arange(5), "index")
-    solver.set_operator(neighbors, numbers, weights, role, backend.asarray(np.ones(5)))
+    solver.set_operator(neighbors, numbers, weights, kind, backend.asarray(np.ones(5)))
     assert backend.to_host(solver._column).tolist() == [0, 1, 0, 1, 4]
     # row 0 drops its own dummy 2 and does not reach 3; row 1 has 0 twice, itself and through 2
     expected = np.array([[1.0, -1.0], [-2.0, 2.0]])
@@ -132,7 +131,7 @@ def test_solution():
     """That of the regularized matrix for the right-hand side without its mean; p has mean 0."""
     backend = compute.cpu(threads=2)
     pool = Pool(backend, 5.0)
-    is_row = (pool.role == FLUID) | (pool.role == EDGE)
+    is_row = (pool.kind == FLUID) | (pool.kind == EDGE)
     b = pool.volume * np.cos(pool.position[0])
     solver = pool.solver(tolerance=1e-10)
     pressure = backend.zeros(pool.count)
@@ -158,13 +157,13 @@ def amplitudes(backend, radius):
     b = backend.asarray(-pool.volume * 8.0 * x / (3.0 * edge**3))
     published, pressure = backend.zeros(pool.count), backend.zeros(pool.count)
     pool.solver(tolerance=1e-6).solve(b, published)
-    is_row = (pool.role == FLUID) | (pool.role == EDGE)
+    is_row = (pool.kind == FLUID) | (pool.kind == EDGE)
     symmetric = PressureEquation(backend, pool.count, RATIO * SPACING, tolerance=1e-6)
     mask, volume = backend.asarray(is_row.astype(float)), backend.asarray(pool.volume)
-    folded = pool.neighbors.folded(backend, backend.asarray(pool.source, "index"))
+    folded = pool.neighbors.without_ghosts(backend, backend.asarray(pool.source, "index"))
     symmetric.set_operator(folded, pool.weights, mask, volume)
     symmetric.solve(b, pressure)
-    inside = np.where(pool.role == FLUID, exact, 0.0)
+    inside = np.where(pool.kind == FLUID, exact, 0.0)
     return [float(inside @ backend.to_host(p) / (inside @ inside)) for p in (published, pressure)]
 
 

@@ -21,7 +21,7 @@ def advanced(solver, block, v, step, kind, steps=1):
     velocity = backend.asarray(v)
     nothing, force = backend.zeros(count), backend.zeros((2, count))
     for _ in range(steps):
-        iterations = viscous.advance(block, velocity, force, nothing, solver.roles, step)
+        iterations = viscous.advance(block, velocity, force, nothing, solver.kinds, step)
     return backend.to_host(velocity), iterations
 
 
@@ -80,7 +80,7 @@ def test_implicit_solves_its_equation():
     block = block_of(solver, jittered(solver))
     v = np.random.default_rng(5).normal(size=(2, solver.body.count))
     found, _ = advanced(solver, block, v, 0.05, "implicit")
-    g = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    g = matrix_of(solver.backend, block.without_ghosts(), block.weights, block.count)
     V, s = solver.backend.to_host(solver.flow.viscous.volume), NU * 0.05
     A = np.diag(V + s * g.sum(axis=1)) - s * g
     assert np.abs(A - A.T).max() < 1e-15
@@ -94,10 +94,10 @@ def test_solid_drags():
     solver.advect(0.0)
     backend, count = solver.backend, solver.body.count
     v = np.zeros((2, count))
-    v[0] = backend.to_host(solver.roles.fluid)
+    v[0] = backend.to_host(solver.kinds.fluid)
     viscous = ViscousStep(backend, solver.flow.viscous.volume, 1e-6, "implicit")
     velocity, force = backend.asarray(v), backend.zeros((2, count))
-    viscous.advance(solver.flow.block, velocity, force, backend.zeros(count), solver.roles, 1e-8)
+    viscous.advance(solver.flow.block, velocity, force, backend.zeros(count), solver.kinds, 1e-8)
     found = backend.to_host(velocity)
     fluid = v[0] > 0.0
     assert np.all(found[:, ~fluid] == 0.0)
@@ -109,8 +109,8 @@ def test_nothing_flows():
     solver = box()
     block = block_of(solver)
     backend = solver.backend
-    backend.fill(solver.roles.fluid, 0.0)
-    solver.roles.find_walls(block.pairs, block.gather, block.count, block.wanted)
+    backend.fill(solver.kinds.fluid, 0.0)
+    solver.kinds.find_walls(block.pairs, block.gather, block.count, block.rows)
     v = np.ones((2, solver.body.count))
     found, iterations = advanced(solver, block, v, 0.1, "implicit")
     assert iterations == 0

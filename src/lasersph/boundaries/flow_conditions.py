@@ -1,14 +1,14 @@
-"""`FlowSides`: what holds for the flow at each side of a closed box, named by side.
+"""`FlowConditions`: what holds for the flow at each face of a closed box, named by face.
 
     no-slip        the fluid has the velocity of the wall, which rests: v = 0
     moving-wall    the fluid has the velocity of the wall, which moves along itself
     free-slip      nothing crosses, no stress: v n = 0, d(v t)/dn = 0
     symmetry       the same; also heat and pressure are mirrored
-    periodic       what leaves on one side enters on the other
+    periodic       what leaves at one face enters at the other
     free-surface   flat: v n = 0, and the tangential gradient of surface tension is the stress
                    eta d(v t)/dn (top only)                            [Demuth2020, eq. (15)]
 
-n is the normal of a side and t its tangent: x along surface and bottom, z along left and right.
+n is the normal of a face and t its tangent: x along surface and bottom, z along left and right.
 Without a `[flow]` table what is molten flows in the block below the flat surface.
 """
 
@@ -26,12 +26,12 @@ FlowKind = Literal["no-slip", "moving-wall", "free-slip", "symmetry", "periodic"
 KINDS: tuple[FlowKind, ...] = (
     "no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface",
 )  # fmt: skip
-SIDES = ("left", "right", "bottom", "surface")
+FACES = ("left", "right", "bottom", "surface")
 WALLS = ("no-slip", "moving-wall")
 
 
-class FlowSide(Model):
-    """What holds for the flow at one side: a word, or a table with the velocity of the wall."""
+class FlowCondition(Model):
+    """What holds for the flow at one face: a word, or a table with the velocity of the wall."""
 
     kind: FlowKind = "no-slip"
     velocity: Velocity = Field(
@@ -40,7 +40,7 @@ class FlowSide(Model):
     )
 
     @model_validator(mode="after")
-    def _check_velocity(self) -> FlowSide:
+    def _check_velocity(self) -> FlowCondition:
         if self.kind == "moving-wall" and self.velocity == 0.0:
             raise refusal(
                 ("velocity", 'a moving wall needs its velocity; write velocity = "1 m/s"')
@@ -57,7 +57,7 @@ class FlowSide(Model):
 
     @property
     def is_wall(self) -> bool:
-        """Whether the fluid sticks to this side."""
+        """Whether the fluid sticks to this face."""
         return self.kind in WALLS
 
     @classmethod
@@ -71,26 +71,26 @@ class FlowSide(Model):
 
 
 def _from_word(value: Any) -> Any:
-    if not isinstance(value, str | dict | FlowSide):
+    if not isinstance(value, str | dict | FlowCondition):
         raise ValueError('must be a word or a table; write e.g. "no-slip"')
     return {"kind": value} if isinstance(value, str) else value
 
 
-AT_REST = FlowSide.model_validate({})
-Side = Annotated[FlowSide, BeforeValidator(_from_word)]
+AT_REST = FlowCondition.model_validate({})
+Condition = Annotated[FlowCondition, BeforeValidator(_from_word)]
 
 
-class FlowSides(Model):
-    """A closed box that is all fluid: what holds for the flow at its sides, and how it starts."""
+class FlowConditions(Model):
+    """A closed box that is all fluid: what holds for the flow at its faces, and how it starts."""
 
-    left: Side = Field(default=AT_REST, description="at the smaller x")
-    right: Side = Field(default=AT_REST, description="at the larger x")
-    bottom: Side = AT_REST
-    surface: Side = Field(default=AT_REST, description="at z = 0")
+    left: Condition = Field(default=AT_REST, description="at the smaller x")
+    right: Condition = Field(default=AT_REST, description="at the larger x")
+    bottom: Condition = AT_REST
+    surface: Condition = Field(default=AT_REST, description="at z = 0")
     initial: InitialFlow = Field(default=RestingFlow(), description="velocity at the start")
 
     @model_validator(mode="after")
-    def _check_pairs(self) -> FlowSides:
+    def _check_pairs(self) -> FlowConditions:
         problems = []
         for one, other in (("left", "right"), ("bottom", "surface")):
             kinds = {side: getattr(self, side).kind for side in (one, other)}
@@ -104,7 +104,7 @@ class FlowSides(Model):
                         "kind here",
                     )
                 )
-        for side in SIDES[:3]:
+        for side in FACES[:3]:
             if getattr(self, side).kind == "free-surface":
                 problems.append(
                     (side, 'a free surface lies at the top; write surface = "free-surface"')
@@ -114,6 +114,6 @@ class FlowSides(Model):
         return self
 
     @property
-    def sides(self) -> dict[str, FlowSide]:
-        """The sides by name: left, right, bottom, surface."""
-        return {name: getattr(self, name) for name in SIDES}
+    def faces(self) -> dict[str, FlowCondition]:
+        """The conditions by face: left, right, bottom, surface."""
+        return {name: getattr(self, name) for name in FACES}

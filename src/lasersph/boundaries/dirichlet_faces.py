@@ -1,12 +1,12 @@
-"""Faces that hold a temperature: their pull on each particle, from the pairs with dummies.
+"""Dirichlet faces: boundary coefficients of a given temperature, from the pairs with dummies.
 
     q_i = sum over the dummies j beyond the face of g_ij c_ij (P_w(x_c) - P_i)
 
 with c_ij = 1 and x_c = x_j for a wall of particles of that temperature (dynamic boundary
 particles), and c_ij = n_ij / n_i for a face of that temperature, n_ij being the distance of i and j
 and n_i the distance of i and the face, both normal to it, and x_c the place where the line from i
-to j crosses the face: the linear extrapolation through particle and face [Morris1997]. Pulls of
-several faces add up.
+to j crosses the face: the linear extrapolation through particle and face [Morris1997]. Coefficients
+of several faces add up.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ ENDS = {"left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1), "botto
 
 
 @dataclass(frozen=True)
-class HeldFace:
-    """A face whose temperature is held; is_wall: by particles beyond it."""
+class DirichletFace:
+    """A face of given temperature; is_wall: of particles beyond it."""
 
     name: str
     is_wall: bool
 
 
 @dataclass(frozen=True)
-class Pull:
-    """What a face pulls: for each of its pairs, row i, weight g_ij c_ij [m^(d-2)], x_c [m]."""
+class BoundaryCoefficients:
+    """Pairs with a face: row i, weight g_ij c_ij [m^(d-2)], x_c [m]."""
 
     row: NDArray[np.int64]
     weight: Array
@@ -52,22 +52,22 @@ def plane_of(face: str, extents: Extents) -> tuple[int, float]:
     return axis, extents[axis][end]
 
 
-def face_pulls(
-    faces: list[HeldFace],
+def boundary_coefficients(
+    faces: list[DirichletFace],
     filling: Filling,
     weights: Array,
     row: NDArray[np.int64],
     neighbor: NDArray[np.uint32],
     extents: Extents,
-) -> dict[str, Pull]:
-    """Pull of each face; weights of the used pairs are set to zero.
+) -> dict[str, BoundaryCoefficients]:
+    """Coefficients of each face; weights of the used pairs are set to zero.
 
     Args:
         weights: (pairs,) g_ij, changed in place. row, neighbor: (pairs,) i and j.
         extents: bounds of the block along each axis [m].
     """
-    pulls = {}
-    held = filling.held[neighbor]
+    found = {}
+    held = filling.dirichlet[neighbor]
     for face in faces:
         pairs = np.flatnonzero(held == FACES.index(face.name))
         i, j = row[pairs], neighbor[pairs]
@@ -77,6 +77,6 @@ def face_pulls(
             start = filling.position[:, i]
             factor = (place[axis] - start[axis]) / (plane - start[axis])
             place, weight = start + (place - start) / factor, weight * factor
-        pulls[face.name] = Pull(i, weight, place)
+        found[face.name] = BoundaryCoefficients(i, weight, place)
         weights[pairs] = 0.0
-    return pulls
+    return found

@@ -1,4 +1,4 @@
-"""The block of moving particles: images that follow, symmetric weights, terms of walls."""
+"""The block of moving particles: ghosts that follow, symmetric weights, terms of walls."""
 
 import numpy as np
 import pytest
@@ -14,10 +14,10 @@ from flow_boxes import (
 
 from lasersph.compute.search import EscapedParticle
 from lasersph.solvers.melt_pool.block import (
-    image_velocity,
+    ghost_tensor,
+    ghost_velocity,
+    ghost_velocity_change,
     inner_weight,
-    mirrored_part,
-    mirrored_tensor,
     wall_terms,
 )
 
@@ -31,20 +31,20 @@ BOXES = {
 }
 
 
-def images_of(block):
-    """Positions, sources, signs and offsets of the images on the host."""
+def ghosts_of(block):
+    """Positions, sources, signs and offsets of the ghosts on the host."""
     host = block.backend.to_host
-    parts = block.pairs.position, block.source, block.images.sign, block.images.offset
+    parts = block.pairs.position, block.source, block.ghosts.sign, block.ghosts.offset
     return tuple(host(part)[..., block.count :] for part in parts)
 
 
-def test_images_follow_their_sources():
-    """After a move every image lies where its source's new place puts it."""
+def test_ghosts_follow_their_sources():
+    """After a move every ghost lies where its source's new place puts it."""
     solver = box()
     block = block_of(solver)
     moved = jittered(solver, 0.3)
     block.move(solver.backend.asarray(moved))
-    place, source, sign, offset = images_of(block)
+    place, source, sign, offset = ghosts_of(block)
     assert source.size > 100
     assert place == pytest.approx(sign * moved[:, source] + offset)
     beyond = np.abs(place - np.array([[0.0], [-0.5]])) > 0.4
@@ -65,16 +65,16 @@ def test_supports_are_whole():
 
 
 def smallest(solver, block):
-    """Smallest distance of any two particles or images."""
-    return block.smallest_distance(solver.position, solver.roles.fluid_rows)
+    """Smallest distance of any two particles or ghosts."""
+    return block.smallest_distance(solver.position, solver.kinds.fluid_rows)
 
 
 @pytest.mark.parametrize("name", BOXES)
 def test_weights_are_symmetric(name):
-    """Images folded on their sources: what goes from i to j arrives, wherever particles lie."""
+    """Ghosts replaced by their sources: what goes from i to j arrives, wherever particles lie."""
     solver = box(**BOXES[name])
     block = block_of(solver, jittered(solver))
-    g = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    g = matrix_of(solver.backend, block.without_ghosts(), block.weights, block.count)
     assert np.abs(g - g.T).max() < 1e-11 * g.max()
 
 
@@ -85,7 +85,7 @@ def test_weights_are_symmetric_far_from_the_first_layer(name):
     place = jittered(solver)
     place = place[:, np.random.default_rng(3).permutation(place.shape[1])]
     block = block_of(solver, place)
-    g = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    g = matrix_of(solver.backend, block.without_ghosts(), block.weights, block.count)
     assert np.abs(g - g.T).max() < 1e-11 * g.max()
 
 
@@ -95,32 +95,32 @@ def test_weights_move_with_the_particles():
     block = block_of(solver)
     moved = jittered(solver, 0.05)
     block.move(solver.backend.asarray(moved))
-    g = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    g = matrix_of(solver.backend, block.without_ghosts(), block.weights, block.count)
     block = block_of(solver, moved)
-    again = matrix_of(solver.backend, block.folded(), block.weights, block.count)
+    again = matrix_of(solver.backend, block.without_ghosts(), block.weights, block.count)
     assert g == pytest.approx(again, abs=1e-12 * g.max())
 
 
 def test_velocities_of_images():
-    """As the rules of the sides say, for every image: S v + c."""
+    """As the rules of the sides say, for every ghost: S v + c."""
     solver = box()
     block = block_of(solver)
     host, backend = solver.backend.to_host, solver.backend
     v = np.random.default_rng(2).normal(size=(2, solver.body.count))
-    found = host(block.velocity(backend.asarray(v), backend.zeros(solver.body.count)))
-    place, source, *_ = images_of(block)
+    found = host(block.extend_velocity(backend.asarray(v), backend.zeros(solver.body.count)))
+    place, source, *_ = ghosts_of(block)
     assert np.array_equal(found[:, : block.count], v)
     above = (place[1] > 0.0) & (np.abs(place[0]) < 0.5)
     below = (place[1] < -1.0) & (np.abs(place[0]) < 0.5)
     lid = np.array([[2.0], [0.0]])
     assert found[:, block.count :][:, above] == pytest.approx(lid - v[:, source[above]])
     assert found[:, block.count :][:, below] == pytest.approx(-v[:, source[below]])
-    change = host(block.homogeneous(backend.asarray(v)))
+    change = host(block.extend_velocity_change(backend.asarray(v)))
     assert change[:, block.count :][:, above] == pytest.approx(-v[:, source[above]])
 
 
 def test_smallest_distance():
-    """Of two particles, and of a particle and its own image."""
+    """Of two particles, and of a particle and its own ghost."""
     solver = box()
     block_of(solver)
     place = place_of(solver)
@@ -135,26 +135,25 @@ def test_smallest_distance():
     assert smallest(solver, block) == pytest.approx(0.02)
 
 
-def test_mirrored_tensor():
+def test_ghost_tensor():
     """S M S: off-diagonal entries change their sign beyond one face, none beyond a corner."""
     M = np.array([[1.0, 2.0], [3.0, 4.0]])
-    axes = {"e_x": np.array([1.0, 0.0]), "e_z": np.array([0.0, 1.0])}
-    found = mirrored_tensor(M, np.array([-1.0, 1.0]), **axes)
+    found = ghost_tensor(M, np.array([-1.0, 1.0]))
     assert found.tolist() == [[1.0, -2.0], [-3.0, 4.0]]
-    assert mirrored_tensor(M, np.array([-1.0, -1.0]), **axes).tolist() == M.tolist()
+    assert ghost_tensor(M, np.array([-1.0, -1.0])).tolist() == M.tolist()
 
 
 def test_image_velocity():
-    """S v + c + slope * reach * t; a change keeps only S d."""
+    """S v + c + slope * jump * t; a change keeps only S d."""
     v, S, c = np.array([2.0, 3.0]), np.array([1.0, -1.0]), np.array([0.5, 0.0])
     along = np.array([1.0, 0.0])
-    assert image_velocity(v, S, c, 1.0, 0.25, along).tolist() == [2.75, -3.0]
-    assert image_velocity(v, S, c, -1.0, 0.25, along).tolist() == [2.25, -3.0]
-    assert mirrored_part(v, S).tolist() == [2.0, -3.0]
+    assert ghost_velocity(v, S, c, 1.0, 0.25, along).tolist() == [2.75, -3.0]
+    assert ghost_velocity(v, S, c, -1.0, 0.25, along).tolist() == [2.25, -3.0]
+    assert ghost_velocity_change(v, S).tolist() == [2.0, -3.0]
 
 
 def test_terms_of_a_held_face():
-    """Particle 1 above a floor at z = -2, image 3 below it: c = (1 + 3) / 1, no power."""
+    """Particle 1 above a floor at z = -2, ghost 3 below it: c = (1 + 3) / 1, no power."""
     x_i, x_j, down = np.array([0.0, -1.0]), np.array([5.0, -5.0]), np.array([0.0, -1.0])
     pull, flow, heat, power = wall_terms(0.5, 1.0, 7.0, 11.0, 0.0, down, 2.0, x_i, x_j)
     assert (pull, flow, heat, power) == (2.0, 14.0, 22.0, 0.0)
@@ -162,7 +161,7 @@ def test_terms_of_a_held_face():
 
 
 def test_terms_of_a_heated_face():
-    """2 q n_j g with the image 3 beyond the face; the pair still conducts between particles."""
+    """2 q n_j g with the ghost 3 beyond the face; the pair still conducts between particles."""
     x_i, x_j, down = np.array([0.0, -1.0]), np.array([5.0, -5.0]), np.array([0.0, -1.0])
     pull, _, _, power = wall_terms(0.5, 0.0, 0.0, 0.0, 10.0, down, 2.0, x_i, x_j)
     assert (pull, power) == (0.0, 2.0 * 10.0 * 3.0 * 0.5)
@@ -170,7 +169,7 @@ def test_terms_of_a_heated_face():
 
 
 def test_a_pair_inside_has_no_wall():
-    """A neighbor that is no image: rules of zero give nothing."""
+    """A neighbor that is no ghost: rules of zero give nothing."""
     x = np.array([0.0, -1.0])
     assert wall_terms(0.5, 0.0, 0.0, 0.0, 0.0, np.zeros(2), 0.0, x, x)[0] == 0.0
     assert wall_terms(0.5, 0.0, 0.0, 0.0, 0.0, np.zeros(2), 0.0, x, x)[3] == 0.0
@@ -191,7 +190,7 @@ def test_power_of_a_heated_face(share):
 
 @pytest.mark.parametrize("wrong", [5.0, -1e30, np.nan, np.inf])
 def test_escaped_particle(wrong):
-    """A place out of reach of the sides, or none at all, raises what a step is retried on."""
+    """A place far beyond the faces, or none at all, raises what a step is retried on."""
     solver = box()
     place = place_of(solver)
     place[0, 7] = wrong

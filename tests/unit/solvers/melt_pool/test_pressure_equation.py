@@ -45,7 +45,7 @@ def laplacian(x, z):
 def manufactured_error(rows, jitter, is_simple):
     """RMS error for p given on top, a flux below, mirrors at the sides.
 
-    is_simple: cross-section over distance on the first row; else by the pairs with images.
+    is_simple: cross-section over distance on the first row; else by the pairs with ghosts.
     """
     backend = compute.cpu(threads=2)
     pairs = scattered(rows, jitter=jitter)

@@ -1,4 +1,4 @@
-"""Which particles are in reach of the melt."""
+"""Which particles are near the melt."""
 
 import numpy as np
 import pytest
@@ -6,14 +6,14 @@ import pytest
 from lasersph.compute.search import EscapedParticle
 from lasersph.solvers.melt_pool.near_melt import NearMelt
 
-SIDES = ((0.0, 9.0), (-1.0, 0.0))
-REACH = 0.3
+BOUNDS = ((0.0, 9.0), (-1.0, 0.0))
+RADIUS = 0.3
 
 
 def found(backend, position, fluid, **settings):
     """Host array of who is near."""
     options = {"repeats": False} | settings
-    cells = NearMelt(backend, position.shape[1], SIDES, REACH, **options)
+    cells = NearMelt(backend, position.shape[1], BOUNDS, RADIUS, **options)
     place, flows = backend.asarray(position), backend.asarray(np.array(fluid, float))
     return backend.to_host(cells.find(place, flows)) > 0.0
 
@@ -27,16 +27,16 @@ def cloud():
 
 
 @pytest.mark.parametrize("repeats", [False, True])
-def test_reach(backend, cloud, repeats):
-    """Whoever is closer than the reach to a fluid one is found, none beyond two cells."""
+def test_radius(backend, cloud, repeats):
+    """Whoever is closer than the radius to a fluid one is found, none beyond two cells."""
     position, fluid = cloud
     near = found(backend, position, fluid, repeats=repeats)
     apart = np.abs(position[:, :, None] - position[:, None, fluid])
     if repeats:
         apart[0] = np.minimum(apart[0], 9.0 - apart[0])
-    assert near[(np.hypot(*apart) < REACH).any(axis=1)].all()
+    assert near[(np.hypot(*apart) < RADIUS).any(axis=1)].all()
     # columns near the ends of a period share what is marked in any of them
-    farther = REACH * (9.0 if repeats else 2.0)
+    farther = RADIUS * (9.0 if repeats else 2.0)
     assert not near[(apart.max(axis=0) > farther).all(axis=1)].any()
     assert near[fluid].all() and not near.all()
 
@@ -55,7 +55,7 @@ def test_nothing_flows(backend, cloud):
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -1e30, 9.31])
 def test_escaped(backend, wrong):
-    """A place that is none, or farther than the reach beyond a side, is refused by its number."""
+    """A place that is none, or farther than the radius beyond a face, is refused by its number."""
     position = np.array([[1.0, wrong], [-0.5, -0.5]])
     with pytest.raises(EscapedParticle, match="particle 1 escaped"):
         found(backend, position, [1, 1])

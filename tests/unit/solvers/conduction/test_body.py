@@ -32,8 +32,8 @@ def operator_of(*settings):
 )
 def test_symmetric(settings):
     """What flows from i to j arrives: else the budget of graded layers leaks at the sides."""
-    matrix, total, pull = operator_of(*settings)
+    matrix, total, coefficient = operator_of(*settings)
     assert np.abs(matrix - matrix.T).max() < 1e-12 * matrix.max()
     assert matrix.min() >= 0.0
     assert matrix.sum(axis=1) == pytest.approx(total, rel=1e-12)
-    assert pull.any() == ("boundaries.bottom=wall" in settings)
+    assert coefficient.any() == ("boundaries.bottom=wall" in settings)

@@ -1,4 +1,4 @@
-"""Faces through which a given heat flux enters: power of each particle, from the mirrored pairs.
+"""Neumann faces, through which a given heat flux enters: power from the mirrored pairs.
 
 A dummy j beyond the face stands for its mirror image and is hotter by what the flux q asks for,
 P_j = P_image + 2 q n_j, n_j being its distance from the face. So particle i takes up
@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.boundaries.held_faces import ENDS, Extents, plane_of
+from lasersph.boundaries.dirichlet_faces import ENDS, Extents, plane_of
 from lasersph.particles.filling import Filling
 
 Array = NDArray[np.float64]
@@ -32,7 +32,7 @@ def face_power(
     """(count,) power that enters each particle through a face [W per (3 - d) lengths].
 
     Args:
-        flux: into the body [W/m^2]. weights: (pairs,) g_ij, 0 where j is held at a temperature.
+        flux: into the body [W/m^2]. weights: (pairs,) g_ij, 0 where j is beyond a Dirichlet face.
         row, neighbor: (pairs,) i and j. extents: bounds of the block along each axis [m].
     """
     axis, plane = plane_of(face, extents)

@@ -1,12 +1,12 @@
-"""The pull of faces that hold a temperature."""
+"""Boundary coefficients of faces of given temperature."""
 
 import numpy as np
 import pytest
 
 from lasersph.boundaries import Boundaries
-from lasersph.boundaries.held_faces import HeldFace, face_pulls
+from lasersph.boundaries.dirichlet_faces import DirichletFace, boundary_coefficients
 from lasersph.particles import Domain, Lattice
-from lasersph.particles.filling import FREE, HELD, fill
+from lasersph.particles.filling import DIRICHLET, FREE, fill
 from lasersph.particles.layers import stack
 
 SPACING = 1.0
@@ -15,51 +15,51 @@ SPACING = 1.0
 def column():
     """Four cells of 1 m under a free surface, dummies below."""
     layers = stack(Domain(depth=4.0), Lattice(spacing=SPACING), 1, 0.0)
-    return fill(layers, surface=FREE, bottom=HELD, sides=FREE)
+    return fill(layers, surface=FREE, bottom=DIRICHLET, sides=FREE)
 
 
-def pulls_of(*, is_wall):
+def coefficients_of(*, is_wall):
     """Pulls and weights left: particle 3 and two dummies, 2 and the first dummy, 2 and 3."""
     filling = column()
     below = np.argsort(-filling.position[-1, filling.count :]) + filling.count
     row = np.array([3, 3, 2, 2])
     neighbor = np.array([below[0], below[1], below[0], 3], np.uint32)
     weights = np.array([8.0, 2.0, 1.0, 5.0])
-    pulls = face_pulls(
-        [HeldFace("bottom", is_wall)], filling, weights, row, neighbor, ((-4.0, 0.0),)
+    found = boundary_coefficients(
+        [DirichletFace("bottom", is_wall)], filling, weights, row, neighbor, ((-4.0, 0.0),)
     )
-    return pulls["bottom"].total(4), weights
+    return found["bottom"].total(4), weights
 
 
 def test_wall_of_particles():
-    """Dummies at the wall's temperature pull with their weights: 8 + 2 and 1."""
-    pull, weights = pulls_of(is_wall=True)
-    assert pull.tolist() == [0.0, 0.0, 1.0, 10.0]
+    """Dummies at the wall's temperature count with their weights: 8 + 2 and 1."""
+    coefficient, weights = coefficients_of(is_wall=True)
+    assert coefficient.tolist() == [0.0, 0.0, 1.0, 10.0]
     assert weights.tolist() == [0.0, 0.0, 0.0, 5.0]
 
 
 def test_held_face():
     """Extrapolation through the face at -4 m: 8 * 1/0.5 + 2 * 2/0.5 = 24, and 1 * 2/1.5."""
-    pull, _ = pulls_of(is_wall=False)
-    assert pull == pytest.approx([0.0, 0.0, 2.0 / 1.5, 24.0])
+    coefficient, _ = coefficients_of(is_wall=False)
+    assert coefficient == pytest.approx([0.0, 0.0, 2.0 / 1.5, 24.0])
 
 
 def test_held_sides_and_corner():
     """Beyond a side the distances along x count: n_ij = 1 m, n_i = 0.5 m."""
     layers = stack(Domain(depth=4.0, width=4.0, extent="full"), Lattice(spacing=1.0), 2, 0.0)
-    filling = fill(layers, surface=FREE, bottom=FREE, sides=HELD)
+    filling = fill(layers, surface=FREE, bottom=FREE, sides=DIRICHLET)
     x, z = filling.position
     i = int(np.flatnonzero((x[:16] == -1.5) & (z[:16] == -0.5))[0])
     j = int(np.flatnonzero((x == -2.5) & (z == -1.5))[0])
-    pulls = face_pulls(
-        [HeldFace("left", False)], filling, np.array([3.0]), np.array([i]),
+    found = boundary_coefficients(
+        [DirichletFace("left", False)], filling, np.array([3.0]), np.array([i]),
         np.array([j], np.uint32), layers.extents,
     )  # fmt: skip
-    pull = pulls["left"]
-    assert pull.total(16)[i] == pytest.approx(3.0 * 1.0 / 0.5)
+    coefficient = found["left"]
+    assert coefficient.total(16)[i] == pytest.approx(3.0 * 1.0 / 0.5)
     # the line from (-1.5, -0.5) to (-2.5, -1.5) crosses the face halfway
-    assert pull.place[:, 0] == pytest.approx([-2.0, -1.0])
-    assert pull.total(16, pull.place[1])[i] == pytest.approx(-6.0)
+    assert coefficient.place[:, 0] == pytest.approx([-2.0, -1.0])
+    assert coefficient.total(16, coefficient.place[1])[i] == pytest.approx(-6.0)
 
 
 def test_temperature_of_a_face():

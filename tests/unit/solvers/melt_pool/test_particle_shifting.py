@@ -4,41 +4,40 @@ import numpy as np
 import pytest
 from flow_boxes import PERIODIC, PERIODIC_HEAT, block_of, box, jittered, place_of, start_from
 
-from lasersph.solvers.melt_pool.rearrange import (
+from lasersph.solvers.melt_pool.particle_shifting import (
     CLOSEST,
     LARGEST,
-    Rearrangement,
-    adjusted_velocity,
-    balanced,
-    bounded,
+    ParticleShifting,
+    adjust_velocity,
+    balance_change,
+    clip_to_range,
+    confine,
     enthalpy_change,
     enthalpy_terms,
-    face_enthalpy,
-    kind_of,
-    placed,
-    settled,
+    ghost_enthalpy,
+    phase_of,
+    shifted_position,
     velocity_terms,
 )
 
 E_X, E_Z = np.array([1.0, 0.0]), np.array([0.0, 1.0])
 ONE = np.eye(2)
-AXES = {"e_x": E_X, "e_z": E_Z}
 
 
 def test_bounded():
     """Within low, high and the old value, which may lie outside of the neighbors' range."""
-    assert bounded(5.0, 1.0, 0.0, 2.0) == 2.0
-    assert bounded(-5.0, 1.0, 0.0, 2.0) == 0.0
-    assert bounded(1.5, 1.0, 0.0, 2.0) == 1.5
-    assert bounded(5.0, 3.0, 0.0, 2.0) == 3.0
+    assert clip_to_range(5.0, 1.0, 0.0, 2.0) == 2.0
+    assert clip_to_range(-5.0, 1.0, 0.0, 2.0) == 0.0
+    assert clip_to_range(1.5, 1.0, 0.0, 2.0) == 1.5
+    assert clip_to_range(5.0, 3.0, 0.0, 2.0) == 3.0
 
 
 def test_velocity_by_hand():
-    """grad v . shift = (2, 0) x 0.1 along x, bounded by the neighbors component by component."""
+    """grad v . shift = (2, 0) x 0.1 along x, clipped by the neighbors component by component."""
     gradient = np.array([[2.0, 0.0], [5.0, 0.0]])
     v, shifted = np.array([1.0, 0.0]), np.array([0.1, 0.0])
     low, high = np.array([0.0, -0.2]), np.array([3.0, 0.2])
-    found = adjusted_velocity(gradient, low, high, v, ONE, shifted, **AXES)
+    found = adjust_velocity(gradient, low, high, v, ONE, shifted)
     assert found == pytest.approx([1.2, 0.2])
     terms = velocity_terms(v, high, 2.0, np.array([-1.0, 0.0]), 1.0, -0.5)
     assert terms[0].tolist() == [[2.0, 0.0], [0.2, 0.0]]
@@ -47,7 +46,7 @@ def test_velocity_by_hand():
 
 def test_kinds():
     """At rest, melt, melt on the plateau."""
-    assert (kind_of(0.0, 0.0), kind_of(1.0, 0.0), kind_of(1.0, 0.5)) == (0.0, 1.0, 2.0)
+    assert (phase_of(0.0, 0.0), phase_of(1.0, 0.0), phase_of(1.0, 0.5)) == (0.0, 1.0, 2.0)
 
 
 def test_no_exchange_across_kinds():
@@ -69,36 +68,36 @@ def test_enthalpy_by_hand():
 
 def test_balanced():
     """Gains and losses are scaled each by its own factor."""
-    assert (balanced(5.0, 1.0, 0.5, 1.0), balanced(5.0, -1.0, 0.5, 1.0)) == (5.5, 4.0)
+    assert (balance_change(5.0, 1.0, 0.5, 1.0), balance_change(5.0, -1.0, 0.5, 1.0)) == (5.5, 4.0)
 
 
 def test_enthalpy_beyond_a_held_face():
     """Odd about the wall's: 2 * 7 - 5; else the source's."""
-    assert (face_enthalpy(5.0, 1.0, 7.0), face_enthalpy(5.0, 0.0, 7.0)) == (9.0, 5.0)
+    assert (ghost_enthalpy(5.0, 1.0, 7.0), ghost_enthalpy(5.0, 0.0, 7.0)) == (9.0, 5.0)
 
 
 def test_places():
     """Kept `gap` inside of sides; moved by one period where there is one."""
-    assert placed(-0.1, 0.0, 1.0, 0.0, 0.03) == 0.03
-    assert placed(1.1, 0.0, 1.0, 0.0, 0.03) == 0.97
-    assert placed(-0.1, 0.0, 1.0, 1.0, 0.03) == pytest.approx(0.9)
-    assert placed(1.0, 0.0, 1.0, 1.0, 0.03) == 0.0
-    assert placed(0.01, 0.0, 1.0, 1.0, 0.03) == 0.01
+    assert confine(-0.1, 0.0, 1.0, 0.0, 0.03) == 0.03
+    assert confine(1.1, 0.0, 1.0, 0.0, 0.03) == 0.97
+    assert confine(-0.1, 0.0, 1.0, 1.0, 0.03) == pytest.approx(0.9)
+    assert confine(1.0, 0.0, 1.0, 1.0, 0.03) == 0.0
+    assert confine(0.01, 0.0, 1.0, 1.0, 0.03) == 0.01
 
 
 def test_settled():
     """Fluid is kept inside, solid is where it is."""
     box_ = {"low": np.zeros(2), "high": np.ones(2), "width": np.array([1.0, 0.0]), "gap": 0.03}
     x, shifted = np.array([0.99, 0.99]), np.array([0.02, 0.02])
-    assert settled(x, shifted, 1.0, **box_, **AXES) == pytest.approx([0.01, 0.97])
-    assert settled(x, 0.0 * x, 0.0, **box_, **AXES) == pytest.approx(x)
+    assert shifted_position(x, shifted, 1.0, **box_) == pytest.approx([0.01, 0.97])
+    assert shifted_position(x, 0.0 * x, 0.0, **box_) == pytest.approx(x)
 
 
 def rearranged(solver, place, shift, *, v=None, h=None):
     """The solver's own adjustment at `place` for given shifts; returns v and h."""
     block = block_of(solver, place)
-    rearrangement, backend = solver.rearrangement, solver.backend
-    backend.copy(backend.asarray(shift), rearrangement.shifted)
+    shifting, backend = solver.shifting, solver.backend
+    backend.copy(backend.asarray(shift), shifting.displacement)
     if v is not None:
         backend.copy(backend.asarray(v), solver.flow.velocity)
     if h is not None:
@@ -170,12 +169,12 @@ def test_plateau_keeps_its_enthalpies():
     shift = np.random.default_rng(6).uniform(-0.01, 0.01, place.shape)
     hot = place[0] > 0.0
     h = np.where(hot, 100.0, 1.0) + place[1]
-    rearrangement = solver.rearrangement
-    backend.copy(backend.asarray(shift), rearrangement.shifted)
+    shifting = solver.shifting
+    backend.copy(backend.asarray(shift), shifting.displacement)
     for on_plateau, is_kept in ((hot, True), (np.zeros(count), False)):
         enthalpy = backend.asarray(h)
-        rearrangement.adjust_enthalpy(
-            block, solver.roles, enthalpy, backend.asarray(0.5 * on_plateau),
+        shifting.adjust_enthalpy(
+            block, solver.kinds, enthalpy, backend.asarray(0.5 * on_plateau),
             solver.particles["mass"], solver.flow.correction,
         )  # fmt: skip
         found = backend.to_host(enthalpy)
@@ -189,8 +188,8 @@ def test_largest_shift():
     place = jittered(solver, 0.45)
     block = block_of(solver, place)
     nothing = solver.backend.zeros(solver.body.count)
-    solver.rearrangement.shift(block, solver.roles, nothing, 1.0, 1.0)
-    size = np.linalg.norm(solver.backend.to_host(solver.rearrangement.shifted), axis=0)
+    solver.shifting.shift(block, solver.kinds, nothing, 1.0, 1.0)
+    size = np.linalg.norm(solver.backend.to_host(solver.shifting.displacement), axis=0)
     assert size.max() == pytest.approx(LARGEST * 0.1)
 
 
@@ -217,11 +216,11 @@ def test_without_shifting():
 
 def test_rearrangement_needs_no_block_to_settle(backend):
     """Positions alone: two particles in a periodic strip."""
-    rearrangement = Rearrangement(backend, 2, 0.04, 0.1, ((0.0, 1.0), (-1.0, 0.0)), (1.0, 0.0))
+    shifting = ParticleShifting(backend, 2, 0.04, 0.1, ((0.0, 1.0), (-1.0, 0.0)), (1.0, 0.0))
     position = backend.asarray([[1.05, 0.5], [-0.5, 0.2]])
 
     class Flowing:
         fluid = backend.asarray([1.0, 1.0])
 
-    rearrangement.settle(position, Flowing)
+    shifting.move(position, Flowing)
     assert backend.to_host(position) == pytest.approx(np.array([[0.05, 0.5], [-0.5, -0.03]]))

@@ -3,27 +3,27 @@
 import pytest
 from pydantic import ValidationError
 
-from lasersph.boundaries import FlowSide, FlowSides
+from lasersph.boundaries import FlowCondition, FlowConditions
 
 
 def test_a_word_or_a_table():
     """A word is the kind; a table adds the velocity; sides not named are walls at rest."""
-    flow = FlowSides.model_validate(
+    flow = FlowConditions.model_validate(
         {"left": "free-slip", "surface": {"kind": "moving-wall", "velocity": "2 mm/s"}}
     )
-    assert flow.left == FlowSide(kind="free-slip")
+    assert flow.left == FlowCondition(kind="free-slip")
     assert (flow.surface.kind, flow.surface.velocity) == ("moving-wall", 2e-3)
-    assert flow.bottom == flow.right == FlowSide(kind="no-slip", velocity=0.0)
-    assert list(flow.sides) == ["left", "right", "bottom", "surface"]
-    assert [name for name, side in flow.sides.items() if side.is_wall] == [
+    assert flow.bottom == flow.right == FlowCondition(kind="no-slip", velocity=0.0)
+    assert list(flow.faces) == ["left", "right", "bottom", "surface"]
+    assert [name for name, side in flow.faces.items() if side.is_wall] == [
         "right", "bottom", "surface",
     ]  # fmt: skip
 
 
 def test_round_trip():
     """Plain data of the sides read back is the same."""
-    flow = FlowSides.model_validate({"left": "periodic", "right": "periodic"})
-    assert FlowSides.model_validate(flow.model_dump()) == flow
+    flow = FlowConditions.model_validate({"left": "periodic", "right": "periodic"})
+    assert FlowConditions.model_validate(flow.model_dump()) == flow
 
 
 @pytest.mark.parametrize(
@@ -40,4 +40,4 @@ def test_round_trip():
 def test_refusals(data, message):
     """What contradicts itself is refused in words."""
     with pytest.raises(ValidationError, match=message):
-        FlowSides.model_validate(data)
+        FlowConditions.model_validate(data)

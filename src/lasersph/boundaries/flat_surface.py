@@ -1,0 +1,197 @@
+"""`FlatSurface`: a free surface that stays flat, as what it gives a step of the flow.
+
+    normal velocity       v . n = 0, which also the ghosts beyond it show
+    tangential stress     eta d(v . t)/dn = t . grad_s gamma(T)         [Demuth2020, eq. (15)]
+    pressure              dp/dn = 0
+    heat                  none crosses, unless the case holds the face's temperature or its flux
+
+The pressure under a flat surface replaces the curvature of one that is free to move; so it has
+neither capillary waves nor recoil that moves it, and no limits of the step. Particles within one
+spacing lie at the surface; those deeper take the stress of the surface particles within their
+support.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import cos
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.boundaries.settings import TemperatureWave
+from lasersph.boundaries.surface import PressureCondition, SurfaceNeighbors
+from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import dot, interpolate
+from lasersph.materials import Material
+from lasersph.sph.tangential import (
+    extend_from_surface,
+    extension_terms,
+    tangential_gradient,
+    tangential_terms,
+)
+
+LOWEST, HIGHEST = 1.0, 2.0e4
+"""Range of temperatures of the table of surface tension [K]."""
+NODES = 257
+
+
+@dataclass(frozen=True)
+class ImposedTemperature:
+    """Temperature of a surface that is held: mean [K] and what varies along x."""
+
+    mean: float
+    wave: TemperatureWave | None = None
+
+
+def mark_surface(x, n, plane, near, far):
+    """1 for a particle at the surface, 1 for one within its support of it, and its depth [m]."""
+    depth = plane - dot(x, n)
+    return (1.0 if depth < near else 0.0), (1.0 if depth < far else 0.0), depth
+
+
+def both(mark, active):
+    """1 where both are."""
+    return mark * active
+
+
+def surface_tension(T, T_nodes, gamma_nodes):
+    """Surface tension [N/m] up to a constant."""
+    return interpolate(T, T_nodes, gamma_nodes)
+
+
+def imposed_temperature(x, along, mean, amplitude, wave_number):
+    """Temperature of the held surface above a particle [K]."""
+    return mean + amplitude * cos(wave_number * dot(x, along))
+
+
+def component(g, along):
+    """Part of a vector along the surface."""
+    return dot(g, along)
+
+
+def velocity_jump(tau, depth, eta):
+    """2 d tau / eta [m/s]: by how much a ghost beyond the surface is faster than its source."""
+    return 2.0 * depth * tau / eta
+
+
+class FlatSurface:
+    """The surface z = `plane`, see `Surface`.
+
+    Args:
+        count: particles of the whole body. spacing, support: of the particles at it [m].
+        material: gamma(T) or its slope. viscosity: eta [Pa s]. has_stress: whether gamma drives
+            the flow. held: the surface's own temperature, where it is given.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        count: int,
+        *,
+        plane: float,
+        spacing: float,
+        support: float,
+        material: Material,
+        viscosity: float,
+        has_stress: bool,
+        held: ImposedTemperature | None,
+    ) -> None:
+        self.backend, self.viscosity, self.held = backend, viscosity, held
+        self.normal, self.tangent, self.has_stress = (0.0, 1.0), (1.0, 0.0), has_stress
+        self.normal_velocity = self.heat_flux = 0.0
+        self.pressure: PressureCondition | None = None
+        self._place = {"n": self.normal, "plane": plane, "near": spacing, "far": support}
+        self.at_surface, self.near_surface, self.depth = (backend.zeros(count) for _ in range(3))
+        self.temperature, self.gradient, self.stress = (backend.zeros(count) for _ in range(3))
+        self.ghost_velocity_jump, self._gamma = backend.zeros(count), backend.zeros(count)
+        self._slope = backend.zeros((2, count))
+        if has_stress:
+            T, gamma = surface_tension_table(material)
+            self.table = {"T_nodes": backend.asarray(T), "gamma_nodes": backend.asarray(gamma)}
+
+    def find(self, position: Array) -> None:
+        """Set marks and depths of the particles at `position`, shape (2, n) [m]."""
+        out = (self.at_surface, self.near_surface, self.depth)
+        self.backend.pointwise(mark_surface, {"x": position}, out, **self._place)
+
+    def update_stress(
+        self, T: Array, position: Array, neighbors: SurfaceNeighbors, active: Array
+    ) -> None:
+        """Set temperature, gradient, stress and jump from temperatures (n,) [K]; see `Surface`."""
+        backend = self.backend
+        rows = self._rows(self.at_surface, active)
+        # temperature of the surface: that of the particles at it, or a given one
+        backend.copy(T, self.temperature)
+        if self.held is not None:
+            wave = self.held.wave
+            backend.pointwise(
+                imposed_temperature,
+                {"x": position},
+                self.temperature,
+                along=self.tangent,
+                mean=self.held.mean,
+                amplitude=wave.amplitude if wave else 0.0,
+                wave_number=2.0 * np.pi / wave.period if wave else 0.0,
+            )
+        mark = neighbors.gather(self.at_surface)
+        self._find_slope(self.temperature, self.gradient, rows, neighbors, mark)
+        if not self.has_stress:
+            return
+        # stress tau = d gamma/dx at the surface, extended to the particles near it
+        backend.pointwise(surface_tension, {"T": self.temperature}, self._gamma, **self.table)
+        self._find_slope(self._gamma, self.stress, rows, neighbors, mark)
+        near = self._rows(self.near_surface, active)
+        found = backend.zeros(self.stress.shape[0])
+        fields = {"f": neighbors.gather(self.stress), "s": mark}
+        terms, finish = extension_terms, extend_from_surface
+        backend.pair_sum(terms, neighbors.pairs, fields, found, rows=near, finish=finish)
+        backend.copy(found, self.stress)
+        fields = {"tau": self.stress, "depth": self.depth}
+        backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
+
+    def move(self, step: float, velocity: Array, evaporated_mass: Array) -> None:
+        """It stays where it is."""
+
+    def time_step_limits(self) -> dict[str, float]:
+        """None: it has no waves."""
+        return {}
+
+    def checkpoint_scalars(self) -> dict[str, float]:
+        """None: what it has follows from the particles."""
+        return {}
+
+    def restore(self, numbers: Mapping[str, float]) -> None:
+        """There is nothing to restore."""
+
+    def _rows(self, mark: Array, active: Array) -> Rows:
+        """Index array of marked particles that are active."""
+        found = self.backend.zeros(self.stress.shape[0])
+        self.backend.pointwise(both, {"mark": mark, "active": active}, found)
+        return self.backend.rows_where(found, 1.0)
+
+    def _find_slope(
+        self, f: Array, out: Array, rows: Rows, neighbors: SurfaceNeighbors, mark: Array
+    ) -> None:
+        """Derivative of f along the surface, 0 elsewhere; mark: `at_surface` with ghosts."""
+        backend, finish = self.backend, tangential_gradient
+        backend.fill(self._slope, 0.0)
+        fields, n = {"V": neighbors.V, "s": mark, "f": neighbors.gather(f)}, self.normal
+        backend.pair_sum(
+            tangential_terms, neighbors.pairs, fields, self._slope, rows=rows, finish=finish, n=n
+        )
+        backend.pointwise(component, {"g": self._slope}, out, along=self.tangent)
+
+
+def surface_tension_table(material: Material) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Temperatures [K] and surface tension [N/m] up to a constant, from gamma(T) or its slope."""
+    if material.surface_tension_slope is None:
+        return material.table("surface_tension", LOWEST, HIGHEST, NODES)
+    T, _ = material.table("surface_tension_slope", LOWEST, HIGHEST, NODES)
+    if T.size > 2:  # the integral of a slope that varies is curved between its nodes
+        T = np.union1d(T, np.linspace(LOWEST, HIGHEST, NODES))
+    slope = material.surface_tension_slope_at(T)
+    steps = np.diff(T) * 0.5 * (slope[1:] + slope[:-1])
+    return T, np.concatenate([[0.0], np.cumsum(steps)])

@@ -1,0 +1,103 @@
+"""`Surface`: what a step of a melt pool wants to know of the free surface over the melt.
+
+A flat one is `FlatSurface`. One that moves, z = eta(x, t), brings a pressure from its curvature and
+its vapor, limits of the step from its capillary waves, and moves with the melt below it; no step
+knows which it has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple, Protocol
+
+from lasersph.compute.array_types import Array
+from lasersph.particles.neighbor_lists import NeighborList
+
+Vector = tuple[float, ...]
+
+
+class PressureCondition(NamedTuple):
+    """What a surface gives the pressure equation, arrays (n,) or None for none.
+
+    coefficient: cross-section over distance a [m^(d-2)]. value: p_b [Pa]. flux: sum of
+    cross-section times dp/dn, n outward [Pa m^(d-2)].
+    """
+
+    coefficient: Array | None = None
+    value: Array | None = None
+    flux: Array | None = None
+
+
+class SurfaceNeighbors(Protocol):
+    """The particles below a surface with their ghosts and pairs."""
+
+    pairs: NeighborList
+    V: Array
+
+    def gather(self, field: Array) -> Array:
+        """A field of all particles on those of the pairs."""
+        ...
+
+
+class Surface(Protocol):
+    """The free surface.
+
+    Attributes:
+        normal, tangent: unit vectors, the normal outward. normal_velocity: [m/s]. heat_flux: into
+            the body [W/m^2]. at_surface, near_surface: (n,) 1 for a particle that lies at the
+            surface, within its support of it. depth: (n,) below the surface along the beam [m].
+            temperature: (n,) of the surface above a particle at it [K]. gradient: (n,) of that
+            along the surface [K/m]. stress: (n,) tau [Pa]. ghost_velocity_jump: (n,) by how much a
+            ghost beyond the surface is faster than its source, 2 d tau / eta [m/s].
+    """
+
+    normal: Vector
+    tangent: Vector
+    normal_velocity: float
+    heat_flux: float
+    at_surface: Array
+    near_surface: Array
+    depth: Array
+    temperature: Array
+    gradient: Array
+    stress: Array
+    ghost_velocity_jump: Array
+
+    @property
+    def pressure(self) -> PressureCondition | None:
+        """Condition for the pressure; None for dp/dn = 0."""
+        ...
+
+    def find(self, position: Array) -> None:
+        """Set marks and depths of the particles at `position`, shape (dim, n) [m]."""
+        ...
+
+    def update_stress(
+        self, T: Array, position: Array, neighbors: SurfaceNeighbors, active: Array
+    ) -> None:
+        """Set temperature, gradient, stress and jump from temperatures (n,) [K].
+
+        Args:
+            active: (n,) 1 for particles within the support of fluid; elsewhere there is no stress.
+        """
+        ...
+
+    def move(self, step: float, velocity: Array, evaporated_mass: Array) -> None:
+        """Follow the melt for `step` [s].
+
+        Args:
+            velocity: (dim, n) [m/s]. evaporated_mass: (n,) since the start [kg/m^2].
+        """
+        ...
+
+    def time_step_limits(self) -> dict[str, float]:
+        """Named limits of the next step [s]."""
+        ...
+
+    def checkpoint_scalars(self) -> dict[str, float]:
+        """Numbers that survive a step; arrays that do are fields of the particles."""
+        ...
+
+    def restore(self, numbers: Mapping[str, float]) -> None:
+        """Continue from `checkpoint_scalars`."""
+        ...

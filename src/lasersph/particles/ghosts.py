@@ -1,0 +1,224 @@
+"""Ghost particles beyond flat faces: moving particles mirrored, or one period away.
+
+A closed box whose faces mirror (or repeat) the particles inside gives every particle a full
+support, so that no sum is cut. Ghost k of particle s lies at
+
+    x_k = sign x_s + offset            (axis by axis)
+
+and follows its source. Particles closer to a face than the search radius have ghosts; those of one
+axis have ghosts again across the faces of the next, which fills the corners. Sign and offset are
+those of its type, one of nine at most: which face of each axis lies between ghost and source. The
+velocity or temperature of a ghost follows from its type too and is not known here. Left out: one
+and three dimensions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.compute.array_types import Array
+from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import vector
+
+Table = tuple[Array, ...]
+"""Values of each ghost type on the backend, an array (w,) for each component."""
+MIRROR, PERIODIC, OPEN = "mirror", "periodic", "open"
+LOWER, UPPER = 1, 2
+BOTH = 3
+"""What `near_faces` says of a particle close to both faces of an axis, LOWER + UPPER."""
+
+
+@dataclass(frozen=True)
+class FacePair:
+    """Faces of the box along one axis: kinds MIRROR, PERIODIC (both) or OPEN, and places [m]."""
+
+    lower_kind: str
+    upper_kind: str
+    lower: float
+    upper: float
+
+    def beyond(self, face: int) -> tuple[float, float, float]:
+        """Sign, offset [m] and where the sources of ghosts beyond a face are near [m]."""
+        kind, plane = (
+            (self.lower_kind, self.lower) if face == LOWER else (self.upper_kind, self.upper)
+        )
+        if kind == OPEN:
+            return 1.0, 0.0, np.inf
+        if kind == MIRROR:
+            return -1.0, 2.0 * plane, plane
+        # the ghost beyond one face of a period belongs to a particle near the other
+        near = self.lower + self.upper - plane
+        return 1.0, plane - near, near
+
+
+@dataclass(frozen=True)
+class GhostTypes:
+    """Types of ghosts; the first type is that of the particles themselves.
+
+    Attributes:
+        sign, offset: (2, w) [1], [m]. crossed: (2, w) which face of each axis lies between, 0,
+            LOWER or UPPER. near: place of the sources beyond each face, x then z [m]; infinite
+            beyond an open one.
+    """
+
+    sign: NDArray[np.float64]
+    offset: NDArray[np.float64]
+    crossed: NDArray[np.int64]
+    near: tuple[float, float, float, float]
+
+    @property
+    def count(self) -> int:
+        """Number of types."""
+        return self.crossed.shape[1]
+
+
+def ghost_types_of(faces: tuple[FacePair, FacePair]) -> GhostTypes:
+    """Types of the faces along x and z; those of x come first."""
+    rules = [{0: (1.0, 0.0, np.inf)} for _ in faces]
+    for rule, pair in zip(rules, faces, strict=True):
+        for face in (LOWER, UPPER):
+            rule[face] = pair.beyond(face)
+    is_there = [
+        [f for f, (_, _, near) in rule.items() if f == 0 or near < np.inf] for rule in rules
+    ]
+    crossed = np.array([(x, z) for z, x in product(is_there[1], is_there[0])]).T
+    sign, offset = (
+        np.array([[rules[axis][f][part] for f in crossed[axis]] for axis in (0, 1)])
+        for part in (0, 1)
+    )
+    x, z = rules
+    return GhostTypes(sign, offset, crossed, (x[LOWER][2], x[UPPER][2], z[LOWER][2], z[UPPER][2]))
+
+
+def near_faces(x, search_radius, low_0, high_0, low_1, high_1):
+    """Faces of x and of z that a particle is near: 0, LOWER, UPPER or BOTH; 1 where near any."""
+    across, along = 0.0, 0.0
+    if abs(x[0] - low_0) < search_radius:
+        across += 1.0
+    if abs(x[0] - high_0) < search_radius:
+        across += 2.0
+    if abs(x[1] - low_1) < search_radius:
+        along += 1.0
+    if abs(x[1] - high_1) < search_radius:
+        along += 2.0
+    return int(across), int(along), min(across + along, 1.0)
+
+
+def makes_ghost(near, face):
+    """Whether a particle that is near some faces of an axis has ghosts beyond one, or beyond 0."""
+    return face == 0 or near == face or near >= BOTH
+
+
+def is_ghost(k, across, along, crossed_x, crossed_z, size):
+    """1 where the k-th pair of type and particle near a face makes a ghost, type after type."""
+    place = k % size
+    ghost_type = k // size + 1
+    if makes_ghost(across[place], crossed_x[ghost_type]) and makes_ghost(
+        along[place], crossed_z[ghost_type]
+    ):
+        return 1.0
+    return 0.0
+
+
+def origin(k, count, size, near, found):
+    """Source and type of particle k among all `count` with their ghosts."""
+    if k < count:
+        return k, 0 * k
+    pair = found[k - count]
+    return near[pair % size], pair // size + 1
+
+
+def scalar_of_type(ghost_type, first):
+    """Number of a type."""
+    return first[ghost_type]
+
+
+def vector_of_type(ghost_type, first, second):
+    """Vector of a type."""
+    return vector(first[ghost_type], second[ghost_type])
+
+
+class GhostParticles:
+    """The first `count` particles with their ghosts.
+
+    Attributes:
+        source, ghost_type: (M,) kind "index", particle behind each and its type; a particle is
+            its own source, of type 0. sign, offset: (2, M) [1], [m]. total: M.
+    """
+
+    source: Array
+    ghost_type: Array
+    sign: Array
+    offset: Array
+
+    def __init__(
+        self, backend: Backend, count: int, search_radius: float, ghost_types: GhostTypes
+    ) -> None:
+        self.backend, self.count, self.ghost_types = backend, count, ghost_types
+        low_0, high_0, low_1, high_1 = ghost_types.near
+        self._near = {"low_0": low_0, "high_0": high_0, "low_1": low_1, "high_1": high_1}
+        self._near["search_radius"] = search_radius
+        self._crossed = {
+            name: backend.asarray(row, "index")
+            for name, row in zip(("crossed_x", "crossed_z"), ghost_types.crossed, strict=True)
+        }
+        self._faces = tuple(backend.zeros(count, "index") for _ in range(2))
+        self._is_near = backend.zeros(count)
+        self._numbers = backend.zeros(0, "index")
+        self._sign, self._offset = self.table(ghost_types.sign), self.table(ghost_types.offset)
+        self.total = 0
+
+    def find(self, position: Array) -> None:
+        """Find the ghosts of the particles at `position`, shape (2, n) [m]."""
+        backend, count = self.backend, self.count
+        # particles near a face, and the faces that they are near
+        fields = {"x": backend.head(position, count)}
+        backend.pointwise(near_faces, fields, (*self._faces, self._is_near), **self._near)
+        near = backend.rows_where(self._is_near, 1.0)
+        across, along = (self._gather(face, near) for face in self._faces)
+        # which pairs of a type and such a particle make a ghost
+        size, others = near.shape[0], self.ghost_types.count - 1
+        marks = backend.zeros(others * size)
+        fields = {"k": self._numbers_below(others * size)}
+        tables = {"across": across, "along": along, "size": max(size, 1)}
+        backend.pointwise(is_ghost, fields, marks, **tables, **self._crossed)
+        found = backend.rows_where(marks, 1.0)
+        # source and type of each particle and each ghost
+        self.total = count + found.shape[0]
+        self.source, self.ghost_type = (backend.zeros(self.total, "index") for _ in range(2))
+        fields, out = {"k": self._numbers_below(self.total)}, (self.source, self.ghost_type)
+        backend.pointwise(
+            origin, fields, out, count=count, size=max(size, 1), near=near, found=found
+        )
+        self.sign, self.offset = self.by_type(self._sign), self.by_type(self._offset)
+
+    def table(self, values: NDArray[Any]) -> Table:
+        """Host values (w,) or (2, w) of each type, for `by_type`."""
+        return tuple(self.backend.asarray(row) for row in np.atleast_2d(values))
+
+    def by_type(self, table: Table) -> Array:
+        """(M,) or (2, M) values by the type of each particle."""
+        backend, fields = self.backend, {"ghost_type": self.ghost_type}
+        if len(table) == 1:
+            out = backend.zeros(self.total)
+            backend.pointwise(scalar_of_type, fields, out, first=table[0])
+        else:
+            out = backend.zeros((2, self.total))
+            backend.pointwise(vector_of_type, fields, out, first=table[0], second=table[1])
+        return out
+
+    def _gather(self, source: Array, order: Array) -> Array:
+        out = self.backend.zeros(order.shape[0], "index")
+        self.backend.gather(source, order, out)
+        return out
+
+    def _numbers_below(self, size: int) -> Array:
+        """0, 1, ... size - 1, kept on the backend."""
+        if self._numbers.shape[0] < size:
+            self._numbers = self.backend.asarray(np.arange(size + size // 4), "index")
+        return self.backend.head(self._numbers, size)
