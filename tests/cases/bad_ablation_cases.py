@@ -9,7 +9,7 @@ TIME = "[time]"
 WAVE = '[motion]\nkind = "sound-wave"\namplitude = "1 m/s"\n\n[time]'
 
 BAD_ABLATION_CASES = {
-    "no speed of sound": (SOUND + "\n", "", ":26: solver.sound_speed: missing"),
+    "no speed of sound": (SOUND + "\n", "", ':26: solver.sound_speed: missing; write sound_speed = "1000 m/s"'),
     "speed of sound as a time": (SOUND, 'sound_speed = "1000 s"', ':29: solver.sound_speed: "1000 s" is a time, not a velocity; write e.g. "10 m/s"'),
     "sound that stands": (SOUND, 'sound_speed = "0 m/s"', ':29: solver.sound_speed: must be greater than 0, got "0 m/s"'),
     "motion under conduction": (KIND + "dimensions = 2\n" + SOUND + "\n\n" + TIME, 'dimensions = 2\n\n[motion]\nkind = "uniform"\nx = "1 m/s"\n\n[time]', ':29: motion: matter stays where it is where kind = "conduction"; write kind = "ablation" in [solver], or leave it out'),

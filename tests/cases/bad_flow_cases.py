@@ -15,8 +15,8 @@ BAD_FLOW_CASES = {
     # solver
     "flow under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':21: flow: nothing flows where kind = "conduction"; write kind = "melt-pool" in [solver], or leave [flow] out'),
     "steady under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':39: time.steady: is about flow, which kind = "conduction" does not compute; leave it out or write kind = "melt-pool" in [solver]'),
-    "flow in 3-D": (KIND, KIND + "\ndimensions = 3", ':35: solver.dimensions: must be "2", got 3'),
-    "flow in 1-D": (KIND, KIND + "\ndimensions = 1", ':35: solver.dimensions: must be "2", got 1'),
+    "flow in 3-D": (KIND, KIND + "\ndimensions = 3", ":35: solver.dimensions: must be 2, got 3"),
+    "flow in 1-D": (KIND, KIND + "\ndimensions = 1", ":35: solver.dimensions: must be 2, got 1"),
     "key of the other solver": (KIND, KIND + '\nscheme = "explicit"', ':35: solver.scheme: unknown key; belongs to kind = "conduction"'),
     "key of this solver under conduction": (KIND, 'kind = "conduction"', ':35: solver.gravity: unknown key; belongs to kind = "melt-pool" or kind = "ablation"'),
     "gravity as a velocity": (GRAVITY, 'gravity = "10 m/s"', ':35: solver.gravity: "10 m/s" is a velocity, not an acceleration; write e.g. "9.81 m/s^2"'),
@@ -42,7 +42,7 @@ BAD_FLOW_CASES = {
     "half a box with walls": ('depth = "1 m"', 'depth = "1 m"\nextent = "half"', ':29: boundaries.left: half a block is symmetric at x = 0, "fixed-temperature" does not fit; write extent = "full" in [domain] or left = "adiabatic"'),
     "graded box": (SPACING, 'spacing = "25 mm"\ncoarsest = "1 m"\narrangement = "graded"', ':21: particles.arrangement: particles that flow through the whole box need one size; write "uniform"'),
     # heat
-    "flux missing": (RIGHT, 'right = "prescribed-flux"', ':27: boundaries.right_flux: is missing; write e.g. "1e6 W/m^2", positive into the body'),
+    "flux missing": (RIGHT, 'right = "prescribed-flux"', ':27: boundaries.right_flux: is missing; write e.g. right_flux = "1e6 W/m^2", positive into the body'),
     "flux in K": (RIGHT, 'right = "prescribed-flux"\nright_flux = "3 K"', ':31: boundaries.right_flux: "3 K" is a temperature, not a heat flux; write e.g. "1e6 W/m^2"'),
     "flux through a held face": ('right_temperature = "299.5 K"', 'right_flux = "3 W/m^2"', ':31: boundaries.right_flux: says nothing where right = "fixed-temperature"; leave it out, or set right to "prescribed-flux"'),
     "wave of an adiabatic surface": (RIGHT, RIGHT + '\nsurface_temperature_wave = { amplitude = "1 K", period = "1 m" }', ':32: boundaries.surface_temperature_wave: says nothing where surface = "adiabatic"; write surface = "fixed-temperature"'),
@@ -51,7 +51,7 @@ BAD_FLOW_CASES = {
     "start without a file": (LID, LID + '\ninitial = { kind = "table" }', ":26: flow.initial.path: missing; name a CSV file with columns x, z, u, w"),
     "start from a missing file": (LID, LID + '\ninitial = { kind = "table", path = "none.csv" }', ":26: flow.initial: {folder}/none.csv: cannot be read: No such file or directory"),
     "vortices that do not fit": (LID, LID + '\ninitial = { kind = "taylor-green", speed = "1 m/s", period = "0.7 m" }', ':15: domain.width: 1 m is no whole number of vortices of 350 mm; write e.g. width = "1.05 m", or another period in flow.initial'),
-    "vortices without speed": (LID, LID + '\ninitial = { kind = "taylor-green" }', ":26: flow.initial.speed: missing"),
+    "vortices without speed": (LID, LID + '\ninitial = { kind = "taylor-green" }', ':26: flow.initial.speed: missing; write speed = "10 m/s"'),
     "steady as a time": (STEADY, 'steady = "1 s"', ':39: time.steady: must be a number, got "1 s"'),
     "steady at once": (STEADY, "steady = 2", ":39: time.steady: must be less than 1, got 2"),
     # material
@@ -59,6 +59,6 @@ BAD_FLOW_CASES = {
     "no surface tension": (LID, 'surface = "free-surface"', ':7: material: "of the case" has no surface_tension_slope, which drives the surface; write e.g. surface_tension_slope = "-0.4 mN/(m K)" in [material], or marangoni = false in [solver]'),
     "viscosity of another kind": (VISCOSITY, 'viscosity = "0.0071 m^2/s"', ':11: material.viscosity: "0.0071 m^2/s" is a diffusivity, not a viscosity; write e.g. "1.3 mPa s"'),
     "no viscosity at all": (VISCOSITY, 'kinematic_viscosity = "0 m^2/s"', ":7: material: kinematic_viscosity must be positive everywhere in its range"),
-    "no conductivity": ('diffusivity = "0.01 m^2/s"\n', "", ":7: material.conductivity: missing"),
+    "no conductivity": ('diffusivity = "0.01 m^2/s"\n', "", ':7: material.conductivity: missing; write conductivity = "167 W/(m K)"'),
 }  # fmt: skip
 """Name -> (replaced, replacement, message after the file name)."""

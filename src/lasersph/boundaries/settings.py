@@ -121,9 +121,16 @@ class Boundaries(Model):
                     f'says nothing where {shown}; leave it out, or set {face} to "{NEUMANN}"',
                 )
             if kind == NEUMANN and not given:
-                yield f"{stem}_flux", 'is missing; write e.g. "1e6 W/m^2", positive into the body'
+                yield (
+                    f"{stem}_flux",
+                    f'is missing; write e.g. {stem}_flux = "1e6 W/m^2", positive into the body',
+                )
         if self.surface in DIRICHLET and self.surface_temperature is None:
-            yield "surface_temperature", "is missing for a surface that is held at it"
+            yield (
+                "surface_temperature",
+                f'is missing where surface = "{self.surface}"; write e.g. surface_temperature = '
+                '"1000 K"',
+            )
         if self.surface_temperature_wave is not None and self.surface not in DIRICHLET:
             yield (
                 "surface_temperature_wave",

@@ -107,10 +107,19 @@ def _light(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
         yield "boundaries.surface", 'a surface that ablates lies open; write "free"'
     vapor = material.vaporization
     if vapor is None or vapor.molar_mass is None:
+        mass = 'molar_mass = "55 g/mol"'
+        line = (
+            f"write e.g. {mass} in [material.vaporization]"
+            if vapor
+            else (
+                'write e.g. vaporization = { temperature = "3000 K", latent_heat = "6 MJ/kg", '
+                f"{mass} }} in [material]"
+            )
+        )
         yield (
             "material",
             f'"{material.name}" has no vaporization data with molar_mass, which ejection needs; '
-            'add them, or write kind = "conduction" in [solver]',
+            f'{line}, or take kind = "conduction" in [solver]',
         )
     published = case.ejection is not None and case.ejection.model == "published"
     if not solver.phase_change and not published:

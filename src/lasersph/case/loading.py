@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from lasersph.case.case import Case
+from lasersph.case.other_words import OTHER_WORDS
 from lasersph.case.overrides import override
 from lasersph.case.quick import quick_settings
 from lasersph.input import CaseError, Document, build, nearest, read_toml
@@ -44,7 +45,7 @@ def case_file(name_or_path: str | os.PathLike[str]) -> Path:
 
 def read_case(name_or_path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Document:
     """The document of a case with its overrides applied, not yet validated. Raises CaseError."""
-    return override(read_toml(case_file(name_or_path)), overrides)
+    return override(read_toml(case_file(name_or_path), tolerant=True), overrides)
 
 
 def load_case(
@@ -64,7 +65,7 @@ def load_case(
         overrides = [*quick_settings(load_case(name_or_path, overrides)), *overrides]
     document = read_case(name_or_path, overrides)
     file = Path(document.file)
-    case = build(Case, document, {"folder": file.parent})
+    case = build(Case, document, {"folder": file.parent}, OTHER_WORDS)
     settings = "".join(f"# --set {setting}\n" for setting in overrides)
     return case.named(file.stem, settings + document.text)
 

@@ -17,7 +17,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
+from pydantic import BeforeValidator, GetJsonSchemaHandler, ValidationInfo
+from pydantic_core import CoreSchema
 
 from lasersph.input import QuantityError, parse_quantity, read_toml
 from lasersph.materials import Material, load_material, material_file
@@ -128,16 +129,42 @@ def _sourced(value: Any) -> Any:
     return value | laws if laws else {"source": SET_HERE} | value
 
 
-MaterialChoice = Annotated[
-    Material,
-    BeforeValidator(_choose),
-    WithJsonSchema(
-        {
+class _MaterialSchema:
+    """JSON Schema of the key: a name, or a table of what a material knows."""
+
+    def __get_pydantic_json_schema__(
+        self, _schema: CoreSchema, _handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Quantities may be text or a table with their law, so that they have examples only."""
+        whole = Material.model_json_schema()
+        keys: dict[str, Any] = {"base": {"type": "string", "examples": ["steel-304"]}}
+        for name, part in whole["properties"].items():
+            leaf = _resolved(part, whole["$defs"])
+            below = leaf.get("properties", {})
+            if name in SECTIONS:
+                needed = [key for key in leaf.get("required", ()) if key != "source"]
+                found = {key: _example(below[key], whole["$defs"]) for key in below}
+                keys[name] = {"type": "object", "properties": found, "required": needed}
+            else:
+                keys[name] = _example(below.get("value", leaf), whole["$defs"])
+        return {
             "anyOf": [
-                {"type": "string", "examples": ["steel-304-demuth", "my-alloy.toml"]},
-                {"type": "object", "examples": [{"base": "steel-304"}]},
+                {"type": "string", "examples": ["steel-304", "my-alloy.toml"]},
+                {"type": "object", "properties": keys},
             ]
-        },
-        mode="validation",
-    ),
-]
+        }
+
+
+def _resolved(part: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
+    """A part of a schema without its null and its reference."""
+    part = next(iter(part.get("anyOf", (part,))))
+    return definitions[part["$ref"].rpartition("/")[2]] if "$ref" in part else part
+
+
+def _example(part: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
+    """What may stand at a key, of any type."""
+    examples = _resolved(part, definitions).get("examples")
+    return {"examples": examples} if examples else {}
+
+
+MaterialChoice = Annotated[Material, BeforeValidator(_choose), _MaterialSchema()]

@@ -11,6 +11,7 @@ import copy
 import re
 import tomllib
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +34,7 @@ def override(document: Document, settings: Iterable[str]) -> Document:
             value = _from_here(value)
         _put(data, path, value, where)
         origins[path] = where
-    return Document(data, document.file, document.text, document.lines, origins)
+    return replace(document, data=data, origins=origins)
 
 
 def _parse(setting: str, where: str) -> tuple[tuple[str | int, ...], Any]:

@@ -1,11 +1,12 @@
-"""Reading: quantities with their kind, strict TOML with line numbers, errors in one line.
+"""Input: quantities with their kind, strict TOML with line numbers, errors in one line.
 
 The only room that names pint.
 """
 
+from lasersph.input.build import build
 from lasersph.input.document import Document, parse_toml, read_toml
 from lasersph.input.errors import CaseError, Problem
-from lasersph.input.explain import build, dotted, explain
+from lasersph.input.findings import dotted
 from lasersph.input.formatting import format_duration, format_number, format_quantity
 from lasersph.input.kinds import KINDS, Kind
 from lasersph.input.model import Model, did_you_mean, nearest, refusal
@@ -84,7 +85,6 @@ __all__ = [
     "build",
     "did_you_mean",
     "dotted",
-    "explain",
     "format_duration",
     "format_number",
     "format_quantity",

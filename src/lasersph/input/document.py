@@ -8,18 +8,21 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from lasersph.input.errors import CaseError
+from lasersph.input.errors import CaseError, Problem
 from lasersph.input.key_lines import Path as KeyPath
 from lasersph.input.key_lines import key_lines
 
 LARGEST_FILE = 16 * 2**20
+MOST_MISTAKES = 100
+"""Mistakes of syntax after which a file is given up."""
 
 
 @dataclass
 class Document:
     """Data of a TOML file with the place of every key.
 
-    `origins` names keys that did not come from the file (overrides), by their path.
+    `origins` names keys that did not come from the file (overrides), by their path; `problems` are
+    mistakes of syntax that were mended to read on.
     """
 
     data: dict[str, Any]
@@ -27,6 +30,7 @@ class Document:
     text: str = ""
     lines: dict[KeyPath, int] = field(default_factory=dict)
     origins: dict[KeyPath, str] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
 
     def place(self, path: KeyPath) -> tuple[str, int | None]:
         """(file, line) of a key, or of the nearest table around it."""
@@ -49,8 +53,8 @@ class Document:
         return value
 
 
-def read_toml(file: str | Path) -> Document:
-    """Read a TOML file.
+def read_toml(file: str | Path, *, tolerant: bool = False) -> Document:
+    """Read a TOML file; `tolerant` as in `parse_toml`.
 
     Raises:
         CaseError: missing, unreadable, not a file, larger than 16 MiB, not UTF-8, not TOML.
@@ -69,26 +73,40 @@ def read_toml(file: str | Path) -> Document:
             raise
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise CaseError(f"cannot be read: {reason}", file=str(file)) from None
-    return parse_toml(raw, str(file))
+    return parse_toml(raw, str(file), tolerant=tolerant)
 
 
-def parse_toml(raw: bytes | str, file: str = "") -> Document:
-    """Read TOML text, as `read_toml` does; `file` is its name in messages."""
+def parse_toml(raw: bytes | str, file: str = "", *, tolerant: bool = False) -> Document:
+    """Read TOML text.
+
+    Args:
+        file: its name in messages.
+        tolerant: keep what can be mended (text without quotes, a key given twice) as problems of
+            the document, so that `build` says them along with all others.
+    """
     text = _decode(raw, file) if isinstance(raw, bytes) else raw
     text = text.removeprefix("\ufeff")
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise _syntax_error(str(error), text, file) from None
-    except RecursionError:
-        raise CaseError("brackets nested too deeply", file=file) from None
-    except ValueError:  # Python's limit on the digits of an integer
-        raise CaseError("not valid TOML: an integer of thousands of digits", file=file) from None
-    try:
-        lines = key_lines(text)
-    except RecursionError:
-        raise CaseError("brackets nested too deeply", file=file) from None
-    return Document(data, file, text, lines)
+    problems: list[Problem] = []
+    mended = text
+    while True:
+        try:
+            data, lines = tomllib.loads(mended), key_lines(mended)
+            break
+        except tomllib.TOMLDecodeError as error:
+            mistake = _syntax_error(str(error), mended, file)
+            problems += mistake.problems
+            better = _mended(mended, mistake) if len(problems) < MOST_MISTAKES else None
+            if better is None:
+                raise CaseError(problems) from None
+            mended = better
+        except RecursionError:
+            raise CaseError("brackets nested too deeply", file=file) from None
+        except ValueError:  # Python's limit on the digits of an integer
+            message = "not valid TOML: an integer of thousands of digits"
+            raise CaseError(message, file=file) from None
+    if problems and not tolerant:
+        raise CaseError(problems)
+    return Document(data, file, text, lines, problems=problems)
 
 
 def _decode(raw: bytes, file: str) -> str:
@@ -105,7 +123,7 @@ def _decode(raw: bytes, file: str) -> str:
 
 
 def _syntax_error(message: str, text: str, file: str) -> CaseError:
-    """tomllib's message with its line; duplicate keys and unquoted quantities in our words."""
+    """tomllib's message with its line; duplicate keys and text without quotes in our words."""
     match = re.search(r" \(at line (\d+), column (\d+)\)$", message)
     line = int(match.group(1)) if match else None
     what = message[: match.start()] if match else message.removesuffix(" (at end of document)")
@@ -114,18 +132,42 @@ def _syntax_error(message: str, text: str, file: str) -> CaseError:
     all_lines = text.split("\n")
     content = all_lines[line - 1].strip() if line <= len(all_lines) else ""
     if what in ("Cannot overwrite a value",) or "twice" in what or "Duplicate" in what:
-        previous = content or (all_lines[line - 2].strip() if line > 1 else "")
-        key = previous.split("=")[0].strip() if "=" in previous else previous
+        if not content and line > 1:
+            line, content = line - 1, all_lines[line - 2].strip()
+        key = content.split("=")[0].strip() if "=" in content else content
         return CaseError("given twice", "remove one", key=key, file=file, line=line)
-    key, equals, value = content.partition("=")
-    value = value.split("#")[0].strip()
-    if equals and re.match(r"[+-]?[\d.]+\s*(?!e[+-]?\d)[^\s\d._,\]#]", value):
-        return CaseError(
-            "a number with a unit is text in TOML",
-            f'write {key.strip()} = "{value}"',
-            key=key.strip(),
-            file=file,
-            line=line,
-        )
+    quoted = _quoted(content)
+    if quoted != content:
+        key = content.partition("=")[0].strip()
+        number = re.search(r"=\s*[+-]?[\d.]", content) is not None
+        problem = "a number with a unit is text in TOML" if number else "text needs quotes in TOML"
+        hint = f"write {quoted.partition('#')[0].strip()}"
+        return CaseError(problem, hint, key=key, file=file, line=line)
     what = what[0].lower() + what[1:] if what else "cannot be read"
     return CaseError(f"not valid TOML: {what}", file=file, line=line)
+
+
+def _mended(text: str, mistake: CaseError) -> str | None:
+    """The text without a mistake of syntax; None where it cannot be mended in its line."""
+    lines, number = text.split("\n"), (mistake.line or 0) - 1
+    if mistake.problem == "given twice" and "=" in lines[number]:
+        lines[number] = ""
+    elif _quoted(lines[number]) != lines[number]:
+        lines[number] = _quoted(lines[number])
+    else:
+        return None
+    return "\n".join(lines)
+
+
+def _quoted(line: str) -> str:
+    """A line with its bare words and its numbers with units in quotes."""
+
+    def quote(match: re.Match[str]) -> str:
+        value = match.group(2)
+        try:
+            tomllib.loads(f"value = {value}")
+        except (tomllib.TOMLDecodeError, ValueError):
+            return f'{match.group(1)}"{value}"'
+        return match.group(0)
+
+    return re.sub(r"(=\s*)([\w+.-][^\"',=}\]{\[#\n]*?)(?=\s*(?:[,}#]|$))", quote, line)

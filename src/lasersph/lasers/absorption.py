@@ -54,8 +54,9 @@ class BeerLambertAbsorption(Model):
         alpha = self.absorption_coefficient or of_material
         if alpha is None:
             raise ValueError(
-                "the material has no absorption coefficient; give "
-                "laser.absorption.absorption_coefficient"
+                "the material has no absorption coefficient; write e.g. "
+                'absorption_coefficient = "1e8 1/m" in [laser.absorption], or absorption = '
+                '{ kind = "surface" } in [laser]'
             )
         return alpha
 

@@ -45,7 +45,7 @@ class Laser(Model):
     """Light that falls onto the surface, along -z."""
 
     fluence: Annotated[Fluence, Field(gt=0)] | None = Field(
-        default=None, description="of one pulse"
+        default=None, description="of one pulse", examples=["1 J/cm^2"]
     )
     fluence_kind: Literal["mean", "peak"] | None = Field(
         default=None,
@@ -76,34 +76,39 @@ class Laser(Model):
         if len(given) != 1:
             got = " and ".join(given) if given else "none"
             raise ValueError(
-                f"a laser needs one statement of its energy, got {got}; give exactly one of "
-                + ", ".join(AMOUNTS)
+                f"a laser needs one statement of its energy, got {got}; "
+                + (f"leave all but one of {got} out" if given else self._energy_to_write())
             )
         name = given[0]
         if name in ("intensity", "power") and self.pulse.on_time is None:
             raise ValueError(
-                f"{name} does not fix the energy of a gaussian pulse; give "
-                + ("fluence" if name == "intensity" else "pulse_energy")
+                f"{name} does not fix the energy of a gaussian pulse; write instead "
+                + ('fluence = "1 J/cm^2"' if name == "intensity" else 'pulse_energy = "10 uJ"')
             )
         if name in ("pulse_energy", "power"):
             if self.beam.area is None:
                 raise ValueError(
-                    f"{name} has no meaning for the unbounded {self.beam.kind} beam; give fluence, "
-                    "or a gaussian or top-hat beam"
+                    f"{name} has no meaning for the unbounded {self.beam.kind} beam; write instead "
+                    'fluence = "1 J/cm^2", or take a gaussian or top-hat beam'
                 )
             if self.fluence_kind is not None:
                 raise ValueError(f"fluence_kind says nothing beside {name}; leave it out")
         elif self.fluence_kind is None and not self.beam.names_fluence:
             raise ValueError(
-                f"{name} of a gaussian beam may be its mean or its peak (twice the mean); give "
+                f"{name} of a gaussian beam may be its mean or its peak (twice the mean); write "
                 'fluence_kind = "peak" or "mean"'
             )
         if self.fluence_kind == "peak" and self.beam.peak is None:
             raise ValueError(
-                "the peak of this interference pattern depends on the phases of its waves; give "
-                'the mean fluence and fluence_kind = "mean"'
+                "the peak of this interference pattern depends on the phases of its waves; write "
+                'fluence_kind = "mean" with the mean fluence'
             )
         return self
+
+    def _energy_to_write(self) -> str:
+        """The line that says the energy of a pulse of this beam."""
+        example = 'fluence = "1 J/cm^2"' if self.beam.names_fluence else 'pulse_energy = "10 uJ"'
+        return f"write e.g. {example} (one of {', '.join(AMOUNTS)})"
 
     @model_validator(mode="after")
     def _check_path(self) -> Laser:

@@ -38,7 +38,9 @@ class PulseTrain(Model, ABC):
     @model_validator(mode="after")
     def _check_train(self) -> PulseTrain:
         if self.count > 1 and self.period is None:
-            raise ValueError(f"{self.count} pulses need the time between them; give period")
+            raise ValueError(
+                f'{self.count} pulses need the time between them; write e.g. period = "1 us"'
+            )
         return self
 
     @property
@@ -152,7 +154,7 @@ class GaussianPulse(PulseTrain):
 
     kind: Literal["gaussian"] = "gaussian"
     fwhm: PositiveTime = Field(description="full width at half maximum")
-    center: Time = Field(description="time of the (first) maximum")
+    center: Time = Field(description="time of the (first) maximum", examples=["30 ns"])
 
     @model_validator(mode="after")
     def _check_center(self) -> GaussianPulse:

@@ -71,5 +71,8 @@ def reflectivity_nodes(
     if given is not None:
         return np.array([lower, upper]), np.array([given, given], float)
     if material.optics is None or material.optics.reflectivity is None:
-        raise ValueError(f"material {material.name!r} has no reflectivity; give laser.reflectivity")
+        raise ValueError(
+            f"material {material.name!r} has no reflectivity; "
+            "write e.g. reflectivity = 0.9 in [laser]"
+        )
     return material.table("reflectivity", lower, upper)

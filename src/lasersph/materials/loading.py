@@ -18,6 +18,12 @@ LIBRARY = Path(__file__).parent / "library"
 FOLDER_VARIABLE = "LASERSPH_MATERIALS"
 
 
+KNOWN = (
+    "known: {}; or describe it in the case: write [material] with density, heat_capacity and "
+    "conductivity"
+)
+
+
 def available_materials() -> dict[str, Path]:
     """Files of all materials that can be named, by name; the user's folder comes first.
 
@@ -49,7 +55,7 @@ def material_file(name_or_path: str | os.PathLike[str]) -> Path:
     if text in known:
         return known[text]
     near = difflib.get_close_matches(text, known, n=1, cutoff=0.5)
-    hint = f'do you mean "{near[0]}"?' if near else "known: " + ", ".join(known)
+    hint = f'do you mean "{near[0]}"?' if near else KNOWN.format(", ".join(known))
     raise CaseError(f'no material "{text}"', hint, key="material")
 
 
@@ -69,4 +75,4 @@ def load_material(name_or_path: str | os.PathLike[str]) -> Material:
 @lru_cache(maxsize=64)
 def _read(path: Path, changed: int, size: int) -> Material:
     """Read a file once per state of it: changed [ns] and size [bytes] only tell states apart."""
-    return build(Material, read_toml(path))
+    return build(Material, read_toml(path, tolerant=True))

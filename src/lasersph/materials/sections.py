@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from pydantic import Field, model_validator
 
 from lasersph.input import (
@@ -53,9 +55,26 @@ class Sourced(Model):
 class Melting(Sourced):
     """Melting range, or melting point where solidus and liquidus are equal."""
 
-    solidus: Temperature = Field(gt=0, description="temperature at which melting begins")
-    liquidus: Temperature = Field(gt=0, description="temperature at which melting is complete")
+    solidus: Temperature = Field(
+        gt=0, description="temperature at which melting begins", examples=["1300 K"]
+    )
+    liquidus: Temperature = Field(
+        gt=0,
+        description="temperature at which melting is complete; default: the solidus",
+        examples=["1300 K"],
+    )
     latent_heat: SpecificEnergy = Field(gt=0, description="latent heat of fusion")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _take_solidus(cls, data: Any) -> Any:
+        """A melting point: the liquidus is the solidus where none is given, with its source."""
+        if not isinstance(data, dict) or "liquidus" in data or "solidus" not in data:
+            return data
+        source = data.get("source")
+        is_one_each = isinstance(source, dict) and "solidus" in source
+        sources = {"source": {"liquidus": source["solidus"], **source}} if is_one_each else {}
+        return {**data, "liquidus": data["solidus"], **sources}
 
     @model_validator(mode="after")
     def _check_order(self) -> Melting:

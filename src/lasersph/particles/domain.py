@@ -14,9 +14,11 @@ Size = Annotated[Length, Field(gt=0)]
 class Domain(Model):
     """Size of the block. x runs from -width/2 to width/2, or from 0 where half is computed."""
 
-    depth: Size = Field(description="from the surface to the bottom")
+    depth: Size = Field(description="from the surface to the bottom", examples=["10 um"])
     width: Size | None = Field(
-        default=None, description="along x; 2-D and 3-D; the period of a pattern"
+        default=None,
+        description="along x; 2-D and 3-D; the period of a pattern",
+        examples=["20 um"],
     )
     breadth: Size | None = Field(default=None, description="along y; 3-D; default: the width")
     extent: Literal["full", "half"] = Field(

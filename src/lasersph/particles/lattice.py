@@ -21,7 +21,10 @@ Size = Annotated[Length, Field(gt=0)]
 class Lattice(Model):
     """Spacing, arrangement and kernel of the particles."""
 
-    spacing: Size = Field(description="of the finest particles; rounded so that they fill the box")
+    spacing: Size = Field(
+        description="of the finest particles; rounded so that they fill the box",
+        examples=["100 nm"],
+    )
     arrangement: Literal["uniform", "graded"] = "uniform"
     fine_depth: Size | None = Field(
         default=None,

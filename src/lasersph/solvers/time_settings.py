@@ -12,7 +12,9 @@ from lasersph.input import Model, TemperatureDifference, Time
 class TimeSettings(Model):
     """How long to compute and in which steps."""
 
-    end: Annotated[Time, Field(gt=0)] = Field(description="of the simulated time, from 0")
+    end: Annotated[Time, Field(gt=0)] = Field(
+        description="of the simulated time, from 0", examples=["100 ns"]
+    )
     step: Annotated[Time, Field(gt=0)] | None = Field(
         default=None,
         description="largest step while the laser is on, without laser always; default: a 200th of "

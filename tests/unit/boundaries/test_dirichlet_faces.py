@@ -74,5 +74,5 @@ def test_refusals():
     """A temperature for a face that is not held, and a held surface without one, are refused."""
     with pytest.raises(ValueError, match="says nothing where bottom"):
         Boundaries(bottom_temperature=300.0)
-    with pytest.raises(ValueError, match="is missing for a surface that is held"):
+    with pytest.raises(ValueError, match='is missing where surface = "wall"'):
         Boundaries(surface="wall")

@@ -44,7 +44,7 @@ def test_kind_may_be_left_out():
         ),
         (("boundaries.bottom=free",), 'boundaries.bottom: "free" cuts supports off'),
         (("boundaries.surface=wall", "boundaries.surface_temperature=3000 K"), "a laser heats"),
-        (("solver.dimensions=3",), 'solver.dimensions: must be "2", got 3'),
+        (("solver.dimensions=3",), "solver.dimensions: must be 2, got 3"),
         (("solver.viscosity=explicit", "time.end=1 s"), "solver.viscosity: 1.02e-06 m^2/s needs"),
         (("solver.viscosities=explicit",), 'solver.viscosities: unknown key; do you mean "visc'),
         (("time.steady=0",), "time.steady: must be greater than 0"),

@@ -157,3 +157,18 @@ def test_files_that_cannot_be_read(tmp_path):
         read_toml("a\0b")
     with pytest.raises(CaseError, match="no such file"):
         read_toml(os.devnull)
+
+
+def test_mistakes_of_syntax_are_said_together():
+    """Quantities and words without quotes, a key twice: the text is read on past them."""
+    text = "a = 3 nm\nb = { kind = flat, size = 4 um } # c\na = 2\nc = true\nd = 1e-3"
+    with pytest.raises(CaseError) as error:
+        parse_toml(text, "x.toml")
+    said = str(error.value).splitlines()
+    assert said[0] == 'x.toml:1: a: a number with a unit is text in TOML; write a = "3 nm"'
+    assert said[1].endswith('write b = { kind = "flat", size = "4 um" }')
+    assert said[2] == "x.toml:3: a: given twice; remove one"
+    document = parse_toml(text, "x.toml", tolerant=True)
+    assert document.data["b"] == {"kind": "flat", "size": "4 um"}
+    assert [problem.line for problem in document.problems] == [1, 2, 3]
+    assert (document.data["c"], document.data["d"]) == (True, 1e-3)

@@ -58,7 +58,7 @@ class Root(Model):
 
 GOOD = 'fluence = "1 J/m2"\n'
 MESSAGES = [
-    ("", "x.toml:1: light.fluence: missing"),
+    ("", 'x.toml:1: light.fluence: missing; write fluence = "0.6 J/cm^2"'),
     ("fluence = 3", 'x.toml:2: light.fluence: 3 has no unit; write e.g. "0.6 J/cm^2"'),
     ("fluence = true", 'x.toml:2: light.fluence: true is not a fluence; write e.g. "0.6 J/cm^2"'),
     ("fluence = []", 'x.toml:2: light.fluence: is not a fluence; write e.g. "0.6 J/cm^2"'),
@@ -70,7 +70,10 @@ MESSAGES = [
         'fluence = "-1 J/m2"',
         'x.toml:2: light.fluence: must be greater than 0, got "-1 J/m2"',
     ),
-    ("fluense = 1", 'x.toml:2: light.fluense: unknown key; do you mean "fluence"?'),
+    (
+        'fluense = "1 J/m2"',
+        'x.toml:2: light.fluense: unknown key; do you mean "fluence"?',
+    ),
     (
         GOOD + "zzz = 1",
         "x.toml:3: light.zzz: unknown key; known here: fluence, beam, mode, count, share, "
@@ -81,11 +84,14 @@ MESSAGES = [
         'x.toml:3: light.mode: must be "mean" or "peak", got "meen"; do you mean "mean"?',
     ),
     (
-        GOOD + 'beam = { kind = "spott" }',
+        GOOD + 'beam = { kind = "spott", radius = "1 m" }',
         'x.toml:3: light.beam.kind: must be "flat" or "spot", got "spott"; do you mean "spot"?',
     ),
-    (GOOD + "beam = {}", "x.toml:3: light.beam.kind: missing"),
-    (GOOD + 'beam = { kind = "spot" }', "x.toml:3: light.beam.radius: missing"),
+    (GOOD + "beam = {}", 'x.toml:3: light.beam.kind: missing; write kind = "flat"'),
+    (
+        GOOD + 'beam = { kind = "spot" }',
+        'x.toml:3: light.beam.radius: missing; write radius = "8 nm"',
+    ),
     (
         GOOD + '[light.beam]\nkind = "spot"\nradius = "0 m"',
         'x.toml:5: light.beam.radius: must be greater than 0, got "0 m"',
@@ -121,6 +127,20 @@ def test_all_problems_at_once():
         build(Root, parse_toml('[light]\ncount = 0\nfluence = 3\nshare = "2 m"', "x.toml"))
     assert [problem.line for problem in error.value.problems] == [2, 3, 4]
     assert error.value.key == "light.count"
+
+
+def test_what_hides_behind_another_mistake():
+    """An unknown key, a wrong value behind it, and what the model says of both together."""
+    text = '[light]\ncount = 9\nfluense = 3\nmode = "peek"\nlight.share = 2'
+    with pytest.raises(CaseError) as error:
+        build(Root, parse_toml(text, "x.toml"), None, {"light": "; leave it out: it is here"})
+    assert str(error.value).splitlines() == [
+        "x.toml:1: light: too many pulses; write at most 5",
+        'x.toml:3: light.fluense: unknown key; do you mean "fluence"?',
+        'x.toml:3: light.fluence: 3 has no unit; write e.g. "0.6 J/cm^2"',
+        'x.toml:4: light.mode: must be "mean" or "peak", got "peek"; do you mean "peak"?',
+        "x.toml:5: light.light: unknown key; leave it out: it is here",
+    ]
 
 
 def test_table_instead_of_value():

@@ -156,7 +156,7 @@ def test_reflectivity_and_absorption_of_case_or_material():
     assert from_metal.absorption_coefficient(steel) == pytest.approx(9.56e7)
     assert own.absorption_coefficient(steel) == np.inf
     bare = steel.model_copy(update={"optics": None})
-    with pytest.raises(ValueError, match=r"give laser\.reflectivity"):
+    with pytest.raises(ValueError, match=r"write e\.g\. reflectivity = 0\.9 in \[laser\]"):
         laser(fluence=1.0).reflectivity_table(bare, 300.0, 3000.0)
 
 
@@ -166,13 +166,13 @@ PHASES = tuple({"polar": 0.1, "azimuth": a, "phase": p} for a, p in ((0, 0), (2,
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({}, "got none; give exactly one of fluence, intensity"),
+        ({}, "got none; write e.g. fluence"),
         ({"fluence": 1.0, "intensity": 1.0}, "got fluence and intensity"),
-        ({"fluence": 1.0, "beam": SPOT}, 'give fluence_kind = "peak" or "mean"'),
+        ({"fluence": 1.0, "beam": SPOT}, 'write fluence_kind = "peak" or "mean"'),
         ({"pulse_energy": 1.0}, "no meaning for the unbounded uniform beam"),
         ({"power": 1.0, "beam": STRIPES}, "unbounded interference beam"),
-        ({"power": 1.0, "beam": SPOT, "pulse": GAUSSIAN}, "give pulse_energy"),
-        ({"intensity": 1.0, "pulse": GAUSSIAN}, "give fluence"),
+        ({"power": 1.0, "beam": SPOT, "pulse": GAUSSIAN}, "write instead pulse_energy"),
+        ({"intensity": 1.0, "pulse": GAUSSIAN}, "write instead fluence"),
         ({"pulse_energy": 1.0, "beam": SPOT, "fluence_kind": "peak"}, "leave it out"),
         ({"fluence": -1.0}, "greater than 0"),
         ({"fluence": 1.0, "path": {"kind": "linear", "speed": 1.0}}, "uniform beam cannot move"),

@@ -16,7 +16,8 @@ class AblationSettings(Model):
     dimensions: Literal[1, 2, 3] = 3
     sound_speed: Annotated[Velocity, Field(gt=0)] = Field(
         description="c_0 of the equation of state [Alshaer2017, eq. (26)]; far above all speeds of "
-        "condensed matter, and the time step falls with it"
+        "condensed matter, and the time step falls with it",
+        examples=["1000 m/s"],
     )
     viscosity_solid: Annotated[float, Field(ge=0)] = Field(
         default=5.0, description="alpha of the artificial viscosity [Alshaer2017, eq. (23)]"

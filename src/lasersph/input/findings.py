@@ -1,0 +1,203 @@
+"""pydantic's errors in plain words: what is wrong at which key, and what would be right."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from pydantic import ValidationError
+
+from lasersph.input.document import Document
+from lasersph.input.errors import CaseError, Problem
+from lasersph.input.key_lines import Path
+from lasersph.input.misplaced import Misplaced, place_of_unknown
+from lasersph.input.model import nearest
+from lasersph.input.schema import Schema, as_toml
+
+_BOUNDS = {
+    "greater_than": ("greater than", "gt"),
+    "greater_than_equal": ("at least", "ge"),
+    "less_than": ("less than", "lt"),
+    "less_than_equal": ("at most", "le"),
+}
+_EXPECTED = {
+    "string_type": "text in quotes",
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "float_parsing": "a number",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "finite_number": "a finite number",
+    "list_type": "an array [...]",
+    "tuple_type": "an array [...]",
+    "dict_type": "a table",
+    "model_type": "a table",
+    "model_attributes_type": "a table",
+}
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One mistake: where, what is wrong, what would be right.
+
+    `value` is what the hint writes at `path`, where that is certain; `target` where it moves to.
+    """
+
+    path: Path
+    problem: str
+    hint: str = ""
+    value: Any = None
+    target: Path | None = None
+    foreign: Problem | None = None
+
+    def located(self, document: Document) -> Problem:
+        """The mistake with its file, line and key."""
+        file, line = document.place(self.path)
+        if self.foreign is not None:
+            other = self.foreign
+            if other.file and not other.line:
+                other = replace(other, problem=f"{other.file}: {other.problem}")
+            here = replace(other, key=dotted(self.path), file=file, line=line)
+            return other if other.line else here
+        return Problem(self.problem, self.hint, dotted(self.path), file, line)
+
+
+def findings_of(
+    error: ValidationError,
+    document: Document,
+    schema: Schema,
+    other_words: Mapping[str, str],
+) -> list[Finding]:
+    """Every mistake that pydantic found."""
+    found: list[Finding] = []
+    for each in error.errors(include_url=False):
+        cause = (each.get("ctx") or {}).get("error")
+        if isinstance(cause, CaseError):
+            path = _data_path(each["loc"], document.data, "")
+            found += [Finding(path, p.problem, p.hint, foreign=p) for p in cause.problems]
+        else:
+            found += _say(dict(each), document, schema, other_words)
+    return found
+
+
+def dotted(path: Path) -> str:
+    """A key path as people write it: ("probes", 0, "name") is "probes[1].name"."""
+    text = ""
+    for step in path:
+        if isinstance(step, int):
+            text += f"[{step + 1}]"
+        else:
+            text += f".{step}" if text else str(step)
+    return text
+
+
+def steps_of(key: str) -> Path:
+    """The path of a key as `dotted` writes it."""
+    steps = re.findall(r"([^.\[\]]+)|\[(\d+)\]", key)
+    return tuple(name or int(index) - 1 for name, index in steps)
+
+
+def _say(
+    error: dict[str, Any], document: Document, schema: Schema, other_words: Mapping[str, str]
+) -> list[Finding]:
+    kind, context = error["type"], error.get("ctx") or {}
+    path = _data_path(error["loc"], document.data, kind)
+    given = _shown(document.at(path))
+    if kind == "unknown_keys":
+        misplaced = Misplaced(document, schema, other_words)
+        return [_unknown((*path, key), misplaced) for key in context["keys"]]
+    if kind == "extra_forbidden":
+        return [_unknown(path, Misplaced(document, schema, other_words))]
+    if kind == "at_key":
+        found = ((key, *text.partition("; ")) for key, text in context["problems"])
+        return [Finding((*path, *steps_of(key)), text, hint) for key, text, _, hint in found]
+    if kind == "missing":
+        return [_missing(path, schema.example(path, document.data))]
+    if kind == "union_tag_not_found":
+        tag = _tag(context)
+        return [_missing((*path, tag), schema.best_kind(path, document.data, tag))]
+    if kind == "union_tag_invalid":
+        text, hint = _choice(f'"{context["tag"]}"', context["expected_tags"])
+        return [Finding((*path, _tag(context)), text, hint)]
+    if kind in ("literal_error", "enum"):
+        return [Finding(path, *_choice(given, str(context.get("expected", ""))))]
+    if kind in ("value_error", "assertion_error"):
+        text, _, hint = str(context.get("error", error["msg"])).partition("; ")
+        return [Finding(path, text, hint)]
+    return [Finding(path, _problem_with_value(kind, context, error["msg"], given))]
+
+
+def _problem_with_value(kind: str, context: dict[str, Any], message: str, given: str) -> str:
+    """What is wrong with a value that has its right place."""
+    if kind == "quantity":
+        return context["message"]
+    if kind in _BOUNDS:
+        words, bound = _BOUNDS[kind]
+        limit = context[bound]
+        shown = f"{limit:g}" if isinstance(limit, float) else str(limit)
+        return f"must be {words} {shown}, got {given}"
+    if kind in _EXPECTED:
+        return f"must be {_EXPECTED[kind]}, got {given}"
+    if kind in ("too_short", "too_long", "string_too_short", "string_too_long"):
+        return message[0].lower() + message[1:]
+    return message
+
+
+def _missing(path: Path, example: Any) -> Finding:
+    """A key that must be there, with the line to write."""
+    hint = ""
+    if isinstance(example, dict) and len(path) == 1:
+        lines = [f"{key} = {as_toml(value)}" for key, value in example.items()]
+        hint = f"write [{path[0]}] with {', '.join(lines)}" if lines else f"write [{path[0]}]"
+    elif example is not None:
+        hint = f"write {path[-1]} = {as_toml(example)}"
+    return Finding(path, "missing", hint, value=example)
+
+
+def _unknown(path: Path, misplaced: Misplaced) -> Finding:
+    hint, target = place_of_unknown(path, misplaced)
+    return Finding(path, "unknown key", hint, target=target)
+
+
+def _data_path(location: tuple[Any, ...], data: Any, kind: str) -> Path:
+    """pydantic's location without the steps that are not keys (union tags, validator names)."""
+    path: list[str | int] = []
+    for number, step in enumerate(location):
+        is_last = number == len(location) - 1
+        is_key = isinstance(data, dict) and step in data
+        is_index = isinstance(data, list) and isinstance(step, int) and step < len(data)
+        if is_key or is_index:
+            data = data[step]
+            path.append(step)
+        elif is_last and kind == "missing":
+            path.append(step)
+    return tuple(path)
+
+
+def _tag(context: dict[str, Any]) -> str:
+    return str(context.get("discriminator", "kind")).strip("'()")
+
+
+def _choice(given: str, expected: str) -> tuple[str, str]:
+    """Text for a word that is none of the allowed ones."""
+    choices = [word.strip().strip("'\"") for word in expected.replace(" or ", ", ").split(",")]
+    near = nearest(given.strip('"'), choices)
+    listed = " or ".join(word if word.isdigit() else f'"{word}"' for word in choices)
+    hint = f'do you mean "{near}"?' if near else ""
+    return f"must be {listed}, got {given}", hint
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list):
+        return "an array"
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = f'"{value}"' if isinstance(value, str) else str(value)
+    text = text.replace("\n", " ")
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,152 @@
+"""The keys of a model as its JSON Schema tells them, for hints: where a key goes, what to write."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import BaseModel
+
+from lasersph.input.key_lines import Path
+
+DEEPEST = 5
+"""Steps of a key; no model of lasersph nests deeper, but a schema may refer to itself."""
+
+
+class Schema:
+    """Questions to the JSON Schema of a model.
+
+    Where a table has several kinds, only those count that agree with the `kind` in the data.
+    """
+
+    def __init__(self, model: type[BaseModel]) -> None:
+        self._root = model.model_json_schema()
+        self._definitions: dict[str, Any] = self._root.get("$defs", {})
+
+    def parts(self, path: Path, data: Any) -> list[dict[str, Any]]:
+        """The alternatives that the schema allows at a path."""
+        found, value = self._alternatives(self._root), data
+        for step in path:
+            found = [leaf for part in found for leaf in self._below(part, step)]
+            value = _at(value, step)
+            found = _of_kind(found, value)
+        return found
+
+    def keys(self, path: Path, data: Any) -> list[str]:
+        """Keys of the table at a path."""
+        parts = self.parts(path, data)
+        return list(dict.fromkeys(key for part in parts for key in part.get("properties", {})))
+
+    def kinds(self, path: Path, key: str) -> list[str]:
+        """The kinds of the table at a path that know a key."""
+        parts = [part.get("properties", {}) for part in self.parts(path, None)]
+        known = [part["kind"].get("const") for part in parts if key in part and "kind" in part]
+        return [kind for kind in known if kind]
+
+    def needs(self, path: Path, data: Any) -> bool:
+        """Whether the table around a key cannot do without."""
+        around = self.parts(path[:-1], data)
+        return any(path[-1] in part.get("required", ()) for part in around)
+
+    def has_example(self, path: Path, data: Any) -> bool:
+        """Whether the model gives an example for a key itself."""
+        return any("examples" in part for part in self.parts(path, data))
+
+    def allows(self, path: Path, data: Any, *, table: bool) -> bool:
+        """Whether a table may stand at a path, or a value."""
+        return any(("properties" in part) == table for part in self.parts(path, data))
+
+    def best_kind(self, path: Path, data: Any, tag: str) -> str:
+        """The kind of the table at a path that knows most of the keys given there."""
+        given = set(_inside(data, path))
+        kinds = {
+            part["properties"][tag]["const"]: given & set(part["properties"])
+            for part in self.parts(path, data)
+            if "const" in part.get("properties", {}).get(tag, {})
+        }
+        return max(kinds, key=lambda kind: len(kinds[kind]))
+
+    def places(self, data: Any) -> list[Path]:
+        """Every key that the kinds in the data allow, the outer ones first."""
+        found: list[Path] = []
+        waiting: list[Path] = [()]
+        while waiting:
+            path = waiting.pop(0)
+            below = [(*path, key) for key in self.keys(path, data)]
+            found += below
+            waiting += below if len(path) + 1 < DEEPEST else []
+        return found
+
+    def example(self, path: Path, data: Any) -> Any:
+        """What might stand at a path, None where the schema does not say."""
+        parts = self.parts(path, data)
+        return self._example(parts[0]) if parts else None
+
+    def _example(self, part: dict[str, Any]) -> Any:
+        if "examples" in part:
+            return part["examples"][0]
+        if "const" in part or "enum" in part:
+            return part.get("const", (part.get("enum") or [None])[0])
+        leaf = self._alternatives(part)[0]
+        if "properties" in leaf:
+            needed = ["kind"] if "const" in leaf["properties"].get("kind", {}) else []
+            needed += [key for key in leaf.get("required", ()) if key not in needed]
+            return {key: self._example(leaf["properties"][key]) for key in needed}
+        if leaf.get("type") == "array":
+            rows = leaf.get("prefixItems") or [leaf.get("items", {})]
+            return [self._example(row) for row in rows]
+        if leaf.get("type") in ("integer", "number"):
+            return leaf.get("minimum", 1)
+        return {"string": "name", "boolean": False}.get(str(leaf.get("type")))
+
+    def _below(self, part: dict[str, Any], step: str | int) -> list[dict[str, Any]]:
+        if isinstance(step, int):
+            rows = part.get("prefixItems", ())
+            item = rows[step] if step < len(rows) else part.get("items")
+        else:
+            item = part.get("properties", {}).get(step)
+        return self._alternatives(item) if isinstance(item, dict) else []
+
+    def _alternatives(self, part: dict[str, Any]) -> list[dict[str, Any]]:
+        """A part with references resolved, one for each branch but null."""
+        if "$ref" in part:
+            beside = {key: value for key, value in part.items() if key != "$ref"}
+            part = self._definitions[part["$ref"].rpartition("/")[2]] | beside
+        branches = [branch for name in ("anyOf", "oneOf", "allOf") for branch in part.get(name, ())]
+        if not branches:
+            return [part]
+        shown = {key: part[key] for key in ("examples",) if key in part}
+        found = [leaf | shown for branch in branches for leaf in self._alternatives(branch)]
+        return [leaf for leaf in found if leaf.get("type") != "null"]
+
+
+def as_toml(value: Any) -> str:
+    """A value as it stands in a TOML file, tables inline."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {as_toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(as_toml(item) for item in value) + "]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _of_kind(parts: list[dict[str, Any]], value: Any) -> list[dict[str, Any]]:
+    """The parts that agree with the kind in the data; all where none does."""
+    kind = value.get("kind") if isinstance(value, dict) else None
+    same = [
+        part for part in parts if part.get("properties", {}).get("kind", {}).get("const") == kind
+    ]
+    return same or parts
+
+
+def _at(value: Any, step: str | int) -> Any:
+    try:
+        return value[step]
+    except (KeyError, IndexError, TypeError):
+        return None
+
+
+def _inside(data: Any, path: Path) -> Iterator[str]:
+    for step in path:
+        data = _at(data, step)
+    return iter(data if isinstance(data, dict) else ())
