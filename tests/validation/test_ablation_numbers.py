@@ -7,9 +7,11 @@ import pytest
 import synthetic_ablation
 
 from lasersph.output import open_run
-from lasersph.validation import ablation_aluminium, ablation_depth, quasi_1d_heating
-from lasersph.validation.ablation_depth import Column
-from lasersph.validation.ablation_front import ablate
+from lasersph.validation.ablation_aluminium import rows as ablation_aluminium
+from lasersph.validation.ablation_depth import rows as ablation_depth
+from lasersph.validation.ablation_depth.front import ablate
+from lasersph.validation.ablation_depth.rows import Column
+from lasersph.validation.quasi_1d_heating import rows as quasi_1d_heating
 
 
 @pytest.fixture(scope="module")
@@ -18,11 +20,13 @@ def spot(tmp_path_factory):
     return open_run(synthetic_ablation.make_run(tmp_path_factory.mktemp("spot") / "run", 3))
 
 
-def test_stefan_solution_of_the_case():
+def test_stefan_solution_of_the_case(study):
     """The metal and the reflectivity of the shipped case are those of the reference."""
-    found = ablation_depth.stefan(10, 10)
+    one = study("ablation-depth")
+    found = ablation_depth.stefan(one, 10, 10)
     assert found.depth == pytest.approx(ablate(2.5e12, 10e-9).depth, rel=1e-6)
-    (row,) = ablation_depth.reference_rows({(10, 10): found})
+    ablation_depth.add_stefan(one, {(10, 10): found})
+    (row,) = one.rows
     assert row.verdict and row.published == 0.6
 
 
@@ -34,53 +38,62 @@ def test_column_in_any_dimension():
     assert (found.whole, found.smooth) == pytest.approx((0.4, 0.5))
 
 
-def test_depths_are_judged_by_layers():
+def test_depths_are_judged_by_layers(study):
     """One layer too shallow passes, one and a half fail; errors must fall with the spacing."""
     exact = {(10, 10): SimpleNamespace(depth=0.5e-6)}
     columns = {(10, 10, 0.2): Column(0.4, 0.5), (10, 10, 0.1): Column(0.35, 0.52)}
-    rows = ablation_depth.depth_rows(exact, columns, (0.2, 0.1))
-    assert [row.verdict for row in rows] == [True, False]
-    smooth, falls = ablation_depth.convergence_rows(exact, columns, (0.2, 0.1), quick=False)
+    one = study("ablation-depth")
+    one.plan.spacings = (0.2, 0.1)
+    ablation_depth.add_depths(one, exact, columns)
+    *layers, smooth, falls = one.rows
+    assert [row.verdict for row in layers] == [True, False]
     assert smooth.verdict is False
     assert falls.computed == pytest.approx(1.5) and falls.verdict is False
 
 
-def test_runs_of_the_published_rule():
+def test_runs_of_the_published_rule(study):
     """Every fluence at the coarsest spacing, 10 J/cm2 at all."""
-    chosen = ablation_depth.published_choice({(10, 10): None, (6, 25): None}, (0.2, 0.1))
-    assert chosen == [(10, 10, 0.2), (6, 25, 0.2), (10, 10, 0.1)]
+    one = study("ablation-depth", quick=True)
+    chosen = ablation_depth.published_choice(one, [(10, 10), (6, 25)])
+    assert chosen == [((10, 10), 0.2), ((6, 25), 0.2), ((10, 10), 0.1)]
 
 
-def test_numbers_without_a_run():
+def test_numbers_without_a_run(study):
     """Eq. (5) and the light in metal and vapor."""
-    rows = [*ablation_aluminium.pressure_rows(), *ablation_aluminium.estimate_rows()]
-    assert all(row.verdict is not False for row in rows)
-    assert sum(row.verdict is True for row in rows) == 5
+    one = study("ablation-aluminium")
+    ablation_aluminium.add_estimates(one)
+    assert all(row.verdict is not False for row in one.rows)
+    assert sum(row.verdict is True for row in one.rows) == 5
 
 
-def test_rows_of_a_spot(spot):
-    """A symmetric crater that keeps its energy passes; its sizes are shown."""
+def test_rows_of_a_spot(study, spot):
+    """A crater that keeps its energy passes; its sizes are shown; it is symmetric."""
     assert ablation_aluminium.asymmetry(spot) < 1e-12
-    rows = ablation_aluminium.spot_rows("made-up", spot)
-    assert [row.verdict for row in rows[:2]] == [True, True]
-    assert rows[2].computed == pytest.approx(0.8)
+    one = study("ablation-aluminium")
+    one.add_group("spot", spot, name="made-up")
+    balance, depth, *_ = one.rows
+    assert balance.verdict is True
+    assert depth.computed == pytest.approx(0.8) and depth.verdict is None
 
 
-def test_row_of_a_time_that_never_came():
+def test_row_of_a_time_that_never_came(study):
     """A particle that did not leave fails its row and stops nothing."""
-    assert ablation_aluminium.nanoseconds(None) is None
-    assert ablation_aluminium.nanoseconds(1.25e-9) == pytest.approx(1.25)
+    one = study("ablation-aluminium")
+    never = {"melted_at_s": None, "left_at_s": 1.25e-9}
+    one.add_group("column", SimpleNamespace(summary={"traces": {"center": never}}))
+    verdicts = {row.quantity.split()[-2]: row.verdict for row in one.rows[:3]}
+    assert verdicts == {"melted": False, "boiled": False, "left": True}
 
 
-def test_rod_with_and_without_walls():
+def test_rod_with_and_without_walls(study):
     """The rod has its published width; without walls a few columns stand for it."""
-    walled = quasi_1d_heating.sides(quasi_1d_heating.WALLED, 0.5)
-    assert "boundaries.sides=wall" in walled
-    assert "domain.width=2.0 um" in quasi_1d_heating.sides(quasi_1d_heating.OPEN, 0.5)
+    one = study("quasi-1d-heating")
+    assert "boundaries.sides=wall" in quasi_1d_heating.sides(one, quasi_1d_heating.WALLED)
+    assert "domain.width=2.0 um" in quasi_1d_heating.sides(one, quasi_1d_heating.OPEN)
 
 
-def test_mean_over_the_surface():
-    """Only the first layer of a snapshot counts."""
+def test_first_layer_of_a_snapshot():
+    """Only the first layer counts."""
     step = {"temperature": np.array([1.0, 3.0, 50.0]), "surface": np.array([1, 1, 0])}
     run = SimpleNamespace(snapshots=SimpleNamespace(nearest=lambda time: step))
-    assert quasi_1d_heating.over_surface(run, 0.0) == 2.0
+    assert quasi_1d_heating.at_surface(run, 0.0).tolist() == [1.0, 3.0]

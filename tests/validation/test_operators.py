@@ -9,8 +9,11 @@ from lasersph import compute
 from lasersph.input import CaseError
 from lasersph.sph import gradient
 from lasersph.sph.kernels import kernel
-from lasersph.validation import Report, kernel_correction, kernels, names, titles, validate
-from lasersph.validation.verdict import at_most, judged, shown
+from lasersph.validation import Report, names, titles, validate
+from lasersph.validation.comparison import Comparison, number_at, read_comparisons
+from lasersph.validation.kernel_correction import rows as kernel_correction
+from lasersph.validation.kernels import rows as kernels
+from lasersph.validation.study import home_of
 
 
 @pytest.mark.parametrize("name", ["kernels", "kernel-correction"])
@@ -58,23 +61,59 @@ def test_names_and_titles():
         validate("kernal", ".")
 
 
+@pytest.mark.parametrize("name", names())
+def test_what_a_validation_says(name):
+    """A question, its source, what is compared and why within these bands."""
+    text = (home_of(name) / "README.md").read_text(encoding="utf-8")
+    heads = [line for line in text.splitlines() if line.startswith("#")]
+    assert heads == [heads[0], "## Source", "## Question", "## Quantities", "## Bands"]
+
+
 def test_verdicts():
-    """NaN, None and values outside the tolerance fail; shown numbers do not count."""
-    good = judged("T", "K", 300.4, 300.0, 0.5)
+    """NaN, None and values outside the band fail; shown numbers do not count."""
+    kind = Comparison("T", "K", band=0.5)
+    good = kind.row(300.4, 300.0)
     assert good.verdict is True
-    for bad in (judged("T", "K", 300.6, 300.0, 0.5), judged("T", "K", None, 300.0, 0.5),
-                at_most("T", "K", np.nan, 1.0)):  # fmt: skip
+    for bad in (kind.row(300.6, 300.0), kind.row(None, 300.0), kind.row(np.nan)):
         assert bad.verdict is False
         assert not Report("r", "", (good, bad)).passed
-    info = shown("T", "K", np.nan, published="about 1")
+    info = Comparison("T", "K").row(np.nan, published="about 1")
     assert Report("r", "", (good, info)).passed
     assert not Report("r", "", (info,)).passed
     assert Report("r", "", (good, info)).as_dict()["rows"][1]["computed"] is None
 
 
+def test_bands():
+    """In the unit or in percent of the reference; another one and a share where runs are short."""
+    kind = Comparison("u at {x}", "m/s", band="2 %", quick=0.5, source="of {x}")
+    row = kind.row(1.0, -10.0, words={"x": 3})
+    assert (row.quantity, row.source, row.tolerance) == ("u at 3", "of 3", pytest.approx(0.2))
+    assert kind.row(1.0, 1.0, quick=True, share=3.0, words={"x": 3}).tolerance == 1.5
+    assert kind.row(1.0, 1.0, judge=False, words={"x": 3}).verdict is None
+    assert Comparison("error", band=1e-3).row(2e-3).reference == 0.0
+    assert Comparison(claim="it grows").row(True).computed == "holds"
+
+
+def test_number_of_a_summary():
+    """A path into the summary, in another unit; None where something is missing."""
+    summary = {"flow": {"extrema": {"inner_lasted_s": 2e-9, "outer": None}}}
+    assert number_at(summary, "flow.extrema.inner_lasted_s", 1e9) == pytest.approx(2.0)
+    assert number_at(summary, "flow.extrema.outer") is None
+    assert number_at(summary, "melt.width_max_m") is None
+
+
+def test_wrong_keys_of_rows(tmp_path):
+    """A key that there is not is refused when rows.toml is read, not passed over."""
+    file = tmp_path / "rows.toml"
+    file.write_text('[front]\nquantity = "front"\ntolerance = 1.0\n')
+    with pytest.raises(ValueError, match=r"\[front\]"):
+        read_comparisons([file])
+
+
 def test_table():
     """One line a number, and the verdict at the end."""
-    text = Report("r", "why", (judged("T", "K", 3.0, 1.0, 0.5, published="about 1"),)).table()
+    row = Comparison("T", "K", band=0.5, published="about 1").row(3.0, 1.0)
+    text = Report("r", "why", (row,)).table()
     assert "FAILED" in text
     assert "about 1" in text
     assert text.endswith("r FAILED: 1 of 1 judged, 1 numbers")

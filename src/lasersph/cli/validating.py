@@ -41,7 +41,7 @@ def validate(
     if only_list:
         print(aligned(validation.titles().items()))
         return
-    wanted = _known(names or [], validation.names())
+    wanted = dict.fromkeys(map(validation.known_name, names or validation.names()))
     refuse_backend(backend, threads)
     if json_file is not None:
         _write(json_file, backend, {})
@@ -58,18 +58,6 @@ def validate(
     if failed:
         print(f"not passed: {', '.join(failed)}")
         raise typer.Exit(FAILED)
-
-
-def _known(names: list[str], known: tuple[str, ...]) -> list[str]:
-    """The names without repetition, or all; refuses an unknown one before anything runs."""
-    from lasersph.input import CaseError, nearest
-
-    for name in names:
-        if name not in known:
-            near = nearest(name, known)
-            hint = f'do you mean "{near}"?' if near else "there are " + ", ".join(known)
-            raise CaseError(f'no validation "{name}"', hint)
-    return list(dict.fromkeys(names or known))
 
 
 def _write(file: Path, backend: str, reports: dict[str, dict[str, Any]]) -> None:

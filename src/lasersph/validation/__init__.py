@@ -6,8 +6,8 @@ print(report.table()); report.passed; report.as_dict()
 
 from __future__ import annotations
 
-from lasersph.validation.registry import names, titles, validate
+from lasersph.validation.comparison import Row
+from lasersph.validation.registry import known_name, names, titles, validate
 from lasersph.validation.report import Report
-from lasersph.validation.verdict import Row
 
-__all__ = ["Report", "Row", "names", "titles", "validate"]
+__all__ = ["Report", "Row", "known_name", "names", "titles", "validate"]

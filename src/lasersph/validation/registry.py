@@ -1,47 +1,47 @@
-"""The list of validations; each is imported when it is run.
+"""The list of validations: every folder beside this file that has a README is one.
 
-A validation is a module with `TITLE` and `run(out_dir, *, quick) -> Report`.
+`README.md` says what is asked, of whom, and within which bands; `case.toml` what is run,
+`rows.toml` what is compared, `reference.csv` with what; `compare(study)` in `rows.py` does it.
 """
 
 from __future__ import annotations
 
+import tomllib
 from importlib import import_module
 from pathlib import Path
 
 from lasersph.input import CaseError, nearest
 from lasersph.validation.report import Report
-from lasersph.validation.runs import computing
-
-MODULES = {
-    "kernels": "kernels",
-    "kernel-correction": "kernel_correction",
-    "stefan": "stefan",
-    "pulsed-heating": "pulsed_heating",
-    "quasi-1d-heating": "quasi_1d_heating",
-    "gaussian-pulse": "gaussian_pulse",
-    "dlip-thermal": "dlip_thermal",
-    "lid-driven-cavity": "lid_driven_cavity",
-    "taylor-green": "taylor_green",
-    "marangoni-layer": "marangoni_layer",
-    "natural-convection": "natural_convection",
-    "sound-wave": "sound_wave",
-    "hydrostatic-column": "hydrostatic_column",
-    "dam-break": "dam_break",
-    "dlip-steel": "dlip_steel",
-    "dlip-aluminium": "dlip_aluminium",
-    "ablation-aluminium": "ablation_aluminium",
-    "ablation-depth": "ablation_depth",
-}
+from lasersph.validation.study import HOME, Study, title_of
 
 
 def names() -> tuple[str, ...]:
     """Names of all validations, in the order in which they are best run."""
-    return tuple(MODULES)
+    homes = [file.parent for file in HOME.glob("*/README.md")]
+    return tuple(home.name.replace("_", "-") for home in sorted(homes, key=_order))
+
+
+def _order(home: Path) -> tuple[int, str]:
+    keys = tomllib.loads((home / "case.toml").read_text(encoding="utf-8"))
+    return keys["order"], home.name
 
 
 def titles() -> dict[str, str]:
     """Name and the question that it answers."""
-    return {name: _module(name).TITLE for name in MODULES}
+    return {name: title_of(name) for name in names()}
+
+
+def known_name(name: str) -> str:
+    """The name of a validation.
+
+    Raises:
+        CaseError: there is none of that name; says the nearest one.
+    """
+    if name not in names():
+        near = nearest(name, names())
+        hint = f'do you mean "{near}"?' if near else "there are " + ", ".join(names())
+        raise CaseError(f'no validation "{name}"', hint)
+    return name
 
 
 def validate(
@@ -57,22 +57,15 @@ def validate(
     Runs that an earlier call with the same sources left there are taken or continued.
 
     Args:
-        quick: shortened, with tolerances as stated in its rows; still judged.
+        quick: shortened, with bands as stated in its rows; still judged.
         threads: of each run; None takes all processors. backend: "cpu" or "cuda".
 
     Raises:
         CaseError: no such validation; says the nearest name. NoDevice: no graphics card.
     """
+    module = import_module(f"lasersph.validation.{known_name(name).replace('-', '_')}.rows")
     folder = Path(out_dir)
-    module = _module(name)
     folder.mkdir(parents=True, exist_ok=True)
-    with computing(threads, backend):
-        return module.run(folder, quick=quick)
-
-
-def _module(name: str):
-    if name not in MODULES:
-        near = nearest(name, MODULES)
-        hint = f'do you mean "{near}"?' if near else "there are " + ", ".join(MODULES)
-        raise CaseError(f'no validation "{name}"', hint)
-    return import_module(f"lasersph.validation.{MODULES[name]}")
+    study = Study(name, folder, quick=quick, threads=threads, backend=backend)
+    module.compare(study)
+    return study.report()

@@ -8,7 +8,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from lasersph.validation.verdict import Row
+from lasersph.validation.comparison import Row
 
 HEAD = ("quantity", "unit", "published", "reference", "computed", "tolerance", "verdict")
 WORDS = {True: "ok", False: "FAILED", None: "shown"}

@@ -9,80 +9,42 @@ from __future__ import annotations
 
 import hashlib
 import shutil
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-from lasersph import compute
-from lasersph.case import Case, load_case
-from lasersph.compute.backend import Backend
+from lasersph.case import Case
 from lasersph.input import CaseError
 from lasersph.output import Run, open_run
 from lasersph.simulation import run
-from lasersph.solvers.step_control import StepFailed
 
 LOOK_ONLY = ("cli", "plots", "report", "studies", "validation")
 """Rooms whose sources no run depends on."""
 NUMERICS = ("numba", "numpy", "scipy")
-_where: ContextVar[tuple[int | None, str]] = ContextVar(
-    "threads and backend of a validation", default=(None, "cpu")
-)
 
 
-@contextmanager
-def computing(threads: int | None, backend: str = "cpu") -> Iterator[None]:
-    """Within this context validations compute there; threads None takes all processors."""
-    token = _where.set((threads, backend))
-    try:
-        yield
-    finally:
-        _where.reset(token)
+def run_case(case: Case, folder: Path, *, threads: int | None = None, backend: str = "cpu") -> Run:
+    """Run a case in a folder and open the result; a finished run of the same program is taken.
 
-
-def backend_of_loops() -> Backend:
-    """Backend for loops that a validation runs itself."""
-    threads, backend = _where.get()
-    return compute.cuda() if backend == "cuda" else compute.cpu(threads)
-
-
-def computed(case_name: str, overrides: Sequence[str], out_dir: Path, label: str) -> Run:
-    """Run a shipped case with overrides in out_dir/runs/label and open the result.
-
-    The file LABEL.made-by beside the folder says which case and sources the run belongs to.
+    The file FOLDER.made-by beside the folder says which case and sources the run belongs to.
 
     Raises:
         CaseError: the folder holds something that is no run.
     """
-    case = load_case(case_name, overrides)
-    folder = out_dir / "runs" / label
-    made_by = folder.with_name(f"{label}.made-by")
-    maker = fingerprint(case)
+    made_by = folder.with_name(f"{folder.name}.made-by")
+    maker = fingerprint(case, backend)
     if not made_by.is_file() or made_by.read_text(encoding="utf-8") != maker:
         _remove(folder)
         folder.mkdir(parents=True)
         made_by.write_text(maker, encoding="utf-8")
-    threads, backend = _where.get()
     run(case, folder, resume=True, threads=threads, backend=backend)
     return open_run(folder)
 
 
-def to_failure(
-    case_name: str, overrides: Sequence[str], out_dir: Path, label: str
-) -> tuple[Run, str]:
-    """As `computed`, for a case that may fail; the reason is "" where it reached its end."""
-    try:
-        return computed(case_name, overrides, out_dir, label), ""
-    except StepFailed as error:
-        return open_run(out_dir / "runs" / label), str(error)
-
-
-def fingerprint(case: Case) -> str:
+def fingerprint(case: Case, backend: str = "cpu") -> str:
     """What a run depends on: case, sources that compute it, versions below them, where it runs."""
     versions = " ".join(f"{name} {version(name)}" for name in NUMERICS)
-    return f"case {case.hash()}\nsources {_sources()}\n{versions}\nbackend {_where.get()[1]}\n"
+    return f"case {case.hash()}\nsources {_sources()}\n{versions}\nbackend {backend}\n"
 
 
 @cache

@@ -1,12 +1,15 @@
 """The layer obeys Stokes' equations and its boundary conditions, and the tabulated solution."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from lasersph.analytic.plane_flows import return_flow
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
-from lasersph.validation.references import read_table
+from lasersph.validation.tables import read_table
 
+HERE = Path(__file__).parent
 LAYER = ThermocapillaryLayer(
     depth=2e-6, period=5e-6, amplitude=10.0, surface_tension_slope=-3e-4, viscosity=5e-3
 )
@@ -19,14 +22,14 @@ def layer_of(B):
 
 def test_surface_speeds_of_the_table():
     """Surface speeds from shallow to deep, to the eight digits stored."""
-    table = read_table("thermocapillary_surface_speed.csv")
+    table = read_table(HERE / "thermocapillary_surface_speed.csv")
     for B, speed in zip(table["B"], table["speed"], strict=True):
         assert layer_of(B).surface_speed == pytest.approx(speed, abs=6e-9)
 
 
 def test_profiles_of_the_table():
     """u(z) and w(z) over the surface speed, to the eight digits stored."""
-    table = read_table("thermocapillary_profiles.csv")
+    table = read_table(HERE / "thermocapillary_profiles.csv")
     for B in np.unique(table["B"]):
         layer = layer_of(B)
         of_B = table["B"] == B

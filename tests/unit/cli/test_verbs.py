@@ -234,7 +234,8 @@ def test_validate(monkeypatch, capsys):
         folders.append((str(folder), quick, threads, backend))
         return FakeReport(name)
 
-    monkeypatch.setattr("lasersph.validation.names", lambda: ("good", "bad"))
+    for place in ("lasersph.validation.names", "lasersph.validation.registry.names"):
+        monkeypatch.setattr(place, lambda: ("good", "bad"))
     monkeypatch.setattr("lasersph.validation.titles", lambda: {"good": "A?", "bad": "B?"})
     monkeypatch.setattr("lasersph.validation.validate", fake)
     assert said(capsys, "validate", "--list") == "good  A?\nbad   B?\n"

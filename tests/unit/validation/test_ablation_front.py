@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lasersph.analytic.half_space import step_rise
-from lasersph.validation.ablation_front import Metal, ablate, chebyshev, onset, weights
+from lasersph.validation.ablation_depth.front import Metal, ablate, chebyshev, onset, weights
 
 METAL = Metal()
 DURATION = 10e-9

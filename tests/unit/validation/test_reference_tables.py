@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 from cavity_differences import Cavity, extrapolated
 
-from lasersph.validation.lid_driven_cavity_reference import (
-    REYNOLDS_NUMBERS,
-    center_line,
-    misprints,
-)
-from lasersph.validation.references import read_table
+from lasersph.validation.lid_driven_cavity.center_lines import center_line, misprints
+from lasersph.validation.study import home_of
+from lasersph.validation.tables import read_table
+
+REYNOLDS_NUMBERS = (100, 400, 1000)
 
 
 @pytest.mark.parametrize("reynolds", REYNOLDS_NUMBERS)
@@ -45,7 +44,7 @@ def test_a_misprint_stands_out_from_both_sides():
 
 def test_natural_convection_table():
     """Four Rayleigh numbers; a cell that the paper leaves empty is NaN; means of Nu agree."""
-    table = read_table("de_vahl_davis_1983.csv")
+    table = read_table(home_of("natural-convection") / "reference.csv")
     assert table["Ra"].tolist() == [1e3, 1e4, 1e5, 1e6]
     assert np.isnan(table["psi_max"]).tolist() == [True, True, False, False]
     assert table["Nu_half"] == pytest.approx(table["Nu"], rel=1e-3)

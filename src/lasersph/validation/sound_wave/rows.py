@@ -1,0 +1,77 @@
+"""Speed and damping of a sound wave in a periodic column."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lasersph.output import Run
+from lasersph.sph.kernels import kernel
+from lasersph.sph.lattice_sums import second_moment
+from lasersph.validation.drawing import Panel, exact, marks
+from lasersph.validation.study import Study
+
+
+@dataclass(frozen=True)
+class Wave:
+    """What one run says: times [s], phase [rad] and amplitude [m/s] at them, speed [m/s], and the
+    second moment of its lattice."""
+
+    run: Run
+    times: np.ndarray
+    phase: np.ndarray
+    amplitude: np.ndarray
+    speed: float
+    moment: float
+
+
+def compare(study: Study) -> None:
+    """Judge speed and amplitude of every run."""
+    waves = {name: wave(study, name) for name in study.plan.names}
+    for name, found in waves.items():
+        case = found.run.case
+        moment = found.moment if study.plan.runs[name]["kernel"] == "cubic-spline" else 1.0
+        study.add("speed", found.speed, case["solver"]["sound_speed"] * moment, name=name)
+        change = float(np.max(np.abs(found.amplitude / case["motion"]["amplitude"] - 1.0)))
+        study.add("amplitude", 100.0 * change, name=name)
+        study.remarks.append(f"{name}: second moment of the lattice {found.moment:.5f}")
+    draw(study, waves)
+
+
+def wave(study: Study, name: str) -> Wave:
+    """One run, measured."""
+    plan = study.plan.runs[name]
+    shape, ratio, dimension = plan["kernel"], plan["support_ratio"], plan["dimension"]
+    one = study.run(
+        name.replace(", ", "-").replace(" ", "-"),
+        f"solver.dimensions={dimension}",
+        f"particles.kernel={shape}",
+        f"particles.support_ratio={ratio}",
+        *plan["settings"],
+    )
+    k = 2.0 * np.pi / one.case["domain"]["depth"]
+    velocity_mode = [
+        2.0 * np.mean(s["velocity"][-1] * np.exp(1j * k * s["position"][-1])) for s in one.snapshots
+    ]
+    times, phase = one.snapshots.times, np.unwrap(np.angle(velocity_mode))
+    speed = float(np.polyfit(times, phase, 1)[0]) / k
+    moment = second_moment(kernel(shape, dimension), ratio)
+    return Wave(one, times, phase, np.abs(velocity_mode), speed, moment)
+
+
+def draw(study: Study, waves: dict[str, Wave]) -> None:
+    """(a) distance that the wave has run, (b) its amplitude over time."""
+    found = list(waves.values())
+    sound_speed = found[0].run.case["solver"]["sound_speed"]
+    time = np.array([0.0, max(one.times[-1] for one in found)])
+    distances, amplitudes = [exact(1e9 * time, 1e6 * sound_speed * time, "c_0 t")], []
+    for k, (name, one) in enumerate(waves.items()):
+        distance = one.phase * one.speed / np.polyfit(one.times, one.phase, 1)[0]
+        distances.append(marks(1e9 * one.times, 1e6 * distance, name, k))
+        amplitudes.append(marks(1e9 * one.times, one.amplitude / one.amplitude[0], k=k))
+    study.draw(
+        "sound-wave",
+        Panel("time [ns]", "distance of the wave [µm]", distances, "(a)"),
+        Panel("time [ns]", "amplitude / initial [1]", amplitudes, "(b)"),
+    )

@@ -1,0 +1,153 @@
+"""`Study`: one validation while it runs: what it is to run and to compare, and what came out.
+
+`compare(study)` in the `rows.py` of a folder makes its runs, adds rows, figures and remarks.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lasersph import compute
+from lasersph.case import Case, load_case
+from lasersph.compute.backend import Backend
+from lasersph.output import Run
+from lasersph.plots import style
+from lasersph.validation.comparison import Published, Row, number_at, read_comparisons
+from lasersph.validation.drawing import Panel, draw
+from lasersph.validation.report import Report
+from lasersph.validation.runs import run_case
+from lasersph.validation.tables import read_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+HOME = Path(__file__).parent
+LIKE = "like"
+"""Key of `case.toml` that names another validation, whose rows and keys hold here too."""
+
+
+class Study:
+    """One validation.
+
+    Attributes:
+        name: as in `lasersph validate NAME`. title: its question, in one line. quick: whether it
+            runs shortened. plan: the keys of `case.toml`, those of its table `quick` over them
+            where it runs shortened. folder: of its runs and figures.
+        rows, figures, remarks: what there is so far.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        folder: Path,
+        *,
+        quick: bool = False,
+        threads: int | None = None,
+        backend: str = "cpu",
+    ) -> None:
+        self.name, self.title, self.folder, self.quick = name, title_of(name), folder, quick
+        self.threads, self.device = threads, backend
+        homes = [home_of(name)]
+        while LIKE in (keys := _keys_of(homes[0])):
+            homes.insert(0, home_of(keys[LIKE]))
+        self.plan = SimpleNamespace(**_plan_of(homes, quick=quick))
+        self._home = homes[-1]
+        self._comparisons = read_comparisons(
+            file for home in homes if (file := home / "rows.toml").is_file()
+        )
+        self.rows: list[Row] = []
+        self.figures: list[Path] = []
+        self.remarks: list[str] = []
+
+    @property
+    def backend(self) -> Backend:
+        """Backend for loops that a validation runs itself."""
+        return compute.cuda() if self.device == "cuda" else compute.cpu(self.threads)
+
+    def case(self, *settings: str) -> Case:
+        """The shipped case that `case.toml` names, with settings KEY=VALUE."""
+        return load_case(self.plan.case, settings)
+
+    def run(self, label: str, *settings: str, case: str = "") -> Run:
+        """A run of that case, or of another shipped one, computed or taken from `runs/label`."""
+        wanted = load_case(case or self.plan.case, settings)
+        folder = self.folder / "runs" / label
+        return run_case(wanted, folder, threads=self.threads, backend=self.device)
+
+    def table(self, name: str = "reference.csv") -> dict[str, np.ndarray]:
+        """Columns of a table in the folder of the validation by name, (rows,)."""
+        return read_table(self._home / name)
+
+    def add(
+        self,
+        comparison: str,
+        computed: float | None,
+        reference: float | None = None,
+        *,
+        published: Published = None,
+        judge: bool = True,
+        share: float = 1.0,
+        **words: Any,
+    ) -> None:
+        """Add a row of a kind that `rows.toml` states; args as of `Comparison.row`."""
+        row = self._comparisons[comparison].row(
+            computed,
+            reference,
+            published=published,
+            judge=judge,
+            quick=self.quick,
+            share=share,
+            words=words,
+        )
+        self.rows.append(row)
+
+    def add_group(self, group: str, one: Run, **words: Any) -> None:
+        """Add all rows of a group, whose numbers are those of a run's summary."""
+        for name, comparison in self._comparisons.items():
+            if comparison.group == group:
+                value = number_at(one.summary, comparison.path, comparison.factor)
+                self.add(name, value, **words)
+
+    def draw(self, name: str, *panels: Panel, height: float = 3.4, **options: int) -> None:
+        """Draw panels into NAME.png; options as of `drawing.draw`."""
+        self.save(name, draw(panels, height=height, **options))
+
+    def save(self, name: str, figure: Figure | None) -> None:
+        """Write a figure, if there is one, as NAME.png."""
+        if figure is not None:
+            self.figures.append(style.save(figure, self.folder / f"{name}.png"))
+
+    def report(self) -> Report:
+        """All that there is so far."""
+        rows, figures, remarks = tuple(self.rows), tuple(self.figures), tuple(self.remarks)
+        return Report(self.name, self.title, rows, figures, remarks, self.quick)
+
+
+def home_of(name: str) -> Path:
+    """Folder of a validation within the package."""
+    return HOME / name.replace("-", "_")
+
+
+def title_of(name: str) -> str:
+    """The question of a validation: the first line of its README."""
+    with (home_of(name) / "README.md").open(encoding="utf-8") as stream:
+        return stream.readline().removeprefix("#").strip()
+
+
+def _plan_of(homes: list[Path], *, quick: bool) -> dict[str, Any]:
+    """Keys of `case.toml` in some folders, later ones over earlier ones, those of `quick` last."""
+    keys, short = {}, {}
+    for home in homes:
+        keys |= _keys_of(home)
+        short |= keys.pop("quick", {})
+    return keys | (short if quick else {})
+
+
+def _keys_of(home: Path) -> dict[str, Any]:
+    file = home / "case.toml"
+    return tomllib.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}

@@ -1,0 +1,28 @@
+"""Tables of numbers, each a CSV whose comments say where they come from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+
+def read_table(file: Path) -> dict[str, np.ndarray]:
+    """Columns of a table by name, (rows,); a cell that is empty or "-" is NaN.
+
+    Raises:
+        FileNotFoundError: there is no such table.
+    """
+    text = file.read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    head, *rows = [[cell.strip() for cell in line.split(",")] for line in lines]
+    columns = zip(*rows, strict=True) if rows else ((),) * len(head)
+    return {name: np.array(column_of(cells)) for name, cells in zip(head, columns, strict=True)}
+
+
+def column_of(cells: tuple[str, ...]) -> list[float] | list[str]:
+    """Numbers, NaN where there is none; texts where any cell is no number."""
+    try:
+        return [float(cell) if cell not in ("", "-") else np.nan for cell in cells]
+    except ValueError:
+        return list(cells)
