@@ -9,11 +9,11 @@ import numpy as np
 from lasersph.analytic.melt_depth import melt_depth
 from lasersph.case import Case
 from lasersph.compute.backend import Backend
+from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import InterferenceBeam
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.observers.view import View
 from lasersph.particles.layers import Layers, stack
-from lasersph.physics.heating import COLDEST, HOTTEST
 from lasersph.simulation.ablation_view import ablation_view_of
 from lasersph.simulation.build_ablation import ablation
 from lasersph.simulation.build_flow import with_flow

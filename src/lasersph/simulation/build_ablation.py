@@ -10,6 +10,7 @@ from lasersph.boundaries.vessel import Vessel
 from lasersph.case import Case
 from lasersph.case.sleeping import sleeps
 from lasersph.compute.backend import Backend
+from lasersph.irradiation.first_hit import FirstHitLight
 from lasersph.lasers import Laser
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers
@@ -21,7 +22,6 @@ from lasersph.solvers.ablation.active_region import ActiveRegion
 from lasersph.solvers.ablation.ejecta import Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
-from lasersph.solvers.ablation.first_hit import FirstHitLight
 from lasersph.solvers.ablation.geometry import Geometry, InitialState, lay_out
 from lasersph.solvers.ablation.parameters import Parameters
 from lasersph.solvers.ablation.particle_state import ParticleState

@@ -6,10 +6,10 @@ from dataclasses import replace
 from typing import Any
 
 from lasersph.compute.backend import Backend
+from lasersph.irradiation.first_hit import FirstHitLight
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.physics.ejection import ejection_step_limit, enthalpy_departure
 from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
-from lasersph.solvers.ablation.first_hit import FirstHitLight
 
 LIGHT_SHARE = 0.1
 """Share of the enthalpy of the vapor that a step of light may bring, so that layers leave one by

@@ -14,6 +14,8 @@ import numpy as np
 
 from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.compute.array_types import Array, Rows
+from lasersph.irradiation.first_hit import FirstHitLight
+from lasersph.irradiation.light import energies
 from lasersph.particles.kinds import EJECTED
 from lasersph.particles.particles import Particles
 from lasersph.particles.verlet_list import REST, LargestMotion, VerletList
@@ -21,7 +23,6 @@ from lasersph.physics.compressible_limits import compressible_limits
 from lasersph.solvers.ablation.active_region import ActiveRegion
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
 from lasersph.solvers.ablation.equations import fly, interior_extremes, speed_squares
-from lasersph.solvers.ablation.first_hit import FirstHitLight
 from lasersph.solvers.ablation.parameters import Parameters
 from lasersph.solvers.ablation.particle_state import ParticleState
 from lasersph.solvers.ablation.published.ejection import PublishedEjection
@@ -236,13 +237,7 @@ class Ablation:
         if light is None:
             return {}
         light.shine(time, time + step)
-        light.absorb(self.particles["temperature"])
-        return {
-            "incident": light.incident,
-            "absorbed": light.absorbed,
-            "transmitted": light.transmitted,
-            "reflected": light.incident - light.absorbed - light.transmitted,
-        }
+        return energies(light, light.absorb(self.particles["temperature"]))
 
     def _eject(self, step: float) -> None:
         """Let what has taken up enough heat leave the surface."""

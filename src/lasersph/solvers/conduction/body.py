@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
 from lasersph.compute.backend import Backend
+from lasersph.irradiation.layered import LayeredLight
 from lasersph.lasers import Laser
 from lasersph.linear_solvers.conjugate_gradient import PairOperator
 from lasersph.materials import Material
@@ -21,7 +22,6 @@ from lasersph.particles.layers import Layers
 from lasersph.particles.neighbor_lists import NeighborList, find_neighbors
 from lasersph.particles.particles import Particles
 from lasersph.particles.support import arithmetic, graded
-from lasersph.physics.heating import Irradiation
 from lasersph.physics.phase_change import state
 from lasersph.solvers.conduction.walls import walls_of
 from lasersph.sph.kernels import Kernel, kernel
@@ -58,7 +58,7 @@ class Body:
     particles: Particles
     material: Material
     curve: CaloricCurve
-    irradiation: Irradiation
+    irradiation: LayeredLight
     pairs: PairOperator
     wall_flow: Any
     wall_heat: Any
@@ -117,7 +117,7 @@ def assemble(
         particles=particles,
         material=material,
         curve=curve,
-        irradiation=Irradiation(backend, laser, material, filling),
+        irradiation=LayeredLight(backend, laser, material, filling),
         pairs=pairs,
         wall_flow=backend.asarray(walls.flow),
         wall_heat=backend.asarray(walls.heat),

@@ -80,7 +80,7 @@ class ExplicitStep:
         absorbed = body.irradiation.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
         fields = {
-            "T": self.T, "k": self.k, "E": body.irradiation.energy, "q": self.exchange.power,
+            "T": self.T, "k": self.k, "E": body.irradiation.deposit, "q": self.exchange.power,
             "m": body.particles["mass"], "a": body.pairs.pull, "b": body.wall_heat,
             "w": body.wall_power, "g_ij": body.pairs.weights,
         }  # fmt: skip

@@ -219,7 +219,7 @@ class ImplicitStep:
     def _fields(self) -> dict[str, Any]:
         body = self.body
         fields = {"h": self.h, "h0": body.particles["enthalpy"], "P": self.P, "m": self.mass}
-        fields |= {"E": body.irradiation.energy, "q": self.exchange.power, "B": body.wall_flow}
+        fields |= {"E": body.irradiation.deposit, "q": self.exchange.power, "B": body.wall_flow}
         fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
         return fields
 

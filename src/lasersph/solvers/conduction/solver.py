@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.backend import Backend
+from lasersph.irradiation.light import energies
 from lasersph.lasers import Laser
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.conduction.explicit import ExplicitStep
@@ -193,10 +194,8 @@ class Conduction:
     def _account(self, energy: dict[str, float], discarded: float) -> None:
         """Add the energies of a step; what walls exchange is the balance of the pair sums."""
         total = self.state.energy
-        incident = self.body.irradiation.incident
-        total["incident"] += incident
-        total["absorbed"] += energy["absorbed"]
-        total["reflected"] += incident - energy["absorbed"]
+        for name, value in energies(self.body.irradiation, energy["absorbed"]).items():
+            total[name] += value
         total["stored"] += energy["stored"] - discarded
         total["lost"] += energy["lost"] - energy["walls"]
         total["removed"] += energy["removed"]

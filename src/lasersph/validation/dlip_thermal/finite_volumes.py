@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.case import Case
+from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import Laser
-from lasersph.physics.heating import COLDEST, HOTTEST
 from lasersph.simulation.build import caloric_curve
 
 Array = NDArray[np.float64]

@@ -7,6 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from lasersph.boundaries.free_surface import FreeSurface
+from lasersph.irradiation.first_hit import FirstHitLight
 from lasersph.lasers import Laser
 from lasersph.materials import load_material
 from lasersph.particles.kinds import EJECTED, INTERIOR, LEAVING
@@ -15,7 +16,6 @@ from lasersph.particles.support import arithmetic
 from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
-from lasersph.solvers.ablation.first_hit import FirstHitLight
 from lasersph.solvers.ablation.published.ejection import PublishedEjection
 from lasersph.sph.kernels import kernel
 

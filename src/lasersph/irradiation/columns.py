@@ -69,7 +69,7 @@ def column_at_corner(
 
     Args:
         column_x, column_y, beyond_x, beyond_y: from `column_along`; 0 for an axis that is missing.
-            kind: only what is condensed or leaving stands anywhere. right, back: 1 for the
+            kind: only interior and leaving particles stand anywhere. right, back: 1 for the
             upper corner along x and y.
     """
     x = wrap_column(column_x + right, count_x, wraps_x)
@@ -123,6 +123,11 @@ def share_of(x, column, cover, tops, covers, up, band):
 def add_light(light, column, share, energy):
     """Light on a particle [J], with that of one more column; energy: table of the columns [J]."""
     return light + share * energy[column]
+
+
+def mark_hit(hit, share):
+    """1 for a particle that takes a share of any column."""
+    return 1.0 if share > 0.0 else hit
 
 
 def absorbed_light(light, T, R_T, R_R):

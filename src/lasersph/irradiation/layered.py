@@ -20,12 +20,11 @@ import numpy as np
 
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, interpolate
+from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import Laser
 from lasersph.materials import Material
 from lasersph.particles.filling import Filling
 
-COLDEST, HOTTEST = 1.0, 2.0e4
-"""Range of surface temperatures of the reflectivity table [K]."""
 SMALLEST_SHARE = 1e-30
 
 
@@ -70,11 +69,12 @@ def split(area_share, above, moved, columns):
     return moved * light, (1.0 - moved) * light
 
 
-class Irradiation:
-    """The laser on the particles of a filling.
+class LayeredLight:
+    """The laser on the particles of a filling, see `Light`.
 
     Attributes:
-        energy: (n,) absorbed in the step [J]. incident: what falls on the surface [J].
+        deposit: (n,) absorbed in the step [J]. incident: what falls on the surface [J];
+            transmitted: none, since the body is thick.
     """
 
     def __init__(
@@ -82,8 +82,8 @@ class Irradiation:
     ) -> None:
         self.backend, self.laser = backend, laser
         count = filling.count
-        self.energy = backend.zeros(count)
-        self.incident = 0.0
+        self.deposit = backend.zeros(count)
+        self.incident = self.transmitted = 0.0
         self.alpha: float | None = None
         if laser is None:
             return
@@ -155,19 +155,19 @@ class Irradiation:
         self.backend.copy(self.backend.asarray(density), self.fluence)
 
     def absorb(self, temperature: Any) -> float:
-        """Set `energy` [J] from the temperatures of the surface [K]; returns their sum [J].
+        """Set `deposit` [J] from the temperatures of the surface [K]; returns their sum [J].
 
         Args:
             temperature: (n,); the first ones are those of the surface, the others are not read.
         """
         backend = self.backend
         if self.incident == 0.0:
-            backend.fill(self.energy, 0.0)
+            backend.fill(self.deposit, 0.0)
             return 0.0
         self._admit(temperature)
         fields = {"area_share": self.area_share, "above": self.above}
         return backend.pointwise(
-            absorbed, fields, self.energy, reduce=("sum",), columns=self.columns
+            absorbed, fields, self.deposit, reduce=("sum",), columns=self.columns
         )[0]
 
     def _admit(self, temperature: Any) -> None:
