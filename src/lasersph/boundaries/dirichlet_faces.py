@@ -16,13 +16,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lasersph.particles.faces import ENDS
 from lasersph.particles.filling import FACES, Filling
 
 Array = NDArray[np.float64]
 Extents = tuple[tuple[float, float], ...]
-ENDS = {"left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1), "bottom": (-1, 0),
-        "surface": (-1, 1)}  # fmt: skip
-"""Axis and end (0 lower, 1 upper) of each face."""
 
 
 @dataclass(frozen=True)

@@ -21,12 +21,12 @@ from pydantic_core import CoreSchema
 
 from lasersph.boundaries.initial_flow import InitialFlow, RestingFlow
 from lasersph.input import Model, Velocity, refusal
+from lasersph.particles.faces import PLANE, face_pairs
 
 FlowKind = Literal["no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface"]
 KINDS: tuple[FlowKind, ...] = (
     "no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface",
 )  # fmt: skip
-FACES = ("left", "right", "bottom", "surface")
 WALLS = ("no-slip", "moving-wall")
 
 
@@ -92,7 +92,7 @@ class FlowConditions(Model):
     @model_validator(mode="after")
     def _check_pairs(self) -> FlowConditions:
         problems = []
-        for one, other in (("left", "right"), ("bottom", "surface")):
+        for one, other in face_pairs(2):
             kinds = {side: getattr(self, side).kind for side in (one, other)}
             single = [side for side, kind in kinds.items() if kind == "periodic"]
             if len(single) == 1:
@@ -104,7 +104,7 @@ class FlowConditions(Model):
                         "kind here",
                     )
                 )
-        for side in FACES[:3]:
+        for side in PLANE[:3]:
             if getattr(self, side).kind == "free-surface":
                 problems.append(
                     (side, 'a free surface lies at the top; write surface = "free-surface"')
@@ -116,4 +116,4 @@ class FlowConditions(Model):
     @property
     def faces(self) -> dict[str, FlowCondition]:
         """The conditions by face: left, right, bottom, surface."""
-        return {name: getattr(self, name) for name in FACES}
+        return {name: getattr(self, name) for name in PLANE}

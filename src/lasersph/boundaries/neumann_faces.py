@@ -14,7 +14,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.boundaries.dirichlet_faces import ENDS, Extents, plane_of
+from lasersph.boundaries.dirichlet_faces import Extents, plane_of
+from lasersph.particles.faces import ENDS
 from lasersph.particles.filling import Filling
 
 Array = NDArray[np.float64]

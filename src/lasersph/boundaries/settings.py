@@ -31,6 +31,7 @@ from lasersph.input import (
     refusal,
 )
 from lasersph.materials import Material
+from lasersph.particles.faces import BOTTOM, LEFT, RIGHT, SURFACE, VERTICAL
 
 Array = NDArray[np.float64]
 Face = Literal["adiabatic", "periodic", "free", "fixed-temperature", "wall", "prescribed-flux"]
@@ -139,7 +140,7 @@ class Boundaries(Model):
             )
 
     def _halves_of_periods(self) -> Iterator[tuple[str, str]]:
-        for one, other in (("surface", "bottom"), ("left", "right")):
+        for one, other in ((SURFACE, BOTTOM), (LEFT, RIGHT)):
             kinds = {face: self.kind_of(face) for face in (one, other)}
             if list(kinds.values()).count("periodic") == 1:
                 face = one if kinds[one] == "periodic" else other
@@ -152,7 +153,7 @@ class Boundaries(Model):
 
     def kind_of(self, face: str) -> Face:
         """Kind of a face: surface, bottom, left, right, front or back (the sides)."""
-        if face in ("surface", "bottom"):
+        if face in VERTICAL:
             return getattr(self, face)
         return getattr(self, face, None) or self.sides
 
@@ -165,7 +166,7 @@ class Boundaries(Model):
         """Temperature of a held face [K] at places x along it [m], any shape."""
         mean = np.full(np.shape(x), self.temperature_of(face, initial))
         wave = self.surface_temperature_wave
-        return mean + wave.at(x) if wave is not None and face == "surface" else mean
+        return mean + wave.at(x) if wave is not None and face == SURFACE else mean
 
     def flux_of(self, face: str) -> float:
         """Heat flux into the body through a face of prescribed flux [W/m^2], 0 at others."""
@@ -193,5 +194,5 @@ class Boundaries(Model):
 
     def _given(self, face: str, what: str) -> float | None:
         own = getattr(self, f"{face}_{what}", None)
-        is_lateral = face not in ("surface", "bottom")
+        is_lateral = face not in VERTICAL
         return getattr(self, f"side_{what}") if own is None and is_lateral else own

@@ -15,10 +15,10 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from lasersph.particles.faces import face_pairs
+
 Array = NDArray[np.float64]
 LAYERS = 3
-LOWER = ("left", "front")
-UPPER = ("right", "back")
 
 
 def wall_particles(
@@ -36,17 +36,10 @@ def wall_particles(
     dimension = len(bounds)
     faces: dict[str, Array] = {}
     for axis in reversed(range(dimension)):
-        for is_upper, face in enumerate(_faces(axis, dimension)):
+        for is_upper, face in enumerate(face_pairs(dimension)[axis]):
             if face in walled:
                 faces[face] = _face(bounds, spacing, axis, bool(is_upper), walled, periodic)
     return faces
-
-
-def _faces(axis: int, dimension: int) -> tuple[str, str]:
-    """Faces at the lower and upper end of an axis."""
-    if axis == dimension - 1:
-        return "bottom", "surface"
-    return LOWER[axis], UPPER[axis]
 
 
 def _face(
@@ -58,18 +51,15 @@ def _face(
     periodic: Sequence[str],
 ) -> Array:
     """All layers of one face. Axes before its own are covered beyond their walls, others within."""
-    layers = []
+    layers, pairs = [], face_pairs(len(bounds))
     for layer in range(LAYERS):
         away = (layer + 0.5) * spacing
         lower, upper = bounds[axis]
         coordinates = [np.array([upper + away if is_upper else lower - away])]
         others = [other for other in range(len(bounds)) if other != axis]
         for other in others:
-            beyond = [
-                LAYERS if face in walled and other < axis else 0
-                for face in _faces(other, len(bounds))
-            ]
-            repeats = _faces(other, len(bounds))[0] in periodic
+            beyond = [LAYERS if face in walled and other < axis else 0 for face in pairs[other]]
+            repeats = pairs[other][0] in periodic
             coordinates.append(_row(bounds[other], spacing, beyond, layer % 2 == 1, repeats))
         points = np.array(list(product(*coordinates))).T
         ordered = np.empty_like(points)

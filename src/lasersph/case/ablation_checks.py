@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_motion import Rest, SoundWave
 from lasersph.input import format_quantity
+from lasersph.particles.faces import LATERAL, VERTICAL, faces_of
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.conduction.body import SUPPORT
 
@@ -18,7 +19,6 @@ REFUSED = {
     "fixed-temperature": 'holds the face itself; write "wall" for particles of that temperature',
     "prescribed-flux": 'is for bodies at rest; write "adiabatic" or "wall"',
 }
-SIDES = {1: (), 2: ("left", "right"), 3: ("left", "right", "front", "back")}
 
 
 def ablation_problems(case: Case) -> Iterator[tuple[str, str]]:
@@ -42,15 +42,15 @@ def ablation_problems(case: Case) -> Iterator[tuple[str, str]]:
 
 def _faces(case: Case) -> Iterator[tuple[str, str]]:
     dimensions = case.solver.dimensions
-    for face in ("surface", "bottom", *SIDES[dimensions]):
+    for face in faces_of(dimensions):
         kind = case.boundaries.kind_of(face)
-        key = face if face in ("surface", "bottom") else "sides"
+        key = face if face in VERTICAL else "sides"
         key = face if getattr(case.boundaries, face, None) else key
         if kind in REFUSED:
             yield f"boundaries.{key}", f'"{kind}" {REFUSED[kind]}'
     if case.vessel is None:
         return
-    for side in ("left", "right"):
+    for side in LATERAL[0]:
         if getattr(case.vessel, side) > 0.0 and dimensions == 1:
             yield f"vessel.{side}", "a 1-D column has no sides; leave it out"
         elif getattr(case.vessel, side) > 0.0 and case.boundaries.kind_of(side) == "periodic":

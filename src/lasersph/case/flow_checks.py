@@ -6,12 +6,13 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.boundaries.flow_conditions import FACES, FlowConditions
+from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.size import LARGEST_STEPS
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
+from lasersph.particles.faces import PLANE, faces_of
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def _liquid(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
 
 
 def _heat_faces(case: Case) -> Iterator[tuple[str, str]]:
-    for face in ("surface", "bottom", "left", "right"):
+    for face in faces_of(2):
         if case.boundaries.kind_of(face) == "free":
             own = getattr(case.boundaries, face) is not None
             yield (
@@ -100,8 +101,7 @@ def _pool(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
             "sides of a box that is all fluid",
         )
     is_heated = case.laser is not None or any(
-        case.boundaries.kind_of(face) in (*DIRICHLET, NEUMANN)
-        for face in ("surface", "bottom", "left", "right")
+        case.boundaries.kind_of(face) in (*DIRICHLET, NEUMANN) for face in faces_of(2)
     )
     if not is_heated:
         yield (
@@ -126,7 +126,7 @@ def _box(case: Case, flow: FlowConditions) -> Iterator[tuple[str, str]]:
             "particles.arrangement",
             'particles that flow through the whole box need one size; write "uniform"',
         )
-    for side in FACES:
+    for side in PLANE:
         heat, kind = case.boundaries.kind_of(side), flow.faces[side].kind
         if (heat == "periodic") == (kind == "periodic"):
             continue

@@ -19,7 +19,6 @@ from typing import Any
 import numpy as np
 
 from lasersph.observers.box_sections import (
-    SIDES,
     Box,
     center_lines,
     extremum,
@@ -30,6 +29,7 @@ from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.quantity import Quantity, suffix
 from lasersph.observers.view import View
+from lasersph.particles.faces import LATERAL, PLANE, face_pairs
 
 EVERY = 50
 LINE = 129
@@ -60,7 +60,7 @@ class BoxFlow(Observer):
             Quantity(f"box_stream_function_{name}_m2_s", "m^2/s", words)
             for name, words in EDDIES.items()
         ),
-        *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in SIDES),
+        *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in PLANE),
     )
     results = (
         Quantity("box.time_s", "s", "time of these values"),
@@ -90,7 +90,7 @@ class BoxFlow(Observer):
         ),
         *(
             one
-            for side in SIDES
+            for side in PLANE
             for one in (
                 Quantity(f"box.heat.temperature_{side}_K", "K", f"mean temperature, {side}"),
                 Quantity(
@@ -126,7 +126,7 @@ class BoxFlow(Observer):
         values = (
             *(center[f"{name}_m_s"] for name in CENTER),
             *(eddies[f"{name}_m2_s"] for name in EDDIES),
-            *(self.found["heat"].get(f"nusselt_{side}") or 0.0 for side in SIDES),
+            *(self.found["heat"].get(f"nusselt_{side}") or 0.0 for side in PLANE),
         )
         return self.record(view.time, values)
 
@@ -207,15 +207,14 @@ def heat_of(view: View, box: Box) -> dict[str, Any]:
             count=NODES,
             held=flow.wall_temperature.get(side),
         )
-        for side in SIDES
+        for side in PLANE
     }
-    pairs = (("left", "right"), ("bottom", "surface"))
     heat: dict[str, Any] = {}
     for side, (temperature, slope) in wall.items():
         heat[f"temperature_{side}_K"] = temperature
         heat[f"flux_{side}_W_m2"] = -flow.conductivity * slope
     held, crossed = (
-        [pair for pair in pairs if all(side in sides for side in pair)]
+        [pair for pair in face_pairs(2) if all(side in sides for side in pair)]
         for sides in (flow.wall_temperature, flow.conducting_sides)
     )
     differences = {pair: abs(wall[pair[0]][0] - wall[pair[1]][0]) for pair in held or crossed}
@@ -223,7 +222,7 @@ def heat_of(view: View, box: Box) -> dict[str, Any]:
         return heat
     pair = max(differences, key=lambda one: differences[one])
     heat |= {"between": " and ".join(pair), "difference_K": differences[pair]}
-    length = box.width if pair == pairs[0] else box.height
+    length = box.width if pair == LATERAL[0] else box.height
     for side in pair:
         temperature, slope = wall[side]
         if differences[pair] > SMALLEST_DIFFERENCE * temperature:

@@ -18,7 +18,6 @@ import numpy as np
 from lasersph.observers.interpolation import interpolate, local_fit
 
 FINER = 3
-SIDES = ("left", "right", "bottom", "surface")
 
 
 @dataclass(frozen=True)

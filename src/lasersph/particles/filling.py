@@ -3,8 +3,7 @@
 Dummy layers and columns continue the lattice past each face that is not free. Each dummy knows
 which inner particle it stands for (mirror image or periodic image) or which face gives its
 temperature. Patterns that repeat within one support radius are unfolded as often as needed.
-Faces are named surface and bottom (z), left and right (x), front and back (y); `sides` are the
-last four.
+`sides` are the faces normal to x and y.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lasersph.particles.faces import BACK, BOTTOM, FRONT, LATERAL, LEFT, RIGHT, SURFACE, faces_of
 from lasersph.particles.layers import Layers
 
 Array = NDArray[np.float64]
@@ -24,9 +24,8 @@ GHOSTS = 5
 GRADED_GHOSTS = 12
 """Dummy columns of graded layers: a coarse particle reaches over many columns of a finer layer."""
 FREE, MIRROR, PERIODIC, DIRICHLET = "free", "mirror", "periodic", "dirichlet"
-FACES = ("none", "surface", "bottom", "left", "right", "front", "back")
-LATERAL = (("left", "right"), ("front", "back"))
-"""Faces at the lower and the upper end of x and of y."""
+FACES = ("none", *faces_of(3))
+"""Faces by the number that dummies have of them."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +67,8 @@ def fill(
 
     Left and right are as the sides where not given; opposite faces are periodic in pairs.
     """
-    kinds = {"left": left or sides, "right": right or sides, "front": sides, "back": sides}
-    kinds["surface"] = surface
+    kinds = {LEFT: left or sides, RIGHT: right or sides, FRONT: sides, BACK: sides}
+    kinds[SURFACE] = surface
     total = layers.thickness.size
     starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
     first = 0 if surface == FREE else -min(GHOSTS, total)
@@ -79,9 +78,9 @@ def fill(
         inside = _inside(number, total, is_periodic=surface == PERIODIC)
         face = 0
         if number < 0 and surface == DIRICHLET:
-            face = FACES.index("surface")
+            face = FACES.index(SURFACE)
         if number >= total and bottom == DIRICHLET:
-            face = FACES.index("bottom")
+            face = FACES.index(BOTTOM)
         block = _layer(layers, number, inside, int(starts[inside]), face, kinds)
         is_real = np.logical_and(block["real"], 0 <= number < total)
         real.append({key: value[..., is_real] for key, value in block.items()})
@@ -128,7 +127,7 @@ def _layer(
     layers: Layers, number: int, inside: int, start: int, face: int, kinds: dict[str, str]
 ) -> dict[str, NDArray[Any]]:
     """One layer of the extended lattice, real and dummy columns; `inside` is its image."""
-    z = _height(layers, number, inside, is_periodic=kinds["surface"] == PERIODIC)
+    z = _height(layers, number, inside, is_periodic=kinds[SURFACE] == PERIODIC)
     is_uniform = np.ptp(layers.thickness) <= 1e-9 * layers.thickness[0]
     beyond = GHOSTS if is_uniform else GRADED_GHOSTS
     axes, sources, reals, widths, holders = [], [], [], [], []

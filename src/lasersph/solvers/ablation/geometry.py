@@ -14,13 +14,13 @@ from lasersph.boundaries import Boundaries
 from lasersph.boundaries.initial_motion import Rest, SoundWave, Uniform
 from lasersph.boundaries.staggered_walls import wall_particles
 from lasersph.boundaries.vessel import Vessel
+from lasersph.particles.faces import SURFACE, face_pairs, faces_of
 from lasersph.particles.filling import FREE, fill
 from lasersph.particles.layers import Layers
 from lasersph.physics.equation_of_state import density_under
 
 Array = NDArray[np.float64]
 Motion = Rest | Uniform | SoundWave
-LATERAL = (("left", "right"), ("front", "back"))
 
 
 @dataclass(frozen=True)
@@ -70,19 +70,13 @@ class InitialState:
     conducts: Array
 
 
-def faces_of(dimension: int) -> tuple[str, ...]:
-    """Names of the faces of a block."""
-    lateral = [face for ends in LATERAL[: dimension - 1] for face in ends]
-    return ("surface", "bottom", *lateral)
-
-
 def walled_faces(boundaries: Boundaries, dimension: int) -> tuple[str, ...]:
     """Faces with wall particles: "wall" and, but for the surface, "adiabatic"."""
     return tuple(
         face
         for face in faces_of(dimension)
         if boundaries.kind_of(face) == "wall"
-        or (boundaries.kind_of(face) == "adiabatic" and face != "surface")
+        or (boundaries.kind_of(face) == "adiabatic" and face != SURFACE)
     )
 
 
@@ -127,10 +121,9 @@ def lay_out(
     elif motion.hydrostatic:
         pressure = density * gravity * np.maximum(-position[-1], 0.0)
         strain = density_under(pressure, density, sound_speed) / density - 1.0
-    named = LATERAL[: dimension - 1]
     period = [
-        bounds[axis][1] - bounds[axis][0] if ends[0] in periodic else 0.0
-        for axis, ends in enumerate((*named, ("bottom", "surface")))
+        high - low if faces[0] in periodic else 0.0
+        for (low, high), faces in zip(bounds, face_pairs(dimension), strict=True)
     ]
     geometry = Geometry(
         count=count,

@@ -17,6 +17,7 @@ from lasersph.linear_solvers.conjugate_gradient import PairOperator
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles import Lattice
+from lasersph.particles.faces import PLANE
 from lasersph.particles.filling import DIRICHLET, FREE, MIRROR, PERIODIC, Filling, fill
 from lasersph.particles.layers import Layers
 from lasersph.particles.neighbor_lists import NeighborList, find_neighbors
@@ -91,9 +92,7 @@ def assemble(
     use_second_moment: bool,
 ) -> Body:
     """Fill the domain, find the pairs, and assemble their weights."""
-    ends = {
-        face: KINDS[boundaries.kind_of(face)] for face in ("surface", "bottom", "left", "right")
-    }
+    ends = {face: KINDS[boundaries.kind_of(face)] for face in PLANE}
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
     weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
     neighbors, row, weights = _weights(backend, weighing, filling)

@@ -18,7 +18,8 @@ from lasersph.boundaries.dirichlet_faces import DirichletFace, boundary_coeffici
 from lasersph.boundaries.neumann_faces import face_power
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.materials.caloric_curve import CaloricCurve
-from lasersph.particles.filling import LATERAL, Filling
+from lasersph.particles.faces import faces_of
+from lasersph.particles.filling import Filling
 from lasersph.particles.layers import Layers
 
 Array = NDArray[np.float64]
@@ -53,9 +54,7 @@ def walls_of(
     Args:
         weights: (pairs,) g_ij, changed in place. row, neighbor: (pairs,) i and j.
     """
-    faces = ["surface", "bottom"]
-    faces += [face for ends in LATERAL[: layers.dimension - 1] for face in ends]
-    kinds = {face: boundaries.kind_of(face) for face in faces}
+    kinds = {face: boundaries.kind_of(face) for face in faces_of(layers.dimension)}
     faces = [
         DirichletFace(face, kind == "wall") for face, kind in kinds.items() if kind in DIRICHLET
     ]

@@ -22,6 +22,7 @@ from lasersph.compute import search
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, outer
+from lasersph.particles.faces import LEFT
 from lasersph.particles.ghosts import LOWER, UPPER, GhostParticles, ghost_types_of
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.solvers.conduction.body import Weighing
@@ -149,11 +150,11 @@ class Block:
         self.moving_support, largest = float(support.min()), float(support.max())
         self.search_radius = SKIN * largest
         self._own_support = backend.asarray(support), backend.asarray(SKIN * support)
-        (x, z), repeats = conditions.box, conditions.flow_kind("left") == "periodic"
+        (x, z), repeats = conditions.box, conditions.flow_kind(LEFT) == "periodic"
         self._bounds = x, (max(z[0], bottom), z[1])
         near = SKIN * float(lattice.weighing.mean(self.moving_support, largest))
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
-        types = ghost_types_of(conditions.face_pairs(has_bottom=has_bottom))
+        types = ghost_types_of(conditions.ghost_faces(has_bottom=has_bottom))
         self.ghosts = GhostParticles(backend, count, self.search_radius, types)
         self._set_rules()
         self._set_factors()

@@ -24,14 +24,12 @@ from lasersph.boundaries import Boundaries
 from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.boundaries.surface import Surface
+from lasersph.particles.faces import BOTTOM, SURFACE, face_pairs
 from lasersph.particles.ghosts import LOWER, MIRROR, OPEN, PERIODIC, UPPER, FacePair, GhostTypes
 
 Array = NDArray[np.float64]
-FACES = (("left", "right"), ("bottom", "surface"))
-"""Names of the lower and the upper face along x and z."""
+FACES = face_pairs(2)
 ENDS = (LOWER, UPPER)
-WAVY = "surface"
-"""The face whose temperature may vary along it."""
 
 
 @dataclass(frozen=True)
@@ -79,19 +77,19 @@ class FaceConditions:
         """Kind of a face for the flow."""
         if self.flow is not None:
             return self.flow.faces[face].kind
-        if face == "surface":
+        if face == SURFACE:
             return "free-surface"
-        if face == "bottom":
+        if face == BOTTOM:
             return "no-slip"
         return "periodic" if self.boundaries.kind_of(face) == "periodic" else "symmetry"
 
-    def face_pairs(self, *, has_bottom: bool) -> tuple[FacePair, FacePair]:
+    def ghost_faces(self, *, has_bottom: bool) -> tuple[FacePair, FacePair]:
         """Faces beyond which ghosts lie; without the bottom where particles go on below."""
         pairs = []
         for (lower, _upper), (low, high) in zip(FACES, self.box, strict=True):
             is_periodic = self.flow_kind(lower) == "periodic"
             kind = PERIODIC if is_periodic else MIRROR
-            below = OPEN if lower == "bottom" and not has_bottom else kind
+            below = OPEN if lower == BOTTOM and not has_bottom else kind
             pairs.append(FacePair(below, kind, low, high))
         return pairs[0], pairs[1]
 
@@ -117,7 +115,9 @@ class FaceConditions:
             if kind in DIRICHLET:
                 dirichlet[free] = 1.0
                 temperature[free] = self.boundaries.temperature_of(face, self.initial_temperature)
-                varies[free] = face == WAVY and self.boundaries.surface_temperature_wave is not None
+                varies[free] = (
+                    face == SURFACE and self.boundaries.surface_temperature_wave is not None
+                )
             elif kind == NEUMANN:
                 flux[free] = self.boundaries.flux_of(face)
             mine = chosen & ((np.abs(normal).sum(axis=0) == 0.0) | self._carries_heat(face))
@@ -128,7 +128,7 @@ class FaceConditions:
 
     def varying_temperature(self, x: Array) -> Array:
         """Temperature of a face that varies along it, at places x [m], [K]."""
-        return self.boundaries.temperature_along(WAVY, x, self.initial_temperature)
+        return self.boundaries.temperature_along(SURFACE, x, self.initial_temperature)
 
     def _crossings(
         self, ghost_types: GhostTypes

@@ -33,7 +33,7 @@ def corner_of(across, along):
 
 def rules_at(conditions, chosen):
     """Rules of ghosts of the chosen types, and the faces that each of them crossed."""
-    ghost_types = ghost_types_of(conditions.face_pairs(has_bottom=True))
+    ghost_types = ghost_types_of(conditions.ghost_faces(has_bottom=True))
     columns = [ghost_types.crossed.T.tolist().index(list(ghost_type)) for ghost_type in chosen]
     few = replace(
         ghost_types, sign=ghost_types.sign[:, columns], offset=ghost_types.offset[:, columns],
@@ -112,8 +112,8 @@ def test_pool_in_a_block():
     assert [conditions.flow_kind(s) for s in ("left", "bottom", "surface")] == [
         "symmetry", "no-slip", "free-surface",
     ]  # fmt: skip
-    x, z = conditions.face_pairs(has_bottom=False)
-    _, deep = conditions.face_pairs(has_bottom=True)
+    x, z = conditions.ghost_faces(has_bottom=False)
+    _, deep = conditions.ghost_faces(has_bottom=True)
     assert (x.lower_kind, z.lower_kind, z.upper_kind) == (MIRROR, OPEN, MIRROR)
     assert deep.lower_kind == MIRROR
     assert conditions.largest_wall_speed() == 0.0
@@ -122,7 +122,7 @@ def test_pool_in_a_block():
 def test_periodic_pool():
     """A block that repeats for heat repeats for the flow."""
     conditions = FaceConditions(BOX, Boundaries(sides="periodic"), None, 300.0)
-    assert conditions.face_pairs(has_bottom=False)[0].lower_kind == PERIODIC
+    assert conditions.ghost_faces(has_bottom=False)[0].lower_kind == PERIODIC
 
 
 def test_largest_wall_speed():
