@@ -102,16 +102,15 @@ class HeightMap:
     def as_ply(self) -> str:
         """ASCII PLY of vertices and triangles."""
         vertices, triangles = self.vertices(), self.triangles()
-        head = [
-            "ply", "format ascii 1.0", f"comment lasersph crater at {self.time:.6g} s, unit um",
-            f"element vertex {len(vertices)}",
-            *(f"property float {axis}" for axis in "xyz"),
-            f"element face {len(triangles)}", "property list uchar int vertex_indices",
-            "end_header",
-        ]  # fmt: skip
+        head = (
+            f"ply\nformat ascii 1.0\ncomment lasersph crater at {self.time:.6g} s, unit um\n"
+            f"element vertex {len(vertices)}\n"
+            "property float x\nproperty float y\nproperty float z\n"
+            f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header"
+        )
         points = [f"{x:.7g} {y:.7g} {z:.7g}" for x, y, z in vertices]
         faces = [f"3 {a} {b} {c}" for a, b, c in triangles]
-        return "\n".join([*head, *points, *faces]) + "\n"
+        return "\n".join([head, *points, *faces]) + "\n"
 
 
 def height_map(step: Mapping[str, Any]) -> HeightMap:

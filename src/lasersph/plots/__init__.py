@@ -13,8 +13,7 @@ from lasersph.plots.crater_scene import crater_scene
 from lasersph.plots.crater_view import crater_view
 from lasersph.plots.particle_map import particle_map
 from lasersph.plots.run_figures import draw_run
-from lasersph.plots.surface_flow import surface_flow_profiles
-from lasersph.plots.surface_profiles import surface_profiles
+from lasersph.plots.surface_profiles import surface_flow_profiles, surface_profiles
 
 __all__ = [
     "animate_run",

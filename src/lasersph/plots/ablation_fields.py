@@ -103,9 +103,14 @@ def axis_of(run: Run) -> tuple[float, float]:
 
 
 def telling_snapshot(run: Run) -> Snapshot:
-    """The first snapshot in which the crater has its final volume, or the last one."""
+    """The first snapshot in which the crater has its final volume, or the last one; the hottest
+    where nothing left."""
     history = run.history
     volume = next(name for name in history if name.startswith("crater_removed_volume"))
+    if history[volume][-1] == 0.0:
+        return run.snapshots.nearest(
+            float(history["time_s"][np.argmax(history["temperature_max_K"])])
+        )
     done = np.flatnonzero(history[volume] >= history[volume][-1])
     time = float(history["time_s"][done[0]])
     later = np.flatnonzero(run.snapshots.times >= time * (1.0 - 1e-9))

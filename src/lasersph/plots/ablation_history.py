@@ -11,7 +11,8 @@ import numpy as np
 
 from lasersph.output import Run
 from lasersph.plots import style
-from lasersph.plots.history import (
+from lasersph.plots.curves import (
+    draw_columns,
     draw_corner_temperatures,
     draw_pulse,
     material_of,
@@ -34,24 +35,27 @@ def crater_history(run: Run) -> Figure | None:
     if "crater_depth_m" not in history:
         return None
     figure, (above, below) = style.new_figure(2, height=4.8, share_x=True)
-    time, name = time_axis(history)
-    unit = style.unit_for(float(np.max(history["crater_depth_max_m"])), style.LENGTHS)
-    draw_pulse(above, history, time)
-    names = {"depth": "at the axis", "depth_mean": "mean", "depth_max": "largest"}
-    columns = {text: history[f"crater_{key}_m"] for key, text in names.items()}
-    if run.case.get("solver", {}).get("dimensions") == 1:
-        smooth = history["crater_vaporized_volume_m"]
-        columns = {"whole layers": columns["at the axis"], "with the layer on its way": smooth}
-    for k, (text, values) in enumerate(columns.items()):
-        above.plot(time, values * unit.factor, style.LINES[k], color=style.COLORS[k], label=text)
-    style.label(above, "", f"depth of the crater [{unit.name}]")
+    lines = {
+        "crater_depth_m": "at the axis",
+        "crater_depth_mean_m": "mean",
+        "crater_depth_max_m": "largest",
+    }
+    draw_pulse(above, history)
+    if "crater_vaporized_volume_m" in history:  # 1-D: the volume over the area is a depth
+        lines = {"crater_depth_m": "whole layers"}
+        unit = style.fitting_unit("m", float(np.max(history["crater_depth_m"])))
+        smooth = history["crater_vaporized_volume_m"] * unit.factor
+        name, look = "with the layer on its way", {"color": style.COLORS[1], "linestyle": "--"}
+        above.plot(time_axis(history)[0], smooth, label=name, **look)
+    draw_columns(above, run, lines, label="depth of the crater")
     style.legend(above)
     energy = {"removed": "carried away by ejecta", "stored": "in the body"}
+    time, time_label = time_axis(history)
     absorbed = max(float(history["energy_absorbed_J"][-1]), 1e-300)
     for k, (term, text) in enumerate(energy.items()):
         values = 100.0 * history[f"energy_{term}_J"] / absorbed
         below.plot(time, values, style.LINES[k], color=style.COLORS[k], label=text)
-    style.label(below, name, "energy [% of the absorbed]")
+    style.label(below, time_label, "energy [% of the absorbed]")
     style.legend(below)
     below.set_xlim(time[0], time[-1])
     return figure
@@ -63,8 +67,8 @@ def trace_figure(run: Run) -> Figure | None:
     None where no particle was traced.
     """
     history = run.history
-    names = [key.removeprefix("trace_").removesuffix("_stage") for key in history
-             if key.startswith("trace_") and key.endswith("_stage")]  # fmt: skip
+    stages = (key for key in history if key.startswith("trace_") and key.endswith("_stage"))
+    names = [key.removeprefix("trace_").removesuffix("_stage") for key in stages]
     if not names:
         return None
     figure, (above, below) = style.new_figure(2, height=5.2, share_x=True)
@@ -99,8 +103,7 @@ def mark_regions(run: Run, name: str, above: Axes, below: Axes) -> float:
             axes.axvline(edge * factor, color=style.GRAY, linewidth=0.7, linestyle=":")
         for number, first, last in zip(ROMAN, edges, edges[1:], strict=False):
             if last > first or number == "II":
-                axes.annotate(
-                    number, (0.5 * (first + last) * factor, 1.01), ha="center", va="bottom",
-                    xycoords=("data", "axes fraction"), fontsize=8.5, color=style.GRAY,
-                )  # fmt: skip
+                place, over = (0.5 * (first + last) * factor, 1.01), ("data", "axes fraction")
+                look = {"fontsize": 8.5, "color": style.GRAY, "ha": "center", "va": "bottom"}
+                axes.annotate(number, place, xycoords=over, **look)
     return end * factor

@@ -51,27 +51,3 @@ def center_line_figure(run: Run) -> Figure | None:
     left.axvline(0.0, color=style.GRAY, linewidth=0.8)
     right.axhline(0.0, color=style.GRAY, linewidth=0.8)
     return figure
-
-
-def heat_history(run: Run) -> Figure | None:
-    """Nusselt numbers of the sides over time; None where no side differs from its opposite."""
-    history = run.history
-    names = [name for name in history if name.startswith("box_nusselt_") and np.any(history[name])]
-    if not names:
-        return None
-    unit = style.unit_for(float(history["time_s"][-1]), style.TIMES)
-    figure, (axes,) = style.new_figure(height=3.2)
-    for k, name in enumerate(names):
-        text = name.removeprefix("box_nusselt_")
-        axes.plot(
-            history["time_s"] * unit.factor,
-            history[name],
-            color=style.COLORS[k],
-            linestyle=style.LINES[k],
-            label=f"{text} side" if text != "surface" else text,
-        )
-    axes.set_xlim(0.0, history["time_s"][-1] * unit.factor)
-    axes.set_ylim(bottom=0.0)
-    style.label(axes, f"time [{unit.name}]", "Nusselt number [1]")
-    style.legend(axes)
-    return figure

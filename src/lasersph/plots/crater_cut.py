@@ -10,15 +10,9 @@ import numpy as np
 from lasersph.observers.box_sections import Box
 from lasersph.output import Run
 from lasersph.plots import style
-from lasersph.plots.ablation_fields import (
-    Cut,
-    cut_frame,
-    has_ablation,
-    plane_cut,
-    telling_snapshot,
-)
+from lasersph.plots.ablation_fields import Cut, cut_frame, has_ablation, plane_cut, telling_snapshot
+from lasersph.plots.curves import draw_corner_temperatures, material_of
 from lasersph.plots.flow_map import frame_unit
-from lasersph.plots.history import draw_corner_temperatures, material_of
 from lasersph.plots.particle_map import MAP_WIDTH
 
 if TYPE_CHECKING:
@@ -33,6 +27,8 @@ ARROW = 0.06
 """Length of the arrow of the fastest particle over the height of the picture or half its width."""
 MOST_ARROWS = 400
 PIXELS = (400, 800)
+TO_SCALE: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "zorder": 3}
+"""Arrows as long as their components in units of the axes."""
 
 
 def crater_cut(run: Run, time: float | None = None) -> Figure | None:
@@ -92,8 +88,7 @@ def ejecta_vectors(run: Run, times: tuple[float, ...] = ()) -> Figure | None:
     for axes, cut, letter in zip(all_axes, cuts, "abcdefgh", strict=False):
         arrows = draw_speeds(axes, cut, frame, largest)
         axes.set_title(f"({letter}) {style.time_text(cut.time)}", fontsize=10, loc="left")
-    bar = figure.colorbar(arrows, ax=all_axes, pad=0.015, aspect=22)
-    bar.set_label("speed [m/s]", fontsize=10)
+    style.color_bar(all_axes, arrows, "speed [m/s]", 22.0)
     return figure
 
 
@@ -113,30 +108,23 @@ def draw_cut(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -> l
 
     Returns what was drawn of the ejecta.
     """
-    unit = frame_unit(frame)
-    prepare(axes, frame, unit)
-    image = draw_body(axes, cut, frame, limits)
-    bar = axes.figure.colorbar(image, ax=axes, pad=0.015, aspect=22)
-    bar.set_label("temperature [K]", fontsize=10)
+    low, high = limits
+    look = {"cmap": style.TEMPERATURE_COLORS, "vmin": low, "vmax": high}
+    image = draw_body(axes, body_picture(cut, frame), frame, **look)
+    style.color_bar(axes, image, "temperature [K]", 22.0)
     return draw_ejecta(axes, cut, frame, limits)
 
 
-def draw_body(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -> Any:
-    """The cells of the body; returns the image."""
+def draw_body(axes: Axes, values: np.ndarray, frame: Box, **look: Any) -> Any:
+    """A picture of the body below the line of the original surface; returns the image."""
     unit = frame_unit(frame)
-    values = body_picture(cut, frame)
-    image = axes.imshow(
-        values, extent=extent_of(frame, unit), origin="lower", cmap=style.TEMPERATURE_COLORS,
-        interpolation="nearest", aspect="auto", zorder=2,
-    )  # fmt: skip
-    image.set_clim(*limits)
+    axes.axhline(0.0, color=style.GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+    edges = (frame.left, frame.right, frame.bottom, 0.0)
+    image = style.paint(axes, values, edges, unit, zorder=2, **look)
+    axes.set_xlim(frame.left * unit.factor, frame.right * unit.factor)
+    axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
     axes.set_aspect(aspect_of(frame))
     return image
-
-
-def extent_of(frame: Box, unit: style.Unit) -> tuple[float, float, float, float]:
-    """Edges of the picture of the body: left, right, bottom and the original surface."""
-    return frame.left * unit.factor, frame.right * unit.factor, frame.bottom * unit.factor, 0.0
 
 
 def body_picture(cut: Cut, frame: Box) -> np.ndarray:
@@ -150,51 +138,31 @@ def draw_ejecta(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -
     shown = cut.flying[1] < frame.top
     if not np.any(shown):
         return []
-    unit = frame_unit(frame)
+    unit, (low, high) = frame_unit(frame), limits
     x, z = cut.flying[:, shown] * unit.factor
-    dots = axes.scatter(
-        x, z, s=9.0, c=cut.temperature(cut.ejecta)[shown], cmap=style.TEMPERATURE_COLORS,
-        vmin=limits[0], vmax=limits[1], linewidths=0.3, edgecolors="black", zorder=4,
-    )  # fmt: skip
+    look = {"cmap": style.TEMPERATURE_COLORS, "vmin": low, "vmax": high, "linewidths": 0.3}
+    colors = cut.temperature(cut.ejecta)[shown]
+    dots = axes.scatter(x, z, s=9.0, c=colors, edgecolors="black", zorder=4, **look)
     some = np.arange(0, x.size, max(1, x.size // MOST_ARROWS))
     velocity = cut.velocity[:, shown][:, some]
     longest = arrow_length(frame) * unit.factor / max(float(np.max(np.hypot(*velocity))), 1e-300)
-    arrows = axes.quiver(
-        x[some], z[some], *(velocity * longest), angles="xy", scale_units="xy", scale=1.0,
-        color="0.35", width=0.0016, zorder=3,
-    )  # fmt: skip
-    return [dots, arrows]
+    look = {**TO_SCALE, "color": "0.35", "width": 0.0016}
+    return [dots, axes.quiver(x[some], z[some], *(velocity * longest), **look)]
 
 
 def draw_speeds(axes: Axes, cut: Cut, frame: Box, largest: float) -> Any:
     """The body in gray, arrows of the ejecta colored by their speed [m/s]; returns the arrows."""
-    unit = frame_unit(frame)
-    prepare(axes, frame, unit)
     is_body = np.where(np.isnan(body_picture(cut, frame)), np.nan, 1.0)
-    axes.imshow(
-        is_body, extent=extent_of(frame, unit), origin="lower", cmap="Greys", vmin=0.0, vmax=3.0,
-        interpolation="nearest", aspect="auto", zorder=2,
-    )  # fmt: skip
-    axes.set_aspect(aspect_of(frame))
+    draw_body(axes, is_body, frame, cmap="Greys", vmin=0.0, vmax=3.0)
     shown = np.flatnonzero(cut.flying[1] < frame.top)
+    unit = frame_unit(frame)
     x, z = cut.flying[:, shown] * unit.factor
     velocity = cut.velocity[:, shown]
     longest = arrow_length(frame) * unit.factor / largest
-    arrows = axes.quiver(
-        x, z, *(velocity * longest), np.hypot(*velocity), angles="xy", scale_units="xy",
-        scale=1.0, cmap=f"{style.SPEED_COLORS}_r", width=0.0026, zorder=3,
-    )  # fmt: skip
+    look = {**TO_SCALE, "cmap": f"{style.SPEED_COLORS}_r", "width": 0.0026}
+    arrows = axes.quiver(x, z, *(velocity * longest), np.hypot(*velocity), **look)
     arrows.set_clim(0.0, largest)
     return arrows
-
-
-def prepare(axes: Axes, frame: Box, unit: style.Unit) -> None:
-    """Limits, names and the line of the original surface."""
-    axes.grid(False)
-    axes.axhline(0.0, color=style.GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
-    style.label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
-    axes.set_xlim(frame.left * unit.factor, frame.right * unit.factor)
-    axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
 
 
 def arrow_length(frame: Box) -> float:
@@ -210,19 +178,13 @@ def aspect_of(frame: Box) -> float:
 
 def height_profile(cut: Cut, frame: Box, corners: dict[str, Any]) -> Figure:
     """Temperature over height of a 1-D run: body and ejecta."""
-    unit = style.unit_for(frame.height, style.LENGTHS)
+    unit = style.fitting_unit("m", frame.height)
     figure, (axes,) = style.new_figure(height=3.6)
-    z, temperature = cut.body.center[1], cut.temperature(cut.body.number)
-    order = np.argsort(z)
-    axes.plot(
-        z[order] * unit.factor, temperature[order], ".-", ms=4, lw=1.0, color=style.COLORS[0],
-        label="body",
-    )  # fmt: skip
-    flying = cut.flying[1]
-    axes.plot(
-        flying * unit.factor, cut.temperature(cut.ejecta), "o", ms=5, color=style.COLORS[1],
-        label="ejecta",
-    )  # fmt: skip
+    z, temperature = cut.body.center[1] * unit.factor, cut.temperature(cut.body.number)
+    order, flying = np.argsort(z), cut.flying[1] * unit.factor
+    blue, orange = style.COLORS[:2]
+    axes.plot(z[order], temperature[order], ".-", ms=4, lw=1.0, color=blue, label="body")
+    axes.plot(flying, cut.temperature(cut.ejecta), "o", ms=5, color=orange, label="ejecta")
     axes.axvline(0.0, color=style.GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
     axes.set_xlim(frame.bottom * unit.factor, frame.top * unit.factor)
     draw_corner_temperatures(axes, corners)

@@ -63,10 +63,8 @@ def crater_scene(run: Run, path: Path, time: float | None = None) -> Path:
         balls = dots.glyph(geom=pyvista.Sphere(radius=0.5 * size), scale=False, orient=False)
         plotter.add_mesh(balls, scalars=name, show_scalar_bar=False, **look)
     plotter.add_text(style.time_text(step["time"]), font_size=12, color="black")
-    plotter.show_bounds(
-        xtitle="x [um]", ytitle="y [um]", ztitle="z [um]", color="black", location="outer",
-        font_size=11,
-    )  # fmt: skip
+    names = {f"{axis}title": f"{axis} [um]" for axis in "xyz"}
+    plotter.show_bounds(**names, color="black", location="outer", font_size=11)
     plotter.set_background("white")
     with clear_errors("write", path):
         plotter.screenshot(str(path))

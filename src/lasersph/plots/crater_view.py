@@ -75,10 +75,9 @@ def draw_surface(axes: Any, surface: HeightMap, colors: np.ndarray, unit: style.
     thin = max(1, -(-max(surface.z.shape) // MOST_CELLS))
     x, y = np.meshgrid(surface.x[::thin], surface.y[::thin])
     z = np.where(np.isnan(surface.z), np.nanmin(surface.z), surface.z)[::thin, ::thin]
-    axes.plot_surface(
-        x * unit.factor, y * unit.factor, z * unit.factor, facecolors=colors[::thin, ::thin],
-        rstride=1, cstride=1, linewidth=0.0, antialiased=False, shade=False, zorder=1,
-    )  # fmt: skip
+    look = {"rstride": 1, "cstride": 1, "linewidth": 0.0, "antialiased": False, "shade": False}
+    places = (side * unit.factor for side in (x, y, z))
+    axes.plot_surface(*places, facecolors=colors[::thin, ::thin], zorder=1, **look)
 
 
 def draw_ejecta(axes: Any, step: Snapshot, colors: Any, scale: Any, unit: style.Unit) -> float:
@@ -88,8 +87,6 @@ def draw_ejecta(axes: Any, step: Snapshot, colors: Any, scale: Any, unit: style.
         return 0.0
     shown = flying[:: max(1, flying.size // MOST_EJECTA)]
     x, y, z = step["position"][:, shown] * unit.factor
-    axes.scatter(
-        x, y, z, s=5.0, c=colors(scale(step["temperature"][shown])), depthshade=False,
-        linewidths=0.2, edgecolors="black", zorder=2,
-    )  # fmt: skip
+    look = {"depthshade": False, "linewidths": 0.2, "edgecolors": "black", "zorder": 2}
+    axes.scatter(x, y, z, s=5.0, c=colors(scale(step["temperature"][shown])), **look)
     return float(np.max(z))

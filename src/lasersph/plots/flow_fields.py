@@ -9,7 +9,7 @@ import numpy as np
 from lasersph.observers.box_sections import Box
 from lasersph.observers.interpolation import interpolate
 from lasersph.output import Run
-from lasersph.plots.history import summary_of, symmetry_of
+from lasersph.plots.curves import summary_of, symmetry_of
 from lasersph.plots.particle_map import PIXELS, Cells, Snapshot
 
 MARGIN = 1.12

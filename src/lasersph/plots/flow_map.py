@@ -20,7 +20,7 @@ from lasersph.plots.flow_fields import (
     pool_frame,
     raster,
 )
-from lasersph.plots.particle_map import LARGEST_STRETCH, MAP_WIDTH, paint
+from lasersph.plots.particle_map import LARGEST_STRETCH, MAP_WIDTH
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -122,40 +122,30 @@ def draw_temperature(
     axes: Axes, picture: Raster, unit: style.Unit, limits: tuple[float, float] | None = None
 ) -> None:
     """Temperature of the particles."""
-    name, colors = "temperature [K]", style.TEMPERATURE_COLORS
-    values = picture.temperature()
-    paint(axes, values, picture.edges, unit, colors=colors, limits=limits, name=name)
+    colors = style.TEMPERATURE_COLORS
+    image = style.paint(axes, picture.temperature(), picture.edges, unit, cmap=colors)
+    if limits is not None:
+        image.set_clim(*limits)
+    style.color_bar(axes, image, "temperature [K]")
 
 
 def draw_phase(axes: Axes, picture: Raster, unit: style.Unit) -> None:
     """Phase of the particles: solid, mush, liquid, boiling."""
     from matplotlib.colors import ListedColormap
 
-    left, right, bottom, top = (edge * unit.factor for edge in picture.edges)
-    image = axes.imshow(
-        picture.phase(),
-        extent=(left, right, bottom, top),
-        origin="lower",
-        cmap=ListedColormap(list(PHASE_COLORS)),
-        vmin=-0.5,
-        vmax=3.5,
-        interpolation="nearest",
-    )
-    axes.grid(False)
-    bar = axes.figure.colorbar(image, ax=axes, pad=0.015, aspect=14)
-    bar.set_label("phase", fontsize=10)
-    bar.set_ticks(range(4), labels=PHASES)
-    style.label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
+    look = {"cmap": ListedColormap(list(PHASE_COLORS)), "vmin": -0.5, "vmax": 3.5}
+    image = style.paint(axes, picture.phase(), picture.edges, unit, **look)
+    style.color_bar(axes, image, "phase").set_ticks(range(4), labels=PHASES)
 
 
 def draw_speed(axes: Axes, picture: Raster, unit: style.Unit, largest: float) -> None:
     """Speed of the liquid in color; `largest` is the end of the color scale [m/s]."""
     speed = style.speed_unit(largest)
-    limits = (0.0, max(largest * speed.factor, 1e-12))
-    name, colors = f"speed [{speed.name}]", style.SPEED_COLORS
-    values = picture.speed() * speed.factor
     axes.set_facecolor("0.85")
-    paint(axes, values, picture.edges, unit, colors=colors, limits=limits, name=name)
+    values, top = picture.speed() * speed.factor, max(largest * speed.factor, 1e-12)
+    look = {"cmap": style.SPEED_COLORS, "vmin": 0.0, "vmax": top}
+    image = style.paint(axes, values, picture.edges, unit, **look)
+    style.color_bar(axes, image, f"speed [{speed.name}]")
 
 
 def draw_arrows(

@@ -53,25 +53,19 @@ def material_figure(material: Material) -> Figure:
     height = 2.9 * rows + 0.15 * len(notes) + 1.0
     figure = Figure(figsize=(11.0, height), layout=None)
     bottom = (0.15 * len(notes) + 0.8) / height
-    grid = figure.add_gridspec(
-        rows, COLUMNS, left=0.075, right=0.985, top=1.0 - 0.75 / height, bottom=bottom,
-        wspace=0.3, hspace=0.42,
-    )  # fmt: skip
+    margins = {"left": 0.075, "right": 0.985, "top": 1.0 - 0.75 / height, "bottom": bottom}
+    grid = figure.add_gridspec(rows, COLUMNS, **margins, wspace=0.3, hspace=0.42)
     span = _span(material)
     for number, panel in enumerate(panels):
         axes = figure.add_subplot(grid[divmod(number, COLUMNS)])
         _draw_property(axes, material, panel, span)
-        axes.text(
-            -0.03, 1.02, f"[{number + 1}]", transform=axes.transAxes, ha="right", fontsize=8,
-            color="0.4",
-        )  # fmt: skip
+        look = {"ha": "right", "fontsize": 8, "color": "0.4"}
+        axes.text(-0.03, 1.02, f"[{number + 1}]", transform=axes.transAxes, **look)
     _draw_enthalpy(figure.add_subplot(grid[divmod(len(panels), COLUMNS)]), material, span)
     _write_numbers(figure.add_subplot(grid[divmod(len(panels) + 1, COLUMNS)]), material)
     figure.suptitle(material.title or material.name, x=0.075, y=1.0 - 0.2 / height, ha="left")
-    figure.text(
-        0.075, (0.15 * len(notes) + 0.2) / height, "\n".join(notes), fontsize=7.5, va="top",
-        color="0.25", linespacing=1.25,
-    )  # fmt: skip
+    look = {"fontsize": 7.5, "va": "top", "color": "0.25", "linespacing": 1.25}
+    figure.text(0.075, (0.15 * len(notes) + 0.2) / height, "\n".join(notes), **look)
     return figure
 
 
@@ -170,10 +164,9 @@ def _draw_enthalpy(axes: Axes, material: Material, span: tuple[float, float]) ->
     axes.plot(curve.temperature_at(h), h / 1e6, color=LINE, lw=1.6)
     if held and material.vaporization is not None:
         text = f"boiling: + {material.vaporization.latent_heat / 1e6:.4g} MJ/kg"
-        axes.annotate(
-            text, (material.vaporization.temperature, high / 1e6), xytext=(-6, -4),
-            textcoords="offset points", ha="right", va="top", fontsize=7.5, color="0.25",
-        )  # fmt: skip
+        place = (material.vaporization.temperature, high / 1e6)
+        look = {"ha": "right", "va": "top", "fontsize": 7.5, "color": "0.25"}
+        axes.annotate(text, place, xytext=(-6, -4), textcoords="offset points", **look)
     axes.set_ylim(0.0, high / 1e6)
     axes.set_ylabel(f"enthalpy above {span[0]:g} K [MJ/kg]", fontsize=9)
 

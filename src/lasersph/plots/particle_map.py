@@ -9,10 +9,9 @@ import numpy as np
 
 from lasersph.output import Run
 from lasersph.plots import style
-from lasersph.plots.history import draw_corner_temperatures, material_of, summary_of, symmetry_of
+from lasersph.plots.curves import draw_corner_temperatures, material_of, summary_of, symmetry_of
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 LARGEST_STRETCH = 4.0
@@ -107,45 +106,20 @@ def particle_map(run: Run, time: float | None = None) -> Figure | None:
     figure, all_axes = style.new_figure(2, height=2.0 * (height + 0.55) + 0.3)
     picture = cells.picture()
     unit = style.unit_for(max(abs(left), abs(right)), style.LENGTHS)
-    for axes, field, name, colors in (
+    for axes, field, text, colors in (
         (all_axes[0], "temperature", "temperature [K]", style.TEMPERATURE_COLORS),
         (all_axes[1], "melt_fraction", "melt fraction [1]", style.FRACTION_COLORS),
     ):
         values = np.where(picture < 0, np.nan, step[field][picture])
-        limits = (0.0, 1.0) if field == "melt_fraction" else None
-        paint(axes, values, cells.frame, unit, colors=colors, limits=limits, name=name)
+        image = style.paint(axes, values, cells.frame, unit, cmap=colors)
+        if field == "melt_fraction":
+            image.set_clim(0.0, 1.0)
+        style.color_bar(axes, image, text)
         axes.set_ylim(-depth * unit.factor, 0.02 * depth * unit.factor)
         axes.set_aspect(stretch)
     note = f"; the depth is drawn {stretch:.3g} times larger" if stretch > 1.0 else ""
     all_axes[0].set_title(style.time_text(step["time"]) + note, fontsize=10, loc="left")
     return figure
-
-
-def paint(
-    axes: Axes,
-    values: np.ndarray,
-    frame: tuple[float, float, float, float],
-    unit: style.Unit,
-    *,
-    colors: str,
-    limits: tuple[float, float] | None,
-    name: str,
-) -> None:
-    """Draw a picture with its color bar; axes in `unit`."""
-    left, right, bottom, top = (edge * unit.factor for edge in frame)
-    image = axes.imshow(
-        values,
-        extent=(left, right, bottom, top),
-        origin="lower",
-        cmap=colors,
-        interpolation="nearest",
-    )
-    if limits is not None:
-        image.set_clim(*limits)
-    axes.grid(False)
-    bar = axes.figure.colorbar(image, ax=axes, pad=0.015, aspect=14)
-    bar.set_label(name, fontsize=10)
-    style.label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
 
 
 def cells_of_cut(step: Snapshot, depth: float) -> Cells:
@@ -172,20 +146,17 @@ def depth_profile(step: Snapshot, depth: float, corners: dict[str, Any]) -> Figu
     below = -step["position"][-1]
     order = np.argsort(below)
     order = order[below[order] < depth]
-    unit = style.unit_for(depth, style.LENGTHS)
-    time_unit = style.unit_for(step["time"], style.TIMES)
+    unit = style.fitting_unit("m", depth)
     figure, (above, under) = style.new_figure(2, height=4.6, share_x=True)
-    text = f"t = {step['time'] * time_unit.factor:.4g} {time_unit.name}"
-    for axes, name, color, label in (
+    for axes, name, color, text in (
         (above, "temperature", style.COLORS[1], "temperature [K]"),
         (under, "melt_fraction", style.COLORS[0], "melt fraction [1]"),
     ):
         axes.plot(below[order] * unit.factor, step[name][order], ".-", ms=3, lw=1.0, color=color)
-        style.label(axes, "", label)
-    above.set_title(text, fontsize=10, loc="left")
+        style.label(axes, f"depth [{unit.name}]" if axes is under else "", text)
+    above.set_title(style.time_text(step["time"]), fontsize=10, loc="left")
     draw_corner_temperatures(above, corners)
     under.set_ylim(-0.05, 1.05)
-    under.set_xlabel(f"depth [{unit.name}]", fontsize=10)
     under.set_xlim(0.0, depth * unit.factor)
     return figure
 

@@ -12,14 +12,13 @@ from lasersph.plots import flow_history, history, style
 from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.ablation_history import crater_history, trace_figure
 from lasersph.plots.arrangement import arrangement
-from lasersph.plots.box_lines import center_line_figure, heat_history
+from lasersph.plots.box_lines import center_line_figure
 from lasersph.plots.crater_cut import crater_cut, ejecta_vectors
 from lasersph.plots.crater_view import crater_view
 from lasersph.plots.flow_fields import is_box
 from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
 from lasersph.plots.particle_map import particle_map
-from lasersph.plots.surface_flow import surface_flow_profiles
-from lasersph.plots.surface_profiles import surface_profiles
+from lasersph.plots.surface_profiles import surface_flow_profiles, surface_profiles
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -87,11 +86,7 @@ DRAWINGS = (
         " temperature against height.",
         crater_cut,
     ),
-    Drawing(
-        "crater-3d",
-        "Surface of the crater and ejecta, colored by temperature.",
-        crater_view,
-    ),
+    Drawing("crater-3d", "Surface of the crater and ejecta, colored by temperature.", crater_view),
     Drawing(
         "ejecta",
         "Velocity of the ejecta in the cut through the crater, when a third and when all of the"
@@ -160,7 +155,7 @@ DRAWINGS = (
     Drawing(
         "nusselt",
         "Nusselt numbers of the sides of the box over time.",
-        heat_history,
+        flow_history.nusselt_history,
     ),
     Drawing(
         "energy",
@@ -174,11 +169,11 @@ DRAWINGS = (
         history.time_step_history,
     ),
     Drawing(
-        "flow-soundness",
-        "How sound the computed flow is: kinetic energy; root mean square of the divergence that"
+        "flow-quality",
+        "Quality of the computed flow: kinetic energy; root mean square of the divergence that"
         " the projection leaves, relative to the largest speed over the spacing; smallest distance"
         " of two particles, relative to the first.",
-        flow_history.soundness_history,
+        flow_history.quality_history,
     ),
     Drawing(
         "arrangement",

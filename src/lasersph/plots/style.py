@@ -17,6 +17,7 @@ from lasersph.input import format_quantity
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.image import AxesImage
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#333333", "#B8A800")
 LINES = ("-", "--", "-.", ":")
@@ -36,9 +37,17 @@ class Unit(NamedTuple):
 
 
 TIMES = (Unit(1e12, "ps"), Unit(1e9, "ns"), Unit(1e6, "µs"), Unit(1e3, "ms"), Unit(1.0, "s"))
-SPEEDS = (Unit(1e6, "µm/s"), Unit(1e3, "mm/s"), Unit(1.0, "m/s"))
-PRESSURES = (Unit(1.0, "Pa"), Unit(1e-3, "kPa"), Unit(1e-6, "MPa"), Unit(1e-9, "GPa"))
 LENGTHS = (Unit(1e9, "nm"), Unit(1e6, "µm"), Unit(1e3, "mm"), Unit(1.0, "m"))
+UNITS = {
+    "s": TIMES,
+    "m": LENGTHS,
+    "m^2": (Unit(1e12, "µm$^2$"), Unit(1e6, "mm$^2$"), Unit(1.0, "m$^2$")),
+    "Pa": (Unit(1.0, "Pa"), Unit(1e-3, "kPa"), Unit(1e-6, "MPa"), Unit(1e-9, "GPa")),
+    "K/m": (Unit(1e-6, "K/µm"),),
+    "": (Unit(1.0, "1"),),
+}
+"""Units in which axes show quantities, the smallest first; others are shown as they are."""
+SPEEDS = (Unit(1e6, "µm/s"), Unit(1e3, "mm/s"), Unit(1.0, "m/s"))
 
 
 def unit_for(largest: float, units: Sequence[Unit]) -> Unit:
@@ -49,15 +58,22 @@ def unit_for(largest: float, units: Sequence[Unit]) -> Unit:
     return units[-1]
 
 
-def time_text(time: float) -> str:
-    """t = 57 ns."""
-    return f"t = {format_quantity(time, 's', typographic=True)}"
-
-
 def speed_unit(largest: float) -> Unit:
     """The largest unit in which a speed shows as at least 0.05."""
     fitting = [unit for unit in SPEEDS if abs(largest) * unit.factor >= 0.05]
     return fitting[-1] if fitting else SPEEDS[-1]
+
+
+def fitting_unit(unit: str, largest: float) -> Unit:
+    """The unit in which an axis shows a quantity given in SI up to its largest value."""
+    if unit == "m/s":
+        return speed_unit(largest)
+    return unit_for(largest, UNITS.get(unit, (Unit(1.0, unit),)))
+
+
+def time_text(time: float) -> str:
+    """t = 57 ns."""
+    return f"t = {format_quantity(time, 's', typographic=True)}"
 
 
 def new_figure(
@@ -115,6 +131,27 @@ def level_line(axes: Axes, value: float, name: str) -> None:
         color=GRAY,
         annotation_clip=False,
     )
+
+
+def paint(
+    axes: Axes, values: np.ndarray, edges: Sequence[float], unit: Unit, **look: Any
+) -> AxesImage:
+    """Draw values (rows, columns) as a picture between its edges left, right, bottom, top [m].
+
+    `look` goes to matplotlib's `imshow`; axes are in `unit`.
+    """
+    extent = tuple(edge * unit.factor for edge in edges)
+    axes.grid(False)
+    label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
+    return axes.imshow(values, extent=extent, origin="lower", interpolation="nearest", **look)
+
+
+def color_bar(axes: Axes | Sequence[Axes], image: Any, name: str, aspect: float = 14.0) -> Any:
+    """The color bar of a picture or of arrows beside its axes."""
+    first = axes[0] if isinstance(axes, Sequence) else axes
+    bar = first.figure.colorbar(image, ax=axes, pad=0.015, aspect=aspect)
+    bar.set_label(name, fontsize=10)
+    return bar
 
 
 def color_scale(name: str, count: int) -> list[Any]:

@@ -1,22 +1,26 @@
-"""Temperature along the surface at several times, from particles.vtkhdf."""
+"""Along the surface at several times, from particles.vtkhdf: temperature, and with flow its
+gradient and the velocity, as in Figs. 6 and 11 of [Demuth2020]."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lasersph.input import format_quantity
 from lasersph.output import Run
 from lasersph.plots import style
-from lasersph.plots.history import draw_corner_temperatures, material_of, symmetry_of
+from lasersph.plots.curves import draw_corner_temperatures, material_of, symmetry_of
+from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.particle_map import Snapshot, in_cut
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PROFILES = 7
+SLOW = 0.3
+"""Times are chosen from those at which the surface is at least this part of its fastest."""
 
 
 def surface_profiles(run: Run, times: Sequence[float] | None = None) -> Figure | None:
@@ -28,48 +32,109 @@ def surface_profiles(run: Run, times: Sequence[float] | None = None) -> Figure |
     """
     if not len(run.snapshots) or run.snapshots.dimension == 1:
         return None
-    wanted = interesting_times(run) if times is None else list(times)
     figure, (axes,) = style.new_figure(height=3.6)
-    steps = {s["time"]: s for s in (run.snapshots.nearest(time) for time in wanted)}
-    colors = style.color_scale("viridis", len(steps))
-    reach, length = 0.0, style.LENGTHS[1]
-    for color, (time, step) in zip(colors, sorted(steps.items()), strict=True):
-        x, temperature = profile(step, symmetry_of(run))
-        length = style.unit_for(float(np.max(np.abs(x))), style.LENGTHS)
-        text = format_quantity(time, "s", typographic=True)
-        axes.plot(x * length.factor, temperature, color=color, label=text)
-        reach = max(reach, float(np.max(np.abs(x))) * length.factor)
-    axes.set_xlim(-reach if symmetry_of(run) == 2 else None, reach)
+    steps, looks = steps_at(run, warm_times(run) if times is None else times)
+    curves = [profile(step, symmetry_of(run), "temperature") for step in steps]
+    reach = max(float(np.max(np.abs(x))) for x, _ in curves)
+    length = style.fitting_unit("m", reach)
+    for (x, temperature), look in zip(curves, looks, strict=True):
+        axes.plot(x * length.factor, temperature, **look)
+    right = reach * length.factor
+    axes.set_xlim(-right if symmetry_of(run) == 2 else None, right)
     draw_corner_temperatures(axes, material_of(run))
     style.label(axes, f"x [{length.name}]", "surface temperature [K]")
     style.legend_above(figure, axes, columns=7)
     return figure
 
 
-def profile(step: Snapshot, symmetry: int) -> tuple[np.ndarray, np.ndarray]:
-    """Temperature of the surface cells in order of x; mirrored where half a period is computed.
+def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Figure | None:
+    """(a) temperature, (b) its gradient and (c) velocity along the surface at several times.
 
-    In 3-D the row of cells closest to y = 0.
+    Args:
+        run: the run.
+        times: seconds; the closest snapshots are drawn. If not given, times around the largest
+            speed of the surface.
+
+    Returns:
+        The figure; None where no surface moved.
+    """
+    if not has_flow(run) or not np.any(run.history["flow_surface_speed_max_m_s"] > 0.0):
+        return None
+    steps, looks = steps_at(run, fast_times(run) if times is None else times)
+    figure, all_axes = style.new_figure(3, height=7.6, share_x=True)
+    reach = max(width_shown(step) for step in steps)
+    length = style.fitting_unit("m", reach)
+    speed = style.speed_unit(max(np.max(np.abs(step["surface_velocity"])) for step in steps))
+    panels = (
+        ("surface_temperature", "temperature [K]", 1.0),
+        ("surface_gradient", "dT/dx [K/µm]", 1e-6),
+        ("surface_velocity", f"velocity u [{speed.name}]", speed.factor),
+    )
+    for axes, letter, (name, text, factor) in zip(all_axes, "abc", panels, strict=True):
+        for step, look in zip(steps, looks, strict=True):
+            x, values = profile(step, symmetry_of(run), name)
+            seen = np.abs(x) <= reach
+            axes.plot(x[seen] * length.factor, values[seen] * factor, lw=1.1, **look)
+        lowest = f"x [{length.name}]" if letter == "c" else ""
+        style.label(axes, lowest, text, title=f"({letter})")
+        axes.set_xlim(-reach * length.factor, reach * length.factor)
+    draw_corner_temperatures(all_axes[0], material_of(run))
+    style.legend_above(figure, all_axes[0], columns=7)
+    return figure
+
+
+def steps_at(run: Run, times: Sequence[float]) -> tuple[list[Snapshot], list[dict[str, Any]]]:
+    """The snapshots closest to some times in order, and color and label of each."""
+    steps = {step["time"]: step for step in (run.snapshots.nearest(time) for time in times)}
+    colors = style.color_scale("viridis", len(steps))
+    texts = (format_quantity(time, "s", typographic=True) for time in sorted(steps))
+    looks = [{"color": c, "label": text} for c, text in zip(colors, texts, strict=True)]
+    return [steps[time] for time in sorted(steps)], looks
+
+
+def profile(step: Snapshot, symmetry: int, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """x [m] and a field of the surface cells in order of x; in 3-D of the row closest to y = 0.
+
+    Half a period is mirrored, gradient and velocity with their signs; the velocity is NaN where
+    the surface does not flow.
     """
     cells = np.flatnonzero(step["surface"])
     if step["position"].shape[0] == 3:
         cells = cells[in_cut(step, cells)]
     cells = cells[np.argsort(step["position"][0, cells], kind="stable")]
-    x, temperature = step["position"][0, cells], step["temperature"][cells]
+    x, values = step["position"][0, cells], step[name][cells]
+    if name == "surface_velocity":
+        values = np.where(step["flows"][cells] > 0, values, np.nan)
     if symmetry == 2:
-        return np.concatenate([-x[::-1], x]), np.concatenate([temperature[::-1], temperature])
-    return x, temperature
+        sign = 1.0 if name.endswith("temperature") else -1.0
+        values = np.concatenate([sign * values[::-1], values])
+        x = np.concatenate([-x[::-1], x])
+    return x, values
 
 
-def interesting_times(run: Run) -> list[float]:
+def width_shown(step: Snapshot) -> float:
+    """Largest |x| that profiles show: a fifth more than where the surface flows [m]."""
+    x = np.abs(step["position"][0])
+    wet = (step["surface"] > 0) & (step["flows"] > 0)
+    return min(1.2 * float(np.max(x, where=wet, initial=0.0)), float(np.max(x))) or float(np.max(x))
+
+
+def warm_times(run: Run) -> list[float]:
     """Times of snapshots from the first heating to the cooling, as many as a figure shows."""
-    history = run.history
-    peak = history["temperature_at_maximum_K"]
+    peak, all_times = run.history["temperature_at_maximum_K"], run.history["time_s"]
     rise = peak - peak[0]
-    warm = history["time_s"][rise > 0.15 * np.max(rise)] if np.any(rise > 0) else history["time_s"]
+    warm = all_times[rise > 0.15 * np.max(rise)] if np.any(rise > 0) else all_times
     times = run.snapshots.times
-    times = times[(times >= warm[0]) & (times <= warm[-1])]
-    if times.size == 0:
-        times = run.snapshots.times
+    near = times[(times >= warm[0]) & (times <= warm[-1])]
+    times = near if near.size else times
     chosen = np.unique(np.round(np.linspace(0.0, 1.0, PROFILES) ** 1.7 * (times.size - 1)))
     return [float(times[int(k)]) for k in chosen]
+
+
+def fast_times(run: Run) -> list[float]:
+    """Times of snapshots at which the surface is fast, as many as a figure shows."""
+    history, times = run.history, run.snapshots.times
+    speed = np.interp(times, history["time_s"], history["flow_surface_speed_max_m_s"])
+    fast = times[speed >= SLOW * np.max(speed)]
+    chosen = np.unique(np.round(np.linspace(0.0, fast.size - 1.0, min(PROFILES, fast.size))))
+    return [float(fast[int(k)]) for k in chosen]

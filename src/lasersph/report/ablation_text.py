@@ -40,8 +40,10 @@ def limits_of(summary: dict[str, Any]) -> list[str]:
     found = (summary.get("estimates") or {}).get("left_out")
     if found is None:
         return []
-    parts = ["The model leaves out melt that the recoil of the vapor drives out, phase explosion,"
-             " and light that vapor and plasma shield."]  # fmt: skip
+    parts = [
+        "The model leaves out melt that the recoil of the vapor drives out, phase explosion, and"
+        " light that vapor and plasma shield."
+    ]
     hot, explodes = found["evaporating_K"], found["phase_explosion_from_K"]
     if hot is not None:
         parts.append(

@@ -21,7 +21,7 @@ from lasersph.plots import (
     surface_flow_profiles,
     surface_speeds,
 )
-from lasersph.plots.box_lines import center_line_figure, heat_history, lines_of
+from lasersph.plots.box_lines import center_line_figure, lines_of
 from lasersph.plots.flow_fields import plane_flow, raster
 from lasersph.plots.flow_map import are_beside, box_flow_map, pool_flow_map
 
@@ -57,11 +57,11 @@ def test_every_axis_names_its_unit(pool, box):
         flow_history.extrema_history(pool),
         flow_history.layer_history(pool),
         flow_history.surface_pressure_history(pool),
-        flow_history.soundness_history(pool),
+        flow_history.quality_history(pool),
         surface_speeds([pool], ["a"]),
         box_flow_map(box),
         center_line_figure(box),
-        heat_history(box),
+        flow_history.nusselt_history(box),
     ]
     for figure in figures:
         for axes in figure.axes:
@@ -90,7 +90,13 @@ def test_figures_of_a_box(box, unsaved):
 
 def test_nothing_to_draw_without_flow(still):
     """Runs with heat alone have none of these figures."""
-    draw = (pool_flow_map, box_flow_map, surface_flow_profiles, center_line_figure, heat_history)
+    draw = (
+        pool_flow_map,
+        box_flow_map,
+        surface_flow_profiles,
+        center_line_figure,
+        flow_history.nusselt_history,
+    )
     assert not any(one(still) for one in draw)
     names = ("speed_history", "extrema_history", "layer_history", "surface_pressure_history")
     assert not any(getattr(flow_history, name)(still) for name in names)
