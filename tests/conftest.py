@@ -8,6 +8,7 @@ from hypothesis import HealthCheck, settings
 
 SIMULATOR = pytest.StashKey()
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as on the command line
 os.environ.setdefault(
     "LASERSPH_CACHE", os.path.join(tempfile.gettempdir(), f"lasersph-test-{os.getuid()}")
 )

@@ -6,6 +6,7 @@ Modules are imported when a verb needs them, so that `lasersph --help` answers a
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from collections.abc import Sequence
 
@@ -25,6 +26,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     from lasersph.cli.failures import exit_code_of
 
+    # BLAS gets small matrices here: its threads would only wait, on a busy machine for seconds
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     gc.set_threshold(ALLOCATIONS_BETWEEN_COLLECTIONS)
     given = list(sys.argv[1:] if arguments is None else arguments)
     wants_traceback = "--debug" in given

@@ -18,7 +18,7 @@ SMALLEST_CUT = 0.25
 """A last layer thinner than this share of its full thickness is joined to the one above."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Layers:
     """Layers of cells from the surface down.
 

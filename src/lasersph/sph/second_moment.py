@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +48,7 @@ class LayerFactors:
         return self.normal[layer + GHOSTS], self.lateral[layer + GHOSTS]
 
 
+@lru_cache(maxsize=1)  # heat and flow of a run ask for the same
 def layer_factors(
     layers: Layers, kernel: Kernel, support_ratio: float, mean: Callable[[float, float], float]
 ) -> LayerFactors:
