@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from lasersph import validation
 from lasersph.input import build, parse_toml
 from lasersph.materials import Material
 
@@ -16,6 +17,28 @@ def test_example_material_can_be_read():
     (text,) = re.findall(r"^```toml\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
     material = build(Material, parse_toml(text))
     assert material.liquidus == 692.68
+
+
+def test_example_validation_runs(tmp_path, monkeypatch):
+    """The folder of the page "Extend" is a validation that passes, in full and shortened."""
+    page = (ROOT / "docs" / "extend.md").read_text(encoding="utf-8")
+    _, _, section = page.partition("\n## Add a validation\n")
+    fence = r"^```{code-block} \w+\n:caption: (\S+)\n(.*?)^```"
+    files = dict(re.findall(fence, section.partition("\n## Add a room")[0], flags=re.M | re.S))
+    home = tmp_path / "surface_rise"
+    home.mkdir()
+    for name, text in files.items():
+        (home / name).write_text(text, encoding="utf-8")
+    monkeypatch.setattr("lasersph.validation.__path__", [*validation.__path__, str(tmp_path)])
+    for module in ("registry", "study"):
+        monkeypatch.setattr(f"lasersph.validation.{module}.HOME", tmp_path)
+    assert validation.titles() == {
+        "surface-rise": "A surface under a constant flux: how hot it gets"
+    }
+    for quick, count in ((True, 1), (False, 3)):
+        report = validation.validate("surface-rise", tmp_path / "runs", quick=quick)
+        assert report.passed and len(report.rows) == count, report.table()
+        assert report.figures[0].exists()
 
 
 def test_named_files_exist():

@@ -7,8 +7,11 @@ WORDS = {True: "ok", False: "**FAILED**", None: "shown"}
 HEAD = ("quantity", "published", "reference", "computed", "tolerance", "verdict")
 
 
-def validation_table(results: dict[str, Any]) -> str:
-    """An overview, then one section a validation: remarks and every number with its verdict."""
+def validation_table(results: dict[str, Any], readmes: dict[str, str]) -> str:
+    """An overview, then one section a validation: README, remarks, every number with its verdict.
+
+    readmes: by name of the validation.
+    """
     reports = results["validations"].values()
     overview = [
         (f"[](#{_anchor(report)})", report["title"], _count(report), WORDS[report["passed"]])
@@ -20,10 +23,19 @@ def validation_table(results: dict[str, Any]) -> str:
     ]
     for report in reports:
         short = " (shortened)" if report["quick"] else ""
-        parts += [f"({_anchor(report)})=\n## {report['name']}{short}", report["title"]]
+        parts += [
+            f"({_anchor(report)})=\n## {report['name']}{short}",
+            readme_text(readmes[report["name"]]),
+        ]
         parts.append("\n".join(f"- {_plain(remark)}" for remark in report["remarks"]))
         parts.append(_table(HEAD, [_cells(row) for row in report["rows"]]))
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def readme_text(readme: str) -> str:
+    """A README as text of a section: its title as the first line, its heads as first words."""
+    title, _, text = readme.partition("\n")
+    return title.removeprefix("# ") + "\n" + re.sub(r"^## (.+)\n", r"**\1.** ", text, flags=re.M)
 
 
 def _anchor(report: dict[str, Any]) -> str:
