@@ -8,7 +8,7 @@ from typing import Any
 
 from hot_loops.least import Least, least_of
 from lasersph.compute.backend import Backend
-from lasersph.compute.launch import Bound, Launch, Launcher
+from lasersph.compute.launch import Bound, Launch
 from lasersph.compute.loops import Loops
 from lasersph.compute.signature import Call
 
@@ -45,32 +45,14 @@ class _CountedLoops(Loops):
 
     note: Callable[[Call], None] = staticmethod(_ignore)
 
-    def __init__(self, *arguments: Any) -> None:
-        super().__init__(*arguments)
-        self._calls: list[Call] | None = None
-
     def run(self, call: Call) -> tuple[float, ...]:
-        if self._calls is not None:
-            self._calls.append(call)
-        self.note(call)
+        if self._record is None:
+            self.note(call)
         return super().run(call)
 
     def prepared(self, call: Call) -> Launch:
-        return _CountedLaunch(self._bound(call), self.launcher, partial(self._tell, call))
-
-    def recorded(self, run: Callable[[], None]) -> Callable[[], None]:
-        self._calls = calls = []
-        try:
-            replay = super().recorded(run)
-        finally:
-            self._calls = None
-
-        def again() -> None:
-            for call in calls:
-                self.note(call)
-            replay()
-
-        return again
+        bound = self._bound(self.given(call))
+        return _CountedLaunch(bound, self.launcher.threads, partial(self._tell, call))
 
     def _tell(self, call: Call) -> None:
         self.note(call)
@@ -79,8 +61,8 @@ class _CountedLoops(Loops):
 class _CountedLaunch(Launch):
     """A launch that tells of each run."""
 
-    def __init__(self, bound: Bound, launcher: Launcher, tell: Callable[[], None]) -> None:
-        super().__init__(bound, launcher)
+    def __init__(self, bound: Bound, threads: int, tell: Callable[[], None]) -> None:
+        super().__init__(bound, threads, holds=True)
         self._tell = tell
 
     def __call__(self, **constants: Any) -> tuple[float, ...]:

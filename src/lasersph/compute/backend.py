@@ -39,7 +39,7 @@ class Backend:
 
     def launcher(self) -> Launcher:
         """What runs the loops."""
-        return Launcher(self.threads)
+        return Launcher(self.threads, self.precision)
 
     # --- arrays ---------------------------------------------------------------------------------
 
@@ -278,4 +278,10 @@ class Backend:
         Raises:
             ValueError: a loop reduces, since nobody would receive the number.
         """
-        return self._loops.recorded(run)
+        launches = self._loops.recorded(run)
+
+        def replay() -> None:
+            for launch in launches:
+                launch()
+
+        return replay

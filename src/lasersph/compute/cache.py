@@ -1,9 +1,10 @@
 """Folder of generated loops: one Python file per loop, named by the hash of its whole text.
 
-The text holds every function, constant and option that the loop's result depends on but
-`spread_blocks`, whose text enters the hash, so a file never goes stale: an edit gives another name.
-Numba keeps the machine code beside it in `__pycache__`. The folder is $LASERSPH_CACHE, else
-$XDG_CACHE_HOME/lasersph, else ~/.cache/lasersph, else, where that is not writable, a folder of this
+The text holds every function, constant and option that the loop's result depends on but what the
+files `SHARED` give it, whose text enters the hash, so a file never goes stale: an edit gives
+another name. The machine code of a loop lies beside it; where a text has several functions, Numba
+keeps theirs in `__pycache__`. The folder is $LASERSPH_CACHE, else $XDG_CACHE_HOME/lasersph, else
+~/.cache/lasersph, else, where that is not writable, a folder of this
 user below the system's temporary folder.
 """
 
@@ -18,11 +19,21 @@ import warnings
 from functools import cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
+
+from lasersph.compute import machine_code
 
 _PREFIX = "loop_"
-_SPREAD = Path(__file__).with_name("spread.py")
+SHARED = ("parallel.py", "native.py", "machine_code.py")
 _loaded: dict[str, ModuleType] = {}
+_entries: dict[str, Entry] = {}
+
+
+class Entry(NamedTuple):
+    """A compiled function of unsigned integers: its address, and whether it was found on disk."""
+
+    address: int
+    is_found: bool
 
 
 @cache
@@ -62,7 +73,7 @@ def load(text: str) -> ModuleType:
 
     Where the disk is full, the loop is compiled without being stored.
     """
-    digest = hashlib.sha256(_spread() + text.encode()).hexdigest()[:24]
+    digest = _digest(text)
     folder = location()
     path = folder / f"{_PREFIX}{digest}.py"
     name = f"lasersph_{folder_key(folder)}_{path.stem}"
@@ -70,7 +81,7 @@ def load(text: str) -> ModuleType:
         return _loaded[name]
     try:
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            _write(path, text)
+            _write(path, text.encode())
         spec = importlib.util.spec_from_file_location(name, path)
         assert spec is not None and spec.loader is not None
         module = sys.modules[name] = importlib.util.module_from_spec(spec)
@@ -85,18 +96,63 @@ def load(text: str) -> ModuleType:
     return module
 
 
+def entry(text: str, *, is_fast: bool = True) -> int:
+    """Address of the function `loop` of a text, compiled where the folder has no machine code.
+
+    Args:
+        is_fast: whether its sums may be rearranged.
+    """
+    folder = location()
+    name = f"{_PREFIX}{_digest(text)}"
+    key = f"{folder}/{name}"
+    if key not in _entries:
+        _entries[key] = _read_entry(folder, name) or _make_entry(folder, name, text, is_fast)
+    return _entries[key].address
+
+
+def _read_entry(folder: Path, name: str) -> Entry | None:
+    """The function whose machine code lies in the folder; None where there is none."""
+    try:
+        content = (folder / f"{name}-{machine_code.target()}.o").read_bytes()
+    except OSError:
+        return None
+    address = machine_code.address_of(content, name)
+    return None if address is None else Entry(address, True)
+
+
+def _make_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
+    """The function of a text, with its text and machine code written to the folder."""
+    path = folder / f"{name}.py"
+    space: dict[str, Any] = {"__name__": f"lasersph_{name}"}
+    exec(compile(text, str(path), "exec"), space)
+    content = machine_code.compile_function(space["loop"], name, is_fast=is_fast)
+    try:
+        _write(path, text.encode())
+        _write(folder / f"{name}-{machine_code.target()}.o", content)
+    except OSError as error:
+        _warn(error)
+    address = machine_code.address_of(content, name)
+    assert address is not None
+    return Entry(address, False)
+
+
+def _digest(text: str) -> str:
+    """Name of a text."""
+    return hashlib.sha256(_shared() + text.encode()).hexdigest()[:24]
+
+
 @cache
-def _spread() -> bytes:
+def _shared() -> bytes:
     """Text of what loops call and do not hold."""
-    return _SPREAD.read_bytes()
+    return b"".join(Path(__file__).with_name(name).read_bytes() for name in SHARED)
 
 
-def _write(path: Path, text: str) -> None:
+def _write(path: Path, content: bytes) -> None:
     """Write a file at once: another process sees all of it or nothing."""
     handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
         os.replace(temporary, path)
     except OSError:
         os.unlink(temporary)
@@ -129,7 +185,8 @@ def _warn(error: OSError) -> None:
 
 def statistics() -> tuple[int, int]:
     """(loops found in the folder, loops compiled) by this process so far."""
-    found = compiled = 0
+    found = sum(one.is_found for one in _entries.values())
+    compiled = len(_entries) - found
     for module in _loaded.values():
         for dispatcher in _dispatchers(module):
             found += sum(dispatcher.stats.cache_hits.values())
@@ -150,7 +207,8 @@ def files() -> list[Path]:
 def _all_files() -> list[Path]:
     folder = location()
     inner = (folder / "__pycache__").glob(f"{_PREFIX}*")
-    return [*folder.glob(f"{_PREFIX}*.py"), *folder.glob("*.tmp"), *inner]
+    own = (folder.glob(f"{_PREFIX}*{end}") for end in (".py", ".o"))
+    return [*(path for paths in own for path in paths), *folder.glob("*.tmp"), *inner]
 
 
 def size() -> int:

@@ -46,7 +46,7 @@ class CudaBackend(Backend):
 
     def launcher(self) -> CudaLauncher:
         """What runs the loops."""
-        return CudaLauncher(self.threads)
+        return CudaLauncher()
 
     # --- arrays ---------------------------------------------------------------------------------
 

@@ -70,7 +70,9 @@ class CudaLoopText(LoopText):
     def parameters(self) -> list[str]:
         """Names of all that the kernel takes, in order: constants one by one."""
         partial = ["partial"] if any(self.loop.reduce) else []
-        return [*self.array_parameters(), *self.reals, *self.whole, *partial]
+        arrays = [name for name, _ in self.array_parameters()]
+        tables = [f"c_{name}" for name in self.tables]
+        return [*self.list_parameters(), *arrays, *tables, *self.reals, *self.whole, *partial]
 
     def compiled(self, starts: list[str], lines: list[str], ends: list[str]) -> str:
         """Text of the kernel: before, for each and after the rows of a thread."""

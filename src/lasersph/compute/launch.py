@@ -2,40 +2,44 @@
 
 from __future__ import annotations
 
+import ctypes
+from array import array
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache
 from operator import methodcaller
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from lasersph.compute.arguments import splitter
+from lasersph.compute import cache as folder
+from lasersph.compute.arguments import addresses
 from lasersph.compute.generate import LoopText
+from lasersph.compute.run_text import HOWS, run_text
 
-TOTAL = {"sum": np.add.reduce, "max": np.maximum.reduce, "min": np.minimum.reduce}
-EMPTY = {"sum": 0.0, "max": -np.inf, "min": np.inf}
 SHARED = 50_000
 """Rows or pairs from which on several threads take part: below that, waking a thread that sleeps
 takes longer than it saves."""
-_FIRST, _ONE = np.uint64(0), np.uint64(1)
-_count = lru_cache(maxsize=1024)(np.uint64)  # making one takes as long as looking up five
+_CODES = {"float64": "d", "float32": "f"}
 
 
 class Compiled(NamedTuple):
     """A compiled loop, with the order of its arguments.
 
     Attributes:
-        arrays, tables: symbols and names. reals, whole: (name, component) of each number.
-        reductions: "sum", "max", "min" in order. real: precision. block: rows of a block.
-        watched: see `source.is_current`.
+        entry: address of the machine code, or the kernel of a graphics card.
+        arrays, tables: symbols and names. places: for each constant (0 among `reals` or 1 among
+            `whole`, place there, component, -1 of a number). numbers: how many of both.
+        reductions: "sum", "max", "min" in order. hows: the same as bytes for compiled code.
+        real: precision. block: rows of a block. watched: see `source.is_current`.
     """
 
-    loop: Callable
+    entry: Any
     arrays: tuple[str, ...]
     tables: tuple[str, ...]
-    reals: tuple[tuple[str, int], ...]
-    whole: tuple[tuple[str, int], ...]
+    places: dict[str, list[tuple[int, int, int]]]
+    numbers: tuple[int, int]
     reductions: tuple[str, ...]
+    hows: array
     real: np.dtype
     block: int
     watched: tuple
@@ -45,89 +49,120 @@ class Bound(NamedTuple):
     """A loop with its arguments.
 
     Attributes:
-        visits: rows or, where there is a list, pairs that it visits, about.
-        arguments: rows, lists, fields, tables, outputs and numbers, in the order of the loop's.
-        reals, whole: the numbers among them. outs: the outputs as a whole, None if not stored.
+        listed, rows: rows that there are, and that are run. visits: rows or, where there is a
+            list, pairs that it visits, about.
+        lists: row numbers, row pointers and neighbors, as far as there are any.
+        fields, outs, tables: arrays as wholes; an output is None where it is not stored.
+        constants: by name, numbers or tuples of numbers.
     """
 
     compiled: Compiled
+    listed: int
     rows: int
     visits: int
-    arguments: list[Any]
-    reals: np.ndarray | None
-    whole: np.ndarray | None
+    lists: list[Any]
+    fields: list[Any]
     outs: list[Any]
+    tables: list[Any]
+    constants: dict[str, Any]
 
 
 class Launcher:
     """All that loops need to know of where they run: here the processor, on NumPy's arrays.
 
     Attributes:
-        text: writes the loops. split: see `splitter`. last: the last element of an array.
+        text: writes the loops. last: the last element of an array. rebinds: whether a launch can
+            take other arrays of the same kinds.
     """
 
     text: type[LoopText] = LoopText
-    split: Callable = staticmethod(splitter)
     last: Callable = staticmethod(methodcaller("item", -1))
+    rebinds = True
 
-    def __init__(self, threads: int) -> None:
+    def __init__(self, threads: int, precision: str) -> None:
         self.threads = threads
+        start_function(precision)
+
+    def compile(self, text: str) -> Any:
+        """What runs the loop of a text: the address of its machine code."""
+        return folder.entry(text)
 
     def largest(self, rows: Any) -> int:
         """The largest of some row numbers."""
         return int(np.maximum.reduce(rows))
 
-    def partial(self, bound: Bound) -> Any:
-        """Room for what each block reduces, one row a reduction; None without reductions."""
-        compiled = bound.compiled
-        count = len(compiled.reductions)
-        return np.empty((count, -(-bound.rows // compiled.block)), compiled.real) if count else None
-
-    def run(self, bound: Bound, partial: Any) -> tuple[float, ...]:
-        """Run a loop; returns the reductions."""
-        compiled, rows, visits, arguments, _, _, _ = bound
-        reductions, block = compiled.reductions, compiled.block
-        if rows == 0:
-            return tuple([EMPTY[how] for how in reductions])
-        if partial is not None:
-            arguments = [*arguments, partial]
-        blocks = _ONE if rows <= block else _count(-(-rows // block))
-        threads = _ONE if visits < SHARED else _count(self.threads)
-        compiled.loop(_FIRST, blocks, threads, _count(rows), *arguments)
-        if partial is None:
-            return ()
-        if rows <= block:
-            parts = zip(reductions, partial[:, 0].tolist(), strict=True)
-            return tuple([0.0 + part if how == "sum" else part for how, part in parts])
-        return totals(reductions, partial)
-
-
-def totals(reductions: tuple[str, ...], partial: Any) -> tuple[float, ...]:
-    """What the rows of `partial` reduce to."""
-    pairs = zip(reductions, partial, strict=True)
-    return tuple([float(TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])
+    def launch(self, bound: Bound, *, holds: bool = True) -> Launch:
+        """A loop ready to run; it keeps its arrays unless the caller does, who then says so."""
+        return Launch(bound, self.threads, holds=holds)
 
 
 class Launch:
     """A loop with its arrays; called with the numbers that have changed, it runs.
 
-    Args:
-        bound: with numbers that no other launch has.
+    Attributes:
+        address: of its frame, see `run_text`. reductions: "sum", "max" or "min" for each result.
+        results: what the last run has reduced. numbers: the constants as `places` counts them.
     """
 
-    def __init__(self, bound: Bound, launcher: Launcher) -> None:
-        self._bound, self._launcher = bound, launcher
-        self._partial = launcher.partial(bound)
-        self._places: dict[str, list[tuple[Any, int, int]]] = {}
-        compiled = bound.compiled
-        for names, values in ((compiled.reals, bound.reals), (compiled.whole, bound.whole)):
-            for k, (name, component) in enumerate(names):
-                self._places.setdefault(name, []).append((values, k, component))
+    __slots__ = (
+        "_bound", "_frame", "_partial", "_start", "address", "numbers", "places", "reductions",
+        "results",
+    )  # fmt: skip
+
+    def __init__(self, bound: Bound, threads: int, *, holds: bool) -> None:
+        compiled, _, rows, visits, lists, fields, outs, tables, constants = bound
+        self.reductions, self.places = compiled.reductions, compiled.places
+        real = _CODES[compiled.real.name]
+        reals, whole = compiled.numbers
+        self.numbers = (
+            array(real, bytes(compiled.real.itemsize * reals)),
+            array("q", bytes(8 * whole)),
+        )
+        reduced, blocks = len(compiled.reductions), -(-rows // compiled.block)
+        self.results = array("d", bytes(8 * reduced))
+        self._partial = array(real, bytes(compiled.real.itemsize * reduced * blocks))
+        words = [
+            compiled.entry, blocks, 1 if visits < SHARED else threads, rows, reduced,
+            _address(compiled.hows), _address(self._partial), _address(self.results),
+        ]  # fmt: skip
+        for one in lists:
+            words += addresses(one)
+        for one in fields:
+            words += addresses(one)
+        for one in outs:
+            if one is not None:
+                words += addresses(one)
+        for one in tables:
+            words += (*addresses(one), one.size)
+        words += [_address(numbers) for numbers in self.numbers if numbers]
+        if reduced:
+            words.append(words[6])
+        self._frame = array("Q", words)
+        self.address = _address(self._frame)
+        self._bound = bound if holds else None
+        self._start = start_function(compiled.real.name)
+        self.set(constants)
 
     @property
     def reduces(self) -> bool:
         """Whether a run returns numbers."""
-        return bool(self._bound.compiled.reductions)
+        return bool(self.reductions)
+
+    @property
+    def threads(self) -> int:
+        """Threads that take part."""
+        return self._frame[2]
+
+    def set(self, constants: dict[str, Any]) -> None:
+        """Take constants by name.
+
+        Raises:
+            KeyError: a constant that the loop does not have.
+        """
+        places, numbers = self.places, self.numbers
+        for name, value in constants.items():
+            for which, k, component in places[name]:
+                numbers[which][k] = value if component < 0 else value[component]
 
     def __call__(self, **constants: Any) -> tuple[float, ...]:
         """Run; returns the reductions.
@@ -135,7 +170,23 @@ class Launch:
         Raises:
             KeyError: a constant that the loop does not have.
         """
-        for name, value in constants.items():
-            for values, k, component in self._places[name]:
-                values[k] = value[component] if isinstance(value, tuple | list) else value
-        return self._launcher.run(self._bound, self._partial)
+        if constants:
+            self.set(constants)
+        self._start(self.address)
+        return tuple(self.results)
+
+
+def _address(memory: array) -> int:
+    return memory.buffer_info()[0]
+
+
+@cache
+def start_function(precision: str) -> Callable[[int], None]:
+    """What runs the launch at an address."""
+    address = folder.entry(run_text(precision), is_fast=False)
+    return ctypes.PYFUNCTYPE(None, ctypes.c_uint64)(address)
+
+
+def bytes_of(reductions: tuple[str, ...]) -> array:
+    """How to reduce, for compiled code."""
+    return array("B", [HOWS.index(how) for how in reductions])

@@ -9,6 +9,7 @@ compared with those of the first call; an edited constant or callee gives a new 
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Callable
 from functools import lru_cache
 from operator import attrgetter
@@ -16,20 +17,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lasersph.compute import cache, source
+from lasersph.compute import source
 from lasersph.compute.arguments import argument_for, array_kind, fingerprint
 from lasersph.compute.generate import Loop, LoopText
-from lasersph.compute.launch import Bound, Compiled, Launch, Launcher
+from lasersph.compute.launch import Bound, Compiled, Launch, Launcher, bytes_of
+from lasersph.compute.rebinding import Rebound, rebinding_function
 from lasersph.compute.signature import Call, Signature, listed
 
 _layout = attrgetter("dtype", "shape", "strides")
-_INDEX, _OFFSET, _WHOLE = np.dtype(np.uint32), np.dtype(np.uint64), np.dtype(np.int64)
+_INDEX, _OFFSET = np.dtype(np.uint32), np.dtype(np.uint64)
 
 
 class Given(NamedTuple):
     """Arrays and constants of one call, in the order of its signature, as the launcher takes them.
 
     Attributes:
+        tables: constants that are arrays. numbers: the others by name, with the period of the list.
         row_start, neighbor: the list, None without. geometry: kernel, mean, periodic axes and
             dimension as far as the loop depends on them, else None.
     """
@@ -37,28 +40,13 @@ class Given(NamedTuple):
     call: Call
     signature: Signature
     arrays: list[Any]
-    constants: list[Any]
+    tables: list[Any]
+    numbers: dict[str, Any]
     outs: list[Any]
     rows: Any
     row_start: Any
     neighbor: Any
     geometry: tuple | None
-
-
-class Ready(NamedTuple):
-    """A compiled loop and where its arguments stand in `Given`.
-
-    Attributes:
-        arrays, outs: (place, function that takes it apart, None for scalars), as they enter.
-        tables: places of constants. reals, whole: (place, component; -1 for a number).
-    """
-
-    compiled: Compiled
-    arrays: tuple[tuple[int, Callable | None], ...]
-    outs: tuple[tuple[int, Callable | None], ...]
-    tables: tuple[int, ...]
-    reals: tuple[tuple[int, int], ...]
-    whole: tuple[tuple[int, int], ...]
 
 
 class Loops:
@@ -69,24 +57,27 @@ class Loops:
         self.real = np.dtype(precision)
         self._signatures: dict[Any, Signature] = {}
         self._record: list[Launch] | None = None
+        if launcher.rebinds:
+            rebinding_function(precision)
 
     def run(self, call: Call) -> tuple[float, ...]:
         """Launch the loop of a call; returns the reductions."""
-        bound, launcher = self._bound(call), self.launcher
-        if self._record is None:
-            return launcher.run(bound, launcher.partial(bound))
-        launch = Launch(bound, launcher)
-        if launch.reduces:
-            raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
-        self._record.append(launch)
-        return launch()
+        if self._record is not None:
+            launch = self.prepared(call)
+            if launch.reduces:
+                raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
+            self._record.append(launch)
+            return launch()
+        if self.launcher.rebinds:
+            return self._run_rebound(call)
+        return self.launcher.launch(self._bound(self.given(call)))()
 
     def prepared(self, call: Call) -> Launch:
         """The loop of a call, bound to its arrays."""
-        return Launch(self._bound(call), self.launcher)
+        return self.launcher.launch(self._bound(self.given(call)))
 
-    def recorded(self, run: Callable[[], None]) -> Callable[[], None]:
-        """Run `run`; returns a function that launches the same loops once more."""
+    def recorded(self, run: Callable[[], None]) -> list[Launch]:
+        """Run `run`; returns what it has launched."""
         if self._record is not None:
             raise ValueError("a recording is under way")
         launches = self._record = []
@@ -94,27 +85,66 @@ class Loops:
             run()
         finally:
             self._record = None
+        return launches
 
-        def replay() -> None:
-            for launch in launches:
-                launch()
+    def _run_rebound(self, call: Call) -> tuple[float, ...]:
+        """Run a call by the launch of an earlier one with arrays of the same kinds, if any."""
+        signature, constants, neighbors = self._signature(call), call.constants, call.neighbors
+        numbers = {name: constants[name] for name in signature.numbers}
+        unwrap, fields, rows = self.unwrap, call.fields, call.rows
+        ones = [0, 0 if rows is None else id(unwrap(rows))]
+        kinds: tuple = tuple(map(fingerprint, numbers.values()))
+        if neighbors is None:
+            ones += (0, 0, 0)
+            ones += [id(unwrap(fields[symbol])) for symbol in signature.fields]
+        else:
+            support = neighbors.support
+            ones += (id(unwrap(neighbors.row_start)), id(unwrap(neighbors.neighbor)))
+            ones.append(0 if support is None else id(unwrap(support)))
+            ones += [id(unwrap(fields[symbol])) for symbol in signature.fields]
+            if signature.position:
+                ones.append(id(unwrap(neighbors.position)))
+            if signature.support:
+                ones.append(id(unwrap(support)))
+            if signature.geometry:
+                period = neighbors.period
+                numbers["period"] = period
+                kinds += (neighbors.kernel, neighbors.mean, period)
+        ones += [id(unwrap(out)) for out in listed(call.out) if out is not None]
+        ones += [id(unwrap(constants[name])) for name in signature.tables]
+        found = signature.rebound.get(kinds)
+        is_current = found is not None and source.is_current(found.watched)
+        if is_current and found.run(array("Q", ones), numbers):
+            return tuple(found.launch.results)
+        bound, threads = self._bound(self.given(call)), self.launcher.threads
+        is_values = call.shape == "pair_values"
+        found = signature.rebound[kinds] = Rebound(bound, signature, threads, is_values)
+        return found.launch()
 
-        return replay
-
-    def _bound(self, call: Call) -> Bound:
+    def _bound(self, given: Given) -> Bound:
         """The loop of a call with its arguments, all checked."""
-        given = self.given(call)
-        rows, visits, key = _checked(given, self.launcher)
+        listed, rows, visits, key = _checked(given, self.launcher)
         loops = given.signature.loops
-        ready = loops.get(key)
-        if ready is None or not source.is_current(ready.compiled.watched):
+        compiled = loops.get(key)
+        if compiled is None or not source.is_current(compiled.watched):
             _refuse_strides(given)
-            ready = loops[key] = self._ready(given)
-        return _arguments(given, ready, rows, visits)
+            compiled = loops[key] = self._compiled(given)
+        symbols, lists = given.signature.symbols, (given.rows, given.row_start, given.neighbor)
+        return Bound(
+            compiled,
+            listed,
+            rows,
+            visits,
+            [one for one in lists if one is not None],
+            [given.arrays[symbols.index(symbol)] for symbol in compiled.arrays],
+            given.outs,
+            [given.tables[given.signature.tables.index(name)] for name in compiled.tables],
+            given.numbers,
+        )
 
-    def given(self, call: Call) -> Given:
-        """Arrays and constants that the call's signature asks for."""
-        shape, function, neighbors, fields, out, rows, finish, reduce, constants, combine = call
+    def _signature(self, call: Call) -> Signature:
+        """What the names in a call decide."""
+        shape, function, _, fields, _, rows, finish, reduce, constants, combine = call
         names = (
             shape, function, finish, tuple(fields), tuple(constants),
             tuple(reduce) if type(reduce) is list else reduce,
@@ -123,7 +153,12 @@ class Loops:
         signature = self._signatures.get(names)
         if signature is None:
             signature = self._signatures[names] = Signature(call)
-        unwrap = self.unwrap
+        return signature
+
+    def given(self, call: Call) -> Given:
+        """Arrays and constants that the call's signature asks for."""
+        signature, unwrap = self._signature(call), self.unwrap
+        neighbors, fields, constants = call.neighbors, call.fields, call.constants
         arrays = [unwrap(fields[symbol]) for symbol in signature.fields]
         row_start = neighbor = geometry = None
         if neighbors is not None:
@@ -134,20 +169,23 @@ class Loops:
                 arrays.append(unwrap(neighbors.support))
             if signature.geometry:
                 geometry = _geometry(signature, neighbors, arrays)
-        values = []
-        for name in signature.constants:
-            value = constants[name]
-            values.append(unwrap(value) if hasattr(value, "shape") else value)
-        outs = [o if o is None else unwrap(o) for o in listed(out)]
-        active = None if rows is None else unwrap(rows)
-        return Given(call, signature, arrays, values, outs, active, row_start, neighbor, geometry)
+        tables = [unwrap(constants[name]) for name in signature.tables]
+        numbers = {name: constants[name] for name in signature.numbers}
+        if geometry is not None:
+            numbers["period"] = neighbors.period
+        outs = [o if o is None else unwrap(o) for o in listed(call.out)]
+        active = None if call.rows is None else unwrap(call.rows)
+        return Given(
+            call, signature, arrays, tables, numbers, outs, active, row_start, neighbor, geometry
+        )
 
     def text(self, given: Given) -> LoopText:
         """Source of a call's loop, before it is written."""
         call, signature = given.call, given.signature
         dimension = given.geometry[3] if given.geometry else 0
         arrays = dict(zip(signature.symbols, given.arrays, strict=True))
-        constants = dict(zip(signature.constants, given.constants, strict=True))
+        tables = dict(zip(signature.tables, given.tables, strict=True))
+        constants = given.numbers | tables
 
         def value(role: str, symbol: str) -> Any:
             return (constants if role == "constant" else arrays).get(symbol)
@@ -158,15 +196,26 @@ class Loops:
                 for name, role, symbol in roles
             )
 
-        outputs = tuple(None if o is None else array_kind(o) for o in given.outs)
+        outs = {f"o_{k}": out for k, out in enumerate(given.outs) if out is not None}
+        named = {f"a_{symbol}": array for symbol, array in arrays.items()} | outs
+        named |= {f"c_{name}": table for name, table in tables.items()}
         loop = Loop(
-            call.shape, self.precision, call.function, arguments(signature.roles), outputs,
-            signature.reduce, given.rows is not None, call.finish,
-            arguments(signature.finish_roles), given.geometry, signature.combine,
-        )  # fmt: skip
+            call.shape,
+            self.precision,
+            call.function,
+            arguments(signature.roles),
+            tuple(None if o is None else array_kind(o) for o in given.outs),
+            signature.reduce,
+            given.rows is not None,
+            call.finish,
+            arguments(signature.finish_roles),
+            given.geometry,
+            signature.combine,
+            tuple((name, array.dtype.name) for name, array in named.items()),
+        )
         return self.launcher.text(loop)
 
-    def _ready(self, given: Given) -> Ready:
+    def _compiled(self, given: Given) -> Compiled:
         """Generate, cache and load the loop of new kinds."""
         signature = given.signature
         if any(how not in (None, "sum", "max", "min") for how in signature.reduce):
@@ -175,30 +224,25 @@ class Loops:
             raise ValueError('combine takes "sum", "max" or "min"')
         self._refuse_precision(given)
         text = self.text(given)
-        module = cache.load(text.written())
-        compiled = Compiled(
-            module.loop, tuple(text.arrays), tuple(text.tables),
-            tuple(text.reals.values()), tuple(text.whole.values()),
-            tuple([how for how in signature.reduce if how is not None]), self.real,
-            text.loop.block, text.unit.watched(),
-        )  # fmt: skip
-        places = {name: k for k, name in enumerate(signature.constants)}
-        values = given.constants
-        if given.geometry is not None:
-            places["period"], values = len(values), [*values, ()]
-
-        def numbers(names: tuple[tuple[str, int], ...]) -> tuple[tuple[int, int], ...]:
-            found = [(places[name], component) for name, component in names]
-            return tuple((k, c if isinstance(values[k], tuple | list) else -1) for k, c in found)
-
-        arrays = [signature.symbols.index(symbol) for symbol in compiled.arrays]
-        split = self.launcher.split
-        return Ready(
-            compiled, tuple((k, split(given.arrays[k].shape[:-1])) for k in arrays),
-            tuple((k, split(o.shape[:-1])) for k, o in enumerate(given.outs) if o is not None),
-            tuple(places[name] for name in compiled.tables),
-            numbers(compiled.reals), numbers(compiled.whole),
-        )  # fmt: skip
+        entry = self.launcher.compile(text.written())
+        places: dict[str, list[tuple[int, int, int]]] = {name: [] for name in given.numbers}
+        for which, names in enumerate((text.reals, text.whole)):
+            for k, (name, component) in enumerate(names.values()):
+                is_tuple = isinstance(given.numbers[name], tuple | list)
+                places[name].append((which, k, component if is_tuple else -1))
+        reductions = tuple([how for how in signature.reduce if how is not None])
+        return Compiled(
+            entry,
+            tuple(text.arrays),
+            tuple(text.tables),
+            places,
+            (len(text.reals), len(text.whole)),
+            reductions,
+            bytes_of(reductions),
+            self.real,
+            text.loop.block,
+            text.unit.watched(),
+        )
 
     def _refuse_precision(self, given: Given) -> None:
         """Raise ValueError where real numbers are not of the backend's precision."""
@@ -206,14 +250,14 @@ class Loops:
         named = [
             *zip(signature.symbols, given.arrays, strict=True),
             *((f"out {k}", o) for k, o in enumerate(given.outs)),
-            *zip(signature.constants, given.constants, strict=True),
+            *zip(signature.tables, given.tables, strict=True),
         ]
-        for name, array in named:
-            if getattr(array, "ndim", 0) == 0 or array.dtype.kind != "f":
+        for name, one in named:
+            if getattr(one, "ndim", 0) == 0 or one.dtype.kind != "f":
                 continue
             is_pair = ("pair", name) in [(role, symbol) for _, role, symbol in signature.roles]
-            if array.dtype != self.real and not (is_pair and array.dtype == np.float32):
-                raise ValueError(f"{name} is {array.dtype}, the backend {self.precision}")
+            if one.dtype != self.real and not (is_pair and one.dtype == np.float32):
+                raise ValueError(f"{name} is {one.dtype}, the backend {self.precision}")
 
 
 def _geometry(signature: Signature, neighbors: Any, arrays: list[Any]) -> tuple:
@@ -234,18 +278,17 @@ def _periodic(period: tuple[float, ...], dimension: int) -> tuple[bool, ...]:
     return tuple([bool(width) for width in period or (0.0,) * dimension])
 
 
-def _checked(given: Given, launcher: Launcher) -> tuple[int, int, tuple]:
-    """Number of rows, after checking the lengths of all arrays; about how many rows or pairs are
-    visited; and the kinds of the arrays.
+def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
+    """Rows, rows to run, rows or pairs to visit, about, and the kinds of the arrays.
 
     Raises:
         ValueError: an array is too short or of the wrong type, or read while it is written.
     """
-    call, signature, arrays, constants, outs, active, row_start, neighbor, geometry = given
+    call, signature, arrays, tables, numbers, outs, active, row_start, neighbor, geometry = given
     kinds: list[Any] = [geometry]
     lengths = []
-    for array in arrays:
-        dtype, shape, strides = _layout(array)
+    for one in arrays:
+        dtype, shape, strides = _layout(one)
         kinds += (dtype, shape[:-1], strides[-1])
         lengths.append(shape[-1])
     written = []
@@ -256,7 +299,8 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, tuple]:
         dtype, shape, strides = _layout(out)
         kinds += (dtype, shape[:-1], strides[-1])
         written.append(shape[-1])
-    kinds += map(fingerprint, constants)
+    kinds += [table.dtype for table in tables]
+    kinds += map(fingerprint, numbers.values())
     total = pairs = 0
     if row_start is not None:
         rows, total, pairs = _list_size(call, row_start, neighbor, launcher.last(row_start))
@@ -283,7 +327,7 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, tuple]:
     if active is not None:
         rows = _active(active, rows, launcher)
     visits = rows if row_start is None else pairs * rows // max(listed, 1)
-    return rows, visits, tuple(kinds)
+    return listed, rows, visits, tuple(kinds)
 
 
 def _list_size(call: Call, row_start: Any, neighbor: Any, pairs: int) -> tuple[int, int, int]:
@@ -318,49 +362,6 @@ def _refuse_strides(given: Given) -> None:
     """Raise ValueError where an array is not contiguous along its last axis."""
     outs = {f"out {k}": out for k, out in enumerate(given.outs) if out is not None}
     arrays = dict(zip(given.signature.symbols, given.arrays, strict=True))
-    for name, array in (arrays | outs).items():
-        if array.size and array.strides[-1] != array.itemsize:
+    for name, one in (arrays | outs).items():
+        if one.size and one.strides[-1] != one.itemsize:
             raise ValueError(f"{name} is not contiguous along its last axis")
-
-
-def _arguments(given: Given, ready: Ready, rows: int, visits: int) -> Bound:
-    """The arguments of a loop in its order."""
-    arguments: list[Any] = [] if given.rows is None else [given.rows]
-    if given.row_start is not None:
-        arguments += (given.row_start, given.neighbor)
-    constants = given.constants
-    _append(arguments, given.arrays, ready.arrays)
-    for k in ready.tables:
-        arguments.append(constants[k])
-    _append(arguments, given.outs, ready.outs)
-    if given.geometry is not None:
-        constants = [*constants, given.call.neighbors.period]
-    reals = _numbers(constants, ready.reals, ready.compiled.real)
-    whole = _numbers(constants, ready.whole, _WHOLE)
-    if reals is not None:
-        arguments.append(reals)
-    if whole is not None:
-        arguments.append(whole)
-    return Bound(ready.compiled, rows, visits, arguments, reals, whole, given.outs)
-
-
-def _append(arguments: list[Any], arrays: list[Any], places: tuple) -> None:
-    """Add the components of the arrays at some places."""
-    for k, split in places:
-        if split is None:
-            arguments.append(arrays[k])
-        else:
-            arguments += split(arrays[k])
-
-
-def _numbers(
-    constants: list[Any], places: tuple[tuple[int, int], ...], kind: np.dtype
-) -> np.ndarray | None:
-    """Constants as one array, filled one by one, which for so few takes half the time."""
-    if not places:
-        return None
-    values = np.empty(len(places), kind)
-    for k, (place, component) in enumerate(places):
-        value = constants[place]
-        values[k] = value if component < 0 else value[component]
-    return values

@@ -41,10 +41,12 @@ class Signature:
         symbols: all of these in order. needs: (place among them, place in `NEEDS` of what it must
             have entries for, name of the argument). neighbors: (place, name) of those that are
             read at neighbors.
-        constants: names. reduce, combine: for each result.
+        constants: names. numbers, tables: those that are numbers or tuples of them, and arrays.
+        reduce, combine: for each result.
         geometry: whether the loop depends on the list's period. apart: and on the dimension.
             kernel, mean: and on these.
-        loops: compiled loops by the kinds of arrays and constants.
+        loops: compiled loops by the kinds of arrays and constants. rebound: launches
+            that take other arrays of the same kinds.
     """
 
     def __init__(self, call: Call) -> None:
@@ -57,10 +59,13 @@ class Signature:
         extra = sorted(set(call.constants) - set(self.constants))
         if extra:
             raise ValueError(f"{call.function.__name__}() has no argument {', '.join(extra)}")
+        self.tables = tuple(n for n in self.constants if getattr(call.constants[n], "ndim", 0))
+        self.numbers = tuple(n for n in self.constants if n not in self.tables)
         self.reduce = () if call.reduce is None else tuple(listed(call.reduce))
         self.combine = () if call.combine is None else tuple(listed(call.combine))
         self._place(call, [one for one in arguments if one[1] in NEEDS])
         self.loops: dict[Any, Any] = {}
+        self.rebound: dict[Any, Any] = {}
 
     def _place(self, call: Call, arrays: list[tuple[str, str, str]]) -> None:
         """Decide where each array comes from and how long it must be."""

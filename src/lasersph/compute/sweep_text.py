@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lasersph.compute.generate import INNER, OUTER, SPREAD
+from lasersph.compute.generate import DISPATCH, INNER, OUTER
 from lasersph.compute.source import SourceUnit
 
 ROWS = 4
@@ -20,7 +20,7 @@ import math
 import numpy as np
 from numba import njit
 
-from lasersph.compute.spread import spread_blocks
+from lasersph.compute.parallel import dispatch_blocks
 
 ZERO = np.uint64(0)
 ONE = np.uint64(1)
@@ -101,7 +101,7 @@ real = np.{precision}
 {outer}
 def loop(begin, end, threads, blocks, size, count, partial, start, column, value, inner, {names}):
     """Blocks of one color, none of which reads what another writes; chunk after chunk."""
-    {spread}
+    {dispatch}
     b = blocks[begin]
     first = np.uint64(b) * size // ROWS
     last = (min((np.uint64(b) + ONE) * size, count) + ROWS - ONE) // ROWS
@@ -149,7 +149,7 @@ def sweep_text(
         precision=precision,
         functions="\n".join(f"{INNER}\n{part}\n" for part in unit.texts),
         outer=OUTER,
-        spread="\n    ".join(SPREAD),
+        dispatch="\n    ".join(DISPATCH),
         names=", ".join([*outs, *fields, "numbers"]),
         sums=", ".join(f"r{k}" for k in range(reduces)) or "_",
         zeros=", ".join("real(0.0)" for _ in range(reduces)) or "ZERO",

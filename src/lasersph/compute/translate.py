@@ -30,7 +30,7 @@ from lasersph.compute.values import (
     shape_of,
 )
 
-RESERVED = {"np", "math", "real", "njit", "spread_blocks", "min", "max", "abs", "range"}
+RESERVED = {"np", "math", "real", "njit", "dispatch_blocks", "min", "max", "abs", "range"}
 
 
 class FunctionWriter(ExpressionWriter):

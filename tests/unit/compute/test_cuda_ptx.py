@@ -58,7 +58,7 @@ def pair_sum(precision):
         "pair_sum", flow, neighbors, {"T": field}, (np.zeros(3, real), None), None, finish,
         (None, "max"), {"rate": 2.0},
     )  # fmt: skip
-    loops = Loops(precision, CudaLauncher(1), lambda array: array)
+    loops = Loops(precision, CudaLauncher(), lambda array: array)
     text = loops.text(loops.given(call))
     kernel = cache.load(text.written()).loop
     given = {

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lasersph import compute
-from lasersph.compute import cache
+from lasersph.compute import machine_code
 from lasersph.compute.generate import Argument, Loop, LoopText
 
 SIGMA = 5.670374419e-8
@@ -38,21 +38,15 @@ def shape(s):
     return (1 - s) ** 4 * (1 + 4 * s) if s < 1 else 0
 
 
-def compiled(monkeypatch, tmp_path, loop, arguments):
-    """LLVM text of a freshly compiled block."""
-    monkeypatch.setenv("LASERSPH_CACHE", str(tmp_path))
-    module = cache.load(LoopText(loop).written())
-    begin, end, threads, count = (np.uint64(k) for k in (0, 1, 1, 2))
-    module.loop(begin, end, threads, count, *arguments)
-    return "\n".join(module.loop.inspect_llvm().values())
-
-
-def lists():
-    return np.array([0, 1, 2], np.uint64), np.array([1, 0], np.uint32)
+def compiled(loop):
+    """LLVM text of a freshly compiled loop."""
+    space = {"__name__": "loop_of_a_test"}
+    exec(LoopText(loop).written(), space)
+    return machine_code.llvm_of(space["loop"], "loop_of_a_test", is_fast=True)
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_no_double(monkeypatch, tmp_path, precision):
+def test_no_double(precision):
     """No `double` appears in the LLVM of a float32 loop (and the test would see one)."""
     kernel = SimpleNamespace(sigma=1.25, shape=shape, slope=shape)
     arguments = (
@@ -71,14 +65,12 @@ def test_no_double(monkeypatch, tmp_path, precision):
         "pair_sum", precision, promoting, arguments, (REAL,), ("max",), False, limited, finish,
         (kernel, mean, (True, False), 2),
     )  # fmt: skip
-    ones = [np.ones(2, precision) for _ in range(5)]
-    partial = np.zeros((1, 1), precision)
-    text = compiled(monkeypatch, tmp_path, loop, (*lists(), *ones, np.ones(2, precision), partial))
+    text = compiled(loop)
     assert ("double" in text) == (precision == "float64")
     assert re.search(r"\bfloat\b", text) or precision == "float64"
 
 
-def test_unsigned_indices(monkeypatch, tmp_path):
+def test_unsigned_indices():
     """No index is compared with zero to wrap negative ones around."""
     arguments = (
         Argument("g_ij", "pair", "g_ij", REAL),
@@ -86,9 +78,8 @@ def test_unsigned_indices(monkeypatch, tmp_path):
         Argument("T_j", "neighbor", "T", REAL),
     )
     loop = Loop("pair_sum", "float64", flow, arguments, (REAL,))
-    ones = [np.ones(2) for _ in range(3)]
-    text = compiled(monkeypatch, tmp_path, loop, (*lists(), *ones))
-    start = text.index("define", text.index("block"))
+    text = compiled(loop)
+    start = text.index("define")
     body = text[start : text.index("\n}", start)]
     assert "sext" not in body
     assert not re.search(r"icmp slt i64 %[^,]+, 0", body)

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from lasersph import compute
-from lasersph.compute import search
-from lasersph.compute.launch import SHARED, Bound, Compiled, Launcher
+from lasersph.compute import launch, search
 
 
 def flow(T_i, T_j, r_ij):
@@ -40,7 +39,7 @@ def results(threads, position, T):
     out = (backend.zeros(count), None)
     sums = backend.pair_sum(flow, neighbors, {"T": T}, out, finish=squared, reduce=("min", "sum"))
     long = np.tile(T, 3)
-    assert min(neighbor.size, long.size) > SHARED
+    assert min(neighbor.size, long.size) > launch.SHARED
     dot = backend.pointwise(product, {"a": long, "b": long}, None, reduce="sum")
     return row_start.tobytes(), neighbor.tobytes(), out[0].tobytes(), sums, dot
 
@@ -55,16 +54,13 @@ def test_bits_do_not_depend_on_threads():
 
 
 def test_short_loops_take_one_thread():
-    """Threads are woken only by a loop that takes longer than that."""
-    seen = []
-
-    def loop(_begin, _end, threads, _count):
-        seen.append(int(threads))
-
-    compiled = Compiled(loop, (), (), (), (), (), np.dtype(float), 512, ())
-    for visits in (SHARED - 1, SHARED):
-        Launcher(2).run(Bound(compiled, 1000, visits, [], None, None, []), None)
-    assert seen == [1, 2]
+    """Threads are woken only by a loop that takes longer than that, also where it is bound anew."""
+    compiled = launch.Compiled(
+        1, (), (), {}, (0, 0), (), launch.bytes_of(()), np.dtype(float), 512, ()
+    )
+    for visits, threads in ((launch.SHARED - 1, 1), (launch.SHARED, 2)):
+        bound = launch.Bound(compiled, 1000, 1000, visits, [], [], [], [], {})
+        assert launch.Launcher(2, "float64").launch(bound).threads == threads
 
 
 def test_number_of_threads():

@@ -24,7 +24,7 @@ get_num_threads()
 
 
 @intrinsic
-def spread_blocks(_context: Any) -> tuple:
+def dispatch_blocks(_context: Any) -> tuple:
     """Run the loop that calls this once for each of its blocks.
 
     For functions loop(begin, end, threads, ...) of three unsigned integers and anything else, with
@@ -35,7 +35,7 @@ def spread_blocks(_context: Any) -> tuple:
 
 
 def _handed_over(context: Any, builder: Any, _signature: Any, _arguments: Any) -> Any:
-    """Code of `spread_blocks`: all arguments in one place, and the call of Numba's threads."""
+    """Code of `dispatch_blocks`: all arguments in one place, and the call of Numba's threads."""
     loop = builder.function
     loop.attributes.add("noinline")
     word, byte = loop.args[_BEGIN].type, cgutils.voidptr_t

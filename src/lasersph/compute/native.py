@@ -1,0 +1,52 @@
+"""What generated code needs beside Numba's language: arrays and functions by their addresses.
+
+Loops take all their arrays as addresses in one array of 64-bit words, a frame, so that every loop
+is called alike: from Python by one foreign call, from other compiled code through its address.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+__all__ = [
+    "at_float32", "at_float64", "at_int64", "at_uint8", "at_uint32", "at_uint64", "invoke",
+]  # fmt: skip
+
+
+def _view(element: Any) -> Any:
+    """Intrinsic that makes a pointer to elements of a type from an address."""
+
+    @intrinsic
+    def at(_context: Any, _address: Any) -> tuple:
+        pointer = types.CPointer(element)
+
+        def code(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+            return builder.inttoptr(arguments[0], context.get_value_type(pointer))
+
+        return pointer(types.uint64), code
+
+    return at
+
+
+at_float64, at_float32 = _view(types.float64), _view(types.float32)
+at_uint64, at_uint32, at_uint8 = _view(types.uint64), _view(types.uint32), _view(types.uint8)
+at_int64 = _view(types.int64)
+
+
+@intrinsic
+def invoke(
+    _context: Any, _address: Any, _begin: Any, _end: Any, _threads: Any, _count: Any, _frame: Any
+) -> tuple:
+    """Call the loop at an address with its five unsigned integers."""
+
+    def code(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        word = ir.IntType(64)
+        loop = ir.FunctionType(ir.VoidType(), [word] * 5)
+        builder.call(builder.inttoptr(arguments[0], loop.as_pointer()), arguments[1:])
+        return context.get_dummy_value()
+
+    return types.none(*[types.uint64] * 6), code

@@ -1,0 +1,223 @@
+"""Binding of a launch to other arrays of the same kinds, in compiled code.
+
+A step calls hundreds of loops, each with arrays of its own; to look at these in Python takes longer
+than a loop over a thousand particles. What is checked of them at the first call is checked at each
+one: types, shapes, lengths, that the last axis is contiguous, that active rows exist, and that no
+output is read at neighbors. Where something differs, the launch is left alone, and whoever asks
+binds anew, with messages.
+
+Arrays are told by the addresses of NumPy's objects, whose structure (data, number of axes, lengths,
+strides and type) NumPy documents as `PyArrayObject_fields`.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from array import array
+from collections.abc import Callable
+from functools import cache
+from math import prod
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute import cache as folder
+from lasersph.compute.generate import NATIVE
+from lasersph.compute.launch import SHARED, Bound, Launch
+from lasersph.compute.run_text import HEAD_WORDS, RUN
+from lasersph.compute.signature import Signature
+
+HEAD, ENTRY = 8, 8
+"""Words of the head of a plan, and of its entry for each field, output and table."""
+_INDEX, _OFFSET = np.dtype(np.uint32), np.dtype(np.uint64)
+_MANY = 2**62
+ANY, ROW, TOTAL, PAIR, OUT, TABLE = range(6)
+"""What an array has entries for; ANY where only the lengths of others decide."""
+READ_AT_NEIGHBORS = 8
+
+TEXT = f'''
+DATA, NDIM, SHAPE, STRIDES, DTYPE = (np.uint64(k) for k in (16, 24, 32, 40, 56))
+
+
+@njit
+def word(address):
+    return at_uint64(address)[ZERO]
+
+
+@njit
+def length(one):
+    """Entries along the last axis."""
+    axes = np.uint64(at_uint32(one + NDIM)[ZERO])
+    return at_uint64(word(one + SHAPE))[axes - ONE]
+
+
+@njit
+def is_same_kind(one, entry):
+    axes = np.uint64(at_uint32(one + NDIM)[ZERO])
+    if word(one + DTYPE) != entry[0] or axes != entry[1]:
+        return False
+    shape, strides = at_uint64(word(one + SHAPE)), at_uint64(word(one + STRIDES))
+    for k in range(axes - ONE):
+        if shape[k] != entry[ONE + ONE + k]:
+            return False
+    return strides[axes - ONE] == entry[4] or shape[axes - ONE] <= ONE
+
+
+@njit
+def put(one, entry, frame):
+    """Write the addresses of an array's components, and the length of a table."""
+    axes, place = np.uint64(at_uint32(one + NDIM)[ZERO]), entry[7]
+    data, strides = word(one + DATA), at_uint64(word(one + STRIDES))
+    if axes == ONE:
+        frame[place] = data
+        if entry[5] == np.uint64({TABLE}):
+            frame[place + ONE] = length(one)
+    elif axes == ONE + ONE:
+        for k in range(entry[2]):
+            frame[place + k] = data + k * strides[0]
+    else:
+        for a in range(entry[2]):
+            for b in range(entry[3]):
+                frame[place + a * entry[3] + b] = data + a * strides[0] + b * strides[1]
+
+
+def loop(plan_address, ones_address, frame_address):
+    """Bind and run; the first word of `ones` tells whether that was possible."""
+    plan, ones, frame = at_uint64(plan_address), at_uint64(ones_address), at_uint64(frame_address)
+    ones[0] = ZERO
+    count, block, threads, capacity, is_values = plan[0], plan[1], plan[2], plan[3], plan[4]
+    active, row_start, neighbor, support = ones[1], ones[2], ones[3], ones[4]
+    fields, entries = ones_address + np.uint64(40), plan_address + np.uint64({8 * HEAD})
+    there, total, pairs, known = ZERO, ZERO, ZERO, False
+    place = np.uint64({HEAD_WORDS}) + (ONE if active else ZERO)
+    if row_start:
+        if word(row_start + DTYPE) != plan[5] or word(neighbor + DTYPE) != plan[6]:
+            return
+        there = length(row_start) - ONE
+        pairs = at_uint64(word(row_start + DATA))[there]
+        total = length(support) if support else there
+        if pairs > length(neighbor) or total < there:
+            return
+        frame[place], frame[place + ONE] = word(row_start + DATA), word(neighbor + DATA)
+        known = True
+    for k in range(count):
+        one = word(fields + k * np.uint64(8))
+        entry = at_uint64(entries + k * np.uint64({8 * ENTRY}))
+        if not is_same_kind(one, entry):
+            return
+        if not known and entry[5] == np.uint64({OUT}):
+            there, known = length(one), True
+    if not known:
+        for k in range(count):
+            one = word(fields + k * np.uint64(8))
+            entry = at_uint64(entries + k * np.uint64({8 * ENTRY}))
+            if entry[5] != np.uint64({TABLE}):
+                if known and length(one) != there:
+                    return
+                there, known = length(one), True
+    for k in range(count):
+        one = word(fields + k * np.uint64(8))
+        entry = at_uint64(entries + k * np.uint64({8 * ENTRY}))
+        role = entry[5] & np.uint64(7)
+        least = ZERO
+        if role == np.uint64({ROW}) or (role == np.uint64({OUT}) and not is_values):
+            least = there
+        elif role == np.uint64({TOTAL}):
+            least = total
+        elif role == np.uint64({PAIR}) or role == np.uint64({OUT}):
+            least = pairs
+        if length(one) < least:
+            return
+        if role == np.uint64({OUT}):
+            for other in range(count):
+                far = at_uint64(entries + other * np.uint64({8 * ENTRY}))
+                if far[5] >= np.uint64({READ_AT_NEIGHBORS}):
+                    if word(fields + other * np.uint64(8)) == one:
+                        return
+    rows = there
+    if active:
+        rows = length(active)
+        if word(active + DTYPE) != plan[6]:
+            return
+        numbers = at_uint32(word(active + DATA))
+        largest = np.uint32(0)
+        for k in range(rows):
+            largest = max(largest, numbers[k])
+        if rows and np.uint64(largest) >= there:
+            return
+        frame[{HEAD_WORDS}] = word(active + DATA)
+    blocks = (rows + block - ONE) // block
+    if blocks > capacity:
+        return
+    visits = pairs * rows // max(there, ONE) if row_start else rows
+    frame[1], frame[3] = blocks, rows
+    frame[2] = ONE if visits < np.uint64({SHARED}) else threads
+    for k in range(count):
+        entry = at_uint64(entries + k * np.uint64({8 * ENTRY}))
+        if entry[6]:
+            put(word(fields + k * np.uint64(8)), entry, frame)
+    ones[0] = ONE
+    run(frame_address)
+'''
+
+
+def rebinding_text(precision: str) -> str:
+    """Text of the module that binds and runs a launch."""
+    return (NATIVE + RUN).format(precision=precision) + TEXT
+
+
+class Rebound:
+    """A launch that takes other arrays at each call.
+
+    Args:
+        bound: a call of the same kinds. signature: of all such calls.
+    """
+
+    def __init__(self, bound: Bound, signature: Signature, threads: int, is_values: bool) -> None:
+        compiled = bound.compiled
+        self.launch = Launch(bound, threads, holds=False)
+        self.watched = compiled.watched
+        roles = {place: (ROW, TOTAL, PAIR)[need] for place, need, _ in signature.needs}
+        at_neighbors = {place for place, _ in signature.neighbors}
+        place, places = HEAD_WORDS + len(bound.lists), {}
+        for symbol, one in zip(compiled.arrays, bound.fields, strict=True):
+            places[symbol] = place
+            place += prod(one.shape[:-1])
+        by_symbol = dict(zip(compiled.arrays, bound.fields, strict=True))
+        words: list[int] = []
+        for k, symbol in enumerate(signature.symbols):
+            role = roles.get(k, ANY) + READ_AT_NEIGHBORS * (k in at_neighbors)
+            words += _entry(by_symbol[symbol], role, places[symbol])
+        for one in bound.outs:
+            if one is not None:
+                words += _entry(one, OUT, place)
+                place += prod(one.shape[:-1])
+        by_name = dict(zip(compiled.tables, bound.tables, strict=True))
+        for name in signature.tables:
+            words += _entry(by_name[name], TABLE, place)
+            place += 2
+        capacity = -(-bound.rows // compiled.block) if compiled.reductions else _MANY
+        head = [len(words) // ENTRY, compiled.block, threads, capacity, is_values]
+        self._plan = array("Q", [*head, id(_OFFSET), id(_INDEX), 0, *words])
+        self._call = rebinding_function(compiled.real.name)
+        self._places = self._plan.buffer_info()[0], self.launch.address
+
+    def run(self, ones: array, numbers: dict[str, Any]) -> bool:
+        """Run with the arrays at some addresses, 0 first; False where they are of other kinds."""
+        self.launch.set(numbers)
+        plan, frame = self._places
+        self._call(plan, ones.buffer_info()[0], frame)
+        return bool(ones[0])
+
+
+def _entry(one: Any, role: int, place: int) -> list[int]:
+    """Words of a plan for one array."""
+    lead = (*one.shape[:-1], 0, 0)[:2]
+    return [id(one.dtype), one.ndim, *lead, one.itemsize, role, prod(one.shape[:-1]), place]
+
+
+@cache
+def rebinding_function(precision: str) -> Callable[[int, int, int], None]:
+    """What binds and runs: of the addresses of a plan, of arrays' addresses and of a frame."""
+    address = folder.entry(rebinding_text(precision), is_fast=False)
+    return ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 3)(address)
