@@ -18,7 +18,7 @@ from lasersph import compute
 from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
-from lasersph.solvers.melt_pool.published_pressure import PublishedPressure
+from lasersph.solvers.melt_pool.published.pressure_equation import PublishedPressure
 from lasersph.sph.kernels import kernel
 from lasersph.sph.laplacian import weight
 

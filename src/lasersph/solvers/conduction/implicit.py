@@ -4,26 +4,26 @@
 
 s is the time step, q the loss of the surface, E the absorbed light at the new surface temperature.
 The paper eliminates T through h and freezes the fractions (66); its equation multiplied by V_i is
-this one. One iteration is
+this one. A step is
 
-    1  Newton: (C + s G) dP = r on the particles off the plateaus, C = m dh/dP + s dq/dP, by
-       conjugate gradients, as exactly as the last iteration has made it worth
-    2  these take the enthalpy that dP leads to; one that reaches a plateau stores the rest as
-       latent heat
-    3  those on a plateau are balanced with their neighbors held (65), which lets them leave it
-    4  residual r; the Newton step is halved until the sum of |r| falls
+    predict    P extrapolated in time, which stays smooth where a particle begins to melt and its
+               enthalpy does not
+    assemble   C = m dh/dP + s dq/dP of the particles off the plateaus
+    solve      Newton: (C + s G) dP = r on these, by conjugate gradients, as exactly as the last
+               iteration has made it worth
+    correct    these take the enthalpy that dP leads to; one that reaches a plateau stores the rest
+               as latent heat; those on a plateau are balanced with their neighbors held (65), which
+               lets them leave it; dP is halved until the sum of |r| falls
 
-and ends at sum |r| <= tolerance times the absorbed energy. Whatever is left of r is added to the
-enthalpies, so that energy balances to rounding. The first guess extrapolates the potential, which
-stays smooth in time where a particle begins to melt and its enthalpy does not.
+the last three again until sum |r| <= tolerance times the absorbed energy. Whatever is left of r is
+added to the enthalpies, so that energy balances to rounding.
 """
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.vectors import interpolate, interpolation_slope
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
 from lasersph.physics.phase_change import balanced_enthalpy, followed, potential_slope
@@ -45,6 +45,8 @@ MAX_NEWTON = 60
 ROUNDING = 4.0
 """Smallest residual asked for, in units of the rounding of its terms."""
 MAX_LINEAR = 400
+HISTORY = ("enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before")
+"""Fields from which a step is predicted."""
 
 
 def initial_guess(h, excess, h_old, h_older, ratio, near, far, h_nodes, P_nodes):
@@ -125,8 +127,11 @@ class ImplicitStep:
             backend.zeros(count) for _ in range(9)
         )
         self.curve = {key: body.tables[key] for key in ("h_nodes", "P_nodes")}
+        self.T_curve = {key: body.tables[key] for key in ("h_nodes", "T_nodes")}
+        self.nodes = {"nodes": body.tables["h_nodes"], "values": body.tables["T_nodes"]}
+        self.history = body.particles.by_symbol(*HISTORY)
+        self.mass, self.h_0 = body.particles["mass"], body.particles["enthalpy"]
         self.rounding = ROUNDING * float(np.finfo(backend.real).eps)
-        self.mass = body.particles["mass"]
         self.size = 0.0
         self.newton = self.linear = 0
         self.forcing = FIRST_FORCING
@@ -140,11 +145,9 @@ class ImplicitStep:
         Raises:
             NotConverged: the residual does not fall to the tolerance.
         """
-        backend = self.body.backend
-        self.newton = self.linear = 0
-        self.forcing = FIRST_FORCING
-        self._set_initial_guess(state, step)
-        error, energy = self._residual(step)
+        self.newton, self.linear, self.forcing = 0, 0, FIRST_FORCING
+        self.predict(state, step)
+        error, energy = self.find_residual(step)
         allowed = self.tolerance * max(exchanged, energy["absorbed"] + abs(energy["lost"]), error)
         allowed = max(allowed, self.rounding * self.size)
         while error > allowed:
@@ -153,100 +156,97 @@ class ImplicitStep:
                     f"the heat balance is off by {error:.2e} J after {self.newton} iterations, "
                     f"allowed are {allowed:.2e} J"
                 )
-            wanted = max(self.forcing * error, 0.3 * allowed)
-            found, energy = self._improve(step, error, wanted)
+            plateau = self.assemble(step)
+            self.solve(step, max(self.forcing * error, 0.3 * allowed))
+            found, energy = self.correct(step, error, plateau)
             self.forcing = min(max(found / error, FORCING[0]), FORCING[1])
-            error = found
-            self.newton += 1
-        names = ("enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before")
-        h_0, excess, h_old, h_older = (self.body.particles[name] for name in names)
-        fields = {"h": self.h, "r": self.r, "m": self.mass, "h0": h_0}
-        fields |= {"excess": excess, "previous": h_old}
-        out = (h_0, excess, h_old, h_older, None)
-        (stored,) = backend.pointwise(close_balance, fields, out, reduce=(None,) * 4 + ("sum",))
-        return energy | {"stored": stored}
+            self.newton, error = self.newton + 1, found
+        return energy | {"stored": self.accept()}
 
-    def _set_initial_guess(self, state: HeatState, step: float) -> None:
-        """Set the first guess of enthalpy and potential."""
+    def predict(self, state: HeatState, step: float) -> None:
+        """Set the first guess of enthalpy and potential, from those of the last steps."""
         last, before = state.time_step, state.time_step_before
         ratio = near = step / last if last > 0.0 else 0.0
         far = 0.0
         if 0.0 < step <= SMOOTH_RATIO * last and last <= SMOOTH_RATIO * before:
             bend = step * (step + last) / (last + before)
             near, far = ratio + bend / last, -bend / before
-        fields = self.body.particles.by_symbol(
-            "enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before"
-        )
-        self.body.backend.pointwise(
-            initial_guess,
-            fields,
-            (self.h, self.P, self.slope),
-            ratio=ratio,
-            near=near,
-            far=far,
-            **self.curve,
+        weights = {"ratio": ratio, "near": near, "far": far}
+        out = (self.h, self.P, self.slope)
+        self.body.backend.pointwise(initial_guess, self.history, out, **weights, **self.curve)
+
+    def assemble(self, step: float) -> Rows | None:
+        """Diagonal C and mask of Newton's matrix; returns the particles on plateaus, if any."""
+        backend = self.body.backend
+        fields = {"h": self.h, "slope": self.slope, "m": self.mass, "dq": self.exchange.slope}
+        out, reduce = (self.C, self.mask), (None, "min")
+        (freest,) = backend.pointwise(linearize, fields, out, reduce=reduce, s=step, **self.T_curve)
+        return backend.rows_where(self.mask, 0.0) if freest == 0.0 else None
+
+    def solve(self, step: float, wanted: float) -> None:
+        """Newton's change of the potential, (C + s G) dP = r, to the residual wanted [J]."""
+        arguments, limits = (self.r, self.C, self.mask, step), {"max_iterations": MAX_LINEAR}
+        self.linear += self.solver.solve(
+            *arguments, residual=wanted, renews=self.newton <= 1, **limits
         )
 
-    def _improve(
-        self, step: float, error: float, linear_residual: float
+    def correct(
+        self, step: float, error: float, plateau: Rows | None
     ) -> tuple[float, dict[str, float]]:
-        """One Newton step, halved until the residual falls; then whatever the last one gives."""
-        body, backend = self.body, self.body.backend
-        fields = {"h": self.h, "slope": self.slope, "m": self.mass, "dq": self.exchange.slope}
-        (freest,) = backend.pointwise(
-            linearize, fields, (self.C, self.mask), reduce=(None, "min"), s=step,
-            h_nodes=body.tables["h_nodes"], T_nodes=body.tables["T_nodes"],
-        )  # fmt: skip
-        plateau = backend.rows_where(self.mask, 0.0) if freest == 0.0 else None
-        self.linear += self.solver.solve(
-            self.r, self.C, self.mask, step, residual=linear_residual, max_iterations=MAX_LINEAR,
-            renews=self.newton <= 1,
-        )  # fmt: skip
+        """Apply the change, halved until the residual falls; then whatever the last one gives."""
+        backend, damping = self.body.backend, 1.0
         backend.copy(self.h, self.start)
-        damping = 1.0
+        fields, out = {"h": self.start, "dP": self.solver.solution}, (self.h, self.P, self.slope)
         for _ in range(HALVINGS):
-            fields = {"h": self.start, "dP": self.solver.solution}
-            out = (self.h, self.P, self.slope)
             backend.pointwise(move, fields, out, damping=damping, **self.curve)
             if plateau is not None:
                 self._balance(step, plateau)
-            found, energy = self._residual(step)
+            found, energy = self.find_residual(step)
             if found < error:
-                return found, energy
+                break
             damping *= 0.5
         return found, energy
 
-    def _fields(self) -> dict[str, Any]:
-        body = self.body
-        fields = {"h": self.h, "h0": body.particles["enthalpy"], "P": self.P, "m": self.mass}
-        fields |= {"E": body.irradiation.deposit, "q": self.exchange.power, "B": body.wall_flow}
-        fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
-        return fields
+    def accept(self) -> float:
+        """Take the enthalpies with what is left of r; returns the energy stored [J]."""
+        h_0, excess, h_old, h_older = self.history.values()
+        fields = {"h": self.h, "r": self.r, "m": self.mass, "h0": h_0}
+        fields |= {"excess": excess, "previous": h_old}
+        out, reduce = (h_0, excess, h_old, h_older, None), (None,) * 4 + ("sum",)
+        (stored,) = self.body.backend.pointwise(close_balance, fields, out, reduce=reduce)
+        return stored
 
-    def _balance(self, step: float, rows: Any) -> None:
-        """Balance the particles `rows` with their neighbors held."""
-        backend = self.body.backend
-        backend.pair_sum(
-            flow, self.body.pairs.neighbors, self._fields(), (self.h, self.spare, self.slope),
-            rows=rows, finish=balance, s=step, **self.curve,
-        )  # fmt: skip
-        backend.pointwise(same, {"new": self.spare}, self.P, rows=rows)
-
-    def _residual(self, step: float) -> tuple[float, dict[str, float]]:
+    def find_residual(self, step: float) -> tuple[float, dict[str, float]]:
         """Residual into `r`; returns the sum of |r| and the energies of the step [J]."""
         body, backend = self.body, self.body.backend
+        # light and losses follow the temperature of the surface
         if body.irradiation.incident > 0.0 or not self.exchange.is_idle:
-            backend.pointwise(
-                interpolate, {"x": self.h}, self.T, rows=self.exchange.rows,
-                nodes=body.tables["h_nodes"], values=body.tables["T_nodes"],
-            )  # fmt: skip
+            rows = self.exchange.rows
+            backend.pointwise(interpolate, {"x": self.h}, self.T, rows=rows, **self.nodes)
         absorbed = body.irradiation.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
         error, walls, self.size = backend.pair_sum(
-            flow, body.pairs.neighbors, self._fields(), (self.r, None, None, None),
-            finish=residual, reduce=(None, "sum", "sum", "sum"), s=step,
-        )  # fmt: skip
-        return error, {
-            "absorbed": absorbed, "lost": lost * step, "removed": removed * step,
-            "walls": walls * step,
-        }  # fmt: skip
+            flow,
+            body.pairs.neighbors,
+            self._fields(),
+            (self.r, None, None, None),
+            finish=residual,
+            reduce=(None, "sum", "sum", "sum"),
+            s=step,
+        )
+        surface = {"absorbed": absorbed, "lost": lost * step, "removed": removed * step}
+        return error, surface | {"walls": walls * step}
+
+    def _balance(self, step: float, rows: Rows) -> None:
+        """Balance the particles `rows` with their neighbors held."""
+        backend, out = self.body.backend, (self.h, self.spare, self.slope)
+        pairs, fields = self.body.pairs.neighbors, self._fields()
+        backend.pair_sum(flow, pairs, fields, out, rows=rows, finish=balance, s=step, **self.curve)
+        backend.pointwise(same, {"new": self.spare}, self.P, rows=rows)
+
+    def _fields(self) -> dict[str, Array]:
+        body = self.body
+        fields = {"h": self.h, "h0": self.h_0, "P": self.P, "m": self.mass}
+        fields |= {"E": body.irradiation.deposit, "q": self.exchange.power, "B": body.wall_flow}
+        fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
+        return fields

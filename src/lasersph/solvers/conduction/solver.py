@@ -13,7 +13,7 @@ from lasersph.lasers import Laser
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.conduction.explicit import ExplicitStep
 from lasersph.solvers.conduction.implicit import ImplicitStep
-from lasersph.solvers.conduction.published import PublishedStep
+from lasersph.solvers.conduction.published.steepest_descent import PublishedStep
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange

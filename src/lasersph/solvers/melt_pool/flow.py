@@ -27,7 +27,7 @@ from lasersph.physics.buoyancy import buoyancy
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
-from lasersph.solvers.melt_pool.published_pressure import PublishedPressure
+from lasersph.solvers.melt_pool.published.pressure_equation import PublishedPressure
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.viscous_step import ViscousStep
 from lasersph.solvers.step_control import NotConverged

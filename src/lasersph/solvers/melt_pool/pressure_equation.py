@@ -19,7 +19,7 @@ pressure has mean 0. Other components are left alone. Too few particles for a co
 
 The preconditioner (`linear_solvers.grid_correction`) is made from the present particles in every
 step and has no memory, so that only the pressure itself, the first guess, survives a step. The
-published matrix is in `published_pressure`. Left out: one and three dimensions.
+published matrix is in `published.pressure_equation`. Left out: one and three dimensions.
 Reference: [Saad2003], Algorithm 9.1.
 """
 

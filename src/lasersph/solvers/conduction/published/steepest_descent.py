@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lasersph.compute.array_types import Rows
 from lasersph.compute.vectors import interpolate
 from lasersph.solvers.conduction.implicit import ImplicitStep
 
@@ -46,21 +47,28 @@ class PublishedStep(ImplicitStep):
 
     max_iterations = MAX_ITERATIONS
 
-    def _improve(self, step, error, linear_residual):
-        body, backend = self.body, self.body.backend
-        curve = body.curve
+    def assemble(self, step: float) -> None:
+        """There is no matrix: A is applied pair by pair, with the steepest dP/dh."""
+        curve = self.body.curve
         slope = float(np.max(np.diff(curve.potential) / np.diff(curve.enthalpy)))
-        fields = {
-            "r": self.r, "z": self.spare, "m": self.mass, "S": body.pairs.total,
-            "a": body.pairs.pull, "p": self.spare, "g_ij": body.pairs.weights, "h": self.h,
-        }  # fmt: skip
-        (rz,) = backend.pointwise(
-            descend, fields, (self.spare, None), reduce=(None, "sum"), s=step, slope=slope
-        )
-        (zAz,) = backend.pair_sum(
-            difference, body.pairs.neighbors, fields, (None,),
-            finish=curvature, reduce=("sum",), s=step, slope=slope,
-        )  # fmt: skip
-        backend.pointwise(take, fields, (self.h, self.P), alpha=rz / zAz, **self.curve)
+        self.constants = {"s": step, "slope": slope}
+
+    def solve(self, step: float, wanted: float) -> None:
+        """Direction z and length alpha of one preconditioned step of steepest descent."""
+        body, backend = self.body, self.body.backend
+        fields = {"r": self.r, "z": self.spare, "m": self.mass, "p": self.spare}
+        fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
+        out, reduce = (self.spare, None), (None, "sum")
+        (rz,) = backend.pointwise(descend, fields, out, reduce=reduce, **self.constants)
+        pairs, finish = body.pairs.neighbors, {"finish": curvature, "reduce": ("sum",)}
+        (zAz,) = backend.pair_sum(difference, pairs, fields, (None,), **finish, **self.constants)
+        self.alpha = rz / zAz
         self.linear += 1
-        return self._residual(step)
+
+    def correct(
+        self, step: float, error: float, plateau: Rows | None
+    ) -> tuple[float, dict[str, float]]:
+        """Enthalpies h + alpha z, and their residual."""
+        fields, out = {"h": self.h, "z": self.spare}, (self.h, self.P)
+        self.body.backend.pointwise(take, fields, out, alpha=self.alpha, **self.curve)
+        return self.find_residual(step)

@@ -9,7 +9,7 @@ from lasersph.particles.kinds import DUMMY, EDGE, FLUID, INTERIOR
 from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
-from lasersph.solvers.melt_pool.published_pressure import (
+from lasersph.solvers.melt_pool.published.pressure_equation import (
     REINFORCEMENT,
     PublishedPressure,
 )

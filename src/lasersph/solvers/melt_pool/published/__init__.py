@@ -1,0 +1,1 @@
+"""The paper's own variant of the pressure equation, for comparison."""
