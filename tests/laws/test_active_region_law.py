@@ -35,7 +35,7 @@ def test_inactive_matter_changes_nothing(settings):
     """Temperatures agree within 1e-8 of the rise, and the same particles have left."""
     partial, whole = computed(*settings), computed(*settings, "solver.sleep=false")
     assert whole.region is None and partial.region.active_count < 0.95 * partial.particles.capacity
-    assert partial.state.ejecta.count == whole.state.ejecta.count > 0
+    assert partial.state.ejecta.number == whole.state.ejecta.number > 0
     T, expected = (s.backend.to_host(s.particles["temperature"]) for s in (partial, whole))
     kind, other = (s.backend.to_host(s.particles["kind"]) for s in (partial, whole))
     np.testing.assert_array_equal(kind, other)

@@ -115,7 +115,7 @@ def test_crater_does_not_know_the_lattice(along_the_lattice, angle):
 def boiled(solver):
     """Particles that have left, and the shares of their heat that others have taken up."""
     share = solver.backend.to_host(solver.particles["vapor_fraction"])[: solver.body.count]
-    return solver.state.ejecta.count + share[host(solver, "kind") < EJECTED].sum()
+    return solver.state.ejecta.number + share[host(solver, "kind") < EJECTED].sum()
 
 
 def test_half_a_spot_is_enough():

@@ -25,9 +25,9 @@ COLUMN = (*HEATED_BLOCK, "solver.dimensions=1", "domain.depth=4 um", "particles.
           "laser.fluence=40 J/cm^2")  # fmt: skip
 SHALLOW = ("particles.spacing=312.5nm", "particles.fine_depth=0.7um", "domain.depth=1.5um")
 DEEP = ("domain.depth=16 um",)
-LONGEST, NODES, TILES = 8, 25, 10
+LONGEST, NODES, CELLS = 8, 25, 10
 """Longest array that a step copies to the host: otherwise; of the nodes of a preconditioner's
-coarsest grid in a box of 8 x 8; of the tiles of matter that wakes."""
+coarsest grid in a box of 8 x 8; of the cells of an active region."""
 RELATIVE = {"float64": 1e-10, "float32": 1e-4}
 """Largest difference over the largest value of a field."""
 
@@ -76,16 +76,16 @@ def ablation(backend):
     """A column of aluminium that boils away."""
     case, solver = moving("sound-wave", *COLUMN, backend=backend)
     moving_steps(solver, steps=40)
-    assert solver.state.ejecta.count > 0
+    assert solver.state.ejecta.number > 0
     return case, solver, ("position", "velocity", "density", "enthalpy", "kind")
 
 
-def sleeping(backend):
-    """A column of aluminium of which most sleeps, and more wakes as heat comes down."""
+def active_region(backend):
+    """A column of aluminium of which most is inactive, and less so as heat comes down."""
     case, solver = moving("sound-wave", *COLUMN, *DEEP, backend=backend)
-    awake = solver.region.active_count
+    before = solver.region.active_count
     moving_steps(solver, steps=10)
-    assert awake < solver.region.active_count < solver.body.count
+    assert before < solver.region.active_count < solver.body.count
     return case, solver, ("position", "velocity", "density", "enthalpy", "kind", "active")
 
 
@@ -132,7 +132,7 @@ class Copies:
 
 
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-@pytest.mark.parametrize("make", [heat, flow, melt_pool, ablation, sleeping])
+@pytest.mark.parametrize("make", [heat, flow, melt_pool, ablation, active_region])
 def test_steps(make, precision, monkeypatch):
     """Steps end in the CPU's fields, and are seen as its, but for the order of the card's sums.
 
@@ -144,7 +144,7 @@ def test_steps(make, precision, monkeypatch):
     found, rows, copies = [], [], Copies(monkeypatch)
     for backend in (compute.cpu(1, precision), compute.cuda(precision)):
         case, solver, names = make(backend)
-        longest = {flow: NODES, melt_pool: NODES, sleeping: TILES}.get(make, LONGEST)
+        longest = {flow: NODES, melt_pool: NODES, active_region: CELLS}.get(make, LONGEST)
         assert max(copies.sizes, default=0) <= longest < solver.body.count or make is ablation
         copies.sizes.clear()
         arrays = getattr(solver, "particles", solver.fields)

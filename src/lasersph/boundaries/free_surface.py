@@ -6,9 +6,9 @@ no particle has moved or left, nothing is computed again.
 
 from __future__ import annotations
 
-from typing import Any
-
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
+from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.sph.divergence import SURFACE_THRESHOLD
 from lasersph.sph.free_surface import SMALLEST_NORMAL, surface_state, surface_terms
 
@@ -43,20 +43,14 @@ class FreeSurface:
             "face": spacing ** (dimension - 1),
         }
 
-    @property
-    def fields(self) -> dict[str, Any]:
-        """Arrays by name, for a checkpoint."""
-        return {
-            "divergence": self.divergence, "exposed": self.exposed, "normal": self.normal,
-            "area": self.area,
-        }  # fmt: skip
-
-    def find(self, pairs: Any, volume: Any, opaque: Any, rows: Any = None) -> None:
+    def find(
+        self, pairs: NeighborList, volume: Array, opaque: Array, rows: Rows | None = None
+    ) -> None:
         """Set divergence, surface, normals and areas of `rows`.
 
         Args:
-            pairs: NeighborList. volume: (N,) [m^dim]. opaque: (N,) 1 for what is condensed or a
-                wall, 0 for what has left.
+            volume: (N,) [m^dim]. opaque: (N,) 1 for what is condensed or a wall, 0 for what has
+                left.
         """
         fields = {"V": volume, "o": opaque}
         out = (self.divergence, self.exposed, self.normal, self.area)

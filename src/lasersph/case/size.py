@@ -12,7 +12,7 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lasersph.case.sleeping import awake_share
+from lasersph.case.active_region import active_share
 from lasersph.compute.cuda_device import free_memory
 from lasersph.particles import Domain, Lattice
 from lasersph.solvers.ablation.settings import AblationSettings
@@ -48,10 +48,10 @@ class Size:
 
 
 def size_of(case: Case) -> Size:
-    """Estimated size of a case; where cold matter sleeps, only the rest has neighbors."""
+    """Estimated size of a case; in a case with an active region, only that has neighbors."""
     each = bytes_per_neighbor(case)
     if isinstance(case.solver, AblationSettings):
-        each *= awake_share(case, reach(case.particles) * case.particles.spacing)
+        each *= active_share(case, reach(case.particles) * case.particles.spacing)
     return estimate(case.domain, case.particles, case.solver.dimensions, bytes_per_neighbor=each)
 
 

@@ -76,18 +76,18 @@ def evaporating_temperature(
     By bisection; T_b where that much evaporates below the boiling point, `HOTTEST` at most.
     """
 
-    def carried(T: float) -> float:
+    def carried_flux(T: float) -> float:
         pressure = saturation_pressure(T, p_b, T_b, L_v, R_s)
         return mass_flux(T, pressure, R_s) * (c_p * (T - T_0) + L_m + L_v)
 
     low, high = T_b, HOTTEST
-    if carried(low) >= flux:
+    if carried_flux(low) >= flux:
         return low
-    if carried(high) <= flux:
+    if carried_flux(high) <= flux:
         return high
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried(middle) < flux else (low, middle)
+        low, high = (middle, high) if carried_flux(middle) < flux else (low, middle)
     return 0.5 * (low + high)
 
 

@@ -4,7 +4,7 @@
     mu_ij = h v_ij . x_ij / (r_ij^2 + 0.01 h^2),    rho_ij = (rho_i + rho_j) / 2
 
 [Alshaer2017, eqs. (23)-(25)] with the smoothing length h, half the support of a cubic spline; the
-paper prints the condition reversed, with which it would pull parting particles together. alpha = 5
+paper prints the condition reversed, with which it would draw parting particles together. alpha = 5
 holds a solid stiff, alpha = 0.1 lets a liquid flow; between them a pair takes the mean of its
 particles, each weighed by its melt fraction.
 """

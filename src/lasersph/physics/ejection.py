@@ -28,9 +28,9 @@ from lasersph.physics.evaporation import (
     saturation_pressure,
 )
 
-BELOW_REACH = 1.5
+NEXT_LAYER = 1.5
 """Distance over the spacing within which particles count as covered: the next layer only."""
-BELOW_ALIGNMENT = 0.85
+ALIGNMENT = 0.85
 """Cosine between the path and the direction to a covered particle; diagonals have 0.71."""
 
 
@@ -46,17 +46,17 @@ def vapor_speed(T, R_s, is_effusion):
     return mean_normal_velocity(T, R_s)
 
 
-def covers_neighbor(x_ij, r_ij, v_i, lift_i, kind_j, exposed_j, reach, alignment):
+def covers_neighbor(x_ij, r_ij, v_i, lift_i, kind_j, exposed_j, distance, alignment):
     """1 for a neighbor that a leaving particle still covers, else 0.
 
     That is an interior particle behind it in the direction of its path, in the layer next to its
     former place, which is not exposed.
 
     Args:
-        x_ij: x_i - x_j [m]. v: velocity [m/s]. lift: distance moved [m]. reach: [m].
+        x_ij: x_i - x_j [m]. v: velocity [m/s]. lift, distance: moved, and to the next layer [m].
     """
     behind = dot(x_ij, v_i) / max(norm(v_i), 1e-30)
-    is_near = behind > alignment * r_ij and behind - lift_i < reach
+    is_near = behind > alignment * r_ij and behind - lift_i < distance
     if is_near and kind_j == INTERIOR and exposed_j == 0.0:
         return 1.0
     return 0.0
@@ -70,7 +70,7 @@ def advance_lift(lift, kind, v, step):
 def published_departure(
     kind, lift, covered, exposed, T, normal, v, T_v, R_s, is_effusion, distance
 ):
-    """Stage and velocity [m/s] after a step, by the published rule.
+    """Kind and velocity [m/s] after a step, by the published rule.
 
     An exposed particle above T_v starts to leave along the normal; the speed of a leaving one
     follows its temperature until it has left, and stays from then on.
@@ -90,7 +90,7 @@ def published_departure(
 
 
 def enthalpy_departure(kind, h, m, light, exposed, T, normal, v, h_v, R_s, is_effusion, up):
-    """Stage, velocity [m/s], enthalpy [J/kg] and excess [J] after a step, by the enthalpy rule.
+    """Kind, velocity [m/s], enthalpy [J/kg] and excess [J] after a step, by the enthalpy rule.
 
     A particle that lies at the surface, or in the light, leaves when its enthalpy has reached h_v.
     What a step has brought beyond that, m (h - h_v), is the excess: it belongs to what lies below.

@@ -3,8 +3,8 @@
     dv_i/dt = - sum_j m_j ((P_i + P_j) / (rho_i rho_j) + Pi_ij) grad W_ij + g
             = - sum_j V_j ((P_i + P_j) / rho_i + rho_j Pi_ij) grad W_ij + g,    V_j = m_j / rho_j
 
-[Alshaer2017, eqs. (21), (22)], written in volumes since divisions cost much of a sum. Each pair
-pushes with equal and opposite forces along the line between its particles, so that momentum and
+[Alshaer2017, eqs. (21), (22)], written in volumes since divisions cost much of a sum. The forces
+of a pair are equal and opposite along the line between its particles, so that momentum and
 angular momentum are conserved. Pi_ij is that of `artificial_viscosity`.
 """
 

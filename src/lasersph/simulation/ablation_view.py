@@ -1,6 +1,6 @@
 """What observers see of matter that moves and ablates: arrays where they lie, not copied.
 
-After the first view particles that follow the last one awake are left out: cold, at rest and the
+After the first view particles that follow the last active one are left out: cold, at rest and the
 deepest, since particles are numbered from the surface down.
 """
 
@@ -56,7 +56,7 @@ def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> Vie
 
 
 def _shown(solver: Ablation) -> int:
-    """How many particles there are up to the last one that is awake."""
+    """How many particles there are up to the last active one."""
     count = solver.body.count
     if solver.rows is None:
         return count
@@ -80,7 +80,7 @@ def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
     particles, backend, state = solver.particles, solver.backend, solver.state
     geometry = solver.body.geometry
     flying = np.zeros(0, np.int64)
-    if state.ejecta.count:
+    if state.ejecta.number:
         flying = backend.look(backend.rows_where(particles["kind"], EJECTED)).astype(np.int64)
     look = {"stage": particles["kind"], "normal": solver.surface.normal}
     names = ("velocity", "density", "pressure", "vapor_pressure")
@@ -100,7 +100,7 @@ def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
         ejecta_temperature=backend.look(particles["temperature"])[flying],
         ejecta_mass=backend.look(particles["mass"])[flying],
         ejecta_time=backend.look(particles["leaving_time"])[flying],
-        ejected_count=state.ejecta.count,
+        ejected_count=state.ejecta.number,
         ejected_mass=state.ejecta.mass,
         ejected_energy=state.ejecta.energy,
         ejected_kinetic=state.ejecta.kinetic,

@@ -8,7 +8,7 @@ from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.boundaries.initial_motion import Rest
 from lasersph.boundaries.vessel import Vessel
 from lasersph.case import Case
-from lasersph.case.sleeping import sleeps
+from lasersph.case.active_region import has_active_region
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.first_hit import FirstHitLight
 from lasersph.lasers import Laser
@@ -197,7 +197,7 @@ def _region(
     case: Case, backend: Backend, particles: ParticleState, settings: AblationSettings
 ) -> ActiveRegion | None:
     """What is computed: where light falls on matter at rest only what heat reaches."""
-    if not sleeps(case):
+    if not has_active_region(case):
         return None
     geometry = particles.geometry
     support = float(backend.look(particles.now["support"])[0]) + settings.skin * geometry.spacing

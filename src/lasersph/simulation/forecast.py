@@ -8,8 +8,8 @@ from math import pi, sqrt
 import numpy as np
 
 from lasersph.case import Case
+from lasersph.case.active_region import active_share
 from lasersph.case.size import BYTES_PER_PARTICLE, bytes_per_neighbor
-from lasersph.case.sleeping import awake_share
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
 from lasersph.simulation.ablation_forecast import ablation_steps, ablation_warnings
@@ -37,7 +37,7 @@ class Forecast:
     """Numbers of `lasersph check`.
 
     Attributes:
-        particles, layers: counts. pairs: estimate, of what is awake. memory: peak [bytes].
+        particles, layers: counts. pairs: estimate, of what is active. memory: peak [bytes].
         spacing: finest, as used [m]. fine_depth: of the finest layers [m].
         limits: time-step limits [s] while the light is on. binding: name of the smallest.
         steps: estimate. wall_time: rough estimate [s] on `threads` threads.
@@ -64,8 +64,8 @@ class Forecast:
 def forecast(case: Case, *, threads: int = 1) -> Forecast:
     """Forecast of a case, without allocating its particles."""
     layers = lay_out(case)
-    awake = awake_share(case, support_ratio(case) * layers.spacing)
-    pairs = awake * layers.particle_count * _neighbors(case)
+    active = active_share(case, support_ratio(case) * layers.spacing)
+    pairs = active * layers.particle_count * _neighbors(case)
     is_moving = isinstance(case.solver, AblationSettings)
     memory = layers.particle_count * BYTES_PER_PARTICLE + pairs * bytes_per_neighbor(case)
     flow = None

@@ -1,4 +1,4 @@
-"""`ActiveRegion`: only particles that heat or motion can reach are computed.
+"""`ActiveRegion`: only particles that heat or motion can get to are computed.
 
 The box is cut into cells at least as wide as the support. A cell is inactive until something
 disturbed comes within two cells; then it is active for good, and the cells next to it too.

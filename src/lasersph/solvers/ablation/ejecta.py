@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping
+from typing import NamedTuple
 
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.materials import Material
 from lasersph.physics.ejection import ejected_quantities
 from lasersph.physics.evaporation import STANDARD_ATMOSPHERE
 
 
-@dataclass(frozen=True)
-class Ejecta:
-    """Particles that left in a step: count, mass [kg], enthalpy and kinetic energy [J].
+class Ejecta(NamedTuple):
+    """Particles that left: how many, mass [kg], enthalpy and kinetic energy [J].
 
     Per area in 1-D, per length in 2-D. Enthalpy counts from the initial temperature.
     """
 
-    count: int = 0
+    number: int = 0
     mass: float = 0.0
     energy: float = 0.0
     kinetic: float = 0.0
@@ -34,13 +34,15 @@ class Vapor:
         self.backend = backend
         self.temperature = vaporization.temperature
         self.gas_constant = vaporization.specific_gas_constant
-        self.is_effusion = float(is_effusion)
+        self.speed = {"R_s": self.gas_constant, "is_effusion": float(is_effusion)}
         self._boiling = {
-            "p_b": STANDARD_ATMOSPHERE, "T_b": vaporization.temperature,
-            "L_v": vaporization.latent_heat, "R_s": self.gas_constant,
-        }  # fmt: skip
+            "p_b": STANDARD_ATMOSPHERE,
+            "T_b": vaporization.temperature,
+            "L_v": vaporization.latent_heat,
+            "R_s": self.gas_constant,
+        }
 
-    def account(self, fields: dict[str, Any], rows: Any, time: float) -> Ejecta:
+    def account(self, fields: Mapping[str, Array], rows: Rows | None, time: float) -> Ejecta:
         """Write `left_at` [s] and `p_v` [Pa] of what has just left; returns what it takes along.
 
         Args:
@@ -48,7 +50,7 @@ class Vapor:
         """
         out = (fields["left_at"], fields["p_v"], None, None, None, None)
         given = {"reduce": (None, None, *4 * ("sum",)), "time": time, **self._boiling}
-        count, mass, energy, kinetic = self.backend.pointwise(
+        number, mass, energy, kinetic = self.backend.pointwise(
             ejected_quantities, fields, out, rows=rows, **given
         )
-        return Ejecta(int(count), mass, energy, kinetic)
+        return Ejecta(int(number), mass, energy, kinetic)

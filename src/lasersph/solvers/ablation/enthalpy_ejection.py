@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
+from collections.abc import Mapping
 
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.first_hit import FirstHitLight
 from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.physics.ejection import ejection_step_limit, enthalpy_departure
 from lasersph.solvers.ablation.ejecta import Ejecta, Vapor
 
@@ -30,25 +31,29 @@ class EnthalpyEjection:
         backend: Backend,
         vapor: Vapor,
         curve: CaloricCurve,
-        columns: FirstHitLight,
+        light: FirstHitLight,
         count: int,
         spacing: float,
     ) -> None:
         if curve.enthalpy_vaporized is None:
             raise ValueError("the enthalpy rule needs a caloric curve with a vaporization plateau")
-        self.backend, self.vapor, self.light = backend, vapor, columns
+        self.backend, self.vapor, self.light = backend, vapor, light
         self.spacing = spacing
         self.enthalpy_vaporized = curve.enthalpy_vaporized
         self._excess = backend.zeros(count)
 
     def longest_step(self, flux: float, density: float) -> float:
         """Longest step [s] at a flux absorbed by the surface [W/m^2]."""
-        return ejection_step_limit(
-            LIGHT_SHARE, density, self.spacing, self.enthalpy_vaporized, flux
-        )
+        h_v = self.enthalpy_vaporized
+        return ejection_step_limit(LIGHT_SHARE, density, self.spacing, h_v, flux)
 
     def eject(
-        self, fields: dict[str, Any], pairs: Any, rows: Any, time: float, step: float
+        self,
+        fields: Mapping[str, Array],
+        pairs: NeighborList,
+        rows: Rows | None,
+        time: float,
+        step: float,
     ) -> Ejecta:
         """Set kind, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
 
@@ -56,14 +61,18 @@ class EnthalpyEjection:
             fields: by symbol; x, kind, v, h, T, m, E, exposed, normal, left_at, p_v.
         """
         kind, h = fields["kind"], fields["h"]
+        rule = {"h_v": self.enthalpy_vaporized, "up": self.light.up, **self.vapor.speed}
         (excess,) = self.backend.pointwise(
-            enthalpy_departure, fields | {"light": fields["E"]},
-            (kind, fields["v"], h, self._excess), rows=rows, reduce=(None, None, None, "sum"),
-            h_v=self.enthalpy_vaporized, R_s=self.vapor.gas_constant,
-            is_effusion=self.vapor.is_effusion, up=self.light.up,
-        )  # fmt: skip
-        departure = self.vapor.account(fields, rows, time)
+            enthalpy_departure,
+            {**fields, "light": fields["E"]},
+            (kind, fields["v"], h, self._excess),
+            rows=rows,
+            reduce=(None, None, None, "sum"),
+            **rule,
+        )
+        ejecta = self.vapor.account(fields, rows, time)
         if excess == 0.0:
-            return departure
+            return ejecta
+        # where nothing is uncovered the excess leaves with the ejecta, so that the balance closes
         given = self.light.pass_excess_down(self._excess, fields["x"], kind, h, fields["m"])
-        return replace(departure, energy=departure.energy + excess - given)
+        return ejecta._replace(energy=ejecta.energy + excess - given)

@@ -4,8 +4,8 @@ Mostly little can change, and only that is computed:
 
     NOTHING    moves: dh/dt alone, between pairs that are weighed once
     VAPOR      moves, what leaves the surface, at constant velocity, while no force acts on the
-               rest: dh/dt and its way, between pairs that are weighed anew. Of the published rule,
-               most steps under light are of this kind.
+               rest: dh/dt and its position, between pairs that are weighed anew. Of the published
+               rule, most steps under light are of this kind.
     ALL        may move: d rho/dt, dv/dt and dh/dt
 """
 

@@ -26,7 +26,8 @@ class AblationSettings(Model):
         default=0.1, description="alpha of what is molten"
     )
     tension: bool = Field(
-        default=False, description="whether condensed matter below its density pulls (P < 0)"
+        default=False,
+        description="whether condensed matter below its density is under tension (P < 0)",
     )
     gravity: Annotated[Acceleration, Field(ge=0)] = Field(
         default=0.0, description="along -z; within nanoseconds it does nothing"
@@ -46,7 +47,7 @@ class AblationSettings(Model):
     skin: Annotated[float, Field(gt=0, le=2)] = Field(
         default=0.3,
         description="how much further than their support moving particles look for neighbors at "
-        "most, in spacings; slow ones look less far",
+        "most, in spacings; a thinner skin serves slow ones",
     )
     sleep: bool = Field(
         default=True,

@@ -121,7 +121,7 @@ class Ablation:
             self._update_surface()
 
     def time_step_limits(self) -> dict[str, float]:
-        """Named limits of the next step [s]; of flow only where something moves or is pushed."""
+        """Named limits of the next step [s]; of flow only where something moves or a force acts."""
         state, time, parameters = self.state, self.time_settings, self.parameters
         limits = common_limits(
             time, state.time, None if self.light is None else self.light.laser.pulse
@@ -247,13 +247,13 @@ class Ablation:
         fields = self.particles.by_symbol() | {"exposed": surface.exposed, "normal": surface.normal}
         ejecta = self.ejection.eject(fields, self.pairs.now, self.rows, self.state.time, step)
         self.body.refresh(self.particles, self.rows)
-        if ejecta.count:
+        if ejecta.number:
             self.state.count_ejecta(ejecta)
             self._is_surface_current = False
 
     def _move_ejecta(self, step: float) -> None:
         """Move what has been ejected, straight on until it passes the edge of what is followed."""
-        if not self.state.ejecta.count:
+        if not self.state.ejecta.number:
             return
         x, kind = self.particles["position"], self.particles["kind"]
         rows = self.backend.rows_where(kind, EJECTED)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from lasersph.solvers.ablation.ejecta import Ejecta
 from lasersph.solvers.conduction.state import ENERGIES
+
+GROUPS = ("ejecta", "energy")
+"""Numbers that are several; the others are one each."""
 
 
 @dataclass
@@ -14,7 +18,7 @@ class AblationState:
 
     Attributes:
         time, time_step: [s]. energy: exchanged since the start [J], by ENERGIES.
-        speed: largest of what was condensed at the start of the last step [m/s]. acceleration,
+        speed: largest of the interior at the start of the last step [m/s]. acceleration,
             approach_speed: largest |dv/dt| [m/s^2], and bound of |mu| [m/s], when last looked for.
         ejecta: all that ever left. gone: how many of them have passed the edge.
         is_balanced: no force was found when forces were last looked for.
@@ -32,37 +36,26 @@ class AblationState:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """All numbers by name."""
-        numbers = {f"energy.{name}": value for name, value in self.energy.items()}
-        return numbers | {f"ejecta.{name}": value for name, value in vars(self.ejecta).items()} | {
-            "time": self.time, "time_step": self.time_step, "speed": self.speed,
-            "acceleration": self.acceleration,
-            "approach_speed": self.approach_speed,
-            "is_balanced": float(self.is_balanced), "gone": self.gone,
-        }  # fmt: skip
+        own = {name: value for name, value in vars(self).items() if name not in GROUPS}
+        own |= {f"energy.{name}": value for name, value in self.energy.items()}
+        return own | {f"ejecta.{name}": value for name, value in self.ejecta._asdict().items()}
 
-    def restore(self, numbers: dict[str, float]) -> None:
+    def restore(self, scalars: Mapping[str, float]) -> None:
         """Set all numbers from `checkpoint_scalars`."""
-        self.energy = {name: numbers[f"energy.{name}"] for name in ENERGIES}
-        self.ejecta = Ejecta(
-            int(numbers["ejecta.count"]), numbers["ejecta.mass"], numbers["ejecta.energy"],
-            numbers["ejecta.kinetic"],
-        )  # fmt: skip
-        self.time, self.time_step = numbers["time"], numbers["time_step"]
-        self.speed, self.approach_speed = numbers["speed"], numbers["approach_speed"]
-        self.acceleration = numbers["acceleration"]
-        self.is_balanced, self.gone = bool(numbers["is_balanced"]), int(numbers["gone"])
+        for name, value in vars(self).items():
+            if name not in GROUPS:
+                setattr(self, name, type(value)(scalars[name]))
+        self.energy = {name: scalars[f"energy.{name}"] for name in ENERGIES}
+        number, *others = (scalars[f"ejecta.{name}"] for name in Ejecta._fields)
+        self.ejecta = Ejecta(int(number), *others)
 
-    def add(self, exchanged: dict[str, float]) -> None:
+    def add(self, exchanged: Mapping[str, float]) -> None:
         """Count the energies of a step [J], by ENERGIES; what is missing is 0."""
         for name, value in exchanged.items():
             self.energy[name] += value
 
     def count_ejecta(self, ejecta: Ejecta) -> None:
         """Count what left in a step."""
-        was = self.ejecta
-        self.ejecta = Ejecta(
-            was.count + ejecta.count, was.mass + ejecta.mass,
-            was.energy + ejecta.energy, was.kinetic + ejecta.kinetic,
-        )  # fmt: skip
+        self.ejecta = Ejecta(*(was + new for was, new in zip(self.ejecta, ejecta, strict=True)))
         self.energy["removed"] += ejecta.energy
         self.energy["stored"] -= ejecta.energy

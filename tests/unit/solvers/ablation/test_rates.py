@@ -42,7 +42,7 @@ def test_same_as_with_all_motion():
             solver.step(binding_limit(solver.time_step_limits())[1])
         found.append(solver)
     quick, general = found
-    assert quick.state.ejecta.count == general.state.ejecta.count > 0
+    assert quick.state.ejecta.number == general.state.ejecta.number > 0
     for name in ("temperature", "position"):
         values = [s.backend.to_host(s.particles[name]) for s in found]
         np.testing.assert_allclose(*values, rtol=1e-11, atol=1e-20)

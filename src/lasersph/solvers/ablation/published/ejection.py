@@ -6,15 +6,16 @@ are no latent heats, and the depth depends on when a particle counts as left.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from math import inf
 
-import numpy as np
-
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.particles.kinds import LEAVING
+from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.physics.ejection import (
-    BELOW_ALIGNMENT,
-    BELOW_REACH,
+    ALIGNMENT,
+    NEXT_LAYER,
     advance_lift,
     covers_neighbor,
     published_departure,
@@ -33,33 +34,33 @@ class PublishedEjection:
     def __init__(
         self, backend: Backend, vapor: Vapor, count: int, spacing: float, left_after: float
     ) -> None:
-        self.backend, self.vapor, self.left_after = backend, vapor, left_after
-        self.reach = BELOW_REACH * spacing
+        self.backend, self.vapor = backend, vapor
         self._covered = backend.zeros(count)
+        self._layer = {"distance": NEXT_LAYER * spacing, "alignment": ALIGNMENT}
+        self._rule = {"T_v": vapor.temperature, "distance": left_after, **vapor.speed}
 
     def longest_step(self, flux: float, density: float) -> float:
         """No limit: the rule depends on the step, as published."""
-        return np.inf
+        return inf
 
     def eject(
-        self, fields: dict[str, Any], pairs: Any, rows: Any, time: float, step: float
+        self,
+        fields: Mapping[str, Array],
+        pairs: NeighborList,
+        rows: Rows | None,
+        time: float,
+        step: float,
     ) -> Ejecta:
         """Set kind, velocity, left_at and p_v of what leaves at `time`, the end of the step [s].
 
         Args:
             fields: by symbol; kind, lift, v, h, T, m, exposed, normal, left_at, p_v.
         """
-        backend, kind, v = self.backend, fields["kind"], fields["v"]
-        own = fields | {"covered": self._covered}
-        backend.pointwise(advance_lift, own, fields["lift"], rows=rows, step=step)
+        backend, kind, covered = self.backend, fields["kind"], self._covered
+        fields = {**fields, "covered": covered}
+        backend.pointwise(advance_lift, fields, fields["lift"], rows=rows, step=step)
         leaving = backend.rows_where(kind, LEAVING)
-        backend.pair_sum(
-            covers_neighbor, pairs, own, self._covered, rows=leaving, reach=self.reach,
-            alignment=BELOW_ALIGNMENT,
-        )  # fmt: skip
-        backend.pointwise(
-            published_departure, own, (kind, v), rows=rows, T_v=self.vapor.temperature,
-            R_s=self.vapor.gas_constant, is_effusion=self.vapor.is_effusion,
-            distance=self.left_after,
-        )  # fmt: skip
+        backend.pair_sum(covers_neighbor, pairs, fields, covered, rows=leaving, **self._layer)
+        out = (kind, fields["v"])
+        backend.pointwise(published_departure, fields, out, rows=rows, **self._rule)
         return self.vapor.account(fields, rows, time)

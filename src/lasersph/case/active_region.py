@@ -1,7 +1,7 @@
-"""Whether cold matter of a case sleeps until heat comes near, and how deep it will be awake.
+"""Whether only what heat can reach is computed in a case, and how deep that will be.
 
-Heat is followed down to 1e-11 of its largest rise: erfc(4.8) of the penetration 2 sqrt(D t). Tiles
-wake ahead of it by some supports. An estimate, for sizes and forecasts only.
+Heat is followed down to 1e-11 of its largest rise: erfc(4.8) of the penetration 2 sqrt(D t). Cells
+become active ahead of it by some supports. An estimate, for sizes and forecasts only.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from lasersph.case.case import Case
 
 PENETRATIONS = 9.6
-"""Depth of the awake over sqrt(D t)."""
+"""Depth of the active region over sqrt(D t)."""
 SUPPORTS = 4.0
-"""Supports that wake ahead of the heat."""
+"""Supports that become active ahead of the heat."""
 
 
-def sleeps(case: Case) -> bool:
+def has_active_region(case: Case) -> bool:
     """Whether only what heat reaches is computed: light on matter at rest, without gravity."""
     solver = case.solver
     if case.laser is None or not isinstance(solver, AblationSettings) or not solver.sleep:
@@ -29,13 +29,13 @@ def sleeps(case: Case) -> bool:
     return isinstance(case.motion or Rest(), Rest) and solver.gravity == 0.0
 
 
-def awake_share(case: Case, support: float) -> float:
-    """Estimated largest share of the particles that is awake at the end [1].
+def active_share(case: Case, support: float) -> float:
+    """Estimated largest share of the particles that is active at the end [1].
 
     Args:
         support: support radius of the particles [m].
     """
-    if not sleeps(case):
+    if not has_active_region(case):
         return 1.0
     heat = PENETRATIONS * sqrt(case.material.diffusivity_reference * case.time.end)
     return min(1.0, (heat + SUPPORTS * support) / case.domain.depth)
