@@ -1,57 +1,104 @@
-"""Two results of `lasersph validate --json`, row by row: how far a graphics card is from the CPU.
+"""Two results of `lasersph validate --json`, row by row: how far apart they are.
 
     python benchmarks/compare_validations.py cpu.json cuda.json
+    python benchmarks/compare_validations.py before.json after.json --round-off 1e-6
 
-A row agrees where the two computed numbers differ by no more than `SHARE` of the row's tolerance
-times its reference (or, beside 0, of the tolerance), and both have the same verdict. The exit code
-is 1 where one does not.
+Of a graphics card and the CPU a row agrees where the computed numbers differ by no more than
+`SHARE` of the row's tolerance. Of two versions of the program that compute the same, with
+`--round-off`, where they differ by no more than that part of the largest of both, the reference and
+the tolerance: a defect that should be 0 is compared with what is allowed of it. Either way both
+must have the same verdict. The exit code is 1 where a row does not agree, or only one has it.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
+from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 SHARE = 0.1
 """Part of a validation's tolerance that two backends may differ by."""
 
 
-def apart(first: dict[str, Any], second: dict[str, Any]) -> float | None:
-    """Difference of two rows over what is allowed; None where there is nothing to compare."""
+class Difference(NamedTuple):
+    """Of one row: by how much it differs, over what is allowed or in parts of its size."""
+
+    validation: str
+    quantity: str
+    size: float
+    agrees: bool
+
+
+def over_tolerance(first: dict[str, Any], second: dict[str, Any]) -> float:
+    """Difference of two rows over what two backends may differ by; 0 where nothing is judged."""
     a, b, tolerance = first["computed"], second["computed"], first["tolerance"]
     if a is None or b is None or not tolerance:
-        return None
-    reference = first["reference"] if first["reference"] is not None else first["published"]
-    return abs(a - b) / (SHARE * tolerance * (abs(reference) if reference else 1.0))
+        return 0.0
+    return abs(a - b) / (SHARE * tolerance)
 
 
-def compared(first: dict[str, Any], second: dict[str, Any]) -> list[tuple[str, str, float, bool]]:
-    """Validation, quantity, difference over what is allowed, and whether all is well."""
+def relative(first: dict[str, Any], second: dict[str, Any]) -> float:
+    """Difference of two rows over their size; infinite where only one has a number."""
+    a, b = first["computed"], second["computed"]
+    if a == b:
+        return 0.0
+    if not (isinstance(a, int | float) and isinstance(b, int | float)):
+        return float("inf")
+    sizes = (a, b, first["reference"] or 0.0, first["tolerance"] or 0.0)
+    return abs(a - b) / max(abs(size) for size in sizes)
+
+
+def keyed_rows(report: dict[str, Any]) -> dict[tuple[str, int], dict[str, Any]]:
+    """Rows by quantity, and by how many of that name came before."""
+    seen: Counter[str] = Counter()
+    rows = {}
+    for row in report["rows"]:
+        rows[row["quantity"], seen[row["quantity"]]] = row
+        seen[row["quantity"]] += 1
+    return rows
+
+
+def differences(
+    first: dict[str, Any], second: dict[str, Any], round_off: float | None = None
+) -> list[Difference]:
+    """Of every row of either result; `round_off`: None compares two backends."""
     found = []
-    for name, ours in first["validations"].items():
-        theirs = {
-            row["quantity"]: row for row in second["validations"].get(name, {"rows": []})["rows"]
-        }
-        for row in ours["rows"]:
-            other = theirs.get(row["quantity"])
-            if other is None:
-                found.append((name, row["quantity"], float("inf"), False))
-                continue
-            distance = apart(row, other) or 0.0
-            is_well = distance <= 1.0 and row["verdict"] == other["verdict"]
-            found.append((name, row["quantity"], distance, is_well))
+    for name in first["validations"] | second["validations"]:
+        ours, theirs = (
+            keyed_rows(one["validations"].get(name, {"rows": []})) for one in (first, second)
+        )
+        for key in ours | theirs:
+            size, agrees = float("inf"), False
+            if key in ours and key in theirs:
+                a, b = ours[key], theirs[key]
+                size = over_tolerance(a, b) if round_off is None else relative(a, b)
+                allowed = 1.0 if round_off is None else round_off
+                agrees = size <= allowed and a["verdict"] == b["verdict"]
+            found.append(Difference(name, key[0], size, agrees))
     return found
 
 
 def main() -> int:
-    """Print what is farthest apart first."""
-    first, second = (json.loads(Path(name).read_text(encoding="utf-8")) for name in sys.argv[1:3])
-    rows = sorted(compared(first, second), key=lambda row: -row[2])
-    for name, quantity, distance, is_well in rows:
-        print(f"{'' if is_well else 'NOT '}within: {distance:8.2g}  {name}: {quantity}")
-    return 0 if all(row[3] for row in rows) else 1
+    """Print what is farthest apart first, and the largest difference of each validation."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
+    parser.add_argument("first", type=Path)
+    parser.add_argument("second", type=Path)
+    parser.add_argument("--round-off", type=float, metavar="X")
+    given = parser.parse_args()
+    first, second = (json.loads(path.read_text("utf-8")) for path in (given.first, given.second))
+    rows = sorted(differences(first, second, given.round_off), key=lambda row: -row.size)
+    for row in rows:
+        word = "" if row.agrees else "NOT "
+        print(f"{word}within: {row.size:8.2g}  {row.validation}: {row.quantity}")
+    largest: dict[str, float] = {}
+    for row in rows:
+        largest.setdefault(row.validation, row.size)
+    for name, size in largest.items():
+        print(f"{name}: largest {size:.2g}")
+    return 0 if all(row.agrees for row in rows) else 1
 
 
 if __name__ == "__main__":
