@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lasersph.observers import COLUMNS
+from lasersph.observers.quantity import unit_in
 from lasersph.output import Run
 from lasersph.plots import style
 
@@ -40,7 +41,8 @@ def draw_columns(
     first = COLUMNS[next(iter(texts))]
     time, time_label = time_axis(run.history)
     largest = max(float(np.max(np.abs(run.history[column]))) for column in texts)
-    unit = style.fitting_unit(first.unit, largest)
+    dimension = int(summary_of(run).get("dimensions", 3))
+    unit = style.fitting_unit(unit_in(first.unit, dimension), largest)
     for k, (column, text) in enumerate(texts.items()):
         x, y = time, run.history[column] * unit.factor
         if gaps:

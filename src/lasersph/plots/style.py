@@ -42,6 +42,7 @@ UNITS = {
     "s": TIMES,
     "m": LENGTHS,
     "m^2": (Unit(1e12, "µm$^2$"), Unit(1e6, "mm$^2$"), Unit(1.0, "m$^2$")),
+    "m^3": (Unit(1e18, "µm$^3$"), Unit(1e9, "mm$^3$"), Unit(1.0, "m$^3$")),
     "Pa": (Unit(1.0, "Pa"), Unit(1e-3, "kPa"), Unit(1e-6, "MPa"), Unit(1e-9, "GPa")),
     "K/m": (Unit(1e-6, "K/µm"),),
     "": (Unit(1.0, "1"),),
