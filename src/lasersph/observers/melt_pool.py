@@ -31,18 +31,27 @@ LEVELS = {
 """Part of a key, the melt fraction that a fluid cell has at least (any: above 0), and its name."""
 
 
-def sizes(name: str, unit: str = "m") -> tuple[Quantity, ...]:
+def sizes(name: str) -> tuple[Quantity, ...]:
     """A size of the pool at each level."""
     return tuple(
         Quantity(
-            f"melt_{name}{level}_{unit.replace('^', '')}",
-            unit,
+            f"melt_{name}{level}_m",
+            "m",
             f"{name} of {words}",
-            largest=f"melt.{name}{level}_max_{unit.replace('^', '')}",
+            largest=f"melt.{name}{level}_max_m",
             is_main=level == "",
         )
         for level, (_, words) in LEVELS.items()
     )
+
+
+VOLUME = Quantity(
+    "melt_volume_m3",
+    "m^3",
+    "volume of molten metal, cells with their melt fractions",
+    largest="melt.volume_max_m3",
+    is_main=True,
+)
 
 
 class MeltPool(Observer):
@@ -54,7 +63,7 @@ class MeltPool(Observer):
         " width of one pool at the surface. Sizes are whole cells, but for the width at f_m = 0.5,"
         " which is interpolated."
     )
-    columns = (*sizes("depth"), *sizes("width"))
+    columns = (*sizes("depth"), *sizes("width"), VOLUME)
     results = (
         *(
             Quantity(f"melt.{name}{level}_s", "s", f"{text} {words}", is_main=level == "")
@@ -67,7 +76,7 @@ class MeltPool(Observer):
 
     def __init__(self, dimension: int) -> None:
         if dimension == 1:
-            self.columns = sizes("depth")
+            self.columns = (*sizes("depth"), VOLUME)
         super().__init__()
         self.dimension = dimension
         self.span = {level: Span() for level in LEVELS}
@@ -86,8 +95,9 @@ class MeltPool(Observer):
                 depth[level] = deepest(faces, is_fluid(fraction, least))
                 width[level] = pool_width(view, least) if self.dimension > 1 else 0.0
         self.end_time = view.time
-        values = (*depth.values(), *width.values())
-        return self.record(view.time, values[: len(self.columns)])
+        volume = float(np.sum(fraction * view.volume)) if largest > 0.0 else 0.0
+        widths = width.values() if self.dimension > 1 else ()
+        return self.record(view.time, (*depth.values(), *widths, volume))
 
     def values(self) -> dict[str, object]:
         """Times, None where no such cell was seen; in 1-D there are no widths."""

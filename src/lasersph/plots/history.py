@@ -46,15 +46,23 @@ def temperature_history(run: Run) -> Figure:
 
 
 def melt_pool_history(run: Run) -> Figure | None:
-    """Width and depth of the melt pool at f_m = 1, 0.5 and above 0; None where nothing melts."""
+    """Width and depth of the melt pool at f_m = 1, 0.5 and above 0, and the molten volume.
+
+    None where nothing melts.
+    """
     if not any_above_zero(run, "melt_depth_any_m"):
         return None
     sizes = [size for size in ("width", "depth") if f"melt_{size}_m" in run.history]
-    figure, all_axes = style.new_figure(len(sizes), height=2.6 * len(sizes), share_x=True)
-    for axes, size in zip(all_axes, sizes, strict=True):
+    has_volume = "melt_volume_m3" in run.history
+    panels = len(sizes) + has_volume
+    figure, all_axes = style.new_figure(panels, height=2.6 * panels, share_x=True)
+    for axes, size in zip(all_axes, sizes, strict=False):
         lines = {f"melt_{size}{level}_m": text for level, text in LEVELS.items()}
         draw_columns(axes, run, lines, label=f"melt pool {size}", stairs=True)
         axes.set_ylim(bottom=0.0)
+    if has_volume:
+        draw_columns(all_axes[-1], run, "melt_volume_m3", label="molten volume")
+        all_axes[-1].set_ylim(bottom=0.0)
     limit_time(all_axes[-1], run, run.history["melt_depth_any_m"] > 0.0, 0.1)
     style.legend_above(figure, all_axes[0], columns=3)
     return figure
