@@ -45,3 +45,31 @@ def refuse_backend(backend: str, threads: int | None) -> None:
     from lasersph.compute import cuda_device
 
     cuda_device.checked()
+
+
+def read_quantity(option: str, text: str, kind: str) -> float:
+    """The number in SI units that an option gives with its unit.
+
+    Raises:
+        WrongCommand: it is no quantity of that kind.
+    """
+    from lasersph.input import QuantityError, parse_quantity
+
+    try:
+        return parse_quantity(text.strip(), kind)
+    except QuantityError as error:
+        raise WrongCommand(f"{option}: {error}") from None
+
+
+def read_quantities(option: str, text: str, kind: str) -> list[float]:
+    """Positive numbers in SI units from an option that separates them by commas.
+
+    Raises:
+        WrongCommand: one is no quantity of that kind, or not above zero.
+    """
+    texts = [one.strip() for one in text.split(",") if one.strip()]
+    values = [read_quantity(option, one, kind) for one in texts]
+    for one, value in zip(texts, values, strict=True):
+        if value <= 0.0:
+            raise WrongCommand(f'{option}: "{one}" must be greater than 0')
+    return values

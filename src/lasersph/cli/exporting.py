@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from lasersph.cli.arguments import RunFolder
+from lasersph.cli.arguments import RunFolder, read_quantity
 from lasersph.cli.failures import WrongCommand
 from lasersph.cli.results import opened
 
@@ -29,18 +29,10 @@ def export(folder: RunFolder, format: Format = "csv", at: At = None) -> None:
     run = opened(folder)
     if not len(run.snapshots):
         raise WrongCommand(f"{folder} has no snapshots yet")
-    step = run.snapshots[-1] if at is None else run.snapshots.nearest(_time(at))
+    time = None if at is None else read_quantity("--at", at, "time")
+    step = run.snapshots[-1] if time is None else run.snapshots.nearest(time)
     try:
         surface = height_map(step)
     except OutputError as error:
         raise WrongCommand(f"{folder}: {error}") from None
     print(surface.write(Path(folder) / f"crater.{format}"))
-
-
-def _time(text: str) -> float:
-    from lasersph.input import QuantityError, parse_quantity
-
-    try:
-        return parse_quantity(text, "time")
-    except QuantityError as error:
-        raise WrongCommand(f"--at: {error}") from None

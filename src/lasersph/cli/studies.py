@@ -15,6 +15,7 @@ from lasersph.cli.arguments import (
     Quick,
     Settings,
     Threads,
+    read_quantities,
     refuse_backend,
 )
 from lasersph.cli.failures import WrongCommand
@@ -60,7 +61,7 @@ def converge(
     from lasersph.case import load_case
 
     refuse_backend(backend, threads)
-    wanted = [_length(text) for text in spacing.split(",") if text.strip()]
+    wanted = read_quantities("--spacing", spacing, "length")
     if len(set(wanted)) < 3:
         raise WrongCommand("--spacing: an order needs three different spacings, e.g. 32nm,16nm,8nm")
     loaded = load_case(case, settings or ())
@@ -123,7 +124,7 @@ def spot(
     from lasersph.plots.spot_threshold import spot_threshold_figure
 
     refuse_backend(backend, threads)
-    wanted = [_fluence(text) for text in fluence.split(",") if text.strip()]
+    wanted = read_quantities("--fluence", fluence, "fluence")
     loaded = load_case(case, settings or (), quick=quick)
     if reason := studies.no_spot(loaded, wanted):
         raise WrongCommand(f"{loaded.name}: {reason}")
@@ -137,18 +138,6 @@ def spot(
     print(style.save(spot_threshold_figure(found.as_dict()), folder / "spot-threshold.png"))
 
 
-def _fluence(text: str) -> float:
-    from lasersph.input import QuantityError, parse_quantity
-
-    try:
-        value = parse_quantity(text.strip(), "fluence")
-    except QuantityError as error:
-        raise WrongCommand(f"--fluence: {error}") from None
-    if value <= 0.0:
-        raise WrongCommand(f'--fluence: "{text.strip()}" must be greater than 0')
-    return value
-
-
 def _answer(found: Any) -> str:
     from lasersph.studies import show_energy
 
@@ -157,18 +146,6 @@ def _answer(found: Any) -> str:
         f"{found.key} = {show_energy(found.key, found.value, 4)} +- {100 * found.tolerance:.2g} % "
         f"to {found.of} (between {below} and {above})"
     )
-
-
-def _length(text: str) -> float:
-    from lasersph.input import QuantityError, parse_quantity
-
-    try:
-        value = parse_quantity(text.strip(), "length")
-    except QuantityError as error:
-        raise WrongCommand(f"--spacing: {error}") from None
-    if value <= 0.0:
-        raise WrongCommand(f'--spacing: "{text.strip()}" must be greater than 0')
-    return value
 
 
 def _new_folder(folder: Path) -> Path:
