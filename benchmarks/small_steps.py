@@ -46,6 +46,8 @@ PARTS = {
 }
 """What is clocked: names, of which a tree has one. A launch runs compiled code; a bound call finds
 its loop and the arguments before that."""
+BUILDERS = ("simulation.build:build", "simulation.recipes:recipe_of")
+"""What builds a solver, before and since there are recipes."""
 STEP_CHOICES = ("solvers.step_control:choose_step", "solvers.time_step:choose")
 
 
@@ -82,10 +84,11 @@ def measure(case: str) -> dict[str, Any]:
 
     from lasersph import compute
     from lasersph.case import load_case
-    from lasersph.simulation.build import build
 
     name, settings, start = CASES[case]
-    solver: Any = build(load_case(name, settings), compute.cpu(threads=1))[1]
+    loaded, backend = load_case(name, settings), compute.cpu(threads=1)
+    build, recipe_of = (_found((name,))[1] for name in BUILDERS)
+    solver: Any = recipe_of(loaded).build(backend) if recipe_of else build(loaded, backend)[1]
 
     choose_step = _found(STEP_CHOICES)[1]
 

@@ -15,7 +15,7 @@ from whole_run import measured
 
 from lasersph import compute
 from lasersph.case import load_case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.ablation.solver import Ablation
 
 SAMPLE = (
@@ -40,7 +40,7 @@ MEMORY = 6 * 2**30
 def seconds_per_step(*changes, before, steps):
     """Wall time of a step [s] in float32 after some `before`, and the particles that are active."""
     case = load_case("ablation-depth", [*SAMPLE, *changes])
-    _, solver = build(case, compute.cpu(threads=THREADS, precision="float32"))
+    solver = recipe_of(case).build(compute.cpu(threads=THREADS, precision="float32"))
     assert isinstance(solver, Ablation)
     for _ in range(before):
         solver.step(5e-11)

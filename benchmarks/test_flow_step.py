@@ -14,7 +14,7 @@ from hot_loops.ceilings import bandwidth
 
 from lasersph import compute
 from lasersph.case import load_case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.solvers.step_control import choose_step
 
@@ -68,7 +68,7 @@ def test_lines_of_a_step(spacing):
         f"particles.spacing={spacing} nm",
     ]
     backend = compute.cpu(threads=THREADS)
-    solver = build(load_case("dlip-steel", settings), backend)[1]
+    solver = recipe_of(load_case("dlip-steel", settings)).build(backend)
     assert isinstance(solver, MeltPool)
     advance(solver)
     advance(solver, FIRST)

@@ -16,7 +16,7 @@ from hot_loops.measure import loops_of
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation import forecast
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.step_control import choose_step
 
@@ -62,7 +62,7 @@ def cost(scheme, spacing):
         "domain.width=100 um", "domain.depth=100 um", "time.step=10 ns",
     ]  # fmt: skip
     case = load_case("pulsed-heating", settings)
-    solver = build(case, compute.cpu(threads=THREADS))[1]
+    solver = recipe_of(case).build(compute.cpu(threads=THREADS))
     assert isinstance(solver, Conduction)
     begin, iterations = 0.0, 0
     for k in range(WARM + STEPS):

@@ -14,7 +14,7 @@ import pytest
 
 from lasersph import compute
 from lasersph.case import load_case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.solvers.step_control import binding_limit
 
@@ -31,7 +31,7 @@ THREADS = 2
 def solver_with(*settings):
     """Solver of the pool with settings, at rest."""
     case = load_case("dlip-steel", [*COMMON, *settings])
-    solver = build(case, compute.cpu(threads=THREADS))[1]
+    solver = recipe_of(case).build(compute.cpu(threads=THREADS))
     assert isinstance(solver, MeltPool)
     return solver
 

@@ -11,7 +11,7 @@ import pytest
 
 from lasersph import compute
 from lasersph.case import load_case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.step_control import binding_limit
 
@@ -26,7 +26,7 @@ def solver_of(iteration, spacing):
         f"solver.iteration={iteration}",
         f"particles.spacing={spacing} nm",
     ]
-    solver = build(load_case("dlip-steel", settings), compute.cpu(threads=2))[1]
+    solver = recipe_of(load_case("dlip-steel", settings)).build(compute.cpu(threads=2))
     assert isinstance(solver, Conduction)
     return solver
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from lasersph import compute
 from lasersph.case import Case, load_case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import choose_step
 
 MATERIAL = {
@@ -36,7 +36,7 @@ def box_case(
 
 def box(backend=None, **settings):
     """Solver of `box_case`."""
-    return build(box_case(**settings), backend or compute.cpu(threads=1))[1]
+    return recipe_of(box_case(**settings)).build(backend or compute.cpu(threads=1))
 
 
 def pool_case(*settings):
@@ -52,7 +52,7 @@ def pool(molten, *settings, backend=None, hot=2500.0, cold=1500.0, slope=0.0):
     Args:
         hot, cold: temperatures [K]; slope: of the hot one along x [K/m].
     """
-    solver = build(pool_case(*settings), backend or compute.cpu(threads=1))[1]
+    solver = recipe_of(pool_case(*settings)).build(backend or compute.cpu(threads=1))
     x, z = place_of(solver)
     curve = solver.body.curve
     rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])

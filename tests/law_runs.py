@@ -4,14 +4,14 @@ import numpy as np
 
 from lasersph import compute
 from lasersph.case import load_case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 
 def solver_of(name, *settings, threads=2, backend=None):
     """Case with settings, of heat alone unless they say otherwise, and its solver at rest."""
     case = load_case(name, ("solver.kind=conduction", *settings))
-    return case, build(case, backend or compute.cpu(threads=threads))[1]
+    return case, recipe_of(case).build(backend or compute.cpu(threads=threads))
 
 
 def go(solver, end):

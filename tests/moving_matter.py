@@ -4,7 +4,7 @@ import numpy as np
 
 from lasersph import compute
 from lasersph.case import load_case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 DRIFTING_BLOCK = (
@@ -24,7 +24,7 @@ HEATED_BLOCK = (
 def moving(name, *settings, backend=None, threads=2):
     """Case with settings, and its solver at the start."""
     case = load_case(name, settings)
-    return case, build(case, backend or compute.cpu(threads=threads))[1]
+    return case, recipe_of(case).build(backend or compute.cpu(threads=threads))
 
 
 def go(solver, steps=None, end=None, share=1.0):

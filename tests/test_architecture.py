@@ -126,6 +126,33 @@ def test_library_is_named_in_one_room(library):
     assert not wrong, "\n".join(wrong)
 
 
+SETTINGS = {"ConductionSettings", "MeltPoolSettings", "AblationSettings", "HeatSettings"}
+RECIPES = PACKAGE / "simulation" / "recipes"
+
+
+def kind_tests(path) -> list[int]:
+    """Lines of a file that ask of which kind a solver is: isinstance, or `kind` compared."""
+    found = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"), str(path))):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "isinstance":
+            names = {name.id for name in ast.walk(node.args[1]) if isinstance(name, ast.Name)}
+            if names & SETTINGS:
+                found.append(node.lineno)
+        elif isinstance(node, ast.Compare | ast.Match):
+            asked = (
+                [node.subject] if isinstance(node, ast.Match) else [node.left, *node.comparators]
+            )
+            found += [node.lineno for side in asked if ast.unparse(side).endswith("solver.kind")]
+    return found
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_only_recipes_know_the_kinds_of_solvers(path):
+    """All that depends on the kind of a solver is in its folder and in its recipe."""
+    if not path.is_relative_to(RECIPES):
+        assert not kind_tests(path), "let the recipe or the settings answer"
+
+
 def loaded_by(statement: str) -> set[str]:
     """Names in sys.modules after a statement, in a fresh interpreter."""
     code = f"import sys\n{statement}\nprint('loaded:', *sys.modules)"

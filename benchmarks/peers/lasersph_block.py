@@ -19,7 +19,7 @@ from lasersph import compute
 from lasersph.case import load_case
 from lasersph.compute.backend import Backend
 from lasersph.particles.verlet_list import REST
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.ablation.equations import pair_weight
 from lasersph.solvers.ablation.solver import Ablation
 from lasersph.sph.laplacian import flow
@@ -50,7 +50,7 @@ def _block(workplace: Workplace, *, moves: bool) -> Ablation:
     edge = workplace.edge
     size = [f"domain.depth={edge} m", f"domain.width={edge} m"]
     case = load_case(CASES / "block.toml", size)
-    _, solver = build(case, backend(workplace.threads))
+    solver = recipe_of(case).build(backend(workplace.threads))
     assert isinstance(solver, Ablation)
     arrays = {name: solver.backend.to_host(array) for name, array in solver.fields.items()}
     position = particles.displaced_lattice(edge, 3)

@@ -12,8 +12,8 @@ BAD_ABLATION_CASES = {
     "no speed of sound": (SOUND + "\n", "", ':26: solver.sound_speed: missing; write sound_speed = "1000 m/s"'),
     "speed of sound as a time": (SOUND, 'sound_speed = "1000 s"', ':29: solver.sound_speed: "1000 s" is a time, not a velocity; write e.g. "10 m/s"'),
     "sound that stands": (SOUND, 'sound_speed = "0 m/s"', ':29: solver.sound_speed: must be greater than 0, got "0 m/s"'),
-    "motion under conduction": (KIND + "dimensions = 2\n" + SOUND + "\n\n" + TIME, 'dimensions = 2\n\n[motion]\nkind = "uniform"\nx = "1 m/s"\n\n[time]', ':29: motion: matter stays where it is where kind = "conduction"; write kind = "ablation" in [solver], or leave it out'),
-    "ejection under conduction": (KIND + "dimensions = 2\n" + SOUND + "\n\n" + TIME, 'dimensions = 2\n\n[ejection]\nmodel = "enthalpy"\n\n[time]', ':29: ejection: matter stays where it is where kind = "conduction"; write kind = "ablation" in [solver], or leave it out'),
+    "motion under conduction": (KIND + "dimensions = 2\n" + SOUND + "\n\n" + TIME, 'dimensions = 2\n\n[motion]\nkind = "uniform"\nx = "1 m/s"\n\n[time]', ':29: motion: kind = "conduction" does not read it; leave it out, or write kind = "ablation" in [solver]'),
+    "ejection under conduction": (KIND + "dimensions = 2\n" + SOUND + "\n\n" + TIME, 'dimensions = 2\n\n[ejection]\nmodel = "enthalpy"\n\n[time]', ':29: ejection: kind = "conduction" does not read it; leave it out, or write kind = "ablation" in [solver]'),
     "graded particles": ('spacing = "0.2 um"', 'spacing = "0.2 um"\narrangement = "graded"', ':18: particles.arrangement: particles that move need one size; write "uniform"'),
     "held face": (SIDES, 'sides = "fixed-temperature"', ':24: boundaries.sides: "fixed-temperature" holds the face itself; write "wall" for particles of that temperature'),
     "flux": ('bottom = "wall"', 'bottom = "prescribed-flux"\nbottom_flux = "1 W/m^2"', ':23: boundaries.bottom: "prescribed-flux" is for bodies at rest; write "adiabatic" or "wall"'),
@@ -24,5 +24,5 @@ BAD_ABLATION_CASES = {
     "weightless water": (TIME, "[motion]\nhydrostatic = true\nkind = 'rest'\n\n[time]", ":32: motion.hydrostatic: nothing weighs anything without gravity in [solver]"),
     "walled surface in light": (SURFACE, 'surface = "wall"\nsurface_temperature = "300 K"', ':22: boundaries.surface: a laser heats the surface, "wall" holds its temperature; remove one of the two'),
     "no latent heat": (SOUND, SOUND + "\nphase_change = false", ':30: solver.phase_change: the enthalpy model of ejection is about latent heats; leave it out, or write model = "published" in [ejection]'),
-    "box of a melt pool": (TIME, '[flow]\nleft = "no-slip"\n\n[time]', ":31: flow: is about a melt pool's box; say in [motion] how matter starts"),
+    "box of a melt pool": (TIME, '[flow]\nleft = "no-slip"\n\n[time]', ':31: flow: kind = "ablation" does not read it; leave it out, or write kind = "melt-pool" in [solver]'),
 }  # fmt: skip

@@ -13,8 +13,8 @@ STEADY = "steady = 1e-3"
 
 BAD_FLOW_CASES = {
     # solver
-    "flow under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':21: flow: nothing flows where kind = "conduction"; write kind = "melt-pool" in [solver], or leave [flow] out'),
-    "steady under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':39: time.steady: is about flow, which kind = "conduction" does not compute; leave it out or write kind = "melt-pool" in [solver]'),
+    "flow under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':21: flow: kind = "conduction" does not read it; leave it out, or write kind = "melt-pool" in [solver]'),
+    "steady under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':39: time.steady: kind = "conduction" does not read it; leave it out, or write kind = "melt-pool" in [solver]'),
     "flow in 3-D": (KIND, KIND + "\ndimensions = 3", ":35: solver.dimensions: must be 2, got 3"),
     "flow in 1-D": (KIND, KIND + "\ndimensions = 1", ":35: solver.dimensions: must be 2, got 1"),
     "key of the other solver": (KIND, KIND + '\nscheme = "explicit"', ':35: solver.scheme: unknown key; belongs to kind = "conduction"'),

@@ -6,7 +6,7 @@ import pytest
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.particles.kinds import LEAVING
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 SPOT = ("solver.dimensions=2", "particles.spacing=0.2 um", "domain.depth=12 um",
@@ -20,7 +20,7 @@ PUBLISHED = ("ejection.model=published", "ejection.preset=timeline")
 def computed(*settings):
     """The solver after its run."""
     case = load_case("ablation-depth", list(settings))
-    _, solver = build(case, compute.cpu(threads=1))
+    solver = recipe_of(case).build(compute.cpu(threads=1))
     while solver.state.time < case.time.end * (1.0 - 1e-12):
         solver.step(binding_limit(solver.time_step_limits())[1])
     return solver

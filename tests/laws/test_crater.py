@@ -15,9 +15,9 @@ from lasersph.case import load_case
 from lasersph.observers import Crater, MeltPool
 from lasersph.observers.energy_budget import relative_imbalance
 from lasersph.particles.kinds import EJECTED
-from lasersph.simulation.ablation_view import ablation_view_of
-from lasersph.simulation.build import lay_out
-from lasersph.simulation.build_ablation import solver_of
+from lasersph.simulation.layers import lay_out
+from lasersph.simulation.recipes import recipe_of
+from lasersph.simulation.recipes.ablation.build import solver_of
 from lasersph.solvers.ablation.geometry import lay_out as lay_out_particles
 
 BLOCK = (
@@ -101,7 +101,7 @@ def test_crater_does_not_know_the_lattice(along_the_lattice, angle):
     """On a lattice turned about the axis, against the columns of the light too, the depth along
     rays in all directions is the same within one layer, and what boils within 1 %."""
     case = load_case("ablation-depth", SPOT)
-    across = solver_of(case, compute.cpu(threads=2), *turned(case, np.radians(angle)))
+    across = solver_of(case, case.solver, compute.cpu(threads=2), *turned(case, np.radians(angle)))
     go(across, end=7e-9)
     r, phi = np.meshgrid(np.arange(0.0, 2.5e-6, 0.1e-6), np.radians(np.arange(0, 360, 15)))
     rays = np.array([(r * np.cos(phi)).ravel(), (r * np.sin(phi)).ravel()])
@@ -130,7 +130,7 @@ def test_half_a_spot_is_enough():
             "laser.beam={kind='gaussian', radius_1e2='1.5 um'}", "laser.fluence=20 J/cm^2",
         )  # fmt: skip
         go(solver, end=7e-9)
-        view = ablation_view_of(case, solver, 1, "")
+        view = recipe_of(case).view(solver, 1, "")
         pool, crater = MeltPool(2), Crater(2, axis=(float(x.removesuffix(" um")) * 1e-6, 0.0))
         found.append(pool.observe(view) | crater.observe(view) | view.energy)
     whole, half = found

@@ -14,8 +14,8 @@ from moving_matter import go as moving_steps
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.compute.cuda_device import IS_SIMULATED
-from lasersph.simulation.build import build, view_of
-from lasersph.simulation.time_loop import Stopped, _observers, run
+from lasersph.simulation.recipes import recipe_of
+from lasersph.simulation.time_loop import Stopped, run
 from lasersph.solvers.ablation.solver import Ablation
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.melt_pool.solver import MeltPool
@@ -57,7 +57,7 @@ def flow(backend):
         heat=walls, flow=LID, material={"expansion": "0.01 1/K"}, gravity=10.0, end=10.0, step=0.1,
         cells=8,
     )  # fmt: skip
-    solver: Any = build(case, backend)[1]
+    solver: Any = recipe_of(case).build(backend)
     flow_steps(solver, 1 if IS_SIMULATED else 3)
     return case, solver, ("enthalpy", "temperature", "position", "velocity", "pressure")
 
@@ -94,9 +94,9 @@ def history_row(case, solver, copies):
 
     But energies, differences of larger ones, and iterations: a card has other preconditioners.
     """
-    observers = _observers(case, tuple(solver.iterations))
-    observers.observe(view_of(case, solver, 1, "end"))
-    look = copies.watched(lambda: observers.observe(view_of(case, solver, 1, "end")))
+    observers = recipe_of(case).observers(tuple(solver.iterations))
+    observers.observe(recipe_of(case).view(solver, 1, "end"))
+    look = copies.watched(lambda: observers.observe(recipe_of(case).view(solver, 1, "end")))
     left_out = ("limit", "energy", "iterations")
     return {name: value for name, value in look().items() if not name.startswith(left_out)}
 
@@ -181,9 +181,9 @@ def test_observers_copy_little(monkeypatch):
     from lasersph.compute.cuda_array import CudaArray
 
     case, solver = section(compute.cuda())
-    observers = _observers(case, tuple(solver.iterations))
-    observers.observe(view_of(case, solver, 1, "end"))
+    observers = recipe_of(case).observers(tuple(solver.iterations))
+    observers.observe(recipe_of(case).view(solver, 1, "end"))
     sizes, to_host = [], CudaArray.to_host
     monkeypatch.setattr(CudaArray, "to_host", lambda one: sizes.append(one.size) or to_host(one))
-    observers.observe(view_of(case, solver, 2, "end"))
+    observers.observe(recipe_of(case).view(solver, 2, "end"))
     assert 0 < max(sizes) <= 6 < solver.body.count

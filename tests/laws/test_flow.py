@@ -5,7 +5,7 @@ import pytest
 from law_runs import go, host, solver_of
 
 from lasersph.observers.energy_budget import relative_imbalance
-from lasersph.simulation.build import view_of
+from lasersph.simulation.recipes import recipe_of
 
 BOX = ("particles.spacing=0.0625 m", "time.end=0.4 s", "time.steady=")
 SMALL_POOL = (
@@ -21,7 +21,7 @@ def flow_solver(name, *settings):
 
 def view(case, solver):
     """What observers see now."""
-    return view_of(case, solver, 0, "")
+    return recipe_of(case).view(solver, 0, "")
 
 
 def momentum(seen):

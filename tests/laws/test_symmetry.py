@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from law_runs import go, host, solver_of
 
-from lasersph.simulation.build import lay_out
+from lasersph.simulation.layers import lay_out
 
 SETTINGS = ("particles.spacing=125nm", "particles.arrangement=uniform", "domain.depth=4.5um",
             "time.step=0.5ns")  # fmt: skip

@@ -3,6 +3,7 @@
 case             the model, its content as plain data, its hash
 material_choice  a material by name, by path, or changed in the case
 checks           what contradicts between rooms
+active_region    whether only what heat reaches is computed, and how deep that is
 size             how large a case is before anything is allocated
 overrides        --set key=value
 loading          files, shipped cases, new case files
@@ -12,7 +13,7 @@ from lasersph.case.case import SCHEMA_VERSION, Case
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.loading import available_cases, case_file, load_case, write_new_case
 from lasersph.case.outputs import OutputSettings
-from lasersph.case.size import estimate
+from lasersph.case.size import estimate_count
 
 __all__ = [
     "SCHEMA_VERSION",
@@ -20,7 +21,7 @@ __all__ = [
     "OutputSettings",
     "available_cases",
     "case_file",
-    "estimate",
+    "estimate_count",
     "load_case",
     "refuse_if_too_large",
     "write_new_case",

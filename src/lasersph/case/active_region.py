@@ -10,7 +10,6 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_motion import Rest
-from lasersph.solvers.ablation.settings import AblationSettings
 
 if TYPE_CHECKING:
     from lasersph.case.case import Case
@@ -23,10 +22,8 @@ SUPPORTS = 4.0
 
 def has_active_region(case: Case) -> bool:
     """Whether only what heat reaches is computed: light on matter at rest, without gravity."""
-    solver = case.solver
-    if case.laser is None or not isinstance(solver, AblationSettings) or not solver.sleep:
-        return False
-    return isinstance(case.motion or Rest(), Rest) and solver.gravity == 0.0
+    is_at_rest = isinstance(case.motion or Rest(), Rest)
+    return case.laser is not None and is_at_rest and case.solver.leaves_rest_inactive
 
 
 def active_share(case: Case, support: float) -> float:

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.settings import DIRICHLET
-from lasersph.case.ablation_checks import ablation_problems
 from lasersph.case.flow_checks import flow_problems
+from lasersph.case.motion_checks import motion_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
@@ -17,6 +17,7 @@ from lasersph.case.size import (
     memories,
     size_of,
 )
+from lasersph.case.solver_choice import SELECTIVE_KEYS, reader_of
 from lasersph.input import CaseError, format_quantity
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
 from lasersph.observers import SnapshotSchedule
@@ -36,8 +37,9 @@ def problems_of(case: Case) -> list[tuple[str, str]]:
     return [
         *_material(case),
         *_laser(case),
+        *_unread_keys(case),
         *flow_problems(case),
-        *ablation_problems(case),
+        *motion_problems(case),
         *_size(case),
         *_probes(case),
         *_snapshots(case),
@@ -58,6 +60,19 @@ def refuse_if_too_large(case: Case, backend: str = "cpu") -> None:
                 f"about {size} of memory, but {words.format(in_words(memory))}",
                 "take a coarser spacing or a smaller domain",
                 key="particles.spacing",
+            )
+
+
+def _unread_keys(case: Case) -> Iterator[tuple[str, str]]:
+    """What the solver of the case would ignore."""
+    for key in sorted(SELECTIVE_KEYS - case.solver.reads):
+        table, _, name = key.partition(".")
+        given = getattr(case, table)
+        if getattr(given, name) if name else given:
+            yield (
+                key,
+                f'kind = "{case.solver.kind}" does not read it; leave it out, or write kind = '
+                f'"{reader_of(key)}" in [solver]',
             )
 
 

@@ -10,13 +10,14 @@ from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.size import LARGEST_STEPS
+from lasersph.case.solver_choice import computes_flow
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
 from lasersph.particles.faces import PLANE, faces_of
-from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 if TYPE_CHECKING:
     from lasersph.case.case import Case
+    from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 LARGEST_COURANT = 0.25
 """Share of a spacing that nothing may pass in a step, for the number of steps."""
@@ -26,8 +27,7 @@ LARGEST_DIFFUSION = 0.125
 
 def flow_problems(case: Case) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that concerns flow."""
-    if not isinstance(case.solver, MeltPoolSettings):
-        yield from _without_flow(case)
+    if not computes_flow(case.solver):
         return
     yield from _liquid(case, case.solver)
     yield from _heat_faces(case)
@@ -36,21 +36,6 @@ def flow_problems(case: Case) -> Iterator[tuple[str, str]]:
     else:
         yield from _box(case, case.flow)
     yield from _steps(case, case.solver)
-
-
-def _without_flow(case: Case) -> Iterator[tuple[str, str]]:
-    if case.flow is not None:
-        yield (
-            "flow",
-            f'nothing flows where kind = "{case.solver.kind}"; write kind = "melt-pool" in '
-            "[solver], or leave [flow] out",
-        )
-    if case.time.steady is not None:
-        yield (
-            "time.steady",
-            f'is about flow, which kind = "{case.solver.kind}" does not compute; leave it out or '
-            'write kind = "melt-pool" in [solver]',
-        )
 
 
 def _liquid(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:

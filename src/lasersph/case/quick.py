@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from lasersph.case.case import Case
-from lasersph.solvers.ablation.settings import AblationSettings
-from lasersph.solvers.conduction.settings import ConductionSettings
 
 COARSER = 4.0
 FEWEST_CELLS = 10
@@ -24,9 +22,6 @@ def quick_settings(case: Case) -> list[str]:
         settings.append(f"particles.coarsest={spacing!r} m")
     if case.particles.fine_depth is not None and case.particles.fine_depth < spacing:
         settings.append(f"particles.fine_depth={spacing!r} m")
-    is_explicit = isinstance(case.solver, AblationSettings) or (
-        isinstance(case.solver, ConductionSettings) and case.solver.scheme == "explicit"
-    )
-    if case.time.step is not None and not is_explicit:
+    if case.time.step is not None and not case.solver.is_explicit:
         settings.append(f"time.step={LONGER * case.time.step!r} s")
     return settings

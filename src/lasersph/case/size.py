@@ -15,8 +15,6 @@ from typing import TYPE_CHECKING
 from lasersph.case.active_region import active_share
 from lasersph.compute.cuda_device import free_memory
 from lasersph.particles import Domain, Lattice
-from lasersph.solvers.ablation.settings import AblationSettings
-from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 if TYPE_CHECKING:
     from lasersph.case.case import Case
@@ -25,14 +23,8 @@ LARGEST_PARTICLES = 2**32 - 1
 """Neighbors are numbered with 32 bits."""
 LARGEST_STEPS = 1e9
 BYTES_PER_PARTICLE = 400
-BYTES_PER_NEIGHBOR = 56
-"""Index and weight, and their copies while the list is assembled."""
-BYTES_PER_MOVING_NEIGHBOR = 24
-"""The same where matter moves: nothing is assembled."""
-BYTES_PER_FLOWING_NEIGHBOR = 100
-"""The same where a melt flows: weights of heat, viscosity and pressure."""
+"""Fields and what is kept of them for a checkpoint, besides neighbors."""
 ASSUMED_FINE_DEPTH = 2e-7
-USUAL_SUPPORT = {"quintic-spline": 3.75}
 
 
 @dataclass(frozen=True)
@@ -48,35 +40,22 @@ class Size:
 
 
 def size_of(case: Case) -> Size:
-    """Estimated size of a case; in a case with an active region, only that has neighbors."""
-    each = bytes_per_neighbor(case)
-    if isinstance(case.solver, AblationSettings):
-        each *= active_share(case, reach(case.particles) * case.particles.spacing)
-    return estimate(case.domain, case.particles, case.solver.dimensions, bytes_per_neighbor=each)
+    """Estimated size of a case; where cold matter is inactive, only the rest has neighbors."""
+    lattice, dimensions = case.particles, case.solver.dimensions
+    count = estimate_count(case.domain, lattice, dimensions)
+    share = active_share(case, lattice.support_over_spacing * lattice.spacing)
+    neighbors = share * neighbor_count(lattice, dimensions)
+    return Size(count, count * (BYTES_PER_PARTICLE + case.solver.bytes_per_neighbor * neighbors))
 
 
-def bytes_per_neighbor(case: Case) -> float:
-    """Most memory that a particle takes for each neighbor with which it is computed [B]."""
-    if isinstance(case.solver, AblationSettings):
-        return BYTES_PER_MOVING_NEIGHBOR
-    if isinstance(case.solver, MeltPoolSettings):
-        return BYTES_PER_FLOWING_NEIGHBOR
-    return BYTES_PER_NEIGHBOR
+def neighbor_count(lattice: Lattice, dimensions: int) -> float:
+    """Neighbors of a particle on a lattice: the volume of its support in spacings."""
+    ratio = lattice.support_over_spacing
+    return {1: 2.0 * ratio, 2: math.pi * ratio**2, 3: 4.0 / 3.0 * math.pi * ratio**3}[dimensions]
 
 
-def reach(lattice: Lattice) -> float:
-    """Support radius over spacing."""
-    return lattice.support_ratio or USUAL_SUPPORT.get(lattice.kernel, 3.0)
-
-
-def estimate(
-    domain: Domain,
-    lattice: Lattice,
-    dimensions: int,
-    *,
-    bytes_per_neighbor: float = BYTES_PER_NEIGHBOR,
-) -> Size:
-    """Estimated size of the particles of a block in 1, 2 or 3 dimensions."""
+def estimate_count(domain: Domain, lattice: Lattice, dimensions: int) -> float:
+    """Estimated number of particles of a block in 1, 2 or 3 dimensions."""
     sides = [high - low for low, high in domain.lateral(dimensions)]
 
     def per_layer(thickness: float) -> float:
@@ -94,10 +73,7 @@ def estimate(
             thickness /= lattice.ratio
         if depth < domain.depth:
             count += (domain.depth - depth) / lattice.coarsest * per_layer(lattice.coarsest)
-    ratio = reach(lattice)
-    neighbors = {1: 2.0 * ratio, 2: math.pi * ratio**2, 3: 4.0 / 3.0 * math.pi * ratio**3}
-    each = BYTES_PER_PARTICLE + bytes_per_neighbor * neighbors[dimensions]
-    return Size(count, count * each)
+    return count
 
 
 def machine_memory() -> float:

@@ -87,14 +87,12 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
     from lasersph.case.size import in_words, memories
     from lasersph.input import format_duration, format_quantity
 
-    otherwise = "explicit" if case.solver.kind == "ablation" else "heat implicit"
-    scheme = getattr(case.solver, "scheme", otherwise)
     there = [words.format(in_words(most)) for words, most in memories(backend) if isfinite(most)]
     time = f"roughly {format_duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}"
     rows = [
         ("case", case.title or case.name),
         ("material", case.material.title or case.material.name),
-        ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {scheme}"),
+        ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {case.solver.scheme_text}"),
         ("particles", f"{expected.particles} in {expected.layers} layers"),
         (
             "finest spacing",

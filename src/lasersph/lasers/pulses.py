@@ -62,6 +62,12 @@ class PulseTrain(Model, ABC):
         return self.period if self.count > 1 and self.period is not None else np.inf
 
     @property
+    def starts(self) -> tuple[float, ...]:
+        """First time of light of each pulse [s]."""
+        period = self.period or 0.0
+        return tuple(self.window[0] + number * period for number in range(self.count))
+
+    @property
     def end(self) -> float:
         """Last time of light of the last pulse [s]."""
         return self.window[1] + (self.count - 1) * (self.period or 0.0)

@@ -16,6 +16,8 @@ from lasersph.input import Length, Model
 
 KernelName = Literal["cubic-spline", "quintic-spline", "wendland-c2"]
 Size = Annotated[Length, Field(gt=0)]
+USUAL_SUPPORT_RATIO = {"quintic-spline": 3.75, "cubic-spline": 3.0, "wendland-c2": 3.0}
+"""Support radius over spacing by kernel: 3 h with h = 1.25 spacings, 2 h with h = 1.5 spacings."""
 
 
 class Lattice(Model):
@@ -42,6 +44,11 @@ class Lattice(Model):
     support_ratio: Annotated[float, Field(ge=1.5, le=6.0)] | None = Field(
         default=None, description="support radius over spacing; default 3.75 (quintic), 3 (others)"
     )
+
+    @property
+    def support_over_spacing(self) -> float:
+        """Support radius over spacing, as given or as is usual for the kernel."""
+        return self.support_ratio or USUAL_SUPPORT_RATIO[self.kernel]
 
     @model_validator(mode="after")
     def _check_sizes(self) -> Lattice:

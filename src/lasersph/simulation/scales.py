@@ -11,6 +11,7 @@ or the difference dT of two opposite held ones and their distance,
 
 from __future__ import annotations
 
+from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
 from lasersph.physics.dimensionless import (
@@ -23,13 +24,12 @@ from lasersph.physics.dimensionless import (
     reynolds_number,
     thermal_diffusion_length,
 )
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 
-def dimensionless(case: Case) -> dict[str, dict[str, float]]:
-    """Scales [SI] and numbers of a case; empty without pulse or boiling point, but for boxes."""
+def heat_scales(case: Case) -> dict[str, dict[str, float]]:
+    """Scales [SI] and numbers of a case; empty without pulse or boiling point."""
     material, laser = case.material, case.laser
-    if case.flow is not None:
-        return {"numbers": box_numbers(case)}
     if laser is None or material.vaporization is None:
         return {}
     duration = laser.pulse.on_time or 100.0 * laser.pulse.resolution
@@ -49,8 +49,6 @@ def dimensionless(case: Case) -> dict[str, dict[str, float]]:
         numbers["Ph_solid_liquid"] = phase_change_number(
             material.melting.latent_heat, capacity, rise
         )
-    if case.solver.kind == "melt-pool":
-        numbers |= melt_numbers(case, length, diffusivity)
     scales = {
         "length_m": length,
         "time_s": 4.0 * duration,
@@ -61,16 +59,16 @@ def dimensionless(case: Case) -> dict[str, dict[str, float]]:
     return {"scales": scales, "numbers": numbers}
 
 
-def melt_numbers(case: Case, length: float, diffusivity: float) -> dict[str, float]:
+def melt_numbers(case: Case, settings: MeltPoolSettings, length: float) -> dict[str, float]:
     """Pr, Ra and Ma of a melt [Demuth2020, eq. (23)], with the properties of its liquidus.
 
     Args:
         length: thermal diffusion length [m].
-        diffusivity: at the reference temperature [m^2/s].
     """
-    material, settings = case.material, case.solver
-    if material.vaporization is None or settings.kind != "melt-pool":
+    material = case.material
+    if material.vaporization is None:
         return {}
+    diffusivity = material.diffusivity_reference
     T = material.flow_temperature
     hot = material.vaporization.temperature - T
     nu = float(material.kinematic_viscosity_at(T))
@@ -84,10 +82,10 @@ def melt_numbers(case: Case, length: float, diffusivity: float) -> dict[str, flo
     }
 
 
-def box_numbers(case: Case) -> dict[str, float]:
+def box_numbers(case: Case, flow: FlowConditions, settings: MeltPoolSettings) -> dict[str, float]:
     """Pr, and Re and Ra where a wall moves or two opposite ones are held apart."""
-    material, flow, settings = case.material, case.flow, case.solver
-    if flow is None or settings.kind != "melt-pool" or case.domain.width is None:
+    material = case.material
+    if case.domain.width is None:
         return {}
     T = material.flow_temperature
     nu, a = float(material.kinematic_viscosity_at(T)), material.diffusivity_reference

@@ -17,24 +17,12 @@ from typing import Any
 from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
-from lasersph.observers import (
-    Observers,
-    SnapshotSchedule,
-    ablation_observers,
-    flow_observers,
-    heat_observers,
-)
+from lasersph.observers import SnapshotSchedule
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
-from lasersph.particles.layers import Layers
-from lasersph.simulation.ablation_estimates import ablation_estimates
-from lasersph.simulation.ablation_view import pulse_starts
-from lasersph.simulation.build import build, view_of
-from lasersph.simulation.scales import dimensionless
-from lasersph.solvers.ablation.settings import AblationSettings
-from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+from lasersph.simulation.recipes import Recipe, recipe_of
 from lasersph.solvers.step_control import Solver, StepFailed, choose_step
 
 PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
@@ -106,8 +94,8 @@ def run(
     try:
         if folder.is_complete:
             return Result(folder.path, folder.summary)
-        layers, solver = build(case, device)
-        loop = _Loop(case, layers, solver, folder)
+        recipe = recipe_of(case)
+        loop = _Loop(case, recipe, recipe.build(device), folder)
         loop.begin(checkpoint)
         loop.go(progress, should_stop)
         return Result(folder.path, loop.finish())
@@ -131,32 +119,15 @@ def _open(
     return RunFolder.create(out, **arguments), None
 
 
-def _observers(case: Case, iterations: tuple[str, ...]) -> Observers:
-    """What looks at a run of this case."""
-    dimensions = case.solver.dimensions
-    if isinstance(case.solver, MeltPoolSettings):
-        return flow_observers(
-            dimensions, box=case.flow is not None, probes=case.probes, iterations=iterations
-        )
-    if isinstance(case.solver, AblationSettings):
-        return ablation_observers(
-            dimensions,
-            probes=case.probes,
-            traces=case.traces,
-            iterations=iterations,
-            axis=None if case.laser is None else case.laser.position,
-            pulse_starts=pulse_starts(case),
-        )
-    return heat_observers(dimensions, probes=case.probes, iterations=iterations)
-
-
 class _Loop:
     """One run from its first or resumed step to its end."""
 
-    def __init__(self, case: Case, layers: Layers, solver: Solver, folder: RunFolder) -> None:
-        self.case, self.layers, self.solver, self.folder = case, layers, solver, folder
+    def __init__(
+        self, case: Case, recipe: Recipe[Any, Any], solver: Solver, folder: RunFolder
+    ) -> None:
+        self.case, self.recipe, self.solver, self.folder = case, recipe, solver, folder
         self._backend = solver.backend
-        self.observers = _observers(case, tuple(solver.iterations))
+        self.observers = recipe.observers(tuple(solver.iterations))
         self.snapshots = SnapshotSchedule(case.output.snapshots, case.time.end)
         self.steps, self.limit, self.wall_before = 0, "", 0.0
         self.started = clock.monotonic()
@@ -209,7 +180,7 @@ class _Loop:
             return self.solver.step(step, unclipped_step)
         except StepFailed as error:
             self._save()
-            self._snapshot(view_of(self.case, self.solver, self.steps, self.limit))
+            self._snapshot(self._view())
             raise StepFailed(
                 f"{error}; stopped at {self.solver.state.time:.6g} s after {self.steps} steps, "
                 "the checkpoint and the last good snapshot are kept"
@@ -219,14 +190,14 @@ class _Loop:
         """Write the summary; the run is complete."""
         state = self.solver.state
         if self.solver.is_steady:
-            self._snapshot(view_of(self.case, self.solver, self.steps, self.limit))
+            self._snapshot(self._view())
         summary = {
             "case": self.case.name,
             "title": self.case.title,
             "solver": self.case.solver.kind,
             "dimensions": self.case.solver.dimensions,
             "particles": self.solver.particle_count,
-            "spacing_m": self.layers.spacing,
+            "spacing_m": self.recipe.layers.spacing,
             "spacing_requested_m": self.case.particles.spacing,
             "steps": self.steps,
             "time_s": state.time,
@@ -237,17 +208,19 @@ class _Loop:
             "precision": str(self._backend.real),
             "threads": self._backend.threads,
             **self.observers.summary(),
-            "dimensionless": dimensionless(self.case),
+            "dimensionless": self.recipe.dimensionless(),
+            **self.recipe.summary(),
         }
-        if isinstance(self.case.solver, AblationSettings):
-            summary["estimates"] = ablation_estimates(self.case)
         self.folder.events.append("finished", time=state.time, step=self.steps)
         self.folder.log(f"finished after {self.steps} steps, {summary['wall_time_s']:.1f} s")
         self.folder.finish(summary)
         return self.folder.summary
 
+    def _view(self) -> View:
+        return self.recipe.view(self.solver, self.steps, self.limit)
+
     def _observe(self) -> None:
-        view = view_of(self.case, self.solver, self.steps, self.limit)
+        view = self._view()
         self.hottest = float(view.temperature.max())
         row = self.observers.observe(view)
         if self.steps % self.case.output.history_every == 0:

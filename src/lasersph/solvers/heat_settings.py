@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from lasersph.input import Model
+from lasersph.solvers.solver_settings import SolverSettings
 
 
-class HeatSettings(Model):
+class HeatSettings(SolverSettings):
     """How heat and changes of phase are computed."""
+
+    bytes_per_neighbor: ClassVar[int] = 56
+    """Index and weight, and their copies while the list is assembled."""
 
     kind: str
     dimensions: Literal[1, 2, 3] = 2

@@ -69,7 +69,7 @@ class Solver(Protocol):
         """Numbers that survive a step and that a checkpoint keeps beside `fields`."""
         ...
 
-    def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
+    def restore(self, arrays: Mapping[str, np.ndarray], scalars: Mapping[str, float], /) -> None:
         """Continue from the arrays of `fields` and from `checkpoint_scalars`."""
         ...
 

@@ -5,7 +5,14 @@ import math
 
 import pytest
 
-from lasersph.case import Case, available_cases, case_file, estimate, load_case, write_new_case
+from lasersph.case import (
+    Case,
+    available_cases,
+    case_file,
+    estimate_count,
+    load_case,
+    write_new_case,
+)
 from lasersph.case import size as size_module
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.quick import quick_settings
@@ -230,11 +237,11 @@ def test_quick_keeps_ten_cells():
 def test_size_by_hand():
     """1-D: depth / spacing; 2-D uniform: times width / spacing; graded less than uniform."""
     case = load_case("stefan")
-    assert math.isclose(estimate(case.domain, case.particles, 1).particles, 200)
+    assert math.isclose(estimate_count(case.domain, case.particles, 1), 200)
     graded = load_case("dlip-steel")
     uniform = load_case("dlip-steel", ["particles.arrangement=uniform"])
-    few = estimate(graded.domain, graded.particles, 2).particles
-    many = estimate(uniform.domain, uniform.particles, 2).particles
+    few = estimate_count(graded.domain, graded.particles, 2)
+    many = estimate_count(uniform.domain, uniform.particles, 2)
     assert math.isclose(many, 4.6e-6 / 8e-9 * 2.5e-6 / 8e-9)
     assert few < 0.2 * many
     assert in_words(1536 * 2**20) == "1.5 GiB"

@@ -3,7 +3,7 @@
 import pytest
 
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
-from lasersph.case import available_cases, estimate, load_case
+from lasersph.case import available_cases, estimate_count, load_case
 from lasersph.lasers import GaussianPulse, InterferenceBeam, SquarePulse
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
@@ -55,9 +55,9 @@ def test_pulsed_heating():
     assert case.laser is not None and isinstance(case.laser.pulse, SquarePulse)
     assert case.laser.mean_fluence / case.laser.pulse.duration == 9.6e11
     assert (case.laser.reflectivity, case.laser.pulse.count) == (0.75, 3)
-    assert round(estimate(case.domain, case.particles, 1).particles) == 800
+    assert round(estimate_count(case.domain, case.particles, 1)) == 800
     solid = load_case("pulsed-heating", ["solver.dimensions=3", "domain.width=2um"])
-    assert round(estimate(solid.domain, solid.particles, 3).particles) == 800 * 8 * 8
+    assert round(estimate_count(solid.domain, solid.particles, 3)) == 800 * 8 * 8
 
 
 def test_boxes_of_one():
@@ -67,7 +67,7 @@ def test_boxes_of_one():
         assert case.material.is_liquid and case.material.density_liquid == 1.0
         assert float(case.material.kinematic_viscosity_at(300.0)) == 0.01
         assert case.domain.width == case.domain.depth == 1.0
-        assert round(estimate(case.domain, case.particles, 2).particles) == 2500
+        assert round(estimate_count(case.domain, case.particles, 2)) == 2500
     assert cavity.flow is not None and cavity.flow.surface.velocity == 1.0
     assert vortices.flow is not None
     assert {side.kind for side in vortices.flow.faces.values()} == {"periodic"}

@@ -50,7 +50,7 @@ def test_recoil_against_capillary_pressure():
 
 def test_estimates_of_a_case():
     """Penetration of eq. (34), velocities of eq. (6), loss of a disc to its sides."""
-    from lasersph.simulation.ablation_estimates import ablation_estimates
+    from lasersph.simulation.recipes.ablation.estimates import ablation_estimates
 
     beam = 'laser.beam={kind="top-hat", radius="1 um"}'
     found = ablation_estimates(load_case("ablation-depth", [beam, "solver.dimensions=2"]))
@@ -67,7 +67,7 @@ def test_estimates_of_a_case():
 def test_last_pulse_of_a_train():
     """Under a wide beam 2 q / k sqrt(D / pi) [sqrt(t) - sqrt(t - t_p) + sqrt(t_p)] at the end of
     the second of two pulses; on the axis of a disc less."""
-    from lasersph.simulation.ablation_estimates import conduction
+    from lasersph.simulation.recipes.ablation.estimates import conduction
 
     train = 'laser.pulse={kind="square", duration="10 ns", count=2, period="40 ns"}'
     wide = load_case("ablation-depth", [train])

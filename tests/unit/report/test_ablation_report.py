@@ -10,7 +10,7 @@ from lasersph.observers import Crater, Ejecta, Trace, Traces, ablation_observers
 from lasersph.plots import animation, style
 from lasersph.report import ablation_text, estimate_tables, tables, write_report
 from lasersph.report.summary_text import notes_of, verdict
-from lasersph.simulation.ablation_estimates import ablation_estimates
+from lasersph.simulation.recipes.ablation.estimates import ablation_estimates
 
 
 @pytest.fixture(scope="module")

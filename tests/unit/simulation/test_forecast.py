@@ -4,7 +4,7 @@ import pytest
 
 from lasersph.case import load_case
 from lasersph.simulation import forecast
-from lasersph.simulation.build import lay_out
+from lasersph.simulation.layers import lay_out
 
 
 def test_counts_are_those_of_the_layers() -> None:

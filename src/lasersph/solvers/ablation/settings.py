@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from lasersph.input import Acceleration, Length, Model, Velocity
+from lasersph.input import Acceleration, Length, Velocity
+from lasersph.solvers.solver_settings import SolverSettings
 
 
-class AblationSettings(Model):
+class AblationSettings(SolverSettings):
     """Weakly compressible flow with heat, melting and ejection of the surface."""
+
+    reads: ClassVar[frozenset[str]] = frozenset({"vessel", "motion", "ejection", "traces"})
+    bytes_per_neighbor: ClassVar[int] = 24
+    """Nothing is assembled."""
 
     kind: Literal["ablation"] = "ablation"
     dimensions: Literal[1, 2, 3] = 3
@@ -63,3 +68,18 @@ class AblationSettings(Model):
     def plateau(self) -> Literal["hold"]:
         """Matter at the boiling point keeps its temperature while it takes up latent heat."""
         return "hold"
+
+    @property
+    def scheme_text(self) -> str:
+        """How steps are taken, for a reader."""
+        return "explicit"
+
+    @property
+    def is_explicit(self) -> bool:
+        """Whether stability limits the steps of heat."""
+        return True
+
+    @property
+    def leaves_rest_inactive(self) -> bool:
+        """Whether cold matter at rest is left alone; under gravity nothing rests."""
+        return self.sleep and self.gravity == 0.0

@@ -38,7 +38,6 @@ FIELDS = (
     "evaporated_mass",
 )  # fmt: skip
 DERIVED = ("temperature", "potential", "melt_fraction", "vapor_fraction")
-SUPPORT = {"quintic-spline": 3.75, "cubic-spline": 3.0, "wendland-c2": 3.0}
 
 
 @dataclass(frozen=True)
@@ -154,7 +153,7 @@ class Weighing:
 
 def weighing_of(lattice: Lattice, layers: Layers, *, use_second_moment: bool) -> Weighing:
     """The rule of a lattice, corrected to conduct exactly or as printed."""
-    ratio = lattice.support_ratio or SUPPORT[lattice.kernel]
+    ratio = lattice.support_over_spacing
     shape = kernel(lattice.kernel, layers.dimension)
     mean = graded if lattice.arrangement == "graded" else arithmetic
     if not use_second_moment:

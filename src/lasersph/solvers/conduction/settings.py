@@ -23,3 +23,13 @@ class ConductionSettings(HeatSettings):
         description="of the implicit scheme: Newton, or one Jacobi-CG step between updates of the "
         "fractions [Demuth2020, Section 4.2]",
     )
+
+    @property
+    def scheme_text(self) -> str:
+        """How steps are taken, for a reader."""
+        return self.scheme
+
+    @property
+    def is_explicit(self) -> bool:
+        """Whether stability limits the steps of heat."""
+        return self.scheme == "explicit"

@@ -83,3 +83,13 @@ def wall_potential(curve: CaloricCurve, temperature: Array) -> Array:
         above = P[-1] + (P[-1] - P[-2]) / (T[-1] - T[-2]) * (temperature - T[-1])
         found = np.where(temperature > T[-1], above, found)
     return found
+
+
+def wall_enthalpy(curve: CaloricCurve, temperature: np.ndarray) -> np.ndarray:
+    """Enthalpy of walls [J/kg]; the end segments continue."""
+    rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
+    T, h = curve.temperature[rising], curve.enthalpy[rising]
+    found = np.interp(temperature, T, h)
+    below = h[0] + (h[1] - h[0]) / (T[1] - T[0]) * (temperature - T[0])
+    above = h[-1] + (h[-1] - h[-2]) / (T[-1] - T[-2]) * (temperature - T[-1])
+    return np.where(temperature < T[0], below, np.where(temperature > T[-1], above, found))

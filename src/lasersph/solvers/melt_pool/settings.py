@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -12,6 +12,10 @@ from lasersph.solvers.heat_settings import HeatSettings
 
 class MeltPoolSettings(HeatSettings):
     """Heat, melting and the incompressible flow of what is molten, or of a closed box."""
+
+    reads: ClassVar[frozenset[str]] = frozenset({"flow", "time.steady"})
+    bytes_per_neighbor: ClassVar[int] = 100
+    """Weights of heat, viscosity and pressure."""
 
     kind: Literal["melt-pool"] = "melt-pool"
     dimensions: Literal[2] = 2

@@ -7,6 +7,7 @@ step is that of `Conduction`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -101,7 +102,7 @@ class MeltPool:
             "divergence_max": self.flow.divergence[1],
         }  # fmt: skip
 
-    def restore(self, arrays: dict[str, np.ndarray], numbers: dict[str, float]) -> None:
+    def restore(self, arrays: Mapping[str, np.ndarray], numbers: Mapping[str, float]) -> None:
         """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
         backend = self.backend
         self.heat.restore(arrays, numbers)
@@ -268,7 +269,7 @@ class MeltPool:
         self.state.restore(self._numbers)
         self._restore_numbers(self._numbers)
 
-    def _restore_numbers(self, numbers: dict[str, float]) -> None:
+    def _restore_numbers(self, numbers: Mapping[str, float]) -> None:
         flow = self.flow
         flow.largest_speed, flow.largest_acceleration = (
             numbers["largest_speed"],

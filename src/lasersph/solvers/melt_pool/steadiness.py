@@ -8,6 +8,8 @@ the turn of a slow oscillation for the end.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 LOOKS = 5
 
 
@@ -42,7 +44,7 @@ class Steadiness:
             f"steady.energy_{k}": energy for k, energy in enumerate(self.energies)
         }
 
-    def restore(self, numbers: dict[str, float]) -> None:
+    def restore(self, numbers: Mapping[str, float]) -> None:
         """Continue from the numbers of `checkpoint_scalars`."""
         self.time, self.reached = numbers["steady.time"], bool(numbers["steady.reached"])
         self.energies = [numbers[f"steady.energy_{k}"] for k in range(LOOKS)]

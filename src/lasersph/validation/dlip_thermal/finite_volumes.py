@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from lasersph.case import Case
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import Laser
-from lasersph.simulation.build import caloric_curve
+from lasersph.simulation.layers import caloric_curve
 
 Array = NDArray[np.float64]
 ROW = 8e-9

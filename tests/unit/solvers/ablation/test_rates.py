@@ -6,7 +6,7 @@ import pytest
 from lasersph import compute
 from lasersph.case import load_case
 from lasersph.particles.kinds import EJECTED, INTERIOR, LEAVING
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.ablation.equations import advance_vapor, pair_heat
 from lasersph.solvers.ablation.rates import Moving
 from lasersph.solvers.step_control import binding_limit
@@ -35,7 +35,7 @@ def test_same_as_with_all_motion():
     found = []
     for is_general in (False, True):
         case = load_case("ablation-depth", list(PUBLISHED))
-        _, solver = build(case, compute.cpu(threads=1))
+        solver = recipe_of(case).build(compute.cpu(threads=1))
         if is_general:
             solver._what_moves = lambda *_: Moving.ALL
         while solver.state.time < case.time.end * (1.0 - 1e-12):

@@ -5,13 +5,13 @@ import pytest
 
 from lasersph import compute
 from lasersph.case import load_case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 
 
 def operator_of(*settings):
     """Dense matrix of the folded weights, and their sums."""
     case = load_case("dlip-steel", ["solver.kind=conduction", "particles.spacing=125nm", *settings])
-    body = build(case, compute.cpu(threads=2))[1].body
+    body = recipe_of(case).build(compute.cpu(threads=2)).body
     pairs, to_host = body.pairs, body.backend.to_host
     start = to_host(pairs.neighbors.row_start).astype(np.int64)
     row = np.repeat(np.arange(body.count), np.diff(start))

@@ -6,7 +6,7 @@ import pytest
 from lasersph import compute
 from lasersph.analytic.slab import slab_step_rise
 from lasersph.case import Case
-from lasersph.simulation.build import build
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 DEPTH = 1.0
@@ -31,7 +31,7 @@ def solver_of(boundaries, *, end, dimensions=1, cells=20, **settings):
             "time": {"end": end, "step": end / 400, "temperature_change": 1e9},
         }
     )  # fmt: skip
-    return case, build(case, compute.cpu(threads=1))[1]
+    return case, recipe_of(case).build(compute.cpu(threads=1))
 
 
 def run(solver, end):
@@ -120,7 +120,7 @@ def test_surface_held_at_a_wave():
             "time": {"end": 1.0, "step": 0.01, "temperature_change": 1e9},
         }
     )  # fmt: skip
-    solver = build(case, compute.cpu(threads=1))[1]
+    solver = recipe_of(case).build(compute.cpu(threads=1))
     rise, (x, z) = run(solver, 1.0)
     k = 2.0 * np.pi
     exact = 10.0 * np.cos(k * x) * np.cosh(k * (z + 0.5)) / np.cosh(0.5 * k)

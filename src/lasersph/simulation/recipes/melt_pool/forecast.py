@@ -9,7 +9,6 @@ liquid's range of temperatures over a quarter of the pattern.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi, sqrt
 
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
@@ -19,6 +18,7 @@ from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.lasers import GaussianBeam, InterferenceBeam
 from lasersph.physics.flow_limits import flow_limits
+from lasersph.simulation.recipes.recipe import FlowForecast
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 BUOYANT_SHARE = 0.2
@@ -27,22 +27,9 @@ MOLTEN_PULSES = 8.0
 FEWEST_ROWS = 8
 
 
-@dataclass(frozen=True)
-class FlowForecast:
-    """Expected speed [m/s], thickness of the layer that moves [m] (None in boxes without one), time
-    over which something flows [s], limits [s] and warnings."""
-
-    speed: float
-    layer: float | None
-    duration: float
-    limits: dict[str, float]
-    warnings: tuple[str, ...]
-
-
-def flow_forecast(case: Case, spacing: float, support: float) -> FlowForecast:
-    """Forecast of the flow of a melt-pool case; spacing and support radius as used [m]."""
-    solver, material = case.solver, case.material
-    assert isinstance(solver, MeltPoolSettings)
+def flow_forecast(case: Case, solver: MeltPoolSettings, spacing: float) -> FlowForecast:
+    """Forecast of the flow of a melt-pool case; spacing as used [m]."""
+    material = case.material
     T = material.flow_temperature
     nu, density = float(material.kinematic_viscosity_at(T)), material.density_liquid
     slope = abs(_slope(case, T)) if solver.marangoni else 0.0
@@ -51,7 +38,7 @@ def flow_forecast(case: Case, spacing: float, support: float) -> FlowForecast:
         speed = layer / (nu * density) * slope * gradient
     else:
         layer, gradient, duration = None, _imposed_gradient(case), case.time.end
-        speed = _box_speed(case, nu, density, slope)
+        speed = _box_speed(case, solver.gravity, nu, density, slope)
         if case.flow.surface.kind != "free-surface":
             gradient = 0.0
     lift = solver.gravity * float(material.expansion_at(T)) * _temperature_range(case)
@@ -59,7 +46,7 @@ def flow_forecast(case: Case, spacing: float, support: float) -> FlowForecast:
     has_gamma = material.surface_tension is not None
     limits = flow_limits(
         solver.step_limits,
-        support=support,
+        support=case.particles.support_over_spacing * spacing,
         speed=speed,
         acceleration=acceleration,
         viscosity=nu,
@@ -120,15 +107,15 @@ def _imposed_gradient(case: Case) -> float:
     return _temperature_range(case) / (x[1] - x[0])
 
 
-def _box_speed(case: Case, viscosity: float, density: float, slope: float) -> float:
+def _box_speed(case: Case, gravity: float, viscosity: float, density: float, slope: float) -> float:
     """Largest speed to expect in a box [m/s]."""
-    assert case.flow is not None and isinstance(case.solver, MeltPoolSettings)
+    assert case.flow is not None
     speeds = [abs(side.velocity) for side in case.flow.faces.values()]
     if isinstance(case.flow.initial, TaylorGreenFlow):
         speeds.append(case.flow.initial.speed)
     difference = _temperature_range(case)
     T = case.material.flow_temperature
-    lift = case.solver.gravity * float(case.material.expansion_at(T)) * difference
+    lift = gravity * float(case.material.expansion_at(T)) * difference
     speeds.append(BUOYANT_SHARE * sqrt(lift * case.domain.depth))
     wave = case.boundaries.surface_temperature_wave
     if case.flow.surface.kind == "free-surface" and slope:

@@ -6,56 +6,36 @@ deepest, since particles are numbered from the surface down.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from lasersph.case import Case
 from lasersph.observers.ablation_view import AblationView
-from lasersph.observers.view import View
 from lasersph.particles.kinds import EJECTED
-from lasersph.simulation.spot_edges import halves_spot
 from lasersph.solvers.ablation.solver import Ablation
 
 
-def pulse_starts(case: Case) -> tuple[float, ...]:
-    """Times at which the pulses of a case begin [s]."""
-    if case.laser is None:
-        return ()
-    pulse = case.laser.pulse
-    first, period = pulse.window[0], pulse.period or 0.0
-    return tuple(first + number * period for number in range(pulse.count))
-
-
-def ablation_view_of(case: Case, solver: Ablation, step: int, limit: str) -> View:
-    """The state for observers; particles of walls are left out."""
-    particles, backend, state = solver.particles, solver.backend, solver.state
+def ablation_fields(case: Case, solver: Ablation, step: int) -> dict[str, Any]:
+    """Fields of `View` for matter that moves; particles of walls are left out."""
+    particles, backend = solver.particles, solver.backend
     geometry, curve = solver.body.geometry, solver.body.curve
-    count = _shown(solver) if step else particles.count
+    count = _shown_count(solver) if step else particles.count
     position = backend.look(particles["position"])[:, :count]
-    return View(
-        time=state.time,
-        step=step,
-        time_step=state.time_step,
-        position=position,
-        width=np.broadcast_to(np.array(geometry.cell)[:, None], position.shape),
-        volume=np.broadcast_to(np.array(geometry.volume), (count,)),
-        temperature=backend.look(particles["temperature"])[:count],
-        enthalpy=backend.look(particles["enthalpy"])[:count],
-        melt_fraction=backend.look(particles["melt_fraction"])[:count],
-        vapor_fraction=backend.look(particles["vapor_fraction"])[:count],
-        surface=_surface(solver, count),
-        symmetry_factor=case.domain.symmetry_factor,
-        halves_spot=halves_spot(case),
-        energy=dict(state.energy),
-        iterations=solver.iterations,
-        limit=limit,
-        solidus=curve.solidus,
-        liquidus=curve.liquidus,
-        vaporization=curve.vaporization,
-        ablation=_moving(case, solver, count),
-    )
+    names = ("temperature", "enthalpy", "melt_fraction", "vapor_fraction")
+    return {name: backend.look(particles[name])[:count] for name in names} | {
+        "position": position,
+        "width": np.broadcast_to(np.array(geometry.cell)[:, None], position.shape),
+        "volume": np.broadcast_to(np.array(geometry.volume), (count,)),
+        "surface": _surface(solver, count),
+        "solidus": curve.solidus,
+        "liquidus": curve.liquidus,
+        "vaporization": curve.vaporization,
+        "ablation": _ablation_view(case, solver, count),
+    }
 
 
-def _shown(solver: Ablation) -> int:
+def _shown_count(solver: Ablation) -> int:
     """How many particles there are up to the last active one."""
     count = solver.body.count
     if solver.rows is None:
@@ -75,7 +55,7 @@ def _surface(solver: Ablation, count: int) -> np.ndarray:
     return found if found.size else np.zeros(1, np.int64)
 
 
-def _moving(case: Case, solver: Ablation, count: int) -> AblationView:
+def _ablation_view(case: Case, solver: Ablation, count: int) -> AblationView:
     """Crater, ejecta and flow."""
     particles, backend, state = solver.particles, solver.backend, solver.state
     geometry = solver.body.geometry

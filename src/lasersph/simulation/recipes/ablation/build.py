@@ -17,7 +17,6 @@ from lasersph.particles.layers import Layers
 from lasersph.particles.neighbor_lists import Box
 from lasersph.particles.verlet_list import VerletList
 from lasersph.physics.artificial_viscosity import SOFTENING
-from lasersph.simulation.build_flow import wall_enthalpy
 from lasersph.solvers.ablation.active_region import ActiveRegion
 from lasersph.solvers.ablation.ejecta import Vapor
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
@@ -28,7 +27,7 @@ from lasersph.solvers.ablation.particle_state import ParticleState
 from lasersph.solvers.ablation.published.ejection import PublishedEjection
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.ablation.solver import Ablation
-from lasersph.solvers.conduction.body import SUPPORT
+from lasersph.solvers.conduction.walls import wall_enthalpy
 from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.lattice_sums import diffusive_rate, second_moment, surface_threshold, viscous_rate
 
@@ -47,10 +46,10 @@ def has_latent_heats(case: Case) -> bool:
     return case.solver.phase_change and (case.laser is None or ejection_of(case).has_latent_heats)
 
 
-def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
+def ablation_solver(
+    case: Case, settings: AblationSettings, backend: Backend, layers: Layers
+) -> Ablation:
     """The solver of a case whose matter moves."""
-    settings = case.solver
-    assert isinstance(settings, AblationSettings)
     geometry, initial = lay_out(
         layers,
         case.boundaries,
@@ -61,18 +60,23 @@ def ablation(case: Case, backend: Backend, layers: Layers) -> Ablation:
         sound_speed=settings.sound_speed,
         gravity=settings.gravity,
     )
-    return solver_of(case, backend, geometry, initial)
+    return solver_of(case, settings, backend, geometry, initial)
 
 
-def solver_of(case: Case, backend: Backend, geometry: Geometry, initial: InitialState) -> Ablation:
+def solver_of(
+    case: Case,
+    settings: AblationSettings,
+    backend: Backend,
+    geometry: Geometry,
+    initial: InitialState,
+) -> Ablation:
     """The solver of a case for particles that start where they have been laid out."""
-    settings, material = case.solver, case.material
-    assert isinstance(settings, AblationSettings)
+    material = case.material
     curve = material.caloric_curve(
         case.initial_temperature, settings.plateau, phase_change=has_latent_heats(case)
     )
     shape = kernel(case.particles.kernel, geometry.dimension)
-    ratio = case.particles.support_ratio or SUPPORT[case.particles.kernel]
+    ratio = case.particles.support_over_spacing
     melts_without_heat = curve.liquidus is None and material.liquidus is not None
     particles = ParticleState(
         backend,
@@ -111,7 +115,7 @@ def solver_of(case: Case, backend: Backend, geometry: Geometry, initial: Initial
             geometry.spacing,
             surface_threshold(shape, ratio),
         ),
-        parameters_of(case, geometry, shape, ratio),
+        parameters_of(case, settings, geometry, shape),
         case.time,
         light,
         ejection,
@@ -119,15 +123,17 @@ def solver_of(case: Case, backend: Backend, geometry: Geometry, initial: Initial
     )
 
 
-def parameters_of(case: Case, geometry: Geometry, shape: Kernel, ratio: float) -> Parameters:
+def parameters_of(
+    case: Case, settings: AblationSettings, geometry: Geometry, shape: Kernel
+) -> Parameters:
     """Constants of the solver."""
-    settings, material = case.solver, case.material
-    assert isinstance(settings, AblationSettings)
+    material = case.material
+    ratio = case.particles.support_over_spacing
     spacing = geometry.spacing
-    solid, liquid = viscosities(case)
+    solid, liquid = viscosities(case, settings)
     height = settings.ejecta_height or case.domain.depth
     low, high = (tuple(ends) for ends in zip(*geometry.box, strict=True))
-    viscous, diffusive = decay_rates(case, spacing)
+    viscous, diffusive = decay_rates(case, settings, spacing)
     return Parameters(
         smoothing=0.5 * ratio * spacing,
         sound_speed=settings.sound_speed,
@@ -144,21 +150,17 @@ def parameters_of(case: Case, geometry: Geometry, shape: Kernel, ratio: float) -
     )
 
 
-def viscosities(case: Case) -> tuple[float, float]:
+def viscosities(case: Case, settings: AblationSettings) -> tuple[float, float]:
     """alpha of solid and liquid; what is liquid everywhere is nowhere solid."""
-    settings = case.solver
-    assert isinstance(settings, AblationSettings)
     liquid = settings.viscosity_liquid
     return liquid if case.material.is_liquid else settings.viscosity_solid, liquid
 
 
-def decay_rates(case: Case, spacing: float) -> tuple[float, float]:
+def decay_rates(case: Case, settings: AblationSettings, spacing: float) -> tuple[float, float]:
     """Rates at which alternating layers of given spacing [m] stop and cool [1/s]."""
-    settings = case.solver
-    assert isinstance(settings, AblationSettings)
     shape = kernel(case.particles.kernel, settings.dimensions)
-    ratio = case.particles.support_ratio or SUPPORT[case.particles.kernel]
-    stiffest = max(viscosities(case)) * settings.sound_speed / spacing
+    ratio = case.particles.support_over_spacing
+    stiffest = max(viscosities(case, settings)) * settings.sound_speed / spacing
     diffusive = diffusive_rate(shape, ratio) * _diffusivity(case) / spacing**2
     if settings.weights == "second-moment":
         diffusive /= second_moment(shape, ratio)

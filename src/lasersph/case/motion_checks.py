@@ -1,4 +1,4 @@
-"""Checks of cases whose matter moves and ablates."""
+"""Checks of cases whose matter moves, and leaves under a laser."""
 
 from __future__ import annotations
 
@@ -6,34 +6,24 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_motion import Rest, SoundWave
+from lasersph.case.solver_choice import moves_matter
 from lasersph.input import format_quantity
 from lasersph.particles.faces import LATERAL, VERTICAL, faces_of
-from lasersph.solvers.ablation.settings import AblationSettings
-from lasersph.solvers.conduction.body import SUPPORT
 
 if TYPE_CHECKING:
     from lasersph.case.case import Case
+    from lasersph.solvers.ablation.settings import AblationSettings
 
-ONLY_HERE = ("vessel", "motion", "ejection", "traces")
 REFUSED = {
     "fixed-temperature": 'holds the face itself; write "wall" for particles of that temperature',
     "prescribed-flux": 'is for bodies at rest; write "adiabatic" or "wall"',
 }
 
 
-def ablation_problems(case: Case) -> Iterator[tuple[str, str]]:
+def motion_problems(case: Case) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that concerns matter that moves."""
-    if not isinstance(case.solver, AblationSettings):
-        for key in ONLY_HERE:
-            if getattr(case, key):
-                yield (
-                    key,
-                    f'matter stays where it is where kind = "{case.solver.kind}"; write kind = '
-                    '"ablation" in [solver], or leave it out',
-                )
+    if not moves_matter(case.solver):
         return
-    if case.flow is not None:
-        yield "flow", "is about a melt pool's box; say in [motion] how matter starts"
     yield from _faces(case)
     yield from _particles(case, case.solver)
     yield from _motion(case, case.solver)
@@ -63,7 +53,7 @@ def _particles(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]
     width = case.domain.width
     if width is None or solver.dimensions == 1:
         return
-    ratio = case.particles.support_ratio or SUPPORT[case.particles.kernel]
+    ratio = case.particles.support_over_spacing
     reach = 2.0 * (ratio + solver.skin) * case.particles.spacing
     for key, length, face in (
         ("width", width, "left"),

@@ -12,7 +12,6 @@ import numpy as np
 
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case import Case
-from lasersph.compute.backend import Backend
 from lasersph.observers.flow_view import FlowView
 from lasersph.physics.evaporation import (
     STANDARD_ATMOSPHERE,
@@ -25,15 +24,9 @@ from lasersph.solvers.step_control import ROUNDING
 SIDES = ("left", "right", "bottom", "surface")
 
 
-def taking(case: Case, backend: Backend) -> Callable[[Any], Any]:
-    """What fetches an array of the solver."""
-    return backend.look if case.flow is None else backend.snapshot
-
-
-def flow_view_of(case: Case, solver: MeltPool) -> FlowView:
-    """The flow for observers."""
+def flow_view(case: Case, solver: MeltPool, take: Callable[[Any], np.ndarray]) -> FlowView:
+    """The flow for observers; `take` fetches an array of the solver."""
     flow, free, backend = solver.flow, solver.domain.surface, solver.backend
-    take = taking(case, backend)
     liquid, material = flow.liquid, case.material
     position, velocity = take(solver.position), take(flow.velocity)
     pressure = take(flow.pressure)

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from lasersph.boundaries.flat_surface import FlatSurface, ImposedTemperature
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
-from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers
 from lasersph.solvers.conduction.body import weighing_of
 from lasersph.solvers.conduction.solver import Conduction
-from lasersph.solvers.conduction.walls import wall_potential
+from lasersph.solvers.conduction.walls import wall_enthalpy, wall_potential
 from lasersph.solvers.melt_pool.block import StaticParticleData
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
@@ -20,10 +17,8 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
 
 
-def with_flow(case: Case, layers: Layers, heat: Conduction) -> MeltPool:
+def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Conduction) -> MeltPool:
     """The solver of heat, and the flow of the melt or of a box around it."""
-    settings = case.solver
-    assert isinstance(settings, MeltPoolSettings)
     body = heat.body
     backend, count = body.backend, body.count
     filling, curve = body.filling, body.curve
@@ -82,16 +77,6 @@ def liquid_of(case: Case, settings: MeltPoolSettings) -> Liquid:
         diffusivity=material.diffusivity_reference,
         surface_tension=gamma,
     )
-
-
-def wall_enthalpy(curve: CaloricCurve, temperature: np.ndarray) -> np.ndarray:
-    """Enthalpy of walls [J/kg]; the end segments continue."""
-    rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
-    T, h = curve.temperature[rising], curve.enthalpy[rising]
-    found = np.interp(temperature, T, h)
-    below = h[0] + (h[1] - h[0]) / (T[1] - T[0]) * (temperature - T[0])
-    above = h[-1] + (h[-1] - h[-2]) / (T[-1] - T[-2]) * (temperature - T[-1])
-    return np.where(temperature < T[0], below, np.where(temperature > T[-1], above, found))
 
 
 def _held_surface(case: Case) -> ImposedTemperature | None:

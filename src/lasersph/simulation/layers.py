@@ -1,0 +1,75 @@
+"""From a case to the layers of its particles."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lasersph.analytic.melt_depth import melt_depth
+from lasersph.case import Case
+from lasersph.irradiation.light import COLDEST, HOTTEST
+from lasersph.lasers import InterferenceBeam
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.particles.layers import Layers, stack
+
+ESTIMATE_COLUMNS = 8
+LEAST_FINE_LAYERS = 8
+ABSORPTION_LENGTHS = 12.0
+"""Depth of the finest layers in units of 1/alpha, at least: light of exp(-12) goes deeper."""
+
+
+def caloric_curve(case: Case) -> CaloricCurve:
+    """Enthalpy curve of the case's material with the case's plateau rule."""
+    return case.material.caloric_curve(
+        case.initial_temperature, case.solver.plateau, phase_change=case.solver.phase_change
+    )
+
+
+def lay_out(case: Case) -> Layers:
+    """Layers of the case; where graded and not given, the fine depth follows from an estimate."""
+    fine = case.particles.fine_depth or 0.0
+    if case.particles.arrangement == "graded" and not fine:
+        fine = fine_depth(case)
+    return stack(case.domain, case.particles, case.solver.dimensions, fine)
+
+
+def fine_depth(case: Case) -> float:
+    """Depth of the finest layers [m]: expected melt plus two support radii, and all the light."""
+    spacing = case.particles.spacing
+    least = LEAST_FINE_LAYERS * spacing
+    laser = case.laser
+    if laser is None:
+        return least
+    alpha = laser.absorption_coefficient(case.material)
+    least = max(least, ABSORPTION_LENGTHS / alpha)
+    if not case.solver.phase_change or case.material.melting is None:
+        return least
+    width = case.domain.width
+    columns, column_width = 1, None
+    is_pattern = isinstance(laser.beam, InterferenceBeam)
+    if width is not None and laser.is_even and is_pattern:
+        columns, column_width = ESTIMATE_COLUMNS, 0.5 * width / ESTIMATE_COLUMNS
+    fluence = np.array([laser.peak_fluence])
+    if column_width is not None:
+        faces = np.arange(columns + 1) * column_width
+        pulse = laser.pulse
+        share = float(pulse.delivered(-np.inf, np.inf)) or 1.0
+        density = laser.energy_density(faces[None, :-1], faces[None, 1:], -np.inf, np.inf)
+        fluence = density / share
+    curve = caloric_curve(case)
+    T, R = laser.reflectivity_table(case.material, COLDEST, HOTTEST)
+    estimate = melt_depth(
+        enthalpy=curve.enthalpy,
+        temperature=curve.temperature,
+        potential=curve.potential,
+        melt_fraction=curve.melt_fraction,
+        density=case.material.density_reference,
+        absorption_coefficient=alpha,
+        reflectivity=lambda surface: np.interp(surface, T, R),
+        fluence=fluence,
+        delivered=lambda start, end: float(laser.pulse.delivered(start, end)),
+        end_time=case.time.end,
+        column_width=column_width,
+    )
+    if estimate.depth == 0.0:
+        return least
+    return max(least, estimate.safe_depth + 2.0 * case.particles.support_over_spacing * spacing)

@@ -1,0 +1,161 @@
+"""The recipe of heat and melting in particles at rest, on which that of melt pools builds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+
+from lasersph.compute.backend import Backend
+from lasersph.lasers.pulses import PulseTrain
+from lasersph.observers import Observers, heat_observers
+from lasersph.observers.view import View
+from lasersph.simulation.recipes.recipe import Phase, Recipe, SolverT, StepForecast
+from lasersph.solvers.conduction.body import assemble
+from lasersph.solvers.conduction.settings import ConductionSettings
+from lasersph.solvers.conduction.solver import Conduction, next_light
+from lasersph.solvers.heat_settings import HeatSettings
+from lasersph.solvers.step_control import name_of_longest
+
+HeatT = TypeVar("HeatT", bound=HeatSettings)
+
+PRODUCTS = {"implicit": 12.0, "explicit": 2.0}
+"""Of a step of heat: iterations of Newton and of conjugate gradients, or the two stages."""
+EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
+"""Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx; 2-D interpolated."""
+LARGEST_STEPS = 10_000_000
+"""Steps that are counted one by one."""
+
+
+class HeatRecipe(Recipe[HeatT, SolverT]):
+    """What runs share whose heat is conducted between particles of a body."""
+
+    def build_heat(self, backend: Backend, settings: ConductionSettings) -> Conduction:
+        """The solver of heat."""
+        case = self.case
+        body = assemble(
+            backend,
+            lattice=case.particles,
+            layers=self.layers,
+            boundaries=case.boundaries,
+            material=case.material,
+            laser=case.laser,
+            curve=self.curve,
+            use_second_moment=settings.weights == "second-moment",
+        )
+        return Conduction(body, settings, case.time, case.laser)
+
+    def heat_view(
+        self, solver: Any, step: int, limit: str, take: Callable[[Any], np.ndarray]
+    ) -> dict[str, Any]:
+        """Fields of `View` for a body at rest; `take` fetches an array of the solver."""
+        body, particles, count = solver.body, solver.particles, solver.body.count
+        shown = body.backend.shown
+        return self.common_view(solver, step, limit) | {
+            "position": shown(body.filling.position[:, :count]),
+            "width": shown(body.filling.width[:, :count]),
+            "volume": shown(body.filling.volume[:count]),
+            "temperature": take(particles["temperature"]),
+            "enthalpy": take(particles["enthalpy"]),
+            "melt_fraction": take(particles["melt_fraction"]),
+            "vapor_fraction": take(particles["vapor_fraction"]),
+            "surface": body.filling.surface,
+            "solidus": body.curve.solidus,
+            "liquidus": body.curve.liquidus,
+            "vaporization": body.curve.vaporization,
+        }
+
+    def evaporated(self, solver: Any, surface: np.ndarray) -> np.ndarray | None:
+        """Thickness that has evaporated from the cells of a surface [m], where it is followed."""
+        if self.settings.plateau != "evaporate":
+            return None
+        mass = solver.backend.look(solver.particles["evaporated_mass"])[surface]
+        return mass / self.case.material.density_reference
+
+    def observers(self, iterations: Sequence[str]) -> Observers:
+        """What observes every run with heat and melting."""
+        dimensions, probes = self.settings.dimensions, self.case.probes
+        return heat_observers(dimensions, probes=probes, iterations=iterations)
+
+    def lit_phases(self, pulse: PulseTrain, longest: float, shortest: float) -> tuple[Phase, ...]:
+        """Phases of a run with light and implicit steps, by walking along its steps.
+
+        Args:
+            longest: step while the light is on [s]. shortest: while something flows [s].
+        """
+        time, flow = self.case.time, self.flow
+        molten = 0.0 if flow is None else flow.duration
+        found: list[tuple[str, float, int]] = []
+        count, now, lit_until, lit_from = 0, 0.0, 0.0, time.end
+        while now < time.end and count < LARGEST_STEPS:
+            step = next_light(pulse, now, longest)
+            if lit_until > 0.0:
+                step = min(step, max(longest, time.cooling * (now - lit_until)))
+            is_lit = pulse.active(now, now + step)
+            if is_lit:
+                lit_from, lit_until = min(lit_from, now), now + step
+            name = "light" if is_lit else "cooling" if lit_until > 0.0 else "before the light"
+            if lit_from <= now < lit_from + molten:
+                name, step = "flow", min(step, shortest)
+            now += step
+            count += 1
+            if found and found[-1][0] == name:
+                found[-1] = (name, now, found[-1][2] + 1)
+            else:
+                found.append((name, now, 1))
+        return tuple(Phase(name, end, steps, self.products_of(name)) for name, end, steps in found)
+
+    def products_of(self, _phase: str) -> float:
+        """Cost of a step, see `Phase`."""
+        return PRODUCTS["explicit" if self.settings.is_explicit else "implicit"]
+
+    def implicit_forecast(self, flow_limits: dict[str, float]) -> StepForecast:
+        """Steps of a body whose heat is implicit; a pool may flow from the first light on."""
+        time, laser = self.case.time, self.case.laser
+        limits = {"end": time.end} | flow_limits
+        longest = time.step or (1e-3 * time.end if laser is None else 0.5 * laser.pulse.resolution)
+        limits[name_of_longest(laser is not None)] = longest
+        shortest = min(limits.values())
+        if laser is not None:
+            return StepForecast(limits, self.lit_phases(laser.pulse, longest, shortest))
+        duration = min(self.flow.duration, time.end) if self.flow is not None else 0.0
+        resting = Phase(
+            "conduction",
+            time.end,
+            int(np.ceil((time.end - duration) / longest)),
+            self.products_of("conduction"),
+        )
+        if duration == 0.0:
+            return StepForecast(limits, (resting,))
+        flowing = int(np.ceil(duration / shortest))
+        first = Phase("flow", duration, flowing, self.products_of("flow"))
+        return StepForecast(limits, (first, resting))
+
+
+class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
+    """Heat and melting, implicit or explicit."""
+
+    settings_type = ConductionSettings
+
+    def build(self, backend: Backend) -> Conduction:
+        """The solver with its particles, at the start of the run."""
+        return self.build_heat(backend, self.settings)
+
+    def view(self, solver: Conduction, step: int, limit: str) -> View:
+        """The state for observers."""
+        fields = self.heat_view(solver, step, limit, solver.backend.look)
+        return View(**fields, evaporated=self.evaporated(solver, fields["surface"]))
+
+    def step_forecast(self) -> StepForecast:
+        """Limits, number and cost of the steps."""
+        products = self.products_of("conduction")
+        if fixed := self.fixed_steps("conduction", products):
+            return fixed
+        if not self.settings.is_explicit:
+            return self.implicit_forecast({})
+        steepest = float(np.max(np.diff(self.curve.potential) / np.diff(self.curve.enthalpy)))
+        diffusivity = steepest / self.case.material.density_reference
+        stable = EXACT_LIMIT[self.settings.dimensions] * self.layers.spacing**2 / diffusivity
+        limits = {"end": self.case.time.end, "conduction": stable} | self.longest_step()
+        return self.even_steps(limits, "conduction", products)

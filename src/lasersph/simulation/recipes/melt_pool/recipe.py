@@ -1,0 +1,99 @@
+"""`MeltPoolRecipe`: heat and melting, and the flow of the melt or of a closed box of fluid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lasersph.case import Case
+from lasersph.compute.backend import Backend
+from lasersph.observers import Observers, flow_observers
+from lasersph.observers.view import View
+from lasersph.simulation.recipes.conduction import HeatRecipe
+from lasersph.simulation.recipes.melt_pool.build import with_flow
+from lasersph.simulation.recipes.melt_pool.forecast import flow_forecast
+from lasersph.simulation.recipes.melt_pool.view import flow_view
+from lasersph.simulation.recipes.recipe import StepForecast
+from lasersph.simulation.scales import box_numbers, melt_numbers
+from lasersph.solvers.conduction.settings import ConductionSettings
+from lasersph.solvers.heat_settings import HeatSettings
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+from lasersph.solvers.melt_pool.solver import MeltPool
+
+FLOW_PRODUCTS = {"pool": 25.0, "box": 70.0}
+"""Of a step in which something flows: a part of the block, or all of a box."""
+
+
+class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
+    """A pool that melts into a block and flows, or a closed box that is all fluid."""
+
+    settings_type = MeltPoolSettings
+
+    def __init__(self, case: Case) -> None:
+        """The flow is foreseen at once."""
+        super().__init__(case)
+        self.flow = flow_forecast(case, self.settings, self.layers.spacing)
+
+    def build(self, backend: Backend) -> MeltPool:
+        """The solver with its particles, at the start of the run; heat is implicit."""
+        shared = set(HeatSettings.model_fields) - {"kind"}
+        settings = ConductionSettings(**{name: getattr(self.settings, name) for name in shared})
+        heat = self.build_heat(backend, settings)
+        return with_flow(self.case, self.settings, self.layers, heat)
+
+    def view(self, solver: MeltPool, step: int, limit: str) -> View:
+        """The state for observers: arrays where they lie, those of a closed box as copies, whose
+        observer looks at some states later than the step after which it is shown them."""
+        backend = solver.backend
+        take = backend.look if self.case.flow is None else backend.snapshot
+        flow = flow_view(self.case, solver, take)
+        fields = self.heat_view(solver, step, limit, take)
+        fields |= {"position": take(solver.position), "flow": flow}
+        if flow.surface.size:
+            fields["surface"] = flow.surface
+        elif flow.box:
+            top = fields["position"][1] > -solver.domain.spacing
+            fields["surface"] = np.flatnonzero(top)
+        if flow.box:
+            fields["melt_fraction"] = np.ones(solver.particle_count)
+        return View(**fields, evaporated=self.evaporated(solver, fields["surface"]))
+
+    def observers(self, iterations: Sequence[str]) -> Observers:
+        """What observes a flow; a box has no pool, but center lines and heat through its walls."""
+        return flow_observers(
+            self.settings.dimensions,
+            box=self.case.flow is not None,
+            probes=self.case.probes,
+            iterations=iterations,
+        )
+
+    def products_of(self, phase: str) -> float:
+        """Cost of a step, see `Phase`."""
+        if phase != "flow":
+            return super().products_of(phase)
+        return FLOW_PRODUCTS["pool" if self.case.flow is None else "box"]
+
+    def step_forecast(self) -> StepForecast:
+        """Limits, number and cost of the steps."""
+        assert self.flow is not None
+        products = self.products_of("flow")
+        if fixed := self.fixed_steps("flow", products):
+            return fixed
+        if self.case.flow is None:
+            return self.implicit_forecast(self.flow.limits)
+        limits = {"end": self.case.time.end} | self.flow.limits | self.longest_step()
+        return self.even_steps(limits, "flow", products)
+
+    def warnings(self) -> list[str]:
+        """What a user should think about before the run."""
+        return [] if self.flow is None else list(self.flow.warnings)
+
+    def dimensionless(self) -> dict[str, dict[str, float]]:
+        """Scales and numbers of the pulse and of the melt; of a box those of its walls."""
+        if self.case.flow is not None:
+            return {"numbers": box_numbers(self.case, self.case.flow, self.settings)}
+        found = super().dimensionless()
+        if found:
+            found["numbers"] |= melt_numbers(self.case, self.settings, found["scales"]["length_m"])
+        return found

@@ -1,0 +1,155 @@
+"""`Recipe`: what a run, a forecast and `--quick` need of a solver beside its steps.
+
+A recipe builds the solver of one case, shows its state to observers and says what its steps will
+cost. All that depends on the kind of a solver, and is not in its folder, is in its recipe.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import ceil
+from typing import Any, ClassVar, Generic, TypeVar, cast
+
+from lasersph.case import Case
+from lasersph.compute.backend import Backend
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.observers import Observers
+from lasersph.observers.view import View
+from lasersph.particles.layers import Layers
+from lasersph.simulation.layers import caloric_curve, lay_out
+from lasersph.simulation.scales import heat_scales
+from lasersph.simulation.spot_edges import halves_spot
+from lasersph.solvers.solver_settings import SolverSettings
+from lasersph.solvers.step_control import Solver, name_of_longest
+
+SettingsT = TypeVar("SettingsT", bound=SolverSettings)
+SolverT = TypeVar("SolverT", bound=Solver)
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A span of a run in which all steps cost alike.
+
+    Attributes:
+        name: for a reader. end: simulated time at which it ends [s]. steps: expected number.
+        products: cost of a step, in products of a matrix of all pairs with a vector.
+    """
+
+    name: str
+    end: float
+    steps: int
+    products: float
+
+
+@dataclass(frozen=True)
+class StepForecast:
+    """Named limits of the steps of a run [s], the smallest ones, and its phases in their order."""
+
+    limits: dict[str, float]
+    phases: tuple[Phase, ...]
+
+    @property
+    def steps(self) -> int:
+        """Expected number of all steps."""
+        return sum(phase.steps for phase in self.phases)
+
+
+@dataclass(frozen=True)
+class FlowForecast:
+    """Expected speed [m/s], thickness of the layer that moves [m] (None in boxes without one), time
+    over which something flows [s], limits [s] and warnings."""
+
+    speed: float
+    layer: float | None
+    duration: float
+    limits: dict[str, float]
+    warnings: tuple[str, ...]
+
+
+class Recipe(ABC, Generic[SettingsT, SolverT]):
+    """One solver for one case.
+
+    Attributes:
+        case, settings: of the run; the settings are those of the solver's own type.
+        flow: what is expected of a flow; None where nothing flows.
+    """
+
+    settings_type: ClassVar[type[SolverSettings]]
+    flow: FlowForecast | None = None
+
+    def __init__(self, case: Case) -> None:
+        """Raises TypeError where the case has another solver."""
+        if not isinstance(case.solver, self.settings_type):
+            raise TypeError(f'{case.name} has the solver "{case.solver.kind}"')
+        self.case, self.settings = case, cast(SettingsT, case.solver)
+
+    @cached_property
+    def layers(self) -> Layers:
+        """Layers of the particles."""
+        return lay_out(self.case)
+
+    @cached_property
+    def curve(self) -> CaloricCurve:
+        """Enthalpy curve of the material."""
+        return caloric_curve(self.case)
+
+    @abstractmethod
+    def build(self, backend: Backend) -> SolverT:
+        """The solver with its particles, at the start of the run."""
+
+    @abstractmethod
+    def view(self, solver: SolverT, step: int, limit: str) -> View:
+        """The state for observers; the solver stays as it is."""
+
+    @abstractmethod
+    def observers(self, iterations: Sequence[str]) -> Observers:
+        """What observes a run; `iterations` are the names of what the solver counts."""
+
+    @abstractmethod
+    def step_forecast(self) -> StepForecast:
+        """Limits, number and cost of the steps."""
+
+    def warnings(self) -> list[str]:
+        """What a user should think about before the run."""
+        return []
+
+    def dimensionless(self) -> dict[str, dict[str, float]]:
+        """Scales and dimensionless numbers of the summary."""
+        return heat_scales(self.case)
+
+    def summary(self) -> dict[str, Any]:
+        """Further sections of the summary."""
+        return {}
+
+    def fixed_steps(self, name: str, products: float) -> StepForecast | None:
+        """The forecast of a study with a fixed step; None elsewhere."""
+        step = self.case.time.fixed_step
+        return None if step is None else self.even_steps({"fixed step": step}, name, products)
+
+    def even_steps(self, limits: dict[str, float], name: str, products: float) -> StepForecast:
+        """The forecast of a run whose steps are all alike, from its limits [s]."""
+        end = self.case.time.end
+        steps = ceil(end / min(limits.values()))
+        return StepForecast(limits, (Phase(name, end, steps, products),))
+
+    def longest_step(self) -> dict[str, float]:
+        """The limit that the case sets, by its name [s]; empty where it sets none."""
+        step = self.case.time.step
+        return {} if step is None else {name_of_longest(self.case.laser is not None): step}
+
+    def common_view(self, solver: SolverT, step: int, limit: str) -> dict[str, Any]:
+        """What `View` holds of every run: times, energies, symmetry, what bound the step."""
+        state = solver.state
+        return {
+            "time": state.time,
+            "step": step,
+            "time_step": state.time_step,
+            "symmetry_factor": self.case.domain.symmetry_factor,
+            "halves_spot": halves_spot(self.case),
+            "energy": dict(state.energy),
+            "iterations": solver.iterations,
+            "limit": limit,
+        }

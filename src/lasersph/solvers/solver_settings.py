@@ -1,0 +1,34 @@
+"""`SolverSettings`: what a case and a forecast may ask the settings of any solver.
+
+They ask for what a solver does, never for its kind.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from lasersph.input import Model
+
+
+class SolverSettings(Model):
+    """The `[solver]` table of a case."""
+
+    reads: ClassVar[frozenset[str]] = frozenset()
+    """Of the keys of a case that not every solver reads, those that this one does."""
+    bytes_per_neighbor: ClassVar[int]
+    """Most memory that a particle takes for each neighbor with which it is computed [B]."""
+
+    @property
+    def scheme_text(self) -> str:
+        """How steps are taken, for a reader."""
+        return "heat implicit"
+
+    @property
+    def is_explicit(self) -> bool:
+        """Whether stability limits the steps of heat, and `time.step` only from above."""
+        return False
+
+    @property
+    def leaves_rest_inactive(self) -> bool:
+        """Whether cold matter at rest is left alone until heat comes near."""
+        return False
