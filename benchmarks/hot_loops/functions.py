@@ -17,7 +17,7 @@ def flow(g_ij, T_i, T_j):
     return g_ij * (T_j - T_i)
 
 
-def found(x_ij, r_ij, l_ij):
+def is_neighbor(x_ij, r_ij, l_ij):
     """Whether j is a neighbor of i: what a search computes for a pair at least."""
     return r_ij < l_ij
 

@@ -106,7 +106,7 @@ class _Given:
         sums: tuple = ()
         if self.pairs:
             tally = Tally()
-            for pair in _spread(self.pairs):
+            for pair in _sample(self.pairs):
                 sums = self._pair(pair, tally)
                 tally.simple += _size(sums)  # each is added up
             total += _mean(tally, self.pairs)
@@ -114,7 +114,7 @@ class _Given:
             return total
         if not has_pairs or self.call.finish is not None:
             tally = Tally()
-            for row in _spread(self.rows):
+            for row in _sample(self.rows):
                 self._row(row, sums, tally)
             total += _mean(tally, self.rows)
         return total
@@ -211,7 +211,7 @@ def _size(values: tuple) -> int:
     return sum(np.size(np.asarray(value, dtype=object)) for value in values)
 
 
-def _spread(count: int) -> list[int]:
+def _sample(count: int) -> list[int]:
     """Some of `count` numbers, evenly."""
     return [count * k // min(SAMPLE, count) for k in range(min(SAMPLE, count))]
 

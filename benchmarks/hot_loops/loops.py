@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from hot_loops.counting import CountingBackend
-from hot_loops.functions import found, right_hand_side
+from hot_loops.functions import is_neighbor, right_hand_side
 from hot_loops.hot_loop import HotLoop
 from hot_loops.least import Least
+from hot_loops.particles import shape_of
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
 from lasersph.materials import load_material
@@ -22,7 +23,7 @@ METAL = "steel-304"
 
 def pair_sum(backend: Backend, neighbors: NeighborList) -> HotLoop:
     """Right-hand side of weakly compressible SPH: momentum and continuity in one pass."""
-    dimension, count = neighbors.position.shape
+    dimension, count = shape_of(neighbors)
     rng = np.random.default_rng(2)
     fields = {"v": backend.asarray(rng.random((dimension, count)))}
     fields |= {name: backend.asarray(1.0 + rng.random(count)) for name in ("rho", "p", "m")}
@@ -37,7 +38,7 @@ def pair_sum(backend: Backend, neighbors: NeighborList) -> HotLoop:
 
 def list_build(backend: Backend, neighbors: NeighborList) -> HotLoop:
     """Search for all pairs; only those that are found count as looked at."""
-    dimension, count = neighbors.position.shape
+    dimension, count = shape_of(neighbors)
 
     def run() -> int:
         search.neighbor_list(
@@ -48,10 +49,15 @@ def list_build(backend: Backend, neighbors: NeighborList) -> HotLoop:
     name = f"neighbor list {dimension}-D"
     if not isinstance(backend, CountingBackend):
         return HotLoop(name, count, run)
-    read = neighbors.position.nbytes + neighbors.support.nbytes
-    written = neighbors.row_start.nbytes + neighbors.neighbor.nbytes
+    read, written = (
+        sum(backend.to_host(array).nbytes for array in arrays if array is not None)
+        for arrays in (
+            (neighbors.position, neighbors.support),
+            (neighbors.row_start, neighbors.neighbor),
+        )
+    )
     values = backend.zeros(neighbors.neighbor.shape[0], "flag")
-    tests = backend.least(lambda: backend.pair_values(found, neighbors, {}, values))
+    tests = backend.least(lambda: backend.pair_values(is_neighbor, neighbors, {}, values))
     least = Least(read + 2.0 * written, tests.operations)
     return HotLoop(name, count, run, least)
 
@@ -79,15 +85,13 @@ def enthalpy_update(backend: Backend, count: int) -> HotLoop:
 
 def shifting(backend: Backend, neighbors: NeighborList) -> HotLoop:
     """Displacement that keeps particles from clustering."""
-    dimension, count = neighbors.position.shape
+    dimension, count = shape_of(neighbors)
     fields = {name: backend.asarray(np.ones(count)) for name in ("is_fluid", "at_face")}
     out, normal = backend.zeros((dimension, count)), (0.0,) * (dimension - 1) + (1.0,)
 
     def run() -> int:
-        backend.pair_sum(
-            repulsion_terms, neighbors, fields, out, finish=shift, normal=normal,
-            scale=0.01, limit=0.1,
-        )  # fmt: skip
+        constants = {"normal": normal, "scale": 0.01, "limit": 0.1}
+        backend.pair_sum(repulsion_terms, neighbors, fields, out, finish=shift, **constants)
         return 1
 
     return HotLoop(f"shifting {dimension}-D", count, run)

@@ -12,6 +12,13 @@ from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.particles.support import arithmetic
 
 
+def shape_of(neighbors: NeighborList) -> tuple[int, int]:
+    """Dimension and number of the particles of a list."""
+    assert neighbors.position is not None
+    dimension, count = neighbors.position.shape
+    return dimension, count
+
+
 def jittered(backend: Backend, edge: int, kernel: Any, support: float = 2.9) -> NeighborList:
     """edge^dim particles near a lattice of spacing 1 m, with all their pairs.
 
@@ -24,10 +31,10 @@ def jittered(backend: Backend, edge: int, kernel: Any, support: float = 2.9) -> 
     position += 0.2 * np.random.default_rng(1).random(position.shape)
     order = backend.to_host(search.cell_order(backend, backend.asarray(position), support))
     sorted_position = backend.asarray(position[:, order])
-    reach = backend.asarray(np.full(edge**dimension, support))
+    support_radius = backend.asarray(np.full(edge**dimension, support))
     row_start, neighbor = search.neighbor_list(
-        backend, sorted_position, reach, edge**dimension, mean=arithmetic
+        backend, sorted_position, support_radius, edge**dimension, mean=arithmetic
     )
     return NeighborList(
-        row_start, neighbor, sorted_position, reach, kernel, arithmetic, (0.0,) * dimension
+        row_start, neighbor, sorted_position, support_radius, kernel, arithmetic, (0.0,) * dimension
     )

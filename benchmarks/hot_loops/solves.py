@@ -9,6 +9,7 @@ import numpy as np
 from hot_loops.counting import CountingBackend
 from hot_loops.functions import flow
 from hot_loops.hot_loop import HotLoop
+from hot_loops.particles import shape_of
 from hot_loops.sweeping import least_of_sweep
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.bicgstab import BiCGStab
@@ -25,7 +26,7 @@ STEP, STIFF_STEP = 0.1, 10.0
 
 def product(backend: Backend, neighbors: NeighborList, weights) -> HotLoop:
     """Sparse matrix times vector, as heat flows through assembled conductances."""
-    count = neighbors.position.shape[1]
+    _, count = shape_of(neighbors)
     fields, out = {"g_ij": weights, "T": _noise(backend, count)}, backend.zeros(count)
 
     def run() -> int:
@@ -68,7 +69,7 @@ def factored_iteration(backend: CountingBackend, operator: PairOperator) -> HotL
 
 def bicgstab(backend: Backend, neighbors: NeighborList, entries, diagonal) -> HotLoop:
     """An iteration with Jacobi's preconditioner; two products."""
-    count = neighbors.position.shape[1]
+    _, count = shape_of(neighbors)
     solver = BiCGStab(backend, PairMatrix(neighbors, entries, diagonal))
     b = _noise(backend, count)
 
@@ -98,7 +99,7 @@ def multigrid_cycle(backend: Backend, operator: PairOperator) -> HotLoop | None:
 
 def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
     """Preconditioner of the pressure equation, in 2-D."""
-    count = neighbors.position.shape[1]
+    _, count = shape_of(neighbors)
     correction = GridCorrection(backend, count, float(backend.look(neighbors.support)[0]))
     ones, none = backend.asarray(np.ones(count)), backend.zeros(count)
     correction.prepare(neighbors.position, ones, ones, none)
@@ -113,7 +114,7 @@ def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
 
 def hot_solves(backend: Backend, neighbors: NeighborList) -> Iterator[HotLoop]:
     """Those above on a list of pairs in 2-D; each is made when it is asked for."""
-    count = neighbors.position.shape[1]
+    _, count = shape_of(neighbors)
     weights = backend.asarray(np.ones(neighbors.neighbor.shape[0]))
     degrees = np.diff(backend.to_host(neighbors.row_start).astype(float))
     degree = backend.asarray(degrees)

@@ -57,7 +57,7 @@ def test_tables_of_the_paper(label, study):
 
 
 def test_columns_of_25_nm_give_the_widths_of_the_reference(study):
-    """The spread between f_m > 0 and f_m = 1 in the reference is that of its columns."""
+    """The difference between f_m > 0 and f_m = 1 in the reference is that of its columns."""
     found = 1e9 * np.array(Columns(load_case("dlip-steel"), 25e-9).widest())
     np.testing.assert_allclose(found, (2975, 2909, 2875), atol=1.0)
     wanted = study("dlip-thermal").table("sizes.csv")["steel_width"]

@@ -62,7 +62,7 @@ class Study:
         )
         self.rows: list[Row] = []
         self.figures: list[Path] = []
-        self.remarks: list[str] = []
+        self.remarks: list[str] = list(getattr(self.plan, "remarks", ()))
 
     @property
     def backend(self) -> Backend:

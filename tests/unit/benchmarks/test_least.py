@@ -133,7 +133,7 @@ def test_sweep(backend, neighbors):
 
 
 def test_called_prepared_and_recorded_count_the_same(backend):
-    """Each run of a loop once, in whatever way it is run; and only while it is asked for."""
+    """Each run of a loop once, called, prepared or recorded; and only while it is asked for."""
     b, c, out = (backend.asarray(np.arange(float(N))) for _ in range(3))
     fields = {"b": b, "c": c}
 

@@ -20,15 +20,6 @@ GAS = {"p_b": STANDARD_ATMOSPHERE, "T_b": 2730.0, "L_v": 10.53e6, "R_s": 308.17}
 """Of eq. (5): pressure [Pa] and temperature [K] of boiling, its heat [J/kg], R/M [J/(kg K)]."""
 ALPHA = 1.23e8
 """Absorption coefficient of aluminium that eq. (3) takes [1/m]."""
-REMARKS = (
-    "the published rule has no latent heat: with R = 0.80 it meets the published times and ejects"
-    " four times the published depth; its depth is set by when a particle counts as left",
-    "effusion, sqrt(R_s T/(2 pi)), gives the 380-450 m/s that the paper reports; its eq. (6) as"
-    " printed gives twice that",
-    "in the enthalpy model the surface stays at 2730 K and the ejecta leave with 366 m/s: without"
-    " superheating there is no acceleration by temperature (regions II and III of Fig. 23)",
-    "the paper explains differences by convection and radiation; both are below 1e-6 of the light",
-)
 
 
 def compare(study: Study) -> None:
@@ -44,7 +35,6 @@ def compare(study: Study) -> None:
         study.add_group("spot", spot, name=name)
         study.add("asymmetry", 1e6 * asymmetry(spot), name=name)
     draw(study, column, spots, GAS)
-    study.remarks += REMARKS
 
 
 def add_estimates(study: Study) -> None:

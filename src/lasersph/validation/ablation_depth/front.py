@@ -7,7 +7,7 @@ warms to T_v, and then recedes while it stays at T_v; the vapor is gone at once:
     T(m) = T_m,   rho L_m dm/dt = -k dT/dz(m-) + k dT/dz(m+)
     T(a) = T_v,   rho L_v da/dt = q + k dT/dz(a)       once the surface has reached T_v
 
-Both fronts are fitted: the liquid is mapped onto 0 <= xi <= 1, the solid onto 0 <= y <= REACH with
+Both fronts are fitted: the liquid is mapped onto 0 <= xi <= 1, the solid onto 0 <= y <= DEPTH with
 z = m + sqrt(4 D t) y. Chebyshev collocation in space [Trefethen2000, Chapter 6] turns the problem
 into stiff ordinary differential equations for `scipy.integrate.solve_ivp`. It starts from the exact
 solution before melting and the first term of the expansion after it,
@@ -38,9 +38,8 @@ from scipy.special import erfc
 from lasersph.analytic.half_space import step_rise
 
 Array = NDArray[np.float64]
-
 LIQUID_NODES, SOLID_NODES = 12, 30
-REACH = 6.0
+DEPTH = 6.0
 """Depth of the computed solid below the melt, in units of sqrt(4 D t): erfc(6) = 2e-17."""
 FIRST_STEP = 3e-3
 """Time from the onset of melting to the start of the integration, over the time of the onset."""
@@ -136,11 +135,9 @@ def ablate(flux: float, duration: float, metal: Metal | None = None) -> Ablation
 
 def _only_warm(flux: float, duration: float, metal: Metal) -> Ablation:
     """A pulse that ends before the surface melts."""
-    depths = sqrt(4.0 * metal.diffusivity * duration) * np.linspace(0.0, REACH, SOLID_NODES + 1)
-    rise = step_rise(
-        depths, duration, flux=flux, conductivity=metal.conductivity,
-        diffusivity=metal.diffusivity,
-    )  # fmt: skip
+    depths = sqrt(4.0 * metal.diffusivity * duration) * np.linspace(0.0, DEPTH, SOLID_NODES + 1)
+    k, diffusivity = metal.conductivity, metal.diffusivity
+    rise = step_rise(depths, duration, flux=flux, conductivity=k, diffusivity=diffusivity)
     none = np.zeros(0)
     return Ablation(0.0, 0.0, None, None, depths, metal.initial + rise, none, none, 0.0)
 
@@ -151,7 +148,7 @@ class _Problem:
     def __init__(self, flux: float, metal: Metal) -> None:
         self.flux, self.metal = flux, metal
         self.xi, self.d_liquid = chebyshev(LIQUID_NODES, 1.0)
-        self.y, self.d_solid = chebyshev(SOLID_NODES, REACH)
+        self.y, self.d_solid = chebyshev(SOLID_NODES, DEPTH)
         self.d2_liquid = self.d_liquid @ self.d_liquid
         self.d2_solid = self.d_solid @ self.d_solid
 
@@ -167,9 +164,9 @@ class _Problem:
             depths, melting + tau, flux=self.flux, conductivity=k, diffusivity=diffusivity
         )
         x = depths / sqrt(4.0 * diffusivity * tau)
-        held = rate * tau * ((1.0 + 2.0 * x**2) * erfc(x) - 2.0 * x * np.exp(-(x**2)) / sqrt(pi))
+        missing = rate * tau * ((1.0 + 2.0 * x**2) * erfc(x) - 2.0 * x * np.exp(-(x**2)) / sqrt(pi))
         liquid = metal.melting + self.flux * front * (1.0 - self.xi[1:-1]) / k
-        return np.concatenate([[0.0, front], liquid, metal.initial + rise - held])
+        return np.concatenate([[0.0, front], liquid, metal.initial + rise - missing])
 
     def profiles(self, unknowns: Array, *, ablating: bool) -> tuple[float, float, Array, Array]:
         """a, m and the temperatures of all nodes of the liquid and of the solid."""
@@ -211,11 +208,13 @@ class _Problem:
         superheat.direction = 1.0  # pyright: ignore[reportFunctionMemberAccess]
         smallest = np.full(unknowns.size, 1e-3 * TOLERANCE * self.metal.vaporization)
         smallest[:2] = 1e-3 * TOLERANCE * sqrt(self.metal.diffusivity * end)
-        found = solve_ivp(
-            lambda t, values: self.rates(t, values, ablating=ablating),
-            (start, end), unknowns, method="BDF", rtol=TOLERANCE, atol=smallest,
-            events=None if ablating else superheat,
-        )  # fmt: skip
+
+        def rates(time: float, values: Array) -> Array:
+            return self.rates(time, values, ablating=ablating)
+
+        events = None if ablating else superheat
+        tolerances = {"rtol": TOLERANCE, "atol": smallest}
+        found = solve_ivp(rates, (start, end), unknowns, "BDF", events=events, **tolerances)
         if not found.success:
             raise ArithmeticError(f"the fronts could not be followed: {found.message}")
         return found

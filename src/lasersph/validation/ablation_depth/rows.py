@@ -9,17 +9,6 @@ from lasersph.validation.ablation_depth import figures
 from lasersph.validation.ablation_depth.front import Ablation, Metal, ablate
 from lasersph.validation.study import Study
 
-REMARKS = (
-    "the published rule has no latent heat: preset timeline (R = 0.80) meets the published times,"
-    " preset depth (R = 0.90) the published depths of 0.6 and 1.0 um at 10 and 20 J/cm2; neither"
-    " meets both. Their depths follow the criterion of leaving and no balance: at 25 J/cm2 in 6 ns"
-    " 3.0 and 1.0 um, where the energy allows 1.72 um",
-    "Stefan solution: surface at T_v, vapor gone at once; to carry 10 J/cm2 in 10 ns away by"
-    " evaporation alone the surface would have to be hotter than the critical temperature, so the"
-    " energy balance sets the depth, not the kinetics",
-    "with L_m added to L_v instead of a melting front the Stefan depths would be 0.596, 1.336 um",
-)
-
 
 @dataclass(frozen=True)
 class Column:
@@ -69,7 +58,6 @@ def compare(study: Study) -> None:
     for ns in plan.fluences:
         figures.draw_over_fluence(study, int(ns), exact, columns, published)
     figures.draw_over_spacing(study, exact, columns, published)
-    study.remarks += REMARKS
 
 
 def stefan(study: Study, duration: float, fluence: float) -> Ablation:

@@ -37,7 +37,6 @@ def compare(study: Study) -> None:
     if plan.experiment:
         add_experiment(study)
     draw(study, runs, still, lambda depths: profile_below(study, detail, depths))
-    study.remarks += plan.remarks
 
 
 def run_pool(study: Study, fluence: float, plateau: str, *settings: str, label: str = "") -> Run:

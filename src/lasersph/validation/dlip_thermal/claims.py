@@ -65,8 +65,8 @@ def add_claims_of_both(study: Study, runs: dict[str, Runs]) -> None:
     ranges = {}
     for label, found in runs.items():
         ranges[label] = float(np.ptp([one.summary["temperature_max_K"] for one in found.values()]))
-        study.add("spread", ranges[label], label=label)
-    study.add("spread_claim", ranges["aluminium"] > ranges["steel"])
+        study.add("range", ranges[label], label=label)
+    study.add("range_claim", ranges["aluminium"] > ranges["steel"])
     steel, aluminium = runs["steel"], runs["aluminium"]
     shared = [f for f in steel if f in aluminium and melt(aluminium[f], "width_half_max_m") > 0.0]
     for name, key in (("deeper_claim", "depth_half_max_m"), ("wider_claim", "width_half_max_m")):

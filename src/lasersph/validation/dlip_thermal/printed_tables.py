@@ -62,13 +62,20 @@ class Table3:
             raise ValueError(f"{case_name} lacks data of Table 3")
         Tl = melting.liquidus
         return cls(
-            T0, Tl, vaporization.temperature, melting.latent_heat, vaporization.latent_heat,
-            material.density_reference, float(material.heat_capacity_at(T0)),
-            float(material.at("diffusivity", T0)), float(material.viscosity_at(Tl)),
-            float(material.kinematic_viscosity_at(Tl)), float(material.at("expansion", Tl)),
-            float(material.at("surface_tension_slope", Tl)),
-            case.laser.absorption_coefficient(material),
-        )  # fmt: skip
+            initial=T0,
+            liquidus=Tl,
+            vaporization=vaporization.temperature,
+            latent_heat=melting.latent_heat,
+            vaporization_heat=vaporization.latent_heat,
+            density=material.density_reference,
+            heat_capacity=float(material.heat_capacity_at(T0)),
+            diffusivity=float(material.at("diffusivity", T0)),
+            viscosity=float(material.viscosity_at(Tl)),
+            kinematic_viscosity=float(material.kinematic_viscosity_at(Tl)),
+            expansion=float(material.at("expansion", Tl)),
+            surface_tension_slope=float(material.at("surface_tension_slope", Tl)),
+            absorption=case.laser.absorption_coefficient(material),
+        )
 
     def laser_number(self, fluence: float) -> float:
         """La of a mean fluence [J/m2]."""

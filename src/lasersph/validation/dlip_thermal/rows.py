@@ -23,17 +23,6 @@ COARSE = 8.0
 PLATEAU_MARGIN = 1.0
 """[ns]: closer to an end of the plateau temperatures change too fast to be judged."""
 LEVELS = ("f_m > 0", "f_m = 0.5", "f_m = 1")
-REMARKS = (
-    "fluence is the mean over the pattern, 2 Phi_0; the reading per beam melts 28 nm of steel",
-    "T at the surface, by a parabola without slope there (probe `even`)",
-    "Tables 4 and 5 of aluminium were computed before Table 3 was rounded: with c_p = 1076.718 "
-    "J/(kg K), a = 5.7548e-5 m2/s and alpha = 4 pi 4.30 / 355 nm, which all round to Table 3, "
-    "they agree to 1e-4",
-    "the reference takes widths at f_m > 0 and f_m = 1 from columns of some 25 nm, up to a "
-    "column too far out and in at either end, as finite volumes with such columns show; where "
-    "that exceeds the tolerance (f_m > 0 in steel, f_m = 1 in aluminium), finite volumes with "
-    "fine columns decide",
-)
 
 
 def compare(study: Study) -> None:
@@ -67,7 +56,6 @@ def compare(study: Study) -> None:
         add_claims_of_both(study, runs)
         add_steps(study)
     draw_particles(study)
-    study.remarks += REMARKS
 
 
 def run_fluence(

@@ -17,14 +17,14 @@ class Column:
 
     Attributes:
         run: where they are from. slope: dP/d(depth) over rho g. bottom: pressure of the fitted line
-            at the bottom. spread: root of the mean square of the particles' deviations from
+            at the bottom. deviation: root of the mean square of the particles' deviations from
             rho g depth.
     """
 
     run: Run
     slope: np.ndarray
     bottom: np.ndarray
-    spread: np.ndarray
+    deviation: np.ndarray
 
 
 def compare(study: Study) -> None:
@@ -38,7 +38,7 @@ def compare(study: Study) -> None:
         drift = abs(float(np.mean(found.bottom[half:]) - np.mean(found.bottom[1:half])))
         study.add("slope", 100.0 * float(np.max(np.abs(found.slope - 1.0))), name=name)
         study.add("bottom", 100.0 * float(np.max(np.abs(found.bottom - 1.0))), name=name)
-        study.add("spread", 100.0 * float(np.max(found.spread)), name=name)
+        study.add("deviation", 100.0 * float(np.max(found.deviation)), name=name)
         study.add("drift", 100.0 * drift, name=name)
         study.add("speed", one.summary["motion"]["speed_max_m_s"], name=name)
     draw(study, columns)
@@ -57,11 +57,11 @@ def fit_lines(one: Run, gradient: float, depth: float) -> Column:
     for snapshot in one.snapshots:
         below, pressure = -snapshot["position"][-1], snapshot["pressure"]
         slope, offset = np.polyfit(below, pressure, 1)
-        spread = np.sqrt(np.mean((pressure - gradient * below) ** 2))
-        found.append((slope / gradient, offset + slope * depth, spread))
-    slope, bottom, spread = np.array(found).T
+        deviation = np.sqrt(np.mean((pressure - gradient * below) ** 2))
+        found.append((slope / gradient, offset + slope * depth, deviation))
+    slope, bottom, deviation = np.array(found).T
     scale = gradient * depth
-    return Column(one, slope, bottom / scale, spread / scale)
+    return Column(one, slope, bottom / scale, deviation / scale)
 
 
 def draw(study: Study, columns: dict[str, Column]) -> None:

@@ -31,9 +31,6 @@ def compare(study: Study) -> None:
             add_conditions(study, one)
             if not study.plan.skew or name in study.plan.skew:
                 study.add("skew", skew_defect(study.backend, one), label=label_of(one))
-    study.remarks.append(
-        "Wendland C2 in 1-D is (1 - s)^3 (1 + 3 s), the member of its family for one dimension"
-    )
     draw(study)
 
 

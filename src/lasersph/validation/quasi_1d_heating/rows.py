@@ -10,14 +10,6 @@ from lasersph.validation.pulsed_heating.light import Light
 from lasersph.validation.study import Study
 
 WALLED, OPEN = "side walls at 300 K", "no side walls"
-REMARKS = (
-    "on the axis walls 10 um away take 0.1 % of the first peak but about 5 and 12 % of the second"
-    " and third: they cannot be why all published peaks stay 2.5 % too low; a 3-D lattice with"
-    " these weights stays as low without any walls",
-    "after a microsecond the walls rule: heat crosses 10 um in 1.5 us, and the rod between cold"
-    " walls is cold when the half-space of the exact solution still is at 1000 K; Fig. 13, which"
-    " follows the exact solution to 8 us, was not computed with such walls",
-)
 Trains = dict[tuple[str, float], Run]
 
 
@@ -33,7 +25,6 @@ def compare(study: Study) -> None:
     largest = max(add_train(study, light, trains, R) for R in reflectivities)
     study.add("largest_share", largest)
     add_cooling(study, light, long)
-    study.remarks += REMARKS
     draw_long(study, light, long)
     draw_trains(study, light, trains)
 
