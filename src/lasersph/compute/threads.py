@@ -7,6 +7,8 @@ has chosen a policy gets that one.
 """
 
 import os
+from functools import cache
+from types import ModuleType
 
 if "OMP_WAIT_POLICY" not in os.environ:
     os.environ["OMP_WAIT_POLICY"] = "passive"
@@ -20,14 +22,27 @@ def available() -> int:
     return os.cpu_count() or 1
 
 
+@cache
+def start_numba() -> ModuleType:
+    """Numba, imported without SciPy's linear algebra.
+
+    Numba loads that when its first function is, 0.15 s, to see whether BLAS is there. No loop here
+    calls BLAS; a function of somebody else's that does loads it then.
+    """
+    import numba
+    from numba.np import linalg
+
+    linalg.ensure_blas = lambda: None
+    return numba
+
+
 def chosen(threads: int | None) -> int:
     """Number of threads to use: as asked for, no more than there are; None takes them all.
 
     Raises:
         ValueError: fewer than one thread.
     """
-    import numba
-
+    numba = start_numba()
     if threads is not None and threads < 1:
         raise ValueError(f"threads must be at least 1, not {threads}")
     limit = min(available(), numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
