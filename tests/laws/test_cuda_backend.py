@@ -147,8 +147,9 @@ def test_steps(make, precision, monkeypatch):
         longest = {flow: NODES, melt_pool: NODES, active_region: CELLS}.get(make, LONGEST)
         assert max(copies.sizes, default=0) <= longest < solver.body.count or make is ablation
         copies.sizes.clear()
-        arrays = getattr(solver, "particles", solver.fields)
-        fields = [backend.to_host(arrays[name]).astype(float) for name in names]
+        parts = solver.particles, solver.fields
+        arrays = [next(part[name] for part in parts if name in part) for name in names]
+        fields = [backend.to_host(array).astype(float) for array in arrays]
         found.append((solver.state.time, *fields))
         rows.append(history_row(case, solver, copies))
         assert max(copies.sizes, default=0) < solver.body.count

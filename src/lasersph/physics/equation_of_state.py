@@ -32,13 +32,3 @@ def condensed_pressure(rho, rho_0, c_0, has_tension):
 def density_under(P, rho_0, c_0):
     """Density [kg/m^d] under a pressure P >= 0 [Pa]: rho_0 (1 + P/B)^(1/7)."""
     return rho_0 * (1.0 + EXPONENT * P / (rho_0 * c_0 * c_0)) ** (1.0 / EXPONENT)
-
-
-def elastic_energy(rho, rho_0, c_0, has_tension):
-    """Energy of compression per mass [J/kg], int_{rho_0}^{rho} P / rho^2 drho.
-
-    c_0^2 / 7 ((s^6 - 1) / 6 + 1/s - 1),   s = rho/rho_0; 0 below rho_0 without tension.
-    """
-    s = rho / rho_0
-    e = c_0 * c_0 / EXPONENT * ((s**6 - 1.0) / 6.0 + 1.0 / s - 1.0)
-    return e if has_tension > 0.0 or s > 1.0 else 0.0 * e

@@ -1,13 +1,12 @@
 """Evaporation of a liquid metal from its free surface, as pure scalar functions of temperature.
 
-Saturation pressure (Clausius-Clapeyron, ideal vapor), latent heat, Hertz-Knudsen mass flux with
-the back-flow of a Knudsen layer, recoil pressure, vapor velocity, and the slope in T of each:
+Saturation pressure (Clausius-Clapeyron, ideal vapor), latent heat and Hertz-Knudsen mass flux with
+the back-flow of a Knudsen layer, each with its slope in T, recoil pressure, and vapor velocity:
 
     d(ln p)/dT = L_v(T) / (R_s T^2),    m = 0.82 p / sqrt(2 pi R_s T),    p_recoil = 0.54 p
 
-Two forms of the pressure: constant L_v [Alshaer2017, eq. (5)], and L_v(T) that vanishes at the
-critical temperature with Watson's exponent. Above T_c there is no saturation line: the second
-form holds p at its value at T_c.
+The pressure is that of a constant L_v [Alshaer2017, eq. (5)]; the heat that evaporation takes is
+L_v(T), which vanishes at the critical temperature with Watson's exponent.
 
 Plain functions of floats, so that the loop factory compiles them and a test can call them. Left
 out: a non-ideal vapor, ambient pressure and subsonic outflow (0.82 and 0.54 are the values of a
@@ -67,50 +66,6 @@ def latent_heat_slope(T, T_b, L_b, T_c):
     return -WATSON_EXPONENT * latent_heat(T, T_b, L_b, T_c) / (T_c - T)
 
 
-def _watson_integrand(w, T_c):
-    """w^(2 * 0.38 + 1) / (T_c - w^2)^2: L_v(s) / s^2 ds with s = T_c - w^2, without factors."""
-    s = T_c - w * w
-    return w ** (2.0 * WATSON_EXPONENT + 1.0) / (s * s)
-
-
-def saturation_pressure_watson(T, p_b, T_b, L_b, T_c, R_s):
-    """Saturation pressure with the latent heat of ``latent_heat`` [Pa].
-
-        ln(p / p_b) = int_{T_b}^{T} L_v(s) / (R_s s^2) ds
-
-    The substitution s = T_c - w^2 removes the root at T_c; eight Gauss points then integrate it to
-    a relative 2e-5 in p between 0.3 T_c and T_c (tested). Held at its value at T_c above T_c.
-    """
-    start = sqrt(max(T_c - T, 0.0))
-    end = sqrt(T_c - T_b)
-    middle = 0.5 * (start + end)
-    half = 0.5 * (end - start)
-    a = 0.1834346424956498 * half
-    b = 0.5255324099163290 * half
-    c = 0.7966664774136267 * half
-    d = 0.9602898564975363 * half
-    integral = half * (
-        0.3626837833783620
-        * (_watson_integrand(middle - a, T_c) + _watson_integrand(middle + a, T_c))
-        + 0.3137066458778873
-        * (_watson_integrand(middle - b, T_c) + _watson_integrand(middle + b, T_c))
-        + 0.2223810344533745
-        * (_watson_integrand(middle - c, T_c) + _watson_integrand(middle + c, T_c))
-        + 0.1012285362903763
-        * (_watson_integrand(middle - d, T_c) + _watson_integrand(middle + d, T_c))
-    )
-    return p_b * exp(2.0 * L_b / (R_s * (T_c - T_b) ** WATSON_EXPONENT) * integral)
-
-
-def saturation_pressure_watson_slope(T, p_b, T_b, L_b, T_c, R_s):
-    """dp/dT of ``saturation_pressure_watson`` [Pa/K]: p L_v(T) / (R_s T^2)."""
-    return (
-        saturation_pressure_watson(T, p_b, T_b, L_b, T_c, R_s)
-        * latent_heat(T, T_b, L_b, T_c)
-        / (R_s * T * T)
-    )
-
-
 def mass_flux(T, p, R_s):
     """Net evaporating mass per area and time [kg/(m^2 s)] at saturation pressure p [Pa].
 
@@ -139,22 +94,12 @@ def recoil_pressure(p):
     return RECOIL_FACTOR * p
 
 
-def recoil_pressure_slope(p_slope):
-    """d(p_recoil)/dT [Pa/K]: 0.54 dp/dT."""
-    return RECOIL_FACTOR * p_slope
-
-
 def mean_normal_velocity(T, R_s):
     """Mean normal velocity of the vapor [m/s], as [Alshaer2017, eq. (6)] is printed.
 
     v = sqrt(2 k T / (pi m)) = sqrt(2 R_s T / pi);    731.7 m/s for Al at 2730 K
     """
     return sqrt(2.0 * R_s * T / PI)
-
-
-def mean_normal_velocity_slope(T, R_s):
-    """dv/dT of ``mean_normal_velocity`` [m/(s K)]: v / (2 T)."""
-    return 0.5 * mean_normal_velocity(T, R_s) / T
 
 
 def effusion_velocity(T, R_s):
@@ -165,8 +110,3 @@ def effusion_velocity(T, R_s):
     The paper prints eq. (6), twice this value; the 380-450 m/s that it reports are these.
     """
     return sqrt(R_s * T / (2.0 * PI))
-
-
-def effusion_velocity_slope(T, R_s):
-    """dv/dT of ``effusion_velocity`` [m/(s K)]: v / (2 T)."""
-    return 0.5 * effusion_velocity(T, R_s) / T

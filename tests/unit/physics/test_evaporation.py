@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import pytest
 
 from lasersph.physics import evaporation as e
@@ -34,12 +32,8 @@ def test_effusion_velocity_is_what_the_paper_reports() -> None:
 
 
 def test_pressure_is_one_atmosphere_at_the_boiling_point() -> None:
-    """Both forms pass through (T_b, 1 atm), with the same slope there."""
+    """By definition."""
     assert e.saturation_pressure(T_B, P_B, T_B, L_V, R_S) == P_B
-    assert e.saturation_pressure_watson(T_B, P_B, T_B, L_V, T_C, R_S) == pytest.approx(P_B)
-    plain = e.saturation_pressure_slope(T_B, P_B, T_B, L_V, R_S)
-    watson = e.saturation_pressure_watson_slope(T_B, P_B, T_B, L_V, T_C, R_S)
-    assert watson == pytest.approx(plain, rel=1e-12)
 
 
 def test_latent_heat_vanishes_at_the_critical_temperature() -> None:
@@ -52,31 +46,11 @@ def test_latent_heat_vanishes_at_the_critical_temperature() -> None:
     assert e.latent_heat(halfway, T_B, L_V, T_C) == pytest.approx(L_V * 0.5**0.38)
 
 
-@pytest.mark.parametrize("T", [2000.0, 3500.0, 5000.0, 6600.0, 6700.0])
-def test_pressure_with_falling_latent_heat_is_its_integral(T: float) -> None:
-    """ln p equals the integral of L_v / (R_s T^2), taken here by adaptive quadrature."""
-    from scipy.integrate import quad
-
-    expected, _ = quad(
-        lambda s: e.latent_heat(s, T_B, L_V, T_C) / (R_S * s * s), T_B, T, epsabs=0, epsrel=1e-11
-    )
-    pressure = e.saturation_pressure_watson(T, P_B, T_B, L_V, T_C, R_S)
-    assert math.log(pressure / P_B) == pytest.approx(expected, abs=2e-5)
-
-
-def test_pressure_is_held_above_the_critical_temperature() -> None:
-    """Above T_c the pressure stays and its slope is zero."""
-    top = e.saturation_pressure_watson(T_C, P_B, T_B, L_V, T_C, R_S)
-    assert e.saturation_pressure_watson(T_C + 1000.0, P_B, T_B, L_V, T_C, R_S) == top
-    assert e.saturation_pressure_watson_slope(T_C + 1.0, P_B, T_B, L_V, T_C, R_S) == 0.0
-
-
 def test_mass_flux_and_recoil_by_hand() -> None:
     """At 1 atm and 2730 K: 0.82 * 101325 / sqrt(2 pi 308.17 * 2730) = 36.14 kg/(m^2 s)."""
     assert e.mass_flux(T_B, P_B, R_S) == pytest.approx(36.14, abs=0.01)
     assert e.evaporative_heat_flux(T_B, P_B, L_V, R_S) == pytest.approx(3.805e8, rel=1e-3)
     assert e.recoil_pressure(P_B) == pytest.approx(54715.5)
-    assert e.recoil_pressure_slope(10.0) == pytest.approx(5.4)
 
 
 def _pressure(T: float) -> float:
@@ -87,19 +61,15 @@ def _pressure_slope(T: float) -> float:
     return e.saturation_pressure_slope(T, P_B, T_B, L_V, R_S)
 
 
-def _watson(T: float) -> float:
-    return e.saturation_pressure_watson(T, P_B, T_B, L_V, T_C, R_S)
-
-
 def _heat(T: float) -> float:
-    return e.evaporative_heat_flux(T, _watson(T), e.latent_heat(T, T_B, L_V, T_C), R_S)
+    return e.evaporative_heat_flux(T, _pressure(T), e.latent_heat(T, T_B, L_V, T_C), R_S)
 
 
 def _heat_slope(T: float) -> float:
     return e.evaporative_heat_flux_slope(
         T,
-        _watson(T),
-        e.saturation_pressure_watson_slope(T, P_B, T_B, L_V, T_C, R_S),
+        _pressure(T),
+        _pressure_slope(T),
         e.latent_heat(T, T_B, L_V, T_C),
         e.latent_heat_slope(T, T_B, L_V, T_C),
         R_S,
@@ -108,7 +78,6 @@ def _heat_slope(T: float) -> float:
 
 SLOPES = {
     "pressure": (_pressure, _pressure_slope),
-    "watson": (_watson, lambda T: e.saturation_pressure_watson_slope(T, P_B, T_B, L_V, T_C, R_S)),
     "latent": (
         lambda T: e.latent_heat(T, T_B, L_V, T_C),
         lambda T: e.latent_heat_slope(T, T_B, L_V, T_C),
@@ -118,14 +87,6 @@ SLOPES = {
         lambda T: e.mass_flux_slope(T, _pressure(T), _pressure_slope(T), R_S),
     ),
     "heat": (_heat, _heat_slope),
-    "normal": (
-        lambda T: e.mean_normal_velocity(T, R_S),
-        lambda T: e.mean_normal_velocity_slope(T, R_S),
-    ),
-    "effusion": (
-        lambda T: e.effusion_velocity(T, R_S),
-        lambda T: e.effusion_velocity_slope(T, R_S),
-    ),
 }
 
 
@@ -142,8 +103,8 @@ def test_slopes_against_central_differences(name: str, T: float) -> None:
 
 def _surface_loss(T, p_b, T_b, L_b, T_c, R_s):
     """Heat flux of evaporation and its slope, as a solver composes them from the pure functions."""
-    p = e.saturation_pressure_watson(T, p_b, T_b, L_b, T_c, R_s)
-    p_slope = e.saturation_pressure_watson_slope(T, p_b, T_b, L_b, T_c, R_s)
+    p = e.saturation_pressure(T, p_b, T_b, L_b, R_s)
+    p_slope = e.saturation_pressure_slope(T, p_b, T_b, L_b, R_s)
     L = e.latent_heat(T, T_b, L_b, T_c)
     L_slope = e.latent_heat_slope(T, T_b, L_b, T_c)
     flux = e.evaporative_heat_flux(T, p, L, R_s)

@@ -8,7 +8,6 @@ from lasersph.physics.continuity import density_rate
 from lasersph.physics.equation_of_state import (
     condensed_pressure,
     density_under,
-    elastic_energy,
     pressure,
 )
 from lasersph.physics.momentum import pair_acceleration
@@ -46,16 +45,6 @@ def test_density_under_a_pressure():
     """It is the inverse of the pressure."""
     for P in (0.0, 1e5, 1e9):
         assert pressure(density_under(P, RHO, C), RHO, C) == pytest.approx(P, rel=1e-9, abs=1e-3)
-
-
-@pytest.mark.parametrize("strain", [-0.02, 0.03])
-def test_elastic_energy_is_the_work_of_the_pressure(strain):
-    """int P / rho^2 drho, by the trapezoidal rule."""
-    rho = np.linspace(RHO, (1.0 + strain) * RHO, 20001)
-    f = pressure(rho, RHO, C) / rho**2
-    work = float(np.sum(0.5 * (f[1:] + f[:-1]) * np.diff(rho)))
-    assert elastic_energy((1.0 + strain) * RHO, RHO, C, 1.0) == pytest.approx(work, rel=1e-7)
-    assert elastic_energy(0.9 * RHO, RHO, C, 0.0) == 0.0
 
 
 def test_approach_raises_the_density():
