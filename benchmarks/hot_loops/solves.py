@@ -91,7 +91,7 @@ def multigrid_cycle(backend: Backend, operator: PairOperator) -> HotLoop | None:
     r, z = _noise(backend, count), backend.zeros(count)
 
     def run() -> int:
-        multigrid.correct(r, z, ones)
+        multigrid.correction(r, z, ones)()
         return 1
 
     return HotLoop("multigrid cycle", count, run)
@@ -106,7 +106,7 @@ def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
     r, z = _noise(backend, count), backend.zeros(count)
 
     def run() -> int:
-        correction.correct(r, diagonal, ones, z)
+        correction.correction(r, diagonal, ones, z)()
         return 1
 
     return HotLoop("pressure grid cycle", count, run)

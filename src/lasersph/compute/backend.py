@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from lasersph.compute import connected, threads
 from lasersph.compute.arguments import components
 from lasersph.compute.launch import Launch, Launcher
 from lasersph.compute.loops import Loops
+from lasersph.compute.routine import Step, run_routine
 from lasersph.compute.signature import Call
 
 _KINDS = {"index": np.uint32, "offset": np.uint64, "flag": np.uint8}
@@ -257,6 +258,7 @@ class Backend:
         *,
         neighbors: Any = None,
         finish: Callable | None = None,
+        rows: Any = None,
         reduce: Any = None,
         **constants: Any,
     ) -> Launch:
@@ -266,11 +268,24 @@ class Backend:
         costs a quarter of an ordinary call. Functions edited after that are not noticed.
         """
         shape = "pointwise" if neighbors is None else "pair_sum"
-        call = Call(shape, function, neighbors, fields, out, None, finish, reduce, constants)
+        call = Call(shape, function, neighbors, fields, out, rows, finish, reduce, constants)
         return self._loops.prepared(call)
 
-    def recorded(self, run: Callable[[], None]) -> Callable[[], None]:
-        """Run loops, and return a function that runs them again: same arrays, same constants.
+    def routine(
+        self, function: Callable[..., tuple], steps: Sequence[Step], *numbers: float
+    ) -> tuple[float, ...]:
+        """Results of a plain function of steps and numbers, compiled where it can be.
+
+        See `compute.routine`: it is called as `function(*steps, *numbers)`.
+        """
+        return run_routine(function, steps, numbers, self.precision)
+
+    def component(self, array: Any, k: int) -> Any:
+        """View of component k of a vector, (n,) of (dim, n)."""
+        return self.wrap(self.unwrap(array)[k])
+
+    def recorded(self, run: Callable[[], None]) -> Step:
+        """Run loops, and return a step that runs them again: same arrays, same constants.
 
         For sequences of many small loops, which take longer to bind than to run. Only loops are
         repeated, not copies or sorts between them.
@@ -278,10 +293,4 @@ class Backend:
         Raises:
             ValueError: a loop reduces, since nobody would receive the number.
         """
-        launches = self._loops.recorded(run)
-
-        def replay() -> None:
-            for launch in launches:
-                launch()
-
-        return replay
+        return Step(self._loops.recorded(run))

@@ -145,6 +145,10 @@ class CudaBackend(Backend):
             raise ValueError(f"the first {count} of {source.shape[-1]} particles")
         return source.head(count)
 
+    def component(self, array: Any, k: int) -> CudaArray:
+        """View of component k of a vector, (n,) of (dim, n)."""
+        return self.unwrap(array).component(k)
+
     def gather(self, source: Any, order: Any, out: Any) -> None:
         """out[..., k] = source[..., order[k]]."""
         self._move(cuda_kernels.gather, "gather", source, order, out)

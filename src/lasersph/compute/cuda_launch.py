@@ -57,7 +57,7 @@ class CudaLaunch:
         reals, whole = compiled.numbers
         self._numbers = np.zeros(reals, compiled.real), np.zeros(whole, np.int64)
         self.set(bound.constants)
-        self.reductions = compiled.reductions
+        self.reductions, self.places = compiled.reductions, compiled.places
         self._groups = groups(bound.rows, SUMMING_GROUPS)
 
     @property

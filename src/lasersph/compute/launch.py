@@ -153,6 +153,18 @@ class Launch:
         """Threads that take part."""
         return self._frame[2]
 
+    @property
+    def results_address(self) -> int:
+        """Where the reductions of a run go."""
+        return self._frame[7]
+
+    def number_places(self, name: str) -> list[int]:
+        """Addresses of a constant, none where the loop does not have it."""
+        return [
+            _address(self.numbers[which]) + self.numbers[which].itemsize * k
+            for which, k, _ in self.places.get(name, ())
+        ]
+
     def set(self, constants: dict[str, Any]) -> None:
         """Take constants by name.
 

@@ -99,7 +99,8 @@ class Sweep:
     """A sweep with its arrays; called with the numbers that have changed, it runs.
 
     Attributes:
-        function: of a row, with so many `arguments`. read, out: host arrays, (n,). tiles, inner:
+        function: of a row, with so many `arguments`. places: of the constants by name. read, out:
+            host arrays, (n,). tiles, inner:
             weights that it reads.
     """
 
@@ -129,8 +130,9 @@ class Sweep:
             if array.shape != (count,) or array.dtype != backend.real:
                 raise ValueError(f"{array.dtype}{array.shape}; ({count},) is asked for")
         self._colors = pairs.colors[::-1] if backward else pairs.colors
-        self._names = [name for name in roles if roles[name] == "constant"]
-        self._numbers = np.array([constants[name] for name in self._names], backend.real)
+        names = [name for name in roles if roles[name] == "constant"]
+        self.places = {name: k for k, name in enumerate(names)}
+        self._numbers = np.array([constants[name] for name in names], backend.real)
         blocks = sum(blocks.size for blocks in pairs.colors)
         self._partial = np.zeros((blocks, reduces), backend.real)
         self._arguments = (
@@ -139,10 +141,14 @@ class Sweep:
         )  # fmt: skip
         self._threads = np.uint64(backend.threads)
 
+    def set(self, constants: Mapping[str, float]) -> None:
+        """Take constants by name."""
+        for name, value in constants.items():
+            self._numbers[self.places[name]] = value
+
     def __call__(self, **constants: float) -> tuple[float, ...]:
         """Run; returns the sums over the rows."""
-        for name, value in constants.items():
-            self._numbers[self._names.index(name)] = value
+        self.set(constants)
         for blocks in self._colors:
             share = (_FIRST, np.uint64(blocks.size), self._threads)
             self._module.loop(*share, blocks, *self._arguments)

@@ -132,18 +132,21 @@ def _axis(width: float, period: float, low: float, high: float) -> tuple[float, 
     return first * width, Axis(floor(high / width) - first + 1, width, False)
 
 
+@dataclass(frozen=True)
 class Bins:
     """Members of numbered bins, for sums over bins in a fixed order.
 
-    Args:
-        keys: (n,) kind "index", bin of each member, below `count`.
-
     Attributes:
         order: (n,) members, bin after bin, each in the order of its numbers.
-        start: (count + 1,) first place of each bin in it.
+        start: (bins + 1,) first place of each bin in it.
     """
 
-    def __init__(self, backend: Backend, keys: Any, count: int) -> None:
-        self.order = backend.sort_by_key(keys, count)
-        self.start = backend.zeros(count + 1, "offset")
-        backend.exclusive_scan(backend.count_by_key(keys, count), self.start)
+    order: Any
+    start: Any
+
+
+def find_bins(backend: Backend, keys: Any, count: int) -> Bins:
+    """Bins of members from the bin of each, `keys` (n,) of kind "index" below `count`."""
+    start = backend.zeros(count + 1, "offset")
+    backend.exclusive_scan(backend.count_by_key(keys, count), start)
+    return Bins(backend.sort_by_key(keys, count), start)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.backend import Backend
-from lasersph.linear_solvers.cells import Bins, Cells
+from lasersph.linear_solvers.cells import Cells, find_bins
 
 CELL = 0.35
 """Width of a cell over the support radius; 1.3 spacings where the support is 3.75."""
@@ -113,7 +113,7 @@ class Components:
             component_of, {"part": self.number}, (self.number, self.mask), members=members,
             before=before,
         )  # fmt: skip
-        self._bins = Bins(backend, self.number, self.count + 1)
+        self._bins = find_bins(backend, self.number, self.count + 1)
         self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
         self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
         self._sum(share_of, self._share, pull=pull)

@@ -21,8 +21,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.routine import Step
 from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.incomplete_factors import IncompleteFactors
+from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.linear_solvers.multigrid import Multigrid
 
 STIFF = 20.0
@@ -151,22 +153,21 @@ class ConjugateGradient:
             )
         self._bind()
         multigrid = self._prepared(C, mask, s) if stiffest > STIFF else None
+        precondition = Step([])
         if multigrid:
-            rz = multigrid.correct(v["r"], v["z"], mask)
-        iterations, beta = 0, 0.0
-        while error > residual and iterations < max_iterations:
-            (pq,) = self._turn(beta=beta, s=s)
-            if pq <= 0.0:
-                break
-            before = rz
-            rz, error = self._advance(alpha=rz / pq)
-            iterations += 1
-            if error <= residual:
-                break
-            if multigrid:
-                rz = multigrid.correct(v["r"], v["z"], mask)
-            beta = rz / before
-        return iterations
+            precondition = multigrid.correction(v["r"], v["z"], mask)
+            (rz,) = precondition()
+        self._turn.set({"s": s})
+        iterations, *_ = self.backend.routine(
+            conjugate_gradients,
+            (Step([self._turn], "beta"), Step([self._advance], "alpha"), precondition),
+            float(bool(multigrid)),
+            rz,
+            error,
+            residual,
+            max_iterations,
+        )
+        return int(iterations)
 
     def _factored(self) -> IncompleteFactors | None:
         """Incomplete factors of the pairs that the solver was made with, while they stay."""

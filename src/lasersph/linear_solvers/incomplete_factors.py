@@ -23,7 +23,9 @@ from __future__ import annotations
 from typing import Any
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.routine import Step
 from lasersph.compute.sweeps import OrderedPairs, Sweep
+from lasersph.linear_solvers.iteration import conjugate_gradients
 
 
 def factor(total, C, S, F, a, mask, s):
@@ -97,18 +99,18 @@ class IncompleteFactors:
         self.backend.fill(self._t, 0.0)
         self._eliminate(s=s)  # r' from r
         rz, error = self._advance(alpha=0.0, s=s)
-        back, forth = self.sweeps
-        iterations, beta = 0, 0.0
-        while error > residual and iterations < max_iterations:
-            back(beta=beta, s=s)
-            (pq,) = forth(s=s)
-            if pq <= 0.0:
-                break
-            before = rz
-            rz, error = self._advance(alpha=rz / pq, s=s)
-            beta = rz / before
-            iterations += 1
-        return iterations
+        for sweep in self.sweeps:
+            sweep.set({"s": s})
+        iterations, *_ = self.backend.routine(
+            conjugate_gradients,
+            (Step(self.sweeps, "beta"), Step([self._advance], "alpha"), Step([])),
+            0.0,
+            rz,
+            error,
+            residual,
+            max_iterations,
+        )
+        return int(iterations)
 
     def _factor_of(self, C: Any, a: Any, mask: Any) -> Sweep:
         """Sweep that sets the factors from these arrays, bound when they are new."""

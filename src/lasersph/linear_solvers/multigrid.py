@@ -27,6 +27,7 @@ import numpy as np
 
 from lasersph.compute.backend import Backend
 from lasersph.compute.launch import Launch
+from lasersph.compute.routine import Step
 from lasersph.linear_solvers.aggregation import Aggregates, coarsen
 
 DAMPING = 0.9
@@ -244,28 +245,23 @@ class Multigrid:
             w, C = level.w, level.C
         backend.copy(backend.asarray(_inverse(backend, self.levels[-1], s)), self._inverse)
 
-    def correct(self, r: Any, z: Any, mask: Any) -> float:
-        """Add P B P^T r to z on the particles whose mask is 1; returns r z."""
+    def correction(self, r: Any, z: Any, mask: Any) -> Step:
+        """Step that adds P B P^T r to z on the particles whose mask is 1, and reduces r z."""
         if not _are(self._for, (r, z, mask)):
             self._for, finest = (r, z, mask), self.levels[0]
             fields = {"r": r, "z": z, "mask": mask}
             self._restrict = finest.restriction(r)
             self._prolong = finest.prolongation(corrected, fields, (z, None), (None, "sum"))
-        self._restrict()
-        self._cycle()
-        return self._prolong()[0]
-
-    def _cycle(self) -> None:
-        """V cycle: `solution` of the finest level for its right-hand side."""
-        s = self._step
+        s = {"s": self._step}
+        launches = [self._restrict]
         for level, (restrict, _) in zip(self.levels[:-1], self._between, strict=True):
-            level.first_sweep()
-            level.remainder(s=s)
-            restrict()
-        self._solve()
+            level.remainder.set(s)
+            launches += (level.first_sweep, level.remainder, restrict)
+        launches.append(self._solve)
         for level, (_, prolong) in zip(self.levels[-2::-1], self._between[::-1], strict=True):
-            prolong()
-            level.last_sweep(s=s)
+            level.last_sweep.set(s)
+            launches += (prolong, level.last_sweep)
+        return Step([*launches, self._prolong])
 
 
 def _inverse(backend: Backend, level: _Level, s: float) -> np.ndarray:

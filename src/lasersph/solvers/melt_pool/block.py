@@ -52,11 +52,6 @@ def ghost_tensor(M, sign):
     return outer(sign, sign) * M
 
 
-def ghost_velocity_change(d, factor):
-    """S d, what remains of the ghost's velocity where walls rest and no stress acts [m/s]."""
-    return factor * d
-
-
 def wall_terms(g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j):
     """Share of a pair in the boundary coefficient A [m^(d-2)], A P_w, A T_w and the power b.
 
@@ -283,12 +278,6 @@ class Block:
         extended = self.gather(v)
         fields = {"v": extended, "jump": self.gather(jump)} | self.rules
         self.backend.pointwise(ghost_velocity, fields, extended, along=self._tangent)
-        return extended
-
-    def extend_velocity_change(self, d: Array) -> Array:
-        """A change of velocity (2, n) on the block with ghosts: S d."""
-        extended = self.gather(d)
-        self.backend.pointwise(ghost_velocity_change, {"d": extended} | self.rules, extended)
         return extended
 
     def mirror_velocity(self, v: Array, jump: Array) -> Array:

@@ -30,8 +30,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.routine import Step
 from lasersph.linear_solvers.components import Components
 from lasersph.linear_solvers.grid_correction import GridCorrection
+from lasersph.linear_solvers.iteration import conjugate_gradients
 
 
 @dataclass(frozen=True)
@@ -84,9 +86,9 @@ def multiply(total, d, mask, s):
 
 
 def advance(p, r, s, q, alpha):
-    """p += alpha s, r -= alpha q; reduces r r."""
+    """p += alpha s, r -= alpha q; reduces r r, in the place of r z, which comes later, too."""
     new = r - alpha * q
-    return p + alpha * s, new, new * new
+    return p + alpha * s, new, new * new, new * new
 
 
 def turn(z, s, beta):
@@ -176,20 +178,30 @@ class PressureEquation:
             neighbor_value, self._neighbors, fields | {"b": self._b}, (r, None),
             finish=rest, reduce=(None, "sum"),
         )  # fmt: skip
-        wanted, iterations, r_z = self.tolerance * scale, 0, 0.0
-        while r_r**0.5 > wanted and iterations < self.max_iterations:
-            before, r_z = r_z, self._correction.correct(r, self._d, mask, self._z)
-            beta = r_z / before if iterations else 0.0
-            backend.pointwise(turn, fields, s, beta=beta)
-            (s_q,) = backend.pair_sum(
-                neighbor_value, self._neighbors, fields | {"p": s}, (q, None),
-                finish=multiply, reduce=(None, "sum"),
-            )  # fmt: skip
-            if not s_q > 0.0:
-                break
-            (r_r,) = backend.pointwise(
-                advance, fields, (p, r, None), reduce=(None, None, "sum"), alpha=r_z / s_q
-            )
-            iterations += 1
+        correction = self._correction.correction(r, self._d, mask, self._z)
+        turned = backend.prepare(turn, fields, s, beta=0.0)
+        multiplied = backend.prepare(
+            neighbor_value,
+            fields | {"p": s},
+            (q, None),
+            neighbors=self._neighbors,
+            finish=multiply,
+            reduce=(None, "sum"),
+        )
+        advanced = backend.prepare(
+            advance, fields, (p, r, None, None), reduce=(None, None, "sum", "sum"), alpha=0.0
+        )
+        wanted, iterations = (self.tolerance * scale) ** 2, 0.0
+        if r_r > wanted:
+            (r_z,) = correction()
+            iterations, _, r_r = backend.routine(
+                conjugate_gradients,
+                (Step([turned, multiplied], "beta"), Step([advanced], "alpha"), correction),
+                1.0,
+                r_z,
+                r_r,
+                wanted,
+                self.max_iterations,
+            )[:3]
         components.remove_means(p)
-        return Outcome(iterations, r_r**0.5 / scale if scale > 0.0 else 0.0)
+        return Outcome(int(iterations), r_r**0.5 / scale if scale > 0.0 else 0.0)

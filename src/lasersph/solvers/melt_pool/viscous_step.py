@@ -11,6 +11,9 @@ from __future__ import annotations
 from typing import Any
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.routine import Step
+from lasersph.compute.vectors import vector
+from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.physics.viscosity import (
     advance,
     forced,
@@ -27,6 +30,11 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 TOLERANCE = 1e-8
 """Residual over that of the first guess, in 2-norms."""
 MOST = 200
+
+
+def ghost_velocity_change(source, factor, d_x, d_z):
+    """S d of the source: what remains of its velocity where walls rest and no stress acts [m/s]."""
+    return vector(factor[0] * d_x[source], factor[1] * d_z[source])
 
 
 class ViscousStep:
@@ -72,28 +80,45 @@ class ViscousStep:
             momentum, block.pairs, fields, (r, z, None, None), rows=rows, finish=start,
             reduce=(None, None, "sum", "sum"), s=s,
         )  # fmt: skip
-        wanted, iterations = TOLERANCE**2 * r_r, 0
-        backend.copy(z, d)
-        points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume,
-                  "g_sum": self._g_sum}  # fmt: skip
-        while r_r > wanted and iterations < MOST:
-            fields = {
-                "v": block.extend_velocity_change(d),
-                "d": d,
-                "g_ij": block.weights,
-                "V": block.V,
-            }
-            (d_q,) = backend.pair_sum(
-                momentum, block.pairs, fields, (q, None), rows=rows, finish=multiply,
-                reduce=(None, "sum"), s=s,
-            )  # fmt: skip
-            if not d_q > 0.0:
-                break
-            before = r_z
-            r_z, r_r = backend.pointwise(
-                advance, points, (v, r, z, None, None), rows=rows,
-                reduce=(None, None, None, "sum", "sum"), alpha=r_z / d_q, s=s,
-            )  # fmt: skip
-            backend.pointwise(turn, points, d, rows=rows, beta=r_z / before)
-            iterations += 1
-        return iterations
+        points = {
+            "v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum,
+        }  # fmt: skip
+        extended = backend.zeros((2, block.total))
+        turned = backend.prepare(turn, points, d, rows=rows, beta=0.0)
+        ghosts = backend.prepare(
+            ghost_velocity_change,
+            {"source": block.source, "factor": block.rules["factor"]},
+            extended,
+            d_x=backend.component(d, 0),
+            d_z=backend.component(d, 1),
+        )
+        multiplied = backend.prepare(
+            momentum,
+            {"v": extended, "d": d, "g_ij": block.weights, "V": block.V},
+            (q, None),
+            neighbors=block.pairs,
+            rows=rows,
+            finish=multiply,
+            reduce=(None, "sum"),
+            s=s,
+        )
+        advanced = backend.prepare(
+            advance,
+            points,
+            (v, r, z, None, None),
+            rows=rows,
+            reduce=(None, None, None, "sum", "sum"),
+            alpha=0.0,
+            s=s,
+        )
+        turns = Step([turned, ghosts, multiplied], "beta")
+        iterations, *_ = backend.routine(
+            conjugate_gradients,
+            (turns, Step([advanced], "alpha"), Step([])),
+            0.0,
+            r_z,
+            r_r,
+            TOLERANCE**2 * r_r,
+            MOST,
+        )
+        return int(iterations)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from flow_boxes import PERIODIC, PERIODIC_HEAT, block_of, box, jittered, matrix_of, place_of, pool
 
-from lasersph.solvers.melt_pool.viscous_step import ViscousStep
+from lasersph.solvers.melt_pool.viscous_step import ViscousStep, ghost_velocity_change
 
 NU = 0.01
 COUETTE = {
@@ -115,3 +115,10 @@ def test_nothing_flows():
     found, iterations = advanced(solver, block, v, 0.1, "implicit")
     assert iterations == 0
     assert np.array_equal(found, v)
+
+
+def test_velocity_change_of_a_ghost():
+    """S d of its source."""
+    d = np.array([1.0, 2.0]), np.array([-1.0, 3.0])
+    found = ghost_velocity_change(1, np.array([1.0, -1.0]), *d)
+    assert found.tolist() == [2.0, -3.0]
