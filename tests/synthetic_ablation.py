@@ -11,17 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from lasersph.observers import (
-    AblationView,
-    SnapshotPlan,
-    SnapshotSchedule,
-    Trace,
-    View,
-    ablation_observers,
-    snapshot_fields,
-)
+from lasersph.observers import AblationView, View, ablation_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
+from lasersph.output.schedule import SnapshotSchedule
+from lasersph.output.settings import SnapshotPlan, Trace
 
 NS, UM = 1e-9, 1e-6
 DX, WIDTH, DEPTH, HEIGHT = 0.2 * UM, 6 * UM, 3 * UM, 3 * UM

@@ -17,16 +17,11 @@ import numpy as np
 import synthetic_run
 from synthetic_run import NM, NS, PERIOD
 
-from lasersph.observers import (
-    FlowView,
-    SnapshotPlan,
-    SnapshotSchedule,
-    View,
-    flow_observers,
-    snapshot_fields,
-)
+from lasersph.observers import FlowView, View, flow_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
+from lasersph.output.schedule import SnapshotSchedule
+from lasersph.output.settings import SnapshotPlan
 
 LAYER = 120 * NM
 FASTEST = 4.0

@@ -10,16 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from lasersph.observers import (
-    Probe,
-    SnapshotPlan,
-    SnapshotSchedule,
-    View,
-    heat_observers,
-    snapshot_fields,
-)
+from lasersph.observers import View, heat_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
+from lasersph.output.schedule import SnapshotSchedule
+from lasersph.output.settings import Probe, SnapshotPlan
 
 NS, NM = 1e-9, 1e-9
 PERIOD, END = 5e-6, 200 * NS

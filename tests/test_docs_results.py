@@ -9,8 +9,9 @@ import synthetic_ablation
 import synthetic_flow
 import synthetic_run
 
-from lasersph.observers import Probe, Trace, ablation_observers, flow_observers, heat_observers
+from lasersph.observers import ablation_observers, flow_observers, heat_observers
 from lasersph.observers.snapshots import UNITS
+from lasersph.output.settings import Probe, Trace
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 sys.path.insert(0, str(DOCS / "_extensions"))

@@ -1,6 +1,7 @@
 """Case: the whole problem as one frozen model made of the rooms' own models.
 
-case             the model, its content as plain data, its hash
+contents         the model of all keys
+case             the same, checked together, as plain data, its hash
 material_choice  a material by name, by path, or changed in the case
 checks           what contradicts between rooms
 active_region    whether only what heat reaches is computed, and how deep that is
@@ -9,16 +10,15 @@ overrides        --set key=value
 loading          files, shipped cases, new case files
 """
 
-from lasersph.case.case import SCHEMA_VERSION, Case
+from lasersph.case.case import Case
 from lasersph.case.checks import refuse_if_too_large
+from lasersph.case.contents import SCHEMA_VERSION
 from lasersph.case.loading import available_cases, case_file, load_case, write_new_case
-from lasersph.case.outputs import OutputSettings
 from lasersph.case.size import estimate_count
 
 __all__ = [
     "SCHEMA_VERSION",
     "Case",
-    "OutputSettings",
     "available_cases",
     "case_file",
     "estimate_count",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from lasersph.boundaries.initial_motion import Rest
 
 if TYPE_CHECKING:
-    from lasersph.case.case import Case
+    from lasersph.case.contents import CaseContents
 
 PENETRATIONS = 9.6
 """Depth of the active region over sqrt(D t)."""
@@ -20,13 +20,13 @@ SUPPORTS = 4.0
 """Supports that become active ahead of the heat."""
 
 
-def has_active_region(case: Case) -> bool:
+def has_active_region(case: CaseContents) -> bool:
     """Whether only what heat reaches is computed: light on matter at rest, without gravity."""
     is_at_rest = isinstance(case.motion or Rest(), Rest)
     return case.laser is not None and is_at_rest and case.solver.leaves_rest_inactive
 
 
-def active_share(case: Case, support: float) -> float:
+def active_share(case: CaseContents, support: float) -> float:
     """Estimated largest share of the particles that is active at the end [1].
 
     Args:

@@ -20,16 +20,16 @@ from lasersph.case.size import (
 from lasersph.case.solver_choice import SELECTIVE_KEYS, reader_of
 from lasersph.input import CaseError, format_quantity
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
-from lasersph.observers import SnapshotSchedule
+from lasersph.output.schedule import SnapshotSchedule
 
 if TYPE_CHECKING:
-    from lasersph.case.case import Case
+    from lasersph.case.contents import CaseContents
 
 FEWEST_LAYERS = 4
 LARGEST_COST_SHARE = 0.9
 
 
-def problems_of(case: Case) -> list[tuple[str, str]]:
+def problems_of(case: CaseContents) -> list[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of everything that the rooms contradict in."""
     found = list(_domain(case))
     if found:
@@ -46,7 +46,7 @@ def problems_of(case: Case) -> list[tuple[str, str]]:
     ]
 
 
-def refuse_if_too_large(case: Case, backend: str = "cpu") -> None:
+def refuse_if_too_large(case: CaseContents, backend: str = "cpu") -> None:
     """Refuse a case whose particles do not fit into the memory of this machine, or of its card.
 
     Raises:
@@ -63,7 +63,7 @@ def refuse_if_too_large(case: Case, backend: str = "cpu") -> None:
             )
 
 
-def _unread_keys(case: Case) -> Iterator[tuple[str, str]]:
+def _unread_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
     """What the solver of the case would ignore."""
     for key in sorted(SELECTIVE_KEYS - case.solver.reads):
         table, _, name = key.partition(".")
@@ -76,7 +76,7 @@ def _unread_keys(case: Case) -> Iterator[tuple[str, str]]:
             )
 
 
-def _domain(case: Case) -> Iterator[tuple[str, str]]:
+def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
     domain, lattice, dimensions = case.domain, case.particles, case.solver.dimensions
     if dimensions > 1 and domain.width is None:
         yield "domain.width", f'missing for {dimensions}-D; write e.g. width = "5 um"'
@@ -100,7 +100,7 @@ def _domain(case: Case) -> Iterator[tuple[str, str]]:
     yield from _faces(case)
 
 
-def _faces(case: Case) -> Iterator[tuple[str, str]]:
+def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Whether the faces fit the domain and its dimensions."""
     boundaries, dimensions = case.boundaries, case.solver.dimensions
     left = boundaries.kind_of("left")
@@ -130,7 +130,7 @@ def _faces(case: Case) -> Iterator[tuple[str, str]]:
         )
 
 
-def _material(case: Case) -> Iterator[tuple[str, str]]:
+def _material(case: CaseContents) -> Iterator[tuple[str, str]]:
     changes = case.solver.phase_change and case.flow is None
     try:
         case.material.caloric_curve(
@@ -156,7 +156,7 @@ def _material(case: Case) -> Iterator[tuple[str, str]]:
         )
 
 
-def _laser(case: Case) -> Iterator[tuple[str, str]]:
+def _laser(case: CaseContents) -> Iterator[tuple[str, str]]:
     laser = case.laser
     if laser is None:
         return
@@ -178,7 +178,7 @@ def _laser(case: Case) -> Iterator[tuple[str, str]]:
     yield from _beam(case, laser)
 
 
-def _beam(case: Case, laser: Laser) -> Iterator[tuple[str, str]]:
+def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
     """Whether beam, domain and symmetry fit together."""
     dimensions, domain = case.solver.dimensions, case.domain
     if dimensions == 1 and not isinstance(laser.beam, UniformBeam):
@@ -221,7 +221,7 @@ def _whole_periods(
         )
 
 
-def _size(case: Case) -> Iterator[tuple[str, str]]:
+def _size(case: CaseContents) -> Iterator[tuple[str, str]]:
     size = size_of(case)
     if size.particles > LARGEST_PARTICLES:
         yield (
@@ -237,7 +237,7 @@ def _size(case: Case) -> Iterator[tuple[str, str]]:
         )
 
 
-def _probes(case: Case) -> Iterator[tuple[str, str]]:
+def _probes(case: CaseContents) -> Iterator[tuple[str, str]]:
     for name, count in Counter(probe.name for probe in case.probes).items():
         if count > 1:
             yield "probes", f'{count} probes are named "{name}"; give each its own name'
@@ -260,7 +260,7 @@ def _probes(case: Case) -> Iterator[tuple[str, str]]:
                 )
 
 
-def _snapshots(case: Case) -> Iterator[tuple[str, str]]:
+def _snapshots(case: CaseContents) -> Iterator[tuple[str, str]]:
     try:
         SnapshotSchedule(case.output.snapshots, case.time.end)
     except ValueError as error:

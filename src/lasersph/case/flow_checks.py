@@ -16,7 +16,7 @@ from lasersph.materials import available_materials
 from lasersph.particles.faces import PLANE, faces_of
 
 if TYPE_CHECKING:
-    from lasersph.case.case import Case
+    from lasersph.case.contents import CaseContents
     from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 LARGEST_COURANT = 0.25
@@ -25,7 +25,7 @@ LARGEST_DIFFUSION = 0.125
 """Share of spacing^2 over viscosity that an explicit step may take, for the number of steps."""
 
 
-def flow_problems(case: Case) -> Iterator[tuple[str, str]]:
+def flow_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that concerns flow."""
     if not computes_flow(case.solver):
         return
@@ -38,7 +38,7 @@ def flow_problems(case: Case) -> Iterator[tuple[str, str]]:
     yield from _steps(case, case.solver)
 
 
-def _liquid(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
+def _liquid(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
     """What the liquid must know."""
     material = case.material
     given = material.properties()
@@ -60,7 +60,7 @@ def _liquid(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
         )
 
 
-def _heat_faces(case: Case) -> Iterator[tuple[str, str]]:
+def _heat_faces(case: CaseContents) -> Iterator[tuple[str, str]]:
     for face in faces_of(2):
         if case.boundaries.kind_of(face) == "free":
             own = getattr(case.boundaries, face) is not None
@@ -71,7 +71,7 @@ def _heat_faces(case: Case) -> Iterator[tuple[str, str]]:
             )
 
 
-def _pool(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
+def _pool(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
     """A pool in a block that is solid at first."""
     if case.material.melting is None:
         yield (
@@ -98,7 +98,7 @@ def _pool(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
         yield "boundaries.surface", 'a pool lies below a surface; write surface = "adiabatic"'
 
 
-def _box(case: Case, flow: FlowConditions) -> Iterator[tuple[str, str]]:
+def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
     """A closed box that is all fluid."""
     if case.material.melting is not None and case.solver.phase_change:
         yield (
@@ -133,7 +133,7 @@ def _box(case: Case, flow: FlowConditions) -> Iterator[tuple[str, str]]:
         yield from _vortices(case, flow.initial)
 
 
-def _vortices(case: Case, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]:
+def _vortices(case: CaseContents, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]:
     """Vortices must fill the box: the walls lie between them."""
     (x,) = case.domain.lateral(2)
     period = initial.period or x[1] - x[0]
@@ -149,7 +149,7 @@ def _vortices(case: Case, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]
             )
 
 
-def _steps(case: Case, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
+def _steps(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
     """Speeds and viscosities that no number of steps follows."""
     spacing, end = case.particles.spacing, case.time.end
     speeds = {}

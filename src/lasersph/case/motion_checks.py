@@ -11,7 +11,7 @@ from lasersph.input import format_quantity
 from lasersph.particles.faces import LATERAL, VERTICAL, faces_of
 
 if TYPE_CHECKING:
-    from lasersph.case.case import Case
+    from lasersph.case.contents import CaseContents
     from lasersph.solvers.ablation.settings import AblationSettings
 
 REFUSED = {
@@ -20,7 +20,7 @@ REFUSED = {
 }
 
 
-def motion_problems(case: Case) -> Iterator[tuple[str, str]]:
+def motion_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that concerns matter that moves."""
     if not moves_matter(case.solver):
         return
@@ -30,7 +30,7 @@ def motion_problems(case: Case) -> Iterator[tuple[str, str]]:
     yield from _light(case, case.solver)
 
 
-def _faces(case: Case) -> Iterator[tuple[str, str]]:
+def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
     dimensions = case.solver.dimensions
     for face in faces_of(dimensions):
         kind = case.boundaries.kind_of(face)
@@ -47,7 +47,7 @@ def _faces(case: Case) -> Iterator[tuple[str, str]]:
             yield f"vessel.{side}", "no wall stands on a periodic side; leave it out"
 
 
-def _particles(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
+def _particles(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, str]]:
     if case.particles.arrangement != "uniform":
         yield "particles.arrangement", 'particles that move need one size; write "uniform"'
     width = case.domain.width
@@ -68,7 +68,7 @@ def _particles(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]
             )
 
 
-def _motion(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
+def _motion(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, str]]:
     motion = case.motion
     if isinstance(motion, SoundWave):
         if case.boundaries.surface != "periodic":
@@ -87,7 +87,7 @@ def _motion(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
         yield "motion.hydrostatic", "nothing weighs anything without gravity in [solver]"
 
 
-def _light(case: Case, solver: AblationSettings) -> Iterator[tuple[str, str]]:
+def _light(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, str]]:
     material = case.material
     if case.laser is None:
         if case.ejection is not None:

@@ -13,11 +13,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lasersph.case.active_region import active_share
-from lasersph.compute.cuda_device import free_memory
 from lasersph.particles import Domain, Lattice
 
 if TYPE_CHECKING:
-    from lasersph.case.case import Case
+    from lasersph.case.contents import CaseContents
 
 LARGEST_PARTICLES = 2**32 - 1
 """Neighbors are numbered with 32 bits."""
@@ -39,7 +38,7 @@ class Size:
         return f"{self.particles:.2g} particles, {in_words(self.bytes)}"
 
 
-def size_of(case: Case) -> Size:
+def size_of(case: CaseContents) -> Size:
     """Estimated size of a case; where cold matter is inactive, only the rest has neighbors."""
     lattice, dimensions = case.particles, case.solver.dimensions
     count = estimate_count(case.domain, lattice, dimensions)
@@ -92,6 +91,8 @@ def memories(backend: str) -> list[tuple[str, float]]:
     """
     found = [("this machine has {}", machine_memory())]
     if backend == "cuda":
+        from lasersph.compute.cuda_device import free_memory
+
         found.append(("the graphics card has {} free", free_memory()))
     return found
 

@@ -16,12 +16,12 @@ from lasersph.observers.observer_list import (
     flow_observers,
     heat_observers,
 )
-from lasersph.observers.probes import Probe, Probes
+from lasersph.observers.probes import Probes
 from lasersph.observers.quantity import Quantity
-from lasersph.observers.snapshots import SnapshotPlan, SnapshotSchedule, snapshot_fields
+from lasersph.observers.snapshots import snapshot_fields
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_temperature import SurfaceTemperature
-from lasersph.observers.traces import Trace, Traces
+from lasersph.observers.traces import Traces
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import View
 
@@ -37,14 +37,10 @@ __all__ = [
     "MeltPool",
     "Observer",
     "Observers",
-    "Probe",
     "Probes",
     "Quantity",
-    "SnapshotPlan",
-    "SnapshotSchedule",
     "Steps",
     "SurfaceTemperature",
-    "Trace",
     "Traces",
     "Vaporization",
     "View",

@@ -14,14 +14,15 @@ from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.observer import Observer, Row
-from lasersph.observers.probes import Probe, Probes
+from lasersph.observers.probes import Probes
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_pressure import SurfacePressure
 from lasersph.observers.surface_speed import SurfaceSpeed
 from lasersph.observers.surface_temperature import SurfaceTemperature
-from lasersph.observers.traces import Trace, Traces
+from lasersph.observers.traces import Traces
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import View
+from lasersph.output.settings import Probe, Trace
 
 OBSERVERS: tuple[type[Observer], ...] = (
     Steps,

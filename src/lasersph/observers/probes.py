@@ -14,52 +14,15 @@ vaporization temperature where no particle does.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
-
 import numpy as np
-from pydantic import Field, field_validator
 
-from lasersph.input import Length, Model
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
+from lasersph.output.settings import Probe
 
 SUPPORT = {1: 2, 2: 6, 3: 12}
 """Particles that a linear probe combines, by dimension."""
-
-
-class Probe(Model):
-    """A named point whose temperature is recorded in every step."""
-
-    name: Annotated[
-        str,
-        Field(
-            min_length=1,
-            max_length=40,
-            pattern=r"^[A-Za-z0-9_-]+$",
-            description="letters, digits, - and _; names the history column probe_<name>_K",
-        ),
-    ]
-    depth: Length = Field(default=0.0, description="below the original surface")
-    x: Length = Field(default=0.0, description="not used in 1-D")
-    y: Length = Field(default=0.0, description="used in 3-D")
-    method: Literal["nearest", "linear", "even"] = Field(
-        default="nearest",
-        description="nearest: the closest particle; linear: exact for linear fields; even: exact "
-        "for fields of no slope at the surface, for adiabatic surfaces",
-    )
-
-    @field_validator("depth")
-    @classmethod
-    def _below_the_surface(cls, depth: float) -> float:
-        """A probe lies in the metal."""
-        if depth < 0.0:
-            raise ValueError("a depth is counted downward from the surface and not negative")
-        return depth
-
-    def place(self, dimension: int) -> np.ndarray:
-        """Coordinates of the point, (dim,) [m]."""
-        return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
 
 
 class Probes(Observer):

@@ -1,18 +1,12 @@
-"""When snapshots of all particles are written, and what they hold."""
+"""What a snapshot of all particles holds."""
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import numpy as np
-from pydantic import Field
 
-from lasersph.input import Model, Time
 from lasersph.observers.view import View
 from lasersph.particles.fields import FIELDS
 
-DEFAULT_COUNT = 40
-LARGEST_COUNT = 100_000
 NAMES = (
     *("temperature", "enthalpy", "melt_fraction", "vapor_fraction", "width", "surface"),
     *("velocity", "speed", "pressure", "flows", "surface_temperature", "surface_gradient"),
@@ -21,64 +15,6 @@ NAMES = (
 """Fields of a snapshot; each solver writes those that it has."""
 UNITS = {name: FIELDS[name].unit for name in NAMES}
 """Their units."""
-
-
-class SnapshotPlan(Model):
-    """When to write snapshots: at every multiple of `interval` and at the listed `times`.
-
-    The initial and the final state are always written. Without an interval there are
-    40 evenly spaced ones.
-    """
-
-    interval: Annotated[Time, Field(gt=0.0)] | None = Field(
-        default=None, description="from one snapshot to the next; default: a fortieth of the run"
-    )
-    times: tuple[Annotated[Time, Field(ge=0.0)], ...] = Field(
-        default=(), description="further snapshots"
-    )
-
-
-class SnapshotSchedule:
-    """The times of a run's snapshots, which time steps must hit, and which is next.
-
-    Attributes:
-        times: sorted, the first 0, the last the end of the run [s].
-    """
-
-    def __init__(self, plan: SnapshotPlan, end: float) -> None:
-        """Raises ValueError where the plan asks for more than 100 000 snapshots."""
-        interval = plan.interval or end / DEFAULT_COUNT
-        if end / interval > LARGEST_COUNT:
-            raise ValueError(
-                f"{end / interval:.0f} snapshots are too many:"
-                f" give an interval of at least {end / LARGEST_COUNT:.3g} s"
-            )
-        multiples = interval * np.arange(int(end / interval) + 1)
-        wanted = np.concatenate([multiples, np.array(plan.times), [end]])
-        wanted = np.unique(wanted[wanted <= end])
-        apart = np.concatenate([np.diff(wanted) > 1e-9 * end, [True]])
-        self.times = wanted[apart]
-        self.written = 0
-
-    @property
-    def next_time(self) -> float:
-        """Time of the next snapshot [s], infinite after the last."""
-        return float(self.times[self.written]) if self.written < len(self.times) else float("inf")
-
-    def due(self, time: float) -> bool:
-        """Whether a snapshot is to be written at `time` [s]; the caller then writes it."""
-        if time < self.next_time:
-            return False
-        self.written = int(np.searchsorted(self.times, time, side="right"))
-        return True
-
-    def state(self) -> dict[str, int]:
-        """What `restore` needs."""
-        return {"written": self.written}
-
-    def restore(self, state: dict[str, int]) -> None:
-        """Continue from a state."""
-        self.written = state["written"]
 
 
 def snapshot_fields(view: View) -> dict[str, np.ndarray]:

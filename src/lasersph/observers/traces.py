@@ -15,44 +15,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-from pydantic import Field
 
-from lasersph.input import Length, Model
 from lasersph.observers.ablation_view import CONDENSED, EJECTED, AblationView
 from lasersph.observers.crater import ablation_of
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.probes import weights_at
 from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
+from lasersph.output.settings import Trace
 
 AT_BOILING = 1e-9
 """Relative distance below T_v that counts as T_v."""
-
-
-class Trace(Model):
-    """A named particle that is followed: the one closest to a point at the start."""
-
-    name: Annotated[
-        str,
-        Field(
-            min_length=1,
-            max_length=40,
-            pattern=r"^[A-Za-z0-9_-]+$",
-            description="letters, digits, - and _; names the history columns trace_<name>_...",
-        ),
-    ]
-    depth: Annotated[Length, Field(ge=0.0)] = Field(
-        default=0.0, description="below the original surface"
-    )
-    x: Length = Field(default=0.0, description="not used in 1-D")
-    y: Length = Field(default=0.0, description="used in 3-D")
-
-    def place(self, dimension: int) -> np.ndarray:
-        """Coordinates of the point, (dim,) [m]."""
-        return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
 
 
 @dataclass

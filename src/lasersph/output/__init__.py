@@ -1,9 +1,17 @@
-"""The run folder: written by a run (`RunFolder`), read back by `open_run`."""
+"""The run folder: written by a run (`RunFolder`), read back by `open_run`.
 
-from lasersph.output.checkpoint import Checkpoint
-from lasersph.output.errors import FolderRefused, OutputError
-from lasersph.output.reader import Run, Snapshots, open_run
-from lasersph.output.run_folder import RunFolder, hash_of_case
+settings, schedule   what a case says of its results, and when snapshots are due
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lasersph.output.checkpoint import Checkpoint
+    from lasersph.output.errors import FolderRefused, OutputError
+    from lasersph.output.reader import Run, Snapshots, open_run
+    from lasersph.output.run_folder import RunFolder, hash_of_case
 
 __all__ = [
     "Checkpoint",
@@ -15,3 +23,25 @@ __all__ = [
     "hash_of_case",
     "open_run",
 ]
+
+_FILES = {
+    "Checkpoint": "checkpoint",
+    "FolderRefused": "errors",
+    "OutputError": "errors",
+    "Run": "reader",
+    "RunFolder": "run_folder",
+    "Snapshots": "reader",
+    "hash_of_case": "run_folder",
+    "open_run": "reader",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its file when it is first asked for: a case needs none of them."""
+    if name not in _FILES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(f"lasersph.output.{_FILES[name]}"), name)
+    globals()[name] = value
+    return value

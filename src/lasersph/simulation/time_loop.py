@@ -17,7 +17,7 @@ from typing import Any
 from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
-from lasersph.observers import SnapshotSchedule
+from lasersph.output.schedule import SnapshotSchedule
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder

@@ -17,6 +17,7 @@ from lasersph.case import size as size_module
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.quick import quick_settings
 from lasersph.case.size import in_words
+from lasersph.compute import cuda_device
 from lasersph.input import CaseError
 from lasersph.materials import material_file
 
@@ -260,9 +261,9 @@ def test_case_larger_than_the_graphics_card_is_refused(monkeypatch):
     """Where a card is to compute, with what it has left; the machine's memory counts too."""
     case = load_case("dlip-steel")
     monkeypatch.setattr(size_module, "machine_memory", lambda: 2.0**60)
-    monkeypatch.setattr(size_module, "free_memory", lambda: 2.0**20)
+    monkeypatch.setattr(cuda_device, "free_memory", lambda: 2.0**20)
     with pytest.raises(CaseError, match=r"of memory, but the graphics card has 1 MiB free"):
         refuse_if_too_large(case, "cuda")
     refuse_if_too_large(case)
-    monkeypatch.setattr(size_module, "free_memory", lambda: 2.0**60)
+    monkeypatch.setattr(cuda_device, "free_memory", lambda: 2.0**60)
     refuse_if_too_large(case, "cuda")

@@ -12,13 +12,13 @@ from synthetic_ablation import DX, NS, UM
 from lasersph.observers import (
     Crater,
     Ejecta,
-    Trace,
     Traces,
     ablation_observers,
     crater_shape,
     snapshot_fields,
 )
 from lasersph.observers.ejecta import Range
+from lasersph.output.settings import Trace
 
 
 def columns(count, width=1.0):

@@ -9,9 +9,6 @@ import synthetic_run
 
 from lasersph.observers import (
     EnergyBudget,
-    Probe,
-    SnapshotPlan,
-    SnapshotSchedule,
     Steps,
     SurfaceTemperature,
     Vaporization,
@@ -19,6 +16,8 @@ from lasersph.observers import (
     snapshot_fields,
 )
 from lasersph.observers.peak import Peak
+from lasersph.output.schedule import SnapshotSchedule
+from lasersph.output.settings import Probe, SnapshotPlan
 
 
 @pytest.fixture(scope="module")

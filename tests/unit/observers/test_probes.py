@@ -5,8 +5,9 @@ import pytest
 import synthetic_run
 from pydantic import ValidationError
 
-from lasersph.observers import Probe, Probes
+from lasersph.observers import Probes
 from lasersph.observers.probes import mean_place, weights_at
+from lasersph.output.settings import Probe
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,8 @@ import pytest
 import synthetic_ablation
 
 from lasersph.case import load_case
-from lasersph.observers import Crater, Ejecta, Trace, Traces, ablation_observers
+from lasersph.observers import Crater, Ejecta, Traces, ablation_observers
+from lasersph.output.settings import Trace
 from lasersph.plots import animation, style
 from lasersph.report import ablation_text, estimate_tables, tables, write_report
 from lasersph.report.summary_text import notes_of, verdict

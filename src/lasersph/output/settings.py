@@ -1,0 +1,99 @@
+"""What a case says of its results: what is stored, and which points and particles are watched.
+
+Reading a case loads this file of the room and `schedule`, and no other.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, field_validator
+
+from lasersph.input import Count, Length, Model, Time
+
+
+class SnapshotPlan(Model):
+    """When to write snapshots: at every multiple of `interval` and at the listed `times`.
+
+    The initial and the final state are always written. Without an interval there are
+    40 evenly spaced ones.
+    """
+
+    interval: Annotated[Time, Field(gt=0.0)] | None = Field(
+        default=None, description="from one snapshot to the next; default: a fortieth of the run"
+    )
+    times: tuple[Annotated[Time, Field(ge=0.0)], ...] = Field(
+        default=(), description="further snapshots"
+    )
+
+
+class OutputSettings(Model):
+    """What a run stores, and how often."""
+
+    snapshots: SnapshotPlan = Field(
+        default=SnapshotPlan.model_validate({}), description="when all particles are stored"
+    )
+    history_every: Count = Field(
+        default=1, description="steps from one row of history.csv to the next"
+    )
+    checkpoint_every: Count = Field(
+        default=200, description="steps from one checkpoint to the next"
+    )
+
+
+class Probe(Model):
+    """A named point whose temperature is recorded in every step."""
+
+    name: Annotated[
+        str,
+        Field(
+            min_length=1,
+            max_length=40,
+            pattern=r"^[A-Za-z0-9_-]+$",
+            description="letters, digits, - and _; names the history column probe_<name>_K",
+        ),
+    ]
+    depth: Length = Field(default=0.0, description="below the original surface")
+    x: Length = Field(default=0.0, description="not used in 1-D")
+    y: Length = Field(default=0.0, description="used in 3-D")
+    method: Literal["nearest", "linear", "even"] = Field(
+        default="nearest",
+        description="nearest: the closest particle; linear: exact for linear fields; even: exact "
+        "for fields of no slope at the surface, for adiabatic surfaces",
+    )
+
+    @field_validator("depth")
+    @classmethod
+    def _below_the_surface(cls, depth: float) -> float:
+        """A probe lies in the metal."""
+        if depth < 0.0:
+            raise ValueError("a depth is counted downward from the surface and not negative")
+        return depth
+
+    def place(self, dimension: int) -> np.ndarray:
+        """Coordinates of the point, (dim,) [m]."""
+        return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
+
+
+class Trace(Model):
+    """A named particle that is followed: the one closest to a point at the start."""
+
+    name: Annotated[
+        str,
+        Field(
+            min_length=1,
+            max_length=40,
+            pattern=r"^[A-Za-z0-9_-]+$",
+            description="letters, digits, - and _; names the history columns trace_<name>_...",
+        ),
+    ]
+    depth: Annotated[Length, Field(ge=0.0)] = Field(
+        default=0.0, description="below the original surface"
+    )
+    x: Length = Field(default=0.0, description="not used in 1-D")
+    y: Length = Field(default=0.0, description="used in 3-D")
+
+    def place(self, dimension: int) -> np.ndarray:
+        """Coordinates of the point, (dim,) [m]."""
+        return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
