@@ -17,11 +17,11 @@ from typing import Any
 from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
-from lasersph.output.schedule import SnapshotSchedule
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
+from lasersph.output.schedule import SnapshotSchedule
 from lasersph.simulation.recipes import Recipe, recipe_of
 from lasersph.solvers.step_control import Solver, StepFailed, choose_step
 
