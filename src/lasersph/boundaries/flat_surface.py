@@ -52,6 +52,11 @@ def mark_surface(x, n, plane, near, far):
     return (1.0 if depth < near else 0.0), (1.0 if depth < far else 0.0), depth
 
 
+def depth_below(x, n, plane):
+    """Depth of a particle below the surface [m]."""
+    return plane - dot(x, n)
+
+
 def both(mark, active):
     """1 where both are."""
     return mark * active
@@ -116,6 +121,11 @@ class FlatSurface:
         """Set marks and depths of the particles at `position`, shape (2, n) [m]."""
         out = (self.at_surface, self.near_surface, self.depth)
         self.backend.pointwise(mark_surface, {"x": position}, out, **self._place)
+
+    def find_depth(self, position: Array, out: Array) -> None:
+        """Depth below the surface along the beam [m] of particles at `position` [m]."""
+        place = {"n": self.normal, "plane": self._place["plane"]}
+        self.backend.pointwise(depth_below, {"x": position}, out, **place)
 
     def update_stress(
         self, T: Array, position: Array, neighbors: SurfaceNeighbors, active: Array

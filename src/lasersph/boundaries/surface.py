@@ -72,6 +72,10 @@ class Surface(Protocol):
         """Set marks and depths of the particles at `position`, shape (dim, n) [m]."""
         ...
 
+    def find_depth(self, position: Array, out: Array) -> None:
+        """Depth below the surface along the beam [m] of particles at `position` [m]."""
+        ...
+
     def update_stress(
         self, T: Array, position: Array, neighbors: SurfaceNeighbors, active: Array
     ) -> None:

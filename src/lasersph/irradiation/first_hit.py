@@ -81,7 +81,7 @@ class FirstHitLight:
     ) -> None:
         self.backend, self.laser, self.spacing = backend, laser, spacing
         self.dimension, self.deposit = len(bounds) + 1, deposit
-        self.incident = self.transmitted = 0.0
+        self.incident = self.transmitted = self.rescaled = 0.0
         low, high = np.array(bounds, dtype=float).reshape(-1, 2).T
         counts = [max(1, round(extent / spacing)) for extent in high - low]
         shape, wraps = (*counts, 1, 1), (*(float(one) for one in periodic), 0.0, 0.0)

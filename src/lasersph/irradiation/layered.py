@@ -1,4 +1,4 @@
-"""Laser heat source: what each particle absorbs in a step.
+"""`LayeredLight`: light that a body below a flat surface absorbs layer by layer.
 
     E_i = (1 - R(T_s)) F A_i s_i
 
@@ -7,28 +7,30 @@ cell means over the column), A_i its lateral cross-section, s_i the exact share 
 light that stays in its depth cell [Demuth2020, eq. (8)], T_s the temperature of the surface over
 it at the new time [Demuth2020, eq. (78)].
 
-Particles that moved (2-D) stand in the column and at the depth where they are now; their shares no
-longer add up to 1 exactly, so that all shares are scaled to the light that enters the columns.
+Particles that moved (2-D) stand in the column and at the depth where they are now. Their shares no
+longer add up to 1 exactly: all are scaled to what the same particles took on the lattice, and
+`rescaled` is the energy that this has added.
 """
 
 from __future__ import annotations
 
 from math import exp
-from typing import Any
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import dot, interpolate
+from lasersph.compute.vectors import interpolate
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import Laser
 from lasersph.materials import Material
 from lasersph.particles.filling import Filling
 
 SMALLEST_SHARE = 1e-30
+"""Share of the light below which a particle is dark; products with smaller ones are not normal."""
 
 
-def admitted(F, T_s, R_T, R_R):
+def enter_column(F, T_s, R_T, R_R):
     """Light that enters the column below a surface particle [J/m^(d-1)]: (1 - R(T_s)) F.
 
     Args:
@@ -37,36 +39,35 @@ def admitted(F, T_s, R_T, R_R):
     return (1.0 - interpolate(T_s, R_T, R_R)) * F
 
 
-def absorbed(area_share, above, columns):
+def absorb_light(share, column, columns):
     """Energy absorbed by a particle [J]: A_i s_i times the light that enters its column."""
-    return area_share * columns[above]
+    return share * columns[column]
 
 
-def standing(x, moved, above, share, low, width, columns, half, alpha):
+def absorb_moving(share, column, moved, columns):
+    """The same of a particle that moved, else 0 [J]."""
+    return moved * (share * columns[column])
+
+
+def locate(x, depth, moved, above, share, low, width, columns, half, alpha):
     """Column of a particle and its cross-section times its share of the light [m].
 
     Args:
-        x: position [m]. moved: 1 where it counts. above, share: as they were on the lattice. low,
-            width, columns: place and width of the columns [m], their number. half: half a cell [m].
+        x: position [m]. depth: below the surface [m]. moved: 1 where it counts. above, share: as
+            they were on the lattice. low, width, columns: place and width of the columns [m],
+            their number. half: half a cell [m].
     """
     if moved <= 0.0:
         return above, share
-    place = int(max((dot(x, (1.0, 0.0)) - low) / width, 0.0))
-    depth = -dot(x, (0.0, 1.0))
+    place = int(max((x[0] - low) / width, 0.0))
     top = max(depth - half, 0.0)
-    kept = exp(-alpha * top) - exp(-alpha * max(depth + half, 0.0))
-    return min(place, columns - 1), width * kept
+    left = exp(-alpha * top) - exp(-alpha * max(depth + half, 0.0))
+    return min(place, columns - 1), width * left
 
 
-def scaled(area_share, moved, factor):
+def rescale(share, moved, factor):
     """Share of a particle that moved, scaled."""
-    return area_share * factor if moved > 0.0 else area_share
-
-
-def split(area_share, above, moved, columns):
-    """Light that a particle takes: if it moved, if it did not [J]."""
-    light = area_share * columns[above]
-    return moved * light, (1.0 - moved) * light
+    return share * factor if moved > 0.0 else share
 
 
 class LayeredLight:
@@ -74,7 +75,7 @@ class LayeredLight:
 
     Attributes:
         deposit: (n,) absorbed in the step [J]. incident: what falls on the surface [J];
-            transmitted: none, since the body is thick.
+            transmitted: none, since the body is thick. rescaled: what the scaling has added [J].
     """
 
     def __init__(
@@ -83,95 +84,90 @@ class LayeredLight:
         self.backend, self.laser = backend, laser
         count = filling.count
         self.deposit = backend.zeros(count)
-        self.incident = self.transmitted = 0.0
-        self.alpha: float | None = None
+        self.incident = self.transmitted = self.rescaled = 0.0
         if laser is None:
             return
-        width = filling.width[:, :count]
-        depth = -filling.position[-1, :count]
-        half = 0.5 * width[-1]
+        width, surface = filling.width[:, :count], filling.surface
+        depth, half = filling.depth[:count], 0.5 * width[-1]
+        # shares of the particles where they lie on the lattice
         alpha = laser.absorption_coefficient(material)
+        is_deep = np.isfinite(alpha) and laser.absorption.kind == "beer-lambert"
+        self.alpha = float(alpha) if is_deep else None
         share = laser.absorption.deposited(
             np.maximum(depth - half, 0.0), depth + half, alpha if np.isfinite(alpha) else None
         )
         area = np.prod(width[:-1], axis=0)
-        lit = share > SMALLEST_SHARE
-        self.above = backend.asarray(filling.above, "index")
-        self.area_share = backend.asarray(np.where(lit, area * share, 0.0))
-        self._above = backend.asarray(filling.above, "index")
-        self._area_share = backend.asarray(np.where(lit, area * share, 0.0))
-        is_deep = np.isfinite(alpha) and laser.absorption.kind == "beer-lambert"
-        self.alpha = float(alpha) if is_deep else None
-        self.finest = float(width[-1, filling.surface[0]])
-        surface = filling.surface
+        share = np.where(share > SMALLEST_SHARE, area * share, 0.0)
+        self._lattice, self._now = (
+            {"column": backend.asarray(filling.above, "index"), "share": backend.asarray(share)}
+            for _ in range(2)
+        )
+        # columns below the surface particles, and the light that enters them
         position, size = filling.position[:-1, surface], width[:-1, surface]
         self.lower, self.upper = position - 0.5 * size, position + 0.5 * size
         self.surface_area = area[surface]
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
-        self.R_T, self.R_R = (backend.asarray(values) for values in table)
-        self.fluence = backend.zeros(surface.size)
-        self.columns = backend.zeros(surface.size)
-
-    def follow(self, position: Any, moved: Any, temperature: Any) -> None:
-        """Let the light that `shine` fixed meet particles where they are now.
-
-        Light absorbed at the surface itself stays as it is.
-
-        Args:
-            position: (2, n) [m]. moved: (n,) 1 where it counts. temperature: (n,) [K].
-        """
-        if self.incident == 0.0 or self.alpha is None:
-            return
-        backend = self.backend
-        self._admit(temperature)
-        fields = {
-            "x": position, "moved": moved, "above": self._above, "share": self._area_share,
-        }  # fmt: skip
-        width = float(self.surface_area[0])
-        backend.pointwise(
-            standing, fields, (self.above, self.area_share), low=float(self.lower[0, 0]),
-            width=width, columns=self.surface_area.size, half=0.5 * self.finest,
-            alpha=self.alpha,
-        )  # fmt: skip
-        before = {"area_share": self._area_share, "above": self._above, "moved": moved}
-        now = {"area_share": self.area_share, "above": self.above, "moved": moved}
-        wanted, found = (
-            backend.pointwise(
-                split, which, (None, None), reduce=("sum", "sum"), columns=self.columns
-            )[0]
-            for which in (before, now)
-        )
-        if found > 0.0:
-            fields = {"area_share": self.area_share, "moved": moved}
-            backend.pointwise(scaled, fields, self.area_share, factor=wanted / found)
+        self._reflectivity = dict(zip(("R_T", "R_R"), map(backend.asarray, table), strict=True))
+        self.fluence, self.columns = backend.zeros(surface.size), backend.zeros(surface.size)
+        self._place = {"columns": surface.size, "half": 0.5 * float(width[-1, surface[0]])}
+        if len(self.lower):
+            self._place |= {"low": float(self.lower[0, 0]), "width": float(self.surface_area[0])}
 
     def shine(self, start: float, end: float) -> None:
         """Fix the light of the step from `start` to `end` [s]; `incident` is its energy [J]."""
-        self.incident = 0.0
+        self.incident = self.rescaled = 0.0
         if self.laser is None:
             return
         density = self.laser.energy_density(self.lower, self.upper, start, end)
         self.incident = float(np.sum(density * self.surface_area))
         self.backend.copy(self.backend.asarray(density), self.fluence)
 
-    def absorb(self, temperature: Any) -> float:
+    def follow(self, position: Array, depth: Array, moved: Array, temperature: Array) -> None:
+        """Let the light that `shine` fixed meet particles where they are now (2-D).
+
+        Light absorbed at the surface itself stays as it is.
+
+        Args:
+            position: (2, n) [m]. depth: (n,) below the surface [m]. moved: (n,) 1 where it counts.
+            temperature: (n,) [K].
+        """
+        if self.incident == 0.0 or self.alpha is None:
+            return
+        backend = self.backend
+        self._enter(temperature)
+        lattice, now, where = self._lattice, self._now, {"moved": moved}
+        fields = {"x": position, "depth": depth, "above": lattice["column"], **where}
+        fields["share"] = lattice["share"]
+        out = (now["column"], now["share"])
+        backend.pointwise(locate, fields, out, alpha=self.alpha, **self._place)
+        # scale to what the particles that moved took on the lattice
+        wanted, found = (
+            backend.pointwise(
+                absorb_moving, shares | where, (None,), reduce=("sum",), columns=self.columns
+            )[0]
+            for shares in (lattice, now)
+        )
+        if found > 0.0:
+            factor = wanted / found
+            backend.pointwise(rescale, now | where, now["share"], factor=factor)
+            self.rescaled = wanted - found
+
+    def absorb(self, temperature: Array) -> float:
         """Set `deposit` [J] from the temperatures of the surface [K]; returns their sum [J].
 
         Args:
             temperature: (n,); the first ones are those of the surface, the others are not read.
         """
-        backend = self.backend
         if self.incident == 0.0:
-            backend.fill(self.deposit, 0.0)
+            self.backend.fill(self.deposit, 0.0)
             return 0.0
-        self._admit(temperature)
-        fields = {"area_share": self.area_share, "above": self.above}
-        return backend.pointwise(
-            absorbed, fields, self.deposit, reduce=("sum",), columns=self.columns
+        self._enter(temperature)
+        return self.backend.pointwise(
+            absorb_light, self._now, self.deposit, reduce=("sum",), columns=self.columns
         )[0]
 
-    def _admit(self, temperature: Any) -> None:
+    def _enter(self, temperature: Array) -> None:
         """Light that enters each column, at the temperatures of the surface."""
         T_s = self.backend.head(temperature, self.columns.shape[0])
         fields = {"F": self.fluence, "T_s": T_s}
-        self.backend.pointwise(admitted, fields, self.columns, R_T=self.R_T, R_R=self.R_R)
+        self.backend.pointwise(enter_column, fields, self.columns, **self._reflectivity)

@@ -22,12 +22,14 @@ class Light(Protocol):
 
     Attributes:
         deposit: (n,) absorbed by each particle in the step [J]. incident: what falls in the step.
-            transmitted: what of it meets no particle [J].
+            transmitted: what of it meets no particle [J]. rescaled: what was added to the deposits
+            of the step so that they sum up [J].
     """
 
     deposit: Array
     incident: float
     transmitted: float
+    rescaled: float
 
     def shine(self, start: float, end: float) -> None:
         """Fix the light from `start` to `end` [s]; sets `incident` and `transmitted`."""
@@ -39,10 +41,14 @@ class Light(Protocol):
 
 
 def energies(light: Light, absorbed: float) -> dict[str, float]:
-    """Where the light of a step goes [J], when `absorbed` is absorbed: nothing is left over."""
+    """Where the light of a step goes [J], when `absorbed` is absorbed: nothing is left over.
+
+    `rescaled` is a part of what is absorbed.
+    """
     return {
         "incident": light.incident,
         "absorbed": absorbed,
         "transmitted": light.transmitted,
         "reflected": light.incident - absorbed - light.transmitted,
+        "rescaled": light.rescaled,
     }

@@ -24,6 +24,7 @@ TERMS = {
     "lost": "energy lost through boundaries",
     "removed": "energy removed with vapor",
     "discarded": "energy discarded by the plateau rule",
+    "rescaled": "absorbed energy added so that the shares of moved particles sum up",
 }
 IMBALANCE_ALLOWED = 1e-6
 """Relative imbalance up to which a run is sound."""

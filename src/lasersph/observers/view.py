@@ -26,9 +26,9 @@ class View:
         symmetry_factor: 2 where half a period is computed, else 1; multiplies widths.
         halves_spot: whether the axis of a resting spot lies on the lower or the upper end of x, so
             that its other half is not computed.
-        energy: incident, absorbed, reflected, transmitted, stored, lost, removed, discarded since
-            the start, per unit area in 1-D, per unit length in 2-D; lost and removed leave, stored
-            stays.
+        energy: incident, absorbed, reflected, transmitted, stored, lost, removed, discarded,
+            rescaled since the start, per unit area in 1-D, per unit length in 2-D; lost and
+            removed leave, stored stays.
         iterations: iterations of this step, by solver part.
         limit: name of the limit that bound the time step.
         solidus, liquidus, vaporization: corner temperatures of the material [K], None where it

@@ -48,6 +48,11 @@ class Filling:
     surface: NDArray[np.int64]
     above: NDArray[np.int64]
 
+    @property
+    def depth(self) -> Array:
+        """(N,) depth of the centers below the surface [m], which lies at z = 0."""
+        return -self.position[-1]
+
     @cached_property
     def volume(self) -> Array:
         """(N,) cell volumes [m^dim]."""

@@ -58,7 +58,7 @@ class Body:
     particles: Particles
     material: Material
     curve: CaloricCurve
-    irradiation: LayeredLight
+    light: LayeredLight
     pairs: PairOperator
     wall_flow: Any
     wall_heat: Any
@@ -115,7 +115,7 @@ def assemble(
         particles=particles,
         material=material,
         curve=curve,
-        irradiation=LayeredLight(backend, laser, material, filling),
+        light=LayeredLight(backend, laser, material, filling),
         pairs=pairs,
         wall_flow=backend.asarray(walls.flow),
         wall_heat=backend.asarray(walls.heat),

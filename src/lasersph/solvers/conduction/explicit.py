@@ -77,10 +77,10 @@ class ExplicitStep:
         """Rate of heating at given enthalpies; returns the energies of a whole step at it [J]."""
         body, backend = self.body, self.body.backend
         backend.pointwise(properties, {"h": enthalpy}, (self.T, self.k), **self.tables)
-        absorbed = body.irradiation.absorb(self.T)
+        absorbed = body.light.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
         fields = {
-            "T": self.T, "k": self.k, "E": body.irradiation.deposit, "q": self.exchange.power,
+            "T": self.T, "k": self.k, "E": body.light.deposit, "q": self.exchange.power,
             "m": body.particles["mass"], "a": body.pairs.pull, "b": body.wall_heat,
             "w": body.wall_power, "g_ij": body.pairs.weights,
         }  # fmt: skip

@@ -220,10 +220,10 @@ class ImplicitStep:
         """Residual into `r`; returns the sum of |r| and the energies of the step [J]."""
         body, backend = self.body, self.body.backend
         # light and losses follow the temperature of the surface
-        if body.irradiation.incident > 0.0 or not self.exchange.is_idle:
+        if body.light.incident > 0.0 or not self.exchange.is_idle:
             rows = self.exchange.rows
             backend.pointwise(interpolate, {"x": self.h}, self.T, rows=rows, **self.nodes)
-        absorbed = body.irradiation.absorb(self.T)
+        absorbed = body.light.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
         error, walls, self.size = backend.pair_sum(
             flow,
@@ -247,6 +247,6 @@ class ImplicitStep:
     def _fields(self) -> dict[str, Array]:
         body = self.body
         fields = {"h": self.h, "h0": self.h_0, "P": self.P, "m": self.mass}
-        fields |= {"E": body.irradiation.deposit, "q": self.exchange.power, "B": body.wall_flow}
+        fields |= {"E": body.light.deposit, "q": self.exchange.power, "B": body.wall_flow}
         fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
         return fields

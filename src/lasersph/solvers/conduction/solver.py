@@ -67,7 +67,7 @@ class Conduction:
             self._stable = np.inf
         self.expected = 0.0
         if laser is not None:
-            area = float(np.sum(body.irradiation.surface_area))
+            area = float(np.sum(body.light.surface_area))
             self.expected = EXPECTED_SHARE * laser.mean_fluence * area
 
     @property
@@ -147,10 +147,18 @@ class Conduction:
         return retry_step(self.attempt, step, unclipped_step)
 
     def attempt(self, step: float, unclipped_step: float | None = None) -> None:
-        """Advance by `step` [s]:
+        """Advance by `step` [s] with the light that falls in it.
 
-        light of the step -> enthalpies (scheme) -> temperatures and fractions -> plateau rule ->
-        energies.
+        Raises:
+            NotConverged: the step is too large; the state is as before.
+        """
+        self.body.light.shine(self.state.time, self.state.time + step)
+        self.conduct(step, unclipped_step)
+
+    def conduct(self, step: float, unclipped_step: float | None = None) -> None:
+        """Advance by `step` [s] under light that is fixed:
+
+        enthalpies (scheme) -> plateau rule -> temperatures and fractions -> energies.
 
         Raises:
             NotConverged: the step is too large; the state is as before.
@@ -158,7 +166,6 @@ class Conduction:
         state, body, particles = self.state, self.body, self.particles
         backend, temperature = body.backend, particles["temperature"]
         backend.copy(temperature, self._before)
-        body.irradiation.shine(state.time, state.time + step)
         energy = self.scheme.advance(state, step, self._exchanged())
         discarded = self._discard()
         body.update_temperature()
@@ -194,7 +201,7 @@ class Conduction:
     def _account(self, energy: dict[str, float], discarded: float) -> None:
         """Add the energies of a step; what walls exchange is the balance of the pair sums."""
         total = self.state.energy
-        for name, value in energies(self.body.irradiation, energy["absorbed"]).items():
+        for name, value in energies(self.body.light, energy["absorbed"]).items():
             total[name] += value
         total["stored"] += energy["stored"] - discarded
         total["lost"] += energy["lost"] - energy["walls"]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 ENERGIES = (
     "incident", "absorbed", "reflected", "transmitted", "stored", "lost", "removed", "discarded",
+    "rescaled",
 )  # fmt: skip
 
 

@@ -32,6 +32,11 @@ def fluid_depth(x, fluid):
     return -fluid * x[1]
 
 
+def depth_in_box(x, top):
+    """Depth of a particle below the top of a box [m]."""
+    return top - x[1]
+
+
 class PoolDomain:
     """Conditions at the faces, surface and blocks.
 
@@ -74,6 +79,13 @@ class PoolDomain:
     def width(self) -> float:
         """Of the domain [m]."""
         return self.box[0][1] - self.box[0][0]
+
+    def find_depth(self, position: Array, out: Array) -> None:
+        """Depth of the particles below the surface, or the top of a box without one [m]."""
+        if self.surface is not None:
+            self.surface.find_depth(position, out)
+        else:
+            self.backend.pointwise(depth_in_box, {"x": position}, out, top=self.box[1][1])
 
     def block_for(self, position: Array, kinds: ParticleKinds) -> Block:
         """Block that holds what flows, with room below it; it grows and never shrinks.

@@ -54,7 +54,7 @@ class MeltPool:
         self.particles.add("position", "has_moving_pairs")
         self.position = self.particles["position"]
         self.particles.set("position", heat.body.filling.position[:, :count])
-        self._advected = backend.zeros((2, count))
+        self._advected, self._depth = backend.zeros((2, count)), backend.zeros(count)
         self.kinds = ParticleKinds(self.particles, domain.spacing, is_box=domain.is_box)
         self.shifting = ParticleShifting(
             backend, count, settings.shifting, domain.spacing, domain.box, domain.periods
@@ -151,9 +151,8 @@ class MeltPool:
     def _advance(self, step: float, unclipped_step: float | None) -> None:
         if not self._melt():
             self._update_resting_pairs()
-            if self.domain.block_layers:
-                self.illuminate(step)
-            self.heat.attempt(step, unclipped_step)
+            self.illuminate(step)
+            self.heat.conduct(step, unclipped_step)
             return
         self._has_moved = True
         self.flow.stop(self.kinds)  # what has frozen since the last step
@@ -163,7 +162,7 @@ class MeltPool:
         self.flow.correct(self.kinds, step)
         self.update_positions(step)
         self.illuminate(step)
-        self.heat.attempt(step, unclipped_step)
+        self.heat.conduct(step, unclipped_step)
         self.shift(step)
         self.adjust()
         self._measure()
@@ -199,11 +198,12 @@ class MeltPool:
 
     def illuminate(self, step: float) -> None:
         """Light of the step on the particles where they are now."""
-        irradiation, state = self.body.irradiation, self.state
-        irradiation.shine(state.time, state.time + step)
-        irradiation.follow(
-            self.position, self.particles["has_moving_pairs"], self.particles["temperature"]
-        )
+        light, state, particles = self.body.light, self.state, self.particles
+        light.shine(state.time, state.time + step)
+        if light.incident > 0.0 and self.domain.block_layers:
+            self.domain.find_depth(self.position, self._depth)
+            moved, T = particles["has_moving_pairs"], particles["temperature"]
+            light.follow(self.position, self._depth, moved, T)
 
     def shift(self, step: float) -> None:
         """Displacements that keep the particles evenly spread (73)."""
