@@ -42,7 +42,7 @@ def test_flow_of_a_cavity() -> None:
     found = forecast(load_case("lid-driven-cavity", ["time.end=10 s"]))
     assert found.flow is not None and found.flow.speed == 1.0 and found.flow.layer is None
     assert found.limits["advection"] == pytest.approx(0.00372)
-    assert found.limits["capillary"] == found.limits["recoil"] == float("inf")
+    assert not {"capillary", "recoil"} & set(found.limits)
     assert (found.binding, found.steps) == ("advection", 2689)
 
 

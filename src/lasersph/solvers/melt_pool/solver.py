@@ -64,6 +64,7 @@ class MeltPool:
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
+        self._find_surface()
 
     @property
     def state(self) -> Any:
@@ -92,7 +93,10 @@ class MeltPool:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        return self.heat.checkpoint_scalars() | self.steadiness.checkpoint_scalars() | {
+        surface = self.domain.surface
+        numbers = self.heat.checkpoint_scalars() | self.steadiness.checkpoint_scalars()
+        numbers |= {} if surface is None else surface.checkpoint_scalars()
+        return numbers | {
             "largest_speed": self.flow.largest_speed,
             "largest_acceleration": self.flow.largest_acceleration,
             "block_layers": self.domain.block_layers,
@@ -100,7 +104,7 @@ class MeltPool:
             "spacing_min": self.spacing_min,
             "divergence_rms": self.flow.divergence[0],
             "divergence_max": self.flow.divergence[1],
-        }  # fmt: skip
+        }
 
     def restore(self, arrays: Mapping[str, np.ndarray], numbers: Mapping[str, float]) -> None:
         """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
@@ -256,6 +260,12 @@ class MeltPool:
         self.spacing_min = block.smallest_distance(self.position, self.kinds.fluid_rows)
         energy = flow.kinetic_energy()
         self.steadiness.look(self.state.time, flow.largest_speed, energy)
+        self._find_surface()
+
+    def _find_surface(self) -> None:
+        """Which particles lie at the surface where they are now."""
+        if self.domain.surface is not None:
+            self.domain.surface.find(self.position)
 
     def _keep(self) -> None:
         """Remember the state, for a step that fails."""
@@ -271,13 +281,14 @@ class MeltPool:
 
     def _restore_numbers(self, numbers: Mapping[str, float]) -> None:
         flow = self.flow
-        flow.largest_speed, flow.largest_acceleration = (
-            numbers["largest_speed"],
-            numbers["largest_acceleration"],
-        )
+        flow.largest_speed = numbers["largest_speed"]
+        flow.largest_acceleration = numbers["largest_acceleration"]
         flow.divergence = (numbers["divergence_rms"], numbers["divergence_max"])
         self.domain.block_layers = int(numbers["block_layers"])
         self._has_moved = bool(numbers["has_moved"])
         self.spacing_min = numbers["spacing_min"]
         self.steadiness.restore(numbers)
+        if self.domain.surface is not None:
+            self.domain.surface.restore(numbers)
+        self._find_surface()
         self.fluid_count = self.kinds.find_fluid(self.particles["melt_fraction"])

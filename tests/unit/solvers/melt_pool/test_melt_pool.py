@@ -4,9 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from flow_boxes import box, go, host_fields, matrix_of, pool
+from flow_boxes import box, go, host_fields, matrix_of, pool, pool_case
 
 from lasersph.compute.search import EscapedParticle
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import RETRIES, NotConverged
 
 LIFE = 45
@@ -224,3 +225,16 @@ def test_speed_without_bound(life):
         solver.step(1e-15)
     for name, values in host_fields(solver).items():
         assert np.array_equal(values, before[name]), name
+
+
+def test_a_view_changes_nothing():
+    """What observers are shown is read: marks of the surface are those of the last positions."""
+    solver = small_pool()
+    go(solver, 3)
+    surface, host = solver.domain.surface, solver.backend.to_host
+    depth = -host(solver.position)[1]
+    assert np.array_equal(host(surface.depth), depth)
+    marks = host(surface.at_surface).copy()
+    recipe_of(pool_case()).view(solver, 3, "light")
+    assert np.array_equal(host(surface.at_surface), marks)
+    assert np.array_equal(marks > 0.0, depth < solver.domain.spacing)

@@ -33,7 +33,6 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Any], np.ndarray]) -
     surface = np.zeros(0, np.int64)
     temperature = gradient = speed = np.zeros(0)
     if free is not None:
-        free.find(solver.position)
         found = np.asarray(backend.look(backend.rows_where(free.at_surface, 1.0)), np.int64)
         surface = found[np.argsort(position[0, found], kind="stable")]
         temperature = backend.look(solver.particles["temperature"])[surface]
