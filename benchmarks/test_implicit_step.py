@@ -36,11 +36,10 @@ def sheet(backend, edge):
     count, shape = edge**2, kernel("quintic-spline", 2)
     place = np.array(np.meshgrid(np.arange(edge), np.arange(edge)), float).reshape(2, -1)
     place += np.random.default_rng(1).uniform(-0.1, 0.1, place.shape)
-    neighbors = find_neighbors(
-        backend, backend.asarray(place), backend.asarray(np.full(count, SUPPORT)), count,
-        kernel=shape, mean=arithmetic,
-    )  # fmt: skip
-    weights, total = backend.zeros(neighbors.neighbor.size), backend.zeros(count)
+    support = backend.asarray(np.full(count, SUPPORT))
+    position = backend.asarray(place)
+    neighbors = find_neighbors(backend, position, support, count, kernel=shape, mean=arithmetic)
+    weights, total = backend.zeros(neighbors.neighbor.shape[0]), backend.zeros(count)
     backend.pair_values(weight, neighbors, {"V": np.ones(count)}, weights)
     backend.pair_sum(weight_of, neighbors, {"g_ij": weights}, total)
     return PairOperator(neighbors, weights, backend.zeros(count), total)

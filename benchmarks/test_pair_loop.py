@@ -42,9 +42,11 @@ def test_right_hand_side(benchmark, tmp_path, edge):
     theirs = (np.zeros((3, count)), np.zeros(count))
     function = compiled(tmp_path)
     arrays = [neighbors.position, neighbors.support, *fields.values()]
-    pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in arrays]
-    lists = [a.ctypes.data_as(ctypes.c_void_p) for a in (neighbors.row_start, neighbors.neighbor)]
-    results = [a.ctypes.data_as(ctypes.c_void_p) for a in theirs]
+    ends = (neighbors.row_start, neighbors.neighbor)
+    pointers, lists, results = (
+        [np.asarray(a).ctypes.data_as(ctypes.c_void_p) for a in given]
+        for given in (arrays, ends, theirs)
+    )
     size = ctypes.c_int64(count)
     sigma = ctypes.c_double(neighbors.kernel.sigma)
 
@@ -64,7 +66,7 @@ def test_right_hand_side(benchmark, tmp_path, edge):
     generated_time, handwritten_time = setting.fastest(generated, handwritten)
     ratio = handwritten_time / generated_time
     benchmark.extra_info["speed relative to C++"] = ratio
-    pairs = neighbors.neighbor.size
+    pairs = neighbors.neighbor.shape[0]
     print(
         f"\n{count} particles: {1e9 * generated_time / pairs:.2f} ns per pair,"
         f" {ratio:.2f} of C++ {' '.join(OPTIONS[:2])}"

@@ -56,7 +56,7 @@ def test_published_iteration(benchmark, spacing):
             begin = perf_counter()
             steps, linear = go(solver, end)
             times[iteration] = perf_counter() - begin
-        hottest[iteration] = float(to_host(solver.state.temperature).max())
+        hottest[iteration] = float(to_host(solver.particles["temperature"]).max())
         print(
             f"\n{iteration}: {1e3 * times[iteration] / steps:.1f} ms a step, "
             f"{linear / steps:.1f} products with the matrix for the directions"

@@ -17,7 +17,7 @@ def test_row_sum(benchmark, threads):
     """At least 85 % of the measured read bandwidth."""
     backend = compute.cpu(threads=threads)
     neighbors = setting.jittered_cube(backend, 70)
-    count, entries = 70**3, neighbors.neighbor.size
+    count, entries = 70**3, neighbors.neighbor.shape[0]
     fields = {"g_ij": np.random.default_rng(0).random(entries), "T": np.ones(count)}
     out = np.zeros(count)
     large = np.ones(12 * entries // 8)

@@ -98,7 +98,7 @@ class Comparison:
         tolerance, verdict = None, None
         if band is not None and judge:
             reference = 0.0 if reference is None else reference
-            tolerance = share * width_of(band, reference)
+            tolerance = float(share * width_of(band, reference))
             verdict = value is not None and isfinite(value) and abs(value - reference) <= tolerance
         quantity, unit = self.quantity.format(**words), self.unit.format(**words)
         return Row(quantity, unit, published, reference, value, tolerance, verdict, source)
