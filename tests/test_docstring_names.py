@@ -21,6 +21,8 @@ BACKTICKS = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
 WORD = re.compile(r"[A-Za-z_]\w*")
 PLACEHOLDER = re.compile(r"name_*[ij01]")
 """Stands for any field of a pair function: `name_i`, `name__0`."""
+EXTERNAL = {"PyArrayObject_fields"}
+"""Names of other programs, which no code here writes."""
 
 
 def prose_and_words(text):
@@ -49,6 +51,7 @@ def known_words():
     words = set()
     for file in FILES:
         words |= prose_and_words(file.read_text(encoding="utf-8"))[1]
+    words |= EXTERNAL
     for file in SOURCE.rglob("*.toml"):
         words.update(WORD.findall(file.read_text(encoding="utf-8")))
     return words

@@ -1,4 +1,4 @@
-"""What an observer sees of an ablation after a step: host arrays, SI, never changed by it.
+"""Ablation of a run after a step, for observers: host arrays, SI, never changed by it.
 
 Amounts of a 1-D run are per unit area, of a 2-D run per unit length.
 """

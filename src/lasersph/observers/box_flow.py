@@ -5,7 +5,7 @@ Heat flows into the box through a side at -k <dT/dn>, n into the box, and
     Nu = |<dT/dn>| L / |T_side - T_opposite|
 
 with the distance L and the mean temperatures of the two opposite sides that drive the flow: those
-that are both held at a temperature, else those that heat crosses both; of two such pairs, those
+that both have a given temperature, else those that heat crosses both; of two such pairs, those
 that differ most. Without such sides there is no Nusselt number. Interpolating from particles
 takes about as long as a step, so it is done in every `EVERY`-th step and at the end; between,
 the history repeats the last value.
@@ -151,7 +151,7 @@ class BoxFlow(Observer):
         return {"box": self.found} if self.found else {}
 
     def state(self) -> dict[str, Any]:
-        """What `restore` needs; `found` as if the run ended here."""
+        """State for `restore`; `found` as if the run ended here."""
         ahead = BoxFlow()
         ahead.edges, ahead.unseen, ahead.found = self.edges, self.unseen, self.found
         ahead._measure()
@@ -205,7 +205,7 @@ def heat_of(view: View, box: Box) -> dict[str, Any]:
             box,
             side,
             count=NODES,
-            held=flow.wall_temperature.get(side),
+            given=flow.wall_temperature.get(side),
         )
         for side in PLANE
     }
@@ -213,11 +213,11 @@ def heat_of(view: View, box: Box) -> dict[str, Any]:
     for side, (temperature, slope) in wall.items():
         heat[f"temperature_{side}_K"] = temperature
         heat[f"flux_{side}_W_m2"] = -flow.conductivity * slope
-    held, crossed = (
+    given, crossed = (
         [pair for pair in face_pairs(2) if all(side in sides for side in pair)]
         for sides in (flow.wall_temperature, flow.conducting_sides)
     )
-    differences = {pair: abs(wall[pair[0]][0] - wall[pair[1]][0]) for pair in held or crossed}
+    differences = {pair: abs(wall[pair[0]][0] - wall[pair[1]][0]) for pair in given or crossed}
     if not differences:
         return heat
     pair = max(differences, key=lambda one: differences[one])

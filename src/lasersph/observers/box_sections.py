@@ -120,24 +120,24 @@ def wall_temperature(
     side: str,
     *,
     count: int,
-    held: float | None = None,
+    given: float | None = None,
 ) -> tuple[float, float]:
     """Mean temperature of a side [K], and mean of its slope along the inward normal [K/m].
 
     Args:
         position: (2, n) [m]. temperature: (n,) [K].
         count: points along the side.
-        held: temperature that the side has [K], where it has a given one: the fit then goes
+        given: temperature that the side has [K], where it has a given one: the fit then goes
             through it.
     """
     points = box.along(side, (np.arange(count) + 0.5) / count)
-    if held is not None:
+    if given is not None:
         length = box.height if side in ("left", "right") else box.width
         spacing = np.sqrt(box.width * box.height / position.shape[1])
         rows = max(round(length / spacing), 1)
         foot = box.along(side, (np.arange(rows) + 0.5) / rows)
         position = np.concatenate([position, foot], axis=1)
-        temperature = np.concatenate([temperature, np.full(rows, held)])
+        temperature = np.concatenate([temperature, np.full(rows, given)])
     value, along_x, along_z = local_fit(position, temperature, points, degree=2)
     inward = {"left": along_x, "right": -along_x, "bottom": along_z, "surface": -along_z}[side]
     return float(np.mean(value)), float(np.mean(inward))

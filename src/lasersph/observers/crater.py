@@ -26,9 +26,11 @@ SIZES = {
     "width": "width of the crater along x at the original surface",
     "diameter": "diameter of the circle of the same area",
 }
-REMOVED = Quantity("crater_removed_volume_m3", "m^3", "volume of what left")
+REMOVED = Quantity("crater_removed_volume_m3", "m^3", "volume of ejected metal")
 VAPORIZED = Quantity(
-    "crater_vaporized_volume_m3", "m^3", "the same with the shares of what was about to leave"
+    "crater_vaporized_volume_m3",
+    "m^3",
+    "ejected volume with vaporized shares of the surface",
 )
 
 
@@ -58,7 +60,7 @@ class Crater(Observer):
         Quantity("crater.taper_deg", "deg", "taper of the walls from the vertical"),
         Quantity("crater.volume_unit", "", "unit of the volumes"),
         Quantity("crater.volume_m3", "m^3", "volume below the original surface"),
-        Quantity("crater.removed_volume_m3", "m^3", "volume of what left"),
+        Quantity("crater.removed_volume_m3", "m^3", "volume of ejected metal"),
         Quantity("crater.vaporized_volume_max_m3", "m^3", f"{VAPORIZED.words}, at most"),
         Quantity("crater.mirror_images", "", "computed parts that make up the crater"),
         Quantity("crater.depth_of_pulse_m", "m", "depth that each pulse added at the axis"),

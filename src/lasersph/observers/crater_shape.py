@@ -63,8 +63,8 @@ def crater_shape(
     lateral = center.shape[0]
     depth = np.where(np.isnan(top), bottom, np.maximum(-top, 0.0))
     is_open = depth > RIM * width
-    images = mirrored(center, width, axis)
-    at_axis = float(np.mean(depth[closest(center, width, axis)]))
+    images = mirror_counts(center, width, axis)
+    at_axis = float(np.mean(depth[nearest_columns(center, width, axis)]))
     if not np.any(is_open):
         return CraterShape(depth=at_axis, mirror_images=int(np.prod(images)))
     largest = float(np.max(depth))
@@ -93,7 +93,7 @@ def crater_shape(
     )
 
 
-def mirrored(center: np.ndarray, width: float, axis: np.ndarray) -> np.ndarray:
+def mirror_counts(center: np.ndarray, width: float, axis: np.ndarray) -> np.ndarray:
     """For each lateral axis 2 where the beam's axis lies at an edge of the columns, else 1."""
     low = np.min(center, axis=1, initial=np.inf) - 0.5 * width
     high = np.max(center, axis=1, initial=-np.inf) + 0.5 * width
@@ -101,7 +101,7 @@ def mirrored(center: np.ndarray, width: float, axis: np.ndarray) -> np.ndarray:
     return np.where((np.abs(axis - low) < near) | (np.abs(axis - high) < near), 2, 1)
 
 
-def closest(center: np.ndarray, width: float, axis: np.ndarray) -> np.ndarray:
+def nearest_columns(center: np.ndarray, width: float, axis: np.ndarray) -> np.ndarray:
     """Which columns (m,) lie closest to the axis, all of equal distance."""
     distance = np.sqrt(np.sum((center - axis[:, None]) ** 2, axis=0))
     return distance <= np.min(distance) + SAME * width

@@ -1,4 +1,4 @@
-"""What was ejected: number, mass, energy, speed, temperature, direction.
+"""Ejecta: number, mass, energy, speed, temperature, direction.
 
 Every particle counts once, with what it has when it leaves: from then on its velocity stays.
 """
@@ -16,7 +16,7 @@ from lasersph.observers.quantity import Quantity, suffix, unit_in
 from lasersph.observers.view import View
 
 RANGES = {"speed": "m/s", "temperature": "K", "angle": "deg"}
-"""What each particle has when it leaves; the angle is that from the vertical."""
+"""Quantities of each particle when it leaves, with units; the angle is that from the vertical."""
 
 
 @dataclass

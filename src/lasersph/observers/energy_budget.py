@@ -27,7 +27,7 @@ TERMS = {
     "rescaled": "absorbed energy added so that the shares of moved particles sum up",
 }
 IMBALANCE_ALLOWED = 1e-6
-"""Relative imbalance up to which a run is sound."""
+"""Relative imbalance up to which a run can be trusted."""
 IMBALANCE_ALLOWED_WITH_FLOW = 1e-4
 """The same for a run whose particles move and are shifted."""
 

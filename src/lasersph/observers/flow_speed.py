@@ -1,4 +1,4 @@
-"""How fast the liquid moves, when it does, and how sound the computed flow is.
+"""How fast the liquid moves, when it does, and how good the computed flow is.
 
     speed_max = max |v_i|,    kinetic energy = 1/2 rho sum_i V_i |v_i|^2
 

@@ -1,4 +1,4 @@
-"""What an observer sees of a flow after a step: host arrays, SI, never changed by the observer.
+"""Flow of a run after a step, for observers: host arrays, SI, never changed by the observer.
 
 Speeds at the surface are extrapolated to it: a row of particles lies half a spacing below, where
 the speed already is smaller by depth * tau / eta, the Marangoni stress tau over the viscosity.
@@ -38,7 +38,8 @@ class FlowView:
         conductivity: of the liquid [W/(m K)]; boxes report heat fluxes with it.
         wall_temperature: of each side of a box with a given one [K], by the name of the side:
             left, right, bottom, surface.
-        conducting_sides: names of the sides of a box that heat crosses, held or with a given flux.
+        conducting_sides: names of the sides of a box that heat crosses: those with a given
+            temperature or flux.
         is_shortened: whether the step was cut to end at a given time.
     """
 

@@ -17,11 +17,11 @@ import numpy as np
 NEIGHBORS = {1: 12, 2: 21}
 """Particles taken for a fit in the plane, by degree: twice or more the unknowns, in all
 directions also beside a wall."""
-REACH = 1.01
+MARGIN = 1.01
 """Radius R over the distance of the farthest particle taken, whose weight thereby almost vanishes:
 which of several equally far ones is taken does not matter."""
 CONDITION = 1e-10
-"""Directions in which the particles do not spread more than this part are left out of a fit."""
+"""Directions in which the particles extend less than this part are left out of a fit."""
 
 
 def local_fit(
@@ -44,7 +44,7 @@ def local_fit(
     wanted = min(NEIGHBORS[degree], position.shape[1])
     distance, near = KDTree(position.T).query(places.T, k=wanted)
     distance, near = distance.reshape(-1, wanted), near.reshape(-1, wanted)
-    radius = REACH * np.maximum(distance[:, -1:], 1e-300)
+    radius = MARGIN * np.maximum(distance[:, -1:], 1e-300)
     weight = (1.0 - (distance / radius) ** 2) ** 2
     x, z = (position[:, near] - places[:, :, None]) / radius
     basis = [np.ones_like(x), x, z]

@@ -3,7 +3,7 @@
 A cell counts as fluid where its melt fraction reaches a level: 1 (completely fluid; the size of
 the pool in the paper), 0.5 (which depends least on the cell size) or anything above 0. The depth
 is that of the lower face of the deepest fluid cell below the original surface; the width is that
-of the surface cells that hang together with the hottest one, doubled where half a period or half
+of the surface cells that are connected to the hottest one, doubled where half a period or half
 a spot is computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5] Surface cells meet
 half way between their particles, also where these move: at rest sizes are whole cells. What has
 been ejected belongs to no pool.
@@ -20,7 +20,7 @@ from lasersph.observers.ablation_view import EJECTED
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.peak import Span
 from lasersph.observers.quantity import Quantity
-from lasersph.observers.view import View, deepest, hottest_surface_cell, lower_faces
+from lasersph.observers.view import View, hottest_surface_cell, largest_depth, lower_faces
 
 FULL, HALF = 1.0 - 1e-9, 0.5
 LEVELS = {
@@ -92,7 +92,7 @@ class MeltPool(Observer):
             exists = largest > 0.0 and largest >= least
             self.span[level].update(exists, view.time)
             if exists:
-                depth[level] = deepest(faces, is_fluid(fraction, least))
+                depth[level] = largest_depth(faces, is_fluid(fraction, least))
                 width[level] = pool_width(view, least) if self.dimension > 1 else 0.0
         self.end_time = view.time
         volume = float(np.sum(fraction * view.volume)) if largest > 0.0 else 0.0

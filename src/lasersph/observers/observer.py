@@ -1,4 +1,4 @@
-"""What every observer does: fill its columns at each step, sum up at the end, survive a kill."""
+"""The base of every observer: fill its columns at each step, sum up at the end, survive a kill."""
 
 from __future__ import annotations
 
@@ -69,16 +69,16 @@ class Observer:
                 found[one.largest_at] = time_of(self.peak[one.key])
             if one.end:
                 found[one.end] = self.last[one.key]
-        return nested({**found, **self.values()})
+        return nest({**found, **self.values()})
 
     def state(self) -> dict[str, Any]:
-        """What `restore` needs: numbers, texts, lists and dicts."""
-        return {name: as_plain(getattr(self, name)) for name in ("peak", "last", *self.kept)}
+        """State for `restore`: numbers, texts, lists and dicts."""
+        return {name: to_plain(getattr(self, name)) for name in ("peak", "last", *self.kept)}
 
     def restore(self, state: Mapping[str, Any]) -> None:
         """Continue from a state."""
         for name, value in state.items():
-            setattr(self, name, like(getattr(self, name), value))
+            setattr(self, name, rebuild(getattr(self, name), value))
 
 
 def time_of(peak: Peak) -> float | None:
@@ -86,7 +86,7 @@ def time_of(peak: Peak) -> float | None:
     return peak.time if peak.value > 0.0 else None
 
 
-def nested(flat: Mapping[str, object]) -> dict[str, Any]:
+def nest(flat: Mapping[str, object]) -> dict[str, Any]:
     """Dotted keys as dicts in dicts: {"melt.depth_m": 1} -> {"melt": {"depth_m": 1}}."""
     result: dict[str, Any] = {}
     for key, value in flat.items():
@@ -98,21 +98,21 @@ def nested(flat: Mapping[str, object]) -> dict[str, Any]:
     return result
 
 
-def as_plain(value: Any) -> Any:
+def to_plain(value: Any) -> Any:
     """A copy made of dicts, lists, numbers and texts."""
     if is_dataclass(value) and not isinstance(value, type):
         return asdict(value)
     if isinstance(value, dict):
-        return {key: as_plain(item) for key, item in value.items()}
-    return [as_plain(item) for item in value] if isinstance(value, list | tuple) else value
+        return {key: to_plain(item) for key, item in value.items()}
+    return [to_plain(item) for item in value] if isinstance(value, list | tuple) else value
 
 
-def like(old: Any, value: Any) -> Any:
+def rebuild(old: Any, value: Any) -> Any:
     """A plain value with the data classes of the one that it replaces."""
     if is_dataclass(old) and not isinstance(old, type):
         return type(old)(**value)
     if isinstance(old, dict) and isinstance(value, dict):
-        return {key: like(old.get(key), item) for key, item in value.items()}
+        return {key: rebuild(old.get(key), item) for key, item in value.items()}
     if isinstance(old, list) and isinstance(value, list) and len(old) == len(value):
-        return [like(one, item) for one, item in zip(old, value, strict=True)]
-    return as_plain(value)
+        return [rebuild(one, item) for one, item in zip(old, value, strict=True)]
+    return to_plain(value)

@@ -43,9 +43,9 @@ OBSERVERS: tuple[type[Observer], ...] = (
 )
 """All that exist, in the order in which a report tells of them."""
 COLUMNS = {one.key: one for kind in OBSERVERS for one in kind.columns}
-"""What each column of history.csv holds."""
+"""Quantity of each column of history.csv."""
 RESULTS = {one.key: one for kind in OBSERVERS for one in kind.all_results()}
-"""What each key of summary.json holds that an observer fills."""
+"""Quantity of each key of summary.json that an observer fills."""
 
 
 class Observers:
@@ -70,7 +70,7 @@ class Observers:
         return row
 
     def summary(self) -> dict[str, Any]:
-        """What all observers have to say at the end; sections of one name are joined."""
+        """Results of all observers at the end; sections of one name are joined."""
         result: dict[str, Any] = {}
         for member in self.members:
             for name, part in member.summary().items():
@@ -91,7 +91,7 @@ class Observers:
 def heat_observers(
     dimension: int, *, probes: Sequence[Probe] = (), iterations: Sequence[str] = ()
 ) -> Observers:
-    """What every run with heat and melting observes.
+    """Observers of every run with heat and melting.
 
     Args:
         dimension: 1, 2 or 3.
@@ -117,7 +117,7 @@ def flow_observers(
     probes: Sequence[Probe] = (),
     iterations: Sequence[str] = (),
 ) -> Observers:
-    """What every run with flow observes: what a run with heat does, and the flow.
+    """Observers of every run with flow: those of heat, and of the flow.
 
     Args:
         dimension, probes, iterations: as of `heat_observers`.
@@ -151,7 +151,7 @@ def ablation_observers(
     pulse_starts: Sequence[float] = (),
     iterations: Sequence[str] = (),
 ) -> Observers:
-    """What every run with ablation observes.
+    """Observers of every run with ablation.
 
     Args:
         dimension, probes, iterations: as of `heat_observers`.

@@ -35,7 +35,7 @@ class Peak:
         return 0.5 * (self.first + self.last)
 
     def state(self) -> dict[str, float | None]:
-        """What `Peak(**state)` needs to continue."""
+        """Arguments of `Peak` to continue."""
         return asdict(self)
 
 
@@ -53,5 +53,5 @@ class Span:
             self.last = time
 
     def state(self) -> dict[str, float | None]:
-        """What `Span(**state)` needs to continue."""
+        """Arguments of `Span` to continue."""
         return asdict(self)

@@ -1,4 +1,4 @@
-"""What observers measure: key, unit and words of each quantity, declared once beside its formula.
+"""Measured quantities: key, unit and words of each quantity, declared once beside its formula.
 
 The columns of history.csv, the keys of summary.json, the tables of the report, `lasersph info` and
 the page "Results" of the documentation all derive from these declarations.

@@ -18,7 +18,7 @@ UNITS = {name: FIELDS[name].unit for name in NAMES}
 
 
 def snapshot_fields(view: View) -> dict[str, np.ndarray]:
-    """What a snapshot holds beside the positions, in single precision: see `UNITS`.
+    """Fields of a snapshot beside the positions, in single precision: see `UNITS`.
 
     The history and the checkpoints keep double precision. With flow the fields of the surface
     above the particles (`surface_temperature`, ...) are 0 for particles that do not lie at it. With

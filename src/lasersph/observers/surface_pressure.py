@@ -1,6 +1,6 @@
 """Pressure of the flat surface, beside the recoil pressure of a free surface at the same place.
 
-The surface is held flat. Where its pressure is above zero the liquid would rise, where it is below
+The surface is kept flat. Where its pressure is above zero the liquid would rise, where it is below
 zero it would sink; this pressure drives a return flow that a free surface would not have.
 A boiling surface is pushed down by 0.54 p_sat(T) [Anisimov1968], which is what this pressure is
 compared with. The dynamic pressure is known up to a constant; its mean over the liquid is zero.

@@ -57,7 +57,7 @@ class SurfaceTemperature(Observer):
     def observe(self, view: View) -> Row:
         """Temperatures at this step [K]."""
         surface = view.temperature[view.surface]
-        cell = view.surface[cell_at_maximum(view)]
+        cell = view.surface[cell_at_light_maximum(view)]
         at_maximum = float(view.temperature[cell])
         if self.previous is not None and view.time - self.previous[0] > SHORTEST * view.time:
             rate = (at_maximum - self.previous[1]) / (view.time - self.previous[0])
@@ -89,7 +89,7 @@ class SurfaceTemperature(Observer):
         }
 
 
-def cell_at_maximum(view: View) -> int:
+def cell_at_light_maximum(view: View) -> int:
     """Place in `view.surface` of the cell closest to x = 0 (and y = 0)."""
     lateral = view.position[:-1, view.surface]
     return int(np.argmin(np.sum(lateral * lateral, axis=0)))

@@ -1,4 +1,4 @@
-"""What single particles go through: temperature, speed, height, as in Figs. 20 and 23 of
+"""History of single particles: temperature, speed, height, as in Figs. 20 and 23 of
 [Alshaer2017].
 
 A trace follows the particle that lies closest to a point at the start. The published regions are
@@ -33,7 +33,7 @@ AT_BOILING = 1e-9
 
 @dataclass
 class Life:
-    """What has happened to a particle so far; times [s] are None before."""
+    """History of a particle so far; times [s] are None before."""
 
     particle: int
     start: list[float]
@@ -158,7 +158,7 @@ class Traces(Observer):
         }
 
     def state(self) -> dict[str, Any]:
-        """What `restore` needs."""
+        """State for `restore`."""
         return {**super().state(), "lives": [asdict(life) for life in self.lives]}
 
     def restore(self, state: Mapping[str, Any]) -> None:

@@ -13,7 +13,7 @@ from lasersph.observers.melt_pool import FULL
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.peak import Span
 from lasersph.observers.quantity import Quantity
-from lasersph.observers.view import View, deepest, lower_faces
+from lasersph.observers.view import View, largest_depth, lower_faces
 
 TOLERANCE = 1e-6
 """Relative distance below T_v that still counts as T_v."""
@@ -70,8 +70,8 @@ class Vaporization(Observer):
             self.span.update(surface >= view.vaporization * (1.0 - TOLERANCE), view.time)
         values = (
             largest,
-            deepest(faces, fraction > 0.0) if largest > 0.0 else 0.0,
-            deepest(faces, fraction >= FULL) if largest >= FULL else 0.0,
+            largest_depth(faces, fraction > 0.0) if largest > 0.0 else 0.0,
+            largest_depth(faces, fraction >= FULL) if largest >= FULL else 0.0,
             0.0 if view.evaporated is None else float(np.max(view.evaporated)),
         )
         return self.record(view.time, values)

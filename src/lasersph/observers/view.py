@@ -1,4 +1,4 @@
-"""What an observer sees of a run after a step: host arrays, SI, never changed by the observer."""
+"""State of a run after a step, for observers: host arrays, SI, never changed by the observer."""
 
 from __future__ import annotations
 
@@ -82,6 +82,6 @@ def lower_faces(view: View) -> np.ndarray:
     return 0.5 * (view.width[-1] - 2.0 * view.position[-1])
 
 
-def deepest(faces: np.ndarray, chosen: np.ndarray) -> float:
+def largest_depth(faces: np.ndarray, chosen: np.ndarray) -> float:
     """Largest of some depths, those where `chosen` is true; 0 if none [m]."""
     return max(float(np.max(np.where(chosen, faces, 0.0))), 0.0)

@@ -47,7 +47,7 @@ def replace_json(path: Path, value: Any) -> None:
 
     NaN and infinity are refused by JSON and become null.
     """
-    text = json.dumps(plain(value), indent=2, allow_nan=False, ensure_ascii=False)
+    text = json.dumps(to_json_values(value), indent=2, allow_nan=False, ensure_ascii=False)
     replace_text(path, text + "\n")
 
 
@@ -60,14 +60,14 @@ def sync_folder(folder: Path) -> None:
         os.close(descriptor)
 
 
-def plain(value: Any) -> Any:
+def to_json_values(value: Any) -> Any:
     """Numbers, text, lists and dicts that JSON knows; NumPy scalars and arrays are converted."""
     if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
+        return {str(key): to_json_values(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
+        return [to_json_values(item) for item in value]
     if hasattr(value, "tolist"):
-        return plain(value.tolist())
+        return to_json_values(value.tolist())
     if isinstance(value, float) and (value != value or value in (float("inf"), float("-inf"))):
         return None
     if isinstance(value, Path):

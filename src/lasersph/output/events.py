@@ -13,7 +13,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from lasersph.output.atomic import plain
+from lasersph.output.atomic import to_json_values
 from lasersph.output.errors import OutputError, clear_errors
 from lasersph.output.history import complete_lines
 
@@ -34,7 +34,7 @@ class Events:
         """
         clock = datetime.now(UTC).isoformat(timespec="seconds")
         entry = {"time_s": time, "step": step, "event": event, "clock": clock, **details}
-        line = json.dumps(plain(entry), ensure_ascii=False) + "\n"
+        line = json.dumps(to_json_values(entry), ensure_ascii=False) + "\n"
         with clear_errors("write", self.path), open(self.path, "ab") as stream:
             stream.write(line.encode())
         self.count += 1

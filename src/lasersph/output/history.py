@@ -47,7 +47,7 @@ class History:
         if len(row) != len(self.columns) or any(name not in row for name in self.columns):
             difference = sorted(set(row) ^ set(self.columns))
             raise ValueError(f"history row with other columns than the first: {difference}")
-        self._buffer.append(",".join(written(row[name]) for name in self.columns))
+        self._buffer.append(",".join(csv_text(row[name]) for name in self.columns))
         self.rows += 1
         if len(self._buffer) >= self.buffer_rows:
             self.flush()
@@ -90,7 +90,7 @@ class History:
         self.rows = rows
 
 
-def written(value: Value) -> str:
+def csv_text(value: Value) -> str:
     """Text that reads back to exactly the same value."""
     if isinstance(value, str):
         if "," in value or "\n" in value or '"' in value:

@@ -44,7 +44,7 @@ class ParticleFile:
         """Number of steps in the file. Raises OutputError where it is damaged."""
         if not self.path.exists():
             return 0
-        with opened(self.path) as file:
+        with open_for_reading(self.path) as file:
             return int(file["VTKHDF/Steps"].attrs["NSteps"])
 
     def append(
@@ -71,7 +71,7 @@ class ParticleFile:
         dimension, count = position.shape
         if any(array.shape[-1] != count for array in fields.values()):
             raise ValueError("a field has another number of particles than the positions")
-        with changed(self.path) as file:
+        with open_for_changes(self.path) as file:
             if "VTKHDF" not in file:
                 start_file(file, dimension, fields, units or {}, position.dtype, count)
             root = file["VTKHDF"]
@@ -79,7 +79,7 @@ class ParticleFile:
                 raise ValueError("the fields of a step differ from those of the first step")
             steps = root["Steps"]
             number = int(steps.attrs["NSteps"])
-            point_offset = store_block(root["Points"], in_space(position))
+            point_offset = store_block(root["Points"], to_three_axes(position))
             part, cells = store_cells(root, count)
             extend(steps["Values"], [time])
             extend(steps["PartOffsets"], [part])
@@ -88,7 +88,7 @@ class ParticleFile:
             extend(steps["CellOffsets"], [[cells, 0, 0, 0]])
             extend(steps["ConnectivityIdOffsets"], [[cells, 0, 0, 0]])
             for name, array in fields.items():
-                block = in_space(array) if array.ndim == 2 else array
+                block = to_three_axes(array) if array.ndim == 2 else array
                 offset = store_block(root["PointData"][name], block)
                 extend(steps["PointDataOffsets"][name], [offset])
             steps.attrs["NSteps"] = number + 1
@@ -106,12 +106,12 @@ class ParticleFile:
         if present < steps:
             raise OutputError(f"{self.path} holds {present} snapshots, the checkpoint {steps}")
         if present > steps:
-            with changed(self.path) as file:
+            with open_for_changes(self.path) as file:
                 cut_steps(file["VTKHDF"], steps)
 
 
 @contextmanager
-def changed(path: Path) -> Iterator[Any]:
+def open_for_changes(path: Path) -> Iterator[Any]:
     """The HDF5 file open for changes, which reach the disk together when the block ends."""
     import h5py
 
@@ -126,7 +126,7 @@ def changed(path: Path) -> Iterator[Any]:
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[Any]:
+def open_for_reading(path: Path) -> Iterator[Any]:
     """The HDF5 file open for reading, also while another process appends to it."""
     import h5py
 
@@ -204,7 +204,7 @@ def grow(group: Any, name: str, kind: Any, width: int | None = None, chunk: int 
     )
 
 
-def in_space(vector: np.ndarray) -> np.ndarray:
+def to_three_axes(vector: np.ndarray) -> np.ndarray:
     """(dim, n) -> (n, 3), z last."""
     result = np.zeros((vector.shape[1], 3), dtype=vector.dtype)
     for row, axis in enumerate(AXES[vector.shape[0]]):

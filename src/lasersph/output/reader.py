@@ -16,7 +16,7 @@ import numpy as np
 from lasersph.output.errors import OutputError, clear_errors
 from lasersph.output.events import read_events
 from lasersph.output.history import read_history
-from lasersph.output.particle_file import AXES, opened
+from lasersph.output.particle_file import AXES, open_for_reading
 
 if TYPE_CHECKING:
     import pandas  # pyright: ignore[reportMissingImports]
@@ -86,7 +86,7 @@ class Run:
         try:
             import pandas  # pyright: ignore[reportMissingImports]
         except ImportError as error:
-            raise OutputError(missing("pandas")) from error
+            raise OutputError(install_hint("pandas")) from error
         return pandas.DataFrame(self.history).set_index("time_s")
 
     def snapshots_dataset(self) -> xarray.Dataset:
@@ -98,7 +98,7 @@ class Run:
         try:
             import xarray  # pyright: ignore[reportMissingImports]
         except ImportError as error:
-            raise OutputError(missing("xarray")) from error
+            raise OutputError(install_hint("xarray")) from error
         steps = list(self.snapshots)
         if len({step["position"].shape for step in steps}) > 1:
             raise OutputError("the number of particles changes: read the snapshots one by one")
@@ -130,19 +130,19 @@ class Snapshots:
         """Times of the steps [s]. Raises OutputError where the file is damaged."""
         if not self.path.exists():
             return np.zeros(0)
-        with opened(self.path) as file:
+        with open_for_reading(self.path) as file:
             return file["VTKHDF/Steps/Values"][:]
 
     @cached_property
     def dimension(self) -> int:
         """Number of space dimensions of the run."""
-        with opened(self.path) as file:
+        with open_for_reading(self.path) as file:
             return int(file.attrs["dimension"])
 
     @cached_property
     def units(self) -> dict[str, str]:
         """Unit of each field."""
-        with opened(self.path) as file:
+        with open_for_reading(self.path) as file:
             return {name: str(d.attrs["unit"]) for name, d in file["VTKHDF/PointData"].items()}
 
     def nearest(self, time: float) -> dict[str, Any]:
@@ -162,26 +162,26 @@ class Snapshots:
             raise IndexError(f"the run has {len(self)} snapshots")
         number %= len(self)
         axes = AXES[self.dimension]
-        with opened(self.path) as file:
+        with open_for_reading(self.path) as file:
             root = file["VTKHDF"]
             steps = root["Steps"]
             count = int(root["NumberOfPoints"][int(steps["PartOffsets"][number])])
             start = int(steps["PointOffsets"][number])
             points = root["Points"][start : start + count]
-            step = {"time": float(self.times[number]), "position": from_space(points, axes)}
+            step = {"time": float(self.times[number]), "position": from_three_axes(points, axes)}
             for name, dataset in root["PointData"].items():
                 start = int(steps["PointDataOffsets"][name][number])
                 block = dataset[start : start + count]
-                step[name] = block if block.ndim == 1 else from_space(block, axes)
+                step[name] = block if block.ndim == 1 else from_three_axes(block, axes)
         return step
 
 
-def from_space(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
+def from_three_axes(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
     """(n, 3) -> (dim, n)."""
     return np.ascontiguousarray(block[:, axes].T)
 
 
-def missing(package: str) -> str:
+def install_hint(package: str) -> str:
     """What to say where an optional package is not installed."""
     return f"{package} is not installed: pip install 'lasersph[frames]' brings it"
 

@@ -27,13 +27,13 @@ from typing import Any
 import numpy as np
 
 from lasersph.output import checkpoint as checkpoints
-from lasersph.output.atomic import TEMPORARY_SUFFIX, plain, replace_json, replace_text
+from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_json, replace_text, to_json_values
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 from lasersph.output.events import Events
 from lasersph.output.history import History
 from lasersph.output.particle_file import ParticleFile
-from lasersph.output.transaction import set_aside
+from lasersph.output.transaction import rename_damaged
 
 SUMMARY_SCHEMA = 1
 REQUIRED_KEYS = (
@@ -238,7 +238,7 @@ class RunFolder:
         try:
             self.particles.cut(found.meta["snapshots"])
         except OutputError as error:
-            aside = set_aside(self.particles.path)
+            aside = rename_damaged(self.particles.path)
             self.warn(found, f"{error}; it is kept as {aside.name}, snapshots go to a new file")
 
     def warn(self, found: Checkpoint, message: str) -> None:
@@ -274,7 +274,7 @@ class RunFolder:
 
 def hash_of_case(case: Mapping[str, Any]) -> str:
     """Short name of a case: equal for equal content, whatever the order of its keys."""
-    text = json.dumps(plain(case), sort_keys=True, ensure_ascii=True)
+    text = json.dumps(to_json_values(case), sort_keys=True, ensure_ascii=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

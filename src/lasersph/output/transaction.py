@@ -231,7 +231,7 @@ def discard(path: Path) -> None:
         journal_of(path).unlink(missing_ok=True)
 
 
-def set_aside(path: Path) -> Path:
+def rename_damaged(path: Path) -> Path:
     """Rename a damaged file and its journal to `<name>.damaged`; return the new name."""
     aside = path.with_name(path.name + ".damaged")
     with clear_errors("write", path):

@@ -90,7 +90,7 @@ def cut_frame(run: Run) -> Box:
     bottom = float(np.max(0.5 * first["width"][-1] - first["position"][-1]))
     depth = min(max(DEPTH * deepest, LEAST_LAYERS * spacing), bottom)
     most = max(HEIGHT * (right - left), 2.0 * depth)
-    step = telling_snapshot(run)
+    step = crater_snapshot(run)
     flying = step["position"][-1][step["stage"] == EJECTED]
     height = min(1.1 * float(np.max(flying, initial=0.0)) + 2.0 * spacing, most)
     return Box(left, right, -depth, height)
@@ -102,7 +102,7 @@ def axis_of(run: Run) -> tuple[float, float]:
     return float(x), float(y)
 
 
-def telling_snapshot(run: Run) -> Snapshot:
+def crater_snapshot(run: Run) -> Snapshot:
     """The first snapshot in which the crater has its final volume, or the last one; the hottest
     where nothing left."""
     history = run.history

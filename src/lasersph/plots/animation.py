@@ -34,12 +34,12 @@ from lasersph.plots.flow_map import (
     BOX_ARROWS,
     LEAST_SPREAD,
     are_beside,
+    beside_height,
     draw_arrows,
     draw_speed,
     draw_temperature,
     finish,
     frame_unit,
-    height_beside,
     shape_of,
     stretch_of,
 )
@@ -78,7 +78,7 @@ def animate_run(folder: str | Path, *, format: Format = "gif") -> Path:
     from matplotlib.animation import FFMpegWriter, PillowWriter
 
     run = open_run(folder)
-    refuse_what_does_not_move(run)
+    check_snapshots(run)
     if format == "mp4" and not FFMpegWriter.isAvailable():
         raise OutputError("mp4 needs the program ffmpeg, which is not here: take --format gif")
     target = run.path / "figures" / f"animation.{format}"
@@ -97,7 +97,7 @@ def animate_run(folder: str | Path, *, format: Format = "gif") -> Path:
     return target
 
 
-def refuse_what_does_not_move(run: Run) -> None:
+def check_snapshots(run: Run) -> None:
     """Raises OutputError where there is nothing to animate."""
     if len(run.snapshots) < LEAST_FRAMES:
         raise OutputError(
@@ -126,7 +126,7 @@ def frames(run: Run) -> Iterator[Figure]:
 
 @dataclass(frozen=True)
 class Scene:
-    """What stays the same over all frames.
+    """The part of a picture that stays the same over all frames.
 
     Attributes:
         frame: what is shown [m].
@@ -149,7 +149,7 @@ class Scene:
     def height(self) -> float:
         """Height of the figure [inch]; even numbers of pixels, which mp4 wants."""
         if self.is_beside:
-            height = height_beside(self.frame, self.panels)
+            height = beside_height(self.frame, self.panels)
         else:
             shape = shape_of(self.frame) * stretch_of(self.frame)
             height = self.panels * (MAP_WIDTH * shape + 0.55) + 0.4
@@ -192,7 +192,7 @@ class Scene:
 
 
 def scene_of(run: Run, times: np.ndarray) -> Scene:
-    """What all frames of a run share."""
+    """The scene that all frames of a run share."""
     middle = plane_flow(run, float(times[len(times) // 2]))
     history = run.history
     if is_box(run):

@@ -28,9 +28,9 @@ def arrangement(
         return None
     bottom = float(np.min(position[1] - 0.5 * width[1]))
     left, right = float(np.min(position[0])), float(np.max(position[0]))
-    reach = float(max(right - left, -bottom))
-    edge = min(110.0 * float(np.min(width[1])), 0.4 * reach) if detail is None else detail
-    frames = ((left, min(left + reach, right), bottom, 0.0), (left, left + edge, -edge, 0.0))
+    extent = float(max(right - left, -bottom))
+    edge = min(110.0 * float(np.min(width[1])), 0.4 * extent) if detail is None else detail
+    frames = ((left, min(left + extent, right), bottom, 0.0), (left, left + edge, -edge, 0.0))
     figure, all_axes = style.new_figure(1, 2, height=3.9)
     for axes, frame in zip(all_axes, frames, strict=True):
         unit = style.unit_for(max(frame[1] - frame[0], -frame[2]), style.LENGTHS)

@@ -10,7 +10,7 @@ import numpy as np
 from lasersph.observers.box_sections import Box
 from lasersph.output import Run
 from lasersph.plots import style
-from lasersph.plots.ablation_fields import Cut, cut_frame, has_ablation, plane_cut, telling_snapshot
+from lasersph.plots.ablation_fields import Cut, crater_snapshot, cut_frame, has_ablation, plane_cut
 from lasersph.plots.curves import draw_corner_temperatures, material_of
 from lasersph.plots.flow_map import frame_unit
 from lasersph.plots.particle_map import MAP_WIDTH
@@ -45,7 +45,7 @@ def crater_cut(run: Run, time: float | None = None) -> Figure | None:
     """
     if not has_ablation(run):
         return None
-    step = telling_snapshot(run) if time is None else run.snapshots.nearest(time)
+    step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
     cut, frame = plane_cut(run, step), cut_frame(run)
     if run.snapshots.dimension == 1:
         return height_profile(cut, frame, material_of(run))

@@ -12,7 +12,7 @@ from lasersph.output import OutputError, Run
 from lasersph.output.errors import clear_errors
 from lasersph.output.height_map import height_map
 from lasersph.plots import style
-from lasersph.plots.ablation_fields import has_ablation, telling_snapshot
+from lasersph.plots.ablation_fields import crater_snapshot, has_ablation
 from lasersph.plots.crater_cut import temperature_range
 from lasersph.plots.crater_view import surface_temperature
 
@@ -42,7 +42,7 @@ def crater_scene(run: Run, path: Path, time: float | None = None) -> Path:
         ) from error
     if not has_ablation(run) or run.snapshots.dimension != 3:
         raise OutputError(f"{run.path} is no 3-D run with ablation")
-    step = telling_snapshot(run) if time is None else run.snapshots.nearest(time)
+    step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
     limits = temperature_range(run)
     bar = {"fmt": "%.0f", "color": "black", "vertical": True, "position_y": 0.25}
     look: dict[str, Any] = {"cmap": style.TEMPERATURE_COLORS, "clim": limits}

@@ -11,7 +11,7 @@ from lasersph.observers.ablation_view import EJECTED
 from lasersph.output import Run
 from lasersph.output.height_map import HeightMap, height_map
 from lasersph.plots import style
-from lasersph.plots.ablation_fields import has_ablation, telling_snapshot
+from lasersph.plots.ablation_fields import crater_snapshot, has_ablation
 from lasersph.plots.crater_cut import temperature_range
 from lasersph.plots.particle_map import Snapshot
 
@@ -42,7 +42,7 @@ def crater_view(run: Run, time: float | None = None) -> Figure | None:
     from matplotlib.colors import Normalize
     from matplotlib.figure import Figure
 
-    step = telling_snapshot(run) if time is None else run.snapshots.nearest(time)
+    step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
     surface = height_map(step)
     scale = Normalize(*temperature_range(run))
     colors = colormaps[style.TEMPERATURE_COLORS]

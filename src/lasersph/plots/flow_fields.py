@@ -128,17 +128,17 @@ def plane_flow(run: Run, time: float) -> PlaneFlow:
 
 
 def pool_frame(run: Run, flow: PlaneFlow) -> Box:
-    """What a picture of the melt pool shows: the largest pool of the run and a margin."""
+    """Frame of a picture of the melt pool: the largest pool of the run and a margin."""
     melt = summary_of(run).get("melt", {})
     wet = flow.step["melt_fraction"][flow.cells.number] > 0.0
     x, z = flow.cells.center
     size = float(np.min(flow.cells.size))
     wide = melt.get("width_any_max_m") or (2.0 * np.max(np.abs(x), where=wet, initial=0.0))
     deep = melt.get("depth_any_max_m") or np.max(-z, where=wet, initial=0.0)
-    reach = max(0.5 * MARGIN * float(wide), 8.0 * size)
+    half_width = max(0.5 * MARGIN * float(wide), 8.0 * size)
     left, right, bottom, _ = flow.cells.frame
     depth = max(DEPTH * float(deep), 6.0 * size)
-    return Box(max(-reach, left), min(reach, right), max(-depth, bottom), 0.0)
+    return Box(max(-half_width, left), min(half_width, right), max(-depth, bottom), 0.0)
 
 
 def body_frame(flow: PlaneFlow) -> Box:

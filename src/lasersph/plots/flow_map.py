@@ -57,7 +57,7 @@ def pool_flow_map(run: Run, time: float | None = None) -> Figure | None:
     if flow.fastest == 0.0:
         return None
     frame = pool_frame(run, flow)
-    figure, all_axes, stretch = stacked(frame, 3)
+    figure, all_axes, stretch = stack_panels(frame, 3)
     unit, picture = frame_unit(frame), raster(flow, frame)
     draw_temperature(all_axes[0], picture, unit)
     draw_speed(all_axes[1], picture, unit, flow.fastest)
@@ -86,10 +86,10 @@ def box_flow_map(run: Run, time: float | None = None) -> Figure | None:
     frame = body_frame(flow)
     unit, picture = frame_unit(frame), raster(flow, frame)
     if are_beside(frame):
-        height, stretch, count = height_beside(frame, 2), 1.0, BOX_ARROWS
+        height, stretch, count = beside_height(frame, 2), 1.0, BOX_ARROWS
         figure, all_axes = style.new_figure(1, 2, height=height)
     else:
-        (figure, all_axes, stretch), count = stacked(frame, 2), ARROWS
+        (figure, all_axes, stretch), count = stack_panels(frame, 2), ARROWS
     draw_speed(all_axes[0], picture, unit, flow.fastest)
     draw_arrows(all_axes[0], flow, frame, unit, flow.fastest, count)
     warm = varies(flow)
@@ -107,7 +107,7 @@ def are_beside(frame: Box) -> bool:
     return shape_of(frame) >= FLAT
 
 
-def height_beside(frame: Box, panels: int) -> float:
+def beside_height(frame: Box, panels: int) -> float:
     """Height of a figure with panels beside each other [inch]."""
     return (style.WIDTH / panels - PANEL_MARGIN) * shape_of(frame) + 0.9
 
@@ -198,7 +198,7 @@ def draw_streamlines(
     axes.grid(False)
 
 
-def stacked(frame: Box, panels: int) -> tuple[Figure, list[Axes], float]:
+def stack_panels(frame: Box, panels: int) -> tuple[Figure, list[Axes], float]:
     """A figure of panels above each other, and how much larger than to scale depth is drawn."""
     stretch = stretch_of(frame)
     height = MAP_WIDTH * shape_of(frame) * stretch

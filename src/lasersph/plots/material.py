@@ -154,15 +154,15 @@ def _write_numbers(axes: Axes, material: Material) -> None:
 def _draw_enthalpy(axes: Axes, material: Material, span: tuple[float, float]) -> None:
     """Enthalpy above the reference temperature, with the jumps of melting and boiling."""
     _shade(axes, material, span)
-    held = material.vaporization is not None
-    curve = material.caloric_curve(span[0], "hold" if held else "evaporate")
+    boils = material.vaporization is not None
+    curve = material.caloric_curve(span[0], "hold" if boils else "evaporate")
     if curve.enthalpy_vaporizing is not None:
         high = 1.25 * curve.enthalpy_vaporizing
     else:
         high = float(curve.enthalpy_at(span[1]))
     h = np.union1d(np.linspace(0.0, high, 400), curve.enthalpy[curve.enthalpy < high])
     axes.plot(curve.temperature_at(h), h / 1e6, color=LINE, lw=1.6)
-    if held and material.vaporization is not None:
+    if boils and material.vaporization is not None:
         text = f"boiling: + {material.vaporization.latent_heat / 1e6:.4g} MJ/kg"
         place = (material.vaporization.temperature, high / 1e6)
         look = {"ha": "right", "va": "top", "fontsize": 7.5, "color": "0.25"}

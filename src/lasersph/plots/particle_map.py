@@ -92,7 +92,7 @@ def particle_map(run: Run, time: float | None = None) -> Figure | None:
     """
     if not len(run.snapshots):
         return None
-    step = run.snapshots.nearest(telling_time(run) if time is None else time)
+    step = run.snapshots.nearest(deepest_melt_time(run) if time is None else time)
     depth = shown_depth(run, step)
     if run.snapshots.dimension == 1:
         return depth_profile(step, depth, material_of(run))
@@ -173,7 +173,7 @@ def shown_depth(run: Run, step: Snapshot) -> float:
     return min(max(1.6 * melt, 8.0 * float(np.min(height))), bottom)
 
 
-def telling_time(run: Run) -> float:
+def deepest_melt_time(run: Run) -> float:
     """When the melt is deepest, else when the metal is hottest [s]."""
     history = run.history
     depth = history.get("melt_depth_any_m", np.zeros(0))

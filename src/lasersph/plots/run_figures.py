@@ -37,7 +37,7 @@ def draw_arrangement(run: Run) -> Figure | None:
     return arrangement(run.snapshots[0]) if len(run.snapshots) else None
 
 
-def where_warm(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:
+def unless_isothermal(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:
     """A drawing that is left out where the temperature is the same everywhere and always."""
 
     def draw_or_not(run: Run) -> Figure | None:
@@ -49,7 +49,7 @@ def where_warm(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure |
     return draw_or_not
 
 
-def in_place(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:
+def in_one_body(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:
     """A drawing of metal that stays in one body, with its surface at z = 0."""
     return lambda run: None if is_box(run) or has_ablation(run) else draw(run)
 
@@ -59,7 +59,7 @@ DRAWINGS = (
         "temperature",
         "Temperature over time. The shade at the foot is the power of the incident light; dashed"
         " lines mark the melting range and the vaporization temperature.",
-        where_warm(history.temperature_history),
+        unless_isothermal(history.temperature_history),
     ),
     Drawing(
         "melt-pool",
@@ -71,13 +71,13 @@ DRAWINGS = (
     Drawing(
         "surface-profiles",
         "Temperature along the surface at several times.",
-        in_place(surface_profiles),
+        in_one_body(surface_profiles),
     ),
     Drawing(
         "particles",
         "Temperature and melt fraction of the particles near the surface, at the snapshot closest"
         " to the deepest melt (without melt: to the largest temperature).",
-        in_place(particle_map),
+        in_one_body(particle_map),
     ),
     Drawing(
         "crater",
@@ -161,7 +161,7 @@ DRAWINGS = (
         "energy",
         "Where the absorbed energy is (above), and the relative error of the energy balance"
         " (below).",
-        where_warm(history.energy_history),
+        unless_isothermal(history.energy_history),
     ),
     Drawing(
         "time-step",

@@ -35,11 +35,11 @@ def surface_profiles(run: Run, times: Sequence[float] | None = None) -> Figure |
     figure, (axes,) = style.new_figure(height=3.6)
     steps, looks = steps_at(run, warm_times(run) if times is None else times)
     curves = [profile(step, symmetry_of(run), "temperature") for step in steps]
-    reach = max(float(np.max(np.abs(x))) for x, _ in curves)
-    length = style.fitting_unit("m", reach)
+    half_width = max(float(np.max(np.abs(x))) for x, _ in curves)
+    length = style.fitting_unit("m", half_width)
     for (x, temperature), look in zip(curves, looks, strict=True):
         axes.plot(x * length.factor, temperature, **look)
-    right = reach * length.factor
+    right = half_width * length.factor
     axes.set_xlim(-right if symmetry_of(run) == 2 else None, right)
     draw_corner_temperatures(axes, material_of(run))
     style.label(axes, f"x [{length.name}]", "surface temperature [K]")
@@ -62,8 +62,8 @@ def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Fig
         return None
     steps, looks = steps_at(run, fast_times(run) if times is None else times)
     figure, all_axes = style.new_figure(3, height=7.6, share_x=True)
-    reach = max(width_shown(step) for step in steps)
-    length = style.fitting_unit("m", reach)
+    half_width = max(width_shown(step) for step in steps)
+    length = style.fitting_unit("m", half_width)
     speed = style.speed_unit(max(np.max(np.abs(step["surface_velocity"])) for step in steps))
     panels = (
         ("surface_temperature", "temperature [K]", 1.0),
@@ -73,11 +73,11 @@ def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Fig
     for axes, letter, (name, text, factor) in zip(all_axes, "abc", panels, strict=True):
         for step, look in zip(steps, looks, strict=True):
             x, values = profile(step, symmetry_of(run), name)
-            seen = np.abs(x) <= reach
+            seen = np.abs(x) <= half_width
             axes.plot(x[seen] * length.factor, values[seen] * factor, lw=1.1, **look)
         lowest = f"x [{length.name}]" if letter == "c" else ""
         style.label(axes, lowest, text, title=f"({letter})")
-        axes.set_xlim(-reach * length.factor, reach * length.factor)
+        axes.set_xlim(-half_width * length.factor, half_width * length.factor)
     draw_corner_temperatures(all_axes[0], material_of(run))
     style.legend_above(figure, all_axes[0], columns=7)
     return figure

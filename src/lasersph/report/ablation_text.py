@@ -1,4 +1,4 @@
-"""An ablation in plain sentences, from summary.json alone: what left, and what was left out."""
+"""An ablation in plain sentences, from summary.json alone: crater, ejecta, and effects left out."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ def hole(energy: dict[str, Any]) -> list[str]:
     return [f"Of the light {shown(share, 3)} % went through a hole burnt into the metal."]
 
 
-def limits_of(summary: dict[str, Any]) -> list[str]:
-    """What the model leaves out, with the temperatures from which it matters."""
+def model_limits(summary: dict[str, Any]) -> list[str]:
+    """Effects that the model leaves out, with the temperatures from which it matters."""
     found = (summary.get("estimates") or {}).get("left_out")
     if found is None:
         return []

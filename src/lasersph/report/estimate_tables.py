@@ -55,7 +55,7 @@ def estimates(summary: dict[str, Any]) -> Rows:
 
 
 def left_out(summary: dict[str, Any]) -> Rows:
-    """What the model leaves out, and from which temperature of the surface it matters."""
+    """Effects that the model leaves out, and from which temperature of the surface it matters."""
     found = (summary.get("estimates") or {}).get("left_out")
     if found is None:
         return []

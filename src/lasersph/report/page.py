@@ -107,6 +107,6 @@ def listing(text: str) -> str:
     return f"<pre>{escape(text)}</pre>"
 
 
-def folded(title: str, body: str) -> str:
+def details(title: str, body: str) -> str:
     """A part that opens on a click; `body` is HTML."""
     return f"<details><summary>{escape(title)}</summary>{body}</details>"

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from lasersph.observers.energy_budget import IMBALANCE_ALLOWED, IMBALANCE_ALLOWED_WITH_FLOW
-from lasersph.report.ablation_text import crater, limits_of
+from lasersph.report.ablation_text import crater, model_limits
 from lasersph.report.flow_text import box_flow, pool_flow
 from lasersph.report.numbers import quantity, shown
 
 
 def verdict(summary: dict[str, Any]) -> str:
-    """What happened, in two to eight sentences."""
+    """The course of a run in two to eight sentences."""
     if "box" in summary:
         return " ".join([*box_flow(summary), *balance(summary)])
     parts = [hottest(summary)]
@@ -90,12 +90,12 @@ def balance(summary: dict[str, Any]) -> list[str]:
 
 
 def allowed_imbalance(summary: dict[str, Any]) -> float:
-    """Largest relative error of the energy balance of a sound run."""
+    """Largest relative error of the energy balance of a run that can be trusted."""
     return IMBALANCE_ALLOWED_WITH_FLOW if "flow" in summary else IMBALANCE_ALLOWED
 
 
-def warnings_of(summary: dict[str, Any], events: list[dict[str, Any]]) -> list[str]:
-    """What the reader must know before using the numbers."""
+def warning_texts(summary: dict[str, Any], events: list[dict[str, Any]]) -> list[str]:
+    """Warnings: read them before using the numbers."""
     found = [str(e["message"]) for e in events if e["event"] == "warning" and "message" in e]
     allowed = allowed_imbalance(summary)
     if summary["energy"]["imbalance_relative"] > allowed:
@@ -109,9 +109,9 @@ def warnings_of(summary: dict[str, Any], events: list[dict[str, Any]]) -> list[s
     return list(dict.fromkeys(found))
 
 
-def notes_of(summary: dict[str, Any]) -> list[str]:
-    """What is worth knowing beside the numbers."""
-    found = limits_of(summary)
+def note_texts(summary: dict[str, Any]) -> list[str]:
+    """Notes beside the numbers."""
+    found = model_limits(summary)
     if summary.get("melt", {}).get("molten_at_end"):
         found.append(
             "The run ended while metal was still fluid: the end of melting is later than given."

@@ -29,7 +29,7 @@ NUMBERS = {
 
 
 def value_at(summary: dict[str, Any], key: str) -> Any:
-    """What a dotted key of a summary holds; None where it is missing."""
+    """Value of a dotted key of a summary; None where it is missing."""
     found: Any = summary
     for part in key.split("."):
         found = found.get(part) if isinstance(found, dict) else None
@@ -37,7 +37,7 @@ def value_at(summary: dict[str, Any], key: str) -> Any:
 
 
 def measured(summary: dict[str, Any], kind: type[Observer], name: str = "") -> Rows:
-    """What an observer found: words, value, and when or where.
+    """Results of an observer: words, value, and when or where.
 
     Args:
         summary: content of summary.json.
@@ -83,7 +83,7 @@ def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -
 
 
 def main_numbers(summary: dict[str, Any]) -> list[tuple[str, str]]:
-    """What `lasersph info` says of a run beside its size: words and value, as plain text."""
+    """Main results for `lasersph info`: words and value, as plain text."""
     rows = []
     for kind in OBSERVERS:
         for one in kind.all_results():

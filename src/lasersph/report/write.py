@@ -18,13 +18,13 @@ from lasersph.plots.animation import LEAST_FRAMES, animate_run
 from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.run_figures import DRAWINGS, draw_run
 from lasersph.report import estimate_tables, tables
-from lasersph.report.page import contents, figure, folded, heading, listing, page, paragraph, table
-from lasersph.report.summary_text import notes_of, verdict, warnings_of
+from lasersph.report.page import contents, details, figure, heading, listing, page, paragraph, table
+from lasersph.report.summary_text import note_texts, verdict, warning_texts
 
 ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
 SET = "# --set "
-"""What the lines above the text of case.toml begin with that tell its overrides."""
-SECTIONS = ("Results", "Figures", "Energy", "What was asked", "Computation", "Reproduce")
+"""Begins the lines above the text of case.toml that tell its overrides."""
+SECTIONS = ("Results", "Figures", "Energy", "Case", "Computation", "Reproduce")
 
 
 def write_report(folder: str | Path) -> Path:
@@ -69,8 +69,8 @@ def report_page(run: Run, images: list[Path]) -> str:
     about = f"lasersph {versions.get('lasersph', '')}, case {summary['case']}, run {run.path.name}"
     body = [f"<h1>{escape(name)}</h1>", paragraph(about, "about")]
     body += [contents(SECTIONS), paragraph(verdict(summary), "result")]
-    body += [paragraph(text, "warning") for text in warnings_of(summary, run.events)]
-    body += [paragraph(text, "note") for text in notes_of(summary)]
+    body += [paragraph(text, "warning") for text in warning_texts(summary, run.events)]
+    body += [paragraph(text, "note") for text in note_texts(summary)]
     parts = (
         results(summary),
         figures(images),
@@ -95,7 +95,7 @@ def results(summary: dict[str, Any]) -> list[str]:
     ):
         if rows:
             body.append(table(rows, head))
-    body.append(folded("All numbers of summary.json", table(tables.flat(summary))))
+    body.append(details("All numbers of summary.json", table(tables.flat(summary))))
     return body
 
 
@@ -133,7 +133,7 @@ def case_as_read(run: Run) -> list[str]:
     return [
         paragraph("The case file as given:"),
         listing(run.case_text),
-        folded("The case with every default filled in, SI units", listing(resolved)),
+        details("The case with every default filled in, SI units", listing(resolved)),
     ]
 
 

@@ -60,7 +60,7 @@ def test_stream_function_of_a_clockwise_eddy():
 
 
 def test_conduction_has_the_nusselt_number_one():
-    """A linear temperature between two held sides: Nu = 1, flux k dT / L, in and out."""
+    """A linear temperature between two given sides: Nu = 1, flux k dT / L, in and out."""
     observer = BoxFlow()
     for view in (box_view(), moved(replace(box_view(), step=EVERY))):
         row = observer.observe(view)
@@ -97,7 +97,7 @@ def test_slope_at_a_held_wall_of_a_boundary_layer():
     box = Box.around(view.position, view.width)
     layer = 0.1 * SIZE
     temperature = 300.0 + 10.0 * np.exp(-view.position[0] / layer)
-    known = wall_temperature(view.position, temperature, box, "left", count=20, held=310.0)
+    known = wall_temperature(view.position, temperature, box, "left", count=20, given=310.0)
     guessed = wall_temperature(view.position, temperature, box, "left", count=20)
     slope = -10.0 / layer
     assert known[0] == pytest.approx(310.0, abs=0.05)

@@ -78,7 +78,7 @@ def test_half_fluid_width_ends_with_the_row():
 
 
 def test_only_one_pool_counts():
-    """Fluid cells that do not hang together with the hottest one are another pool."""
+    """Fluid cells that do not are connected to the hottest one are another pool."""
     view = view_of([[1.0, 1.0, 0.0, 1.0, 1.0]], symmetry=2)
     assert pool_width(view, 1.0) == pytest.approx(40e-9)
 

@@ -6,7 +6,7 @@ import pytest
 import synthetic_run
 
 from lasersph.observers import Observer, Observers, Quantity
-from lasersph.observers.observer import nested
+from lasersph.observers.observer import nest
 from lasersph.observers.observer_list import COLUMNS, OBSERVERS, RESULTS
 from lasersph.observers.quantity import suffix, unit_in
 from lasersph.report.tables import measured
@@ -85,4 +85,4 @@ def test_keys_say_their_units():
 
 def test_dotted_keys_become_tables():
     """Keys of one table stand together."""
-    assert nested({"a.b": 1, "c": 2, "a.d.e": 3}) == {"a": {"b": 1, "d": {"e": 3}}, "c": 2}
+    assert nest({"a.b": 1, "c": 2, "a.d.e": 3}) == {"a": {"b": 1, "d": {"e": 3}}, "c": 2}

@@ -22,7 +22,7 @@ from lasersph.plots import (
     ejecta_vectors,
     style,
 )
-from lasersph.plots.ablation_fields import cut_frame, has_ablation, plane_cut, telling_snapshot
+from lasersph.plots.ablation_fields import crater_snapshot, cut_frame, has_ablation, plane_cut
 from lasersph.plots.ablation_history import crater_history, trace_figure
 from lasersph.plots.crater_cut import body_picture
 
@@ -80,7 +80,7 @@ def test_body_is_empty_in_the_crater(runs):
 
 def test_telling_snapshot(runs):
     """The first snapshot with the final crater: the fourth layer leaves at 9 ns."""
-    assert telling_snapshot(runs[1])["time"] == pytest.approx(9 * NS)
+    assert crater_snapshot(runs[1])["time"] == pytest.approx(9 * NS)
 
 
 def test_trace_with_regions(runs):

@@ -10,7 +10,7 @@ from lasersph.observers import Crater, Ejecta, Traces, ablation_observers
 from lasersph.output.settings import Trace
 from lasersph.plots import animation, style
 from lasersph.report import ablation_text, estimate_tables, tables, write_report
-from lasersph.report.summary_text import notes_of, verdict
+from lasersph.report.summary_text import note_texts, verdict
 from lasersph.simulation.recipes.ablation.estimates import ablation_estimates
 
 
@@ -47,17 +47,17 @@ def test_words_and_rows_about_a_hole(summary):
 
 def test_what_is_left_out(summary):
     """The three mechanisms, the temperatures of 0.9 T_c and of a surface that only evaporates."""
-    (text,) = ablation_text.limits_of(summary)
+    (text,) = ablation_text.model_limits(summary)
     for word in ("recoil", "phase explosion", "plasma", "9 227 K", "above the 7 200 K", "estimate"):
         assert word in text
-    assert notes_of(summary)[0] == text
-    assert ablation_text.limits_of({}) == []
+    assert note_texts(summary)[0] == text
+    assert ablation_text.model_limits({}) == []
 
 
 def test_below_the_explosion(summary):
     """Where evaporation can carry the flux below 0.9 T_c, the text says so."""
     left_out = {**summary["estimates"]["left_out"], "evaporating_K": 5000.0, "recoil_from_K": 3e3}
-    (text,) = ablation_text.limits_of({"estimates": {"left_out": left_out}})
+    (text,) = ablation_text.model_limits({"estimates": {"left_out": left_out}})
     assert "below the 7 200 K" in text and "about 3 000 K on" in text and "estimate" not in text
 
 
@@ -71,7 +71,7 @@ def test_tables_with_units(summary):
     """Crater, ejecta, traces and estimates; each pulse and the removal efficiency."""
     crater = {words: value for words, value, _ in tables.measured(summary, Crater)}
     assert crater["depth of the crater at the axis"] == "800 nm"
-    assert crater["volume of what left"] == "7.52 µm³"
+    assert crater["volume of ejected metal"] == "7.52 µm³"
     assert crater["depth that each pulse added at the axis"] == "400 nm, 400 nm"
     expected = f"{1e12 * 7.52e-18 / summary['energy']['incident_J']:.4g}"
     ((_, efficiency, _),) = tables.removal_efficiency(summary)

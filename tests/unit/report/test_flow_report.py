@@ -15,7 +15,7 @@ from lasersph.output import open_run
 from lasersph.plots import animation, run_figures
 from lasersph.report import tables, write_report
 from lasersph.report.numbers import entry
-from lasersph.report.summary_text import verdict, warnings_of
+from lasersph.report.summary_text import verdict, warning_texts
 
 ENERGY = {"unit": "J/m", "imbalance_relative": 5e-5} | dict.fromkeys(
     (f"{name}_J" for name in ("incident", "reflected", "absorbed", "stored", "lost", "removed")),
@@ -61,9 +61,9 @@ def test_words_about_a_box(box):
 def test_flow_may_close_less_well(pool):
     """A ten-thousandth is allowed with flow, a millionth without."""
     flowing = {**pool, "energy": ENERGY}
-    assert not warnings_of(flowing, [])
+    assert not warning_texts(flowing, [])
     still = {key: value for key, value in flowing.items() if key != "flow"}
-    assert warnings_of(still, []) == [
+    assert warning_texts(still, []) == [
         "The energy balance does not close within a millionth of the absorbed energy."
     ]
 

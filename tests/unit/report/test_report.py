@@ -13,7 +13,7 @@ from lasersph.case import load_case
 from lasersph.output import OutputError, open_run
 from lasersph.report import write_report
 from lasersph.report.numbers import entry
-from lasersph.report.summary_text import notes_of, verdict, warnings_of
+from lasersph.report.summary_text import note_texts, verdict, warning_texts
 from lasersph.report.write import command_of, report_page
 
 
@@ -123,7 +123,7 @@ def test_a_bad_energy_balance_is_shouted(folder):
     summary = open_run(folder).summary
     bad = {**summary, "energy": {**summary["energy"], "imbalance_relative": 2e-3}}
     assert "do not trust this run" in verdict(bad)
-    assert any("energy balance" in text for text in warnings_of(bad, []))
+    assert any("energy balance" in text for text in warning_texts(bad, []))
 
 
 def test_notes(folder):
@@ -131,12 +131,12 @@ def test_notes(folder):
     summary = open_run(folder).summary
     summary = {**summary, "spacing_m": 8.0128e-9, "spacing_requested_m": 8e-9}
     summary["melt"] = {**summary["melt"], "molten_at_end": True}
-    notes = notes_of(summary)
+    notes = note_texts(summary)
     assert any("8 nm was rounded to 8.0128 nm" in text for text in notes)
     assert any("still fluid" in text for text in notes)
     assert any("energies those of the half" in text for text in notes)
     whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
-    assert not any("of the half" in text for text in notes_of(whole))
+    assert not any("of the half" in text for text in note_texts(whole))
 
 
 def test_entries_take_their_unit_from_the_key():
