@@ -6,6 +6,7 @@ no particle has moved or left, nothing is computed again.
 
 from __future__ import annotations
 
+from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.particles.neighbor_lists import NeighborList
@@ -20,7 +21,7 @@ class FreeSurface:
         threshold: of the divergence; None for that of the cubic spline with h = 1.5 dx.
 
     Attributes:
-        divergence: (n,) of the positions [1]. exposed: (n,) 1 at the surface, else 0. normal:
+        divergence: (n,) of the positions [1]. at_surface: (n,) 1 there, else 0. normal:
             (dim, n) outward unit normal there, else 0. area: (n,) open to the surroundings
             [m^(dim-1)].
     """
@@ -34,11 +35,11 @@ class FreeSurface:
         threshold: float | None = None,
     ) -> None:
         self.backend = backend
-        self.divergence, self.exposed, self.area = (backend.zeros(count) for _ in range(3))
+        self.divergence, self.at_surface, self.area = (backend.zeros(count) for _ in range(3))
         self.normal = backend.zeros((dimension, count))
         self._constants = {
             "threshold": SURFACE_THRESHOLD[dimension] if threshold is None else threshold,
-            "up": (0.0,) * (dimension - 1) + (1.0,),
+            "up": upward(dimension),
             "least": SMALLEST_NORMAL / spacing,
             "face": spacing ** (dimension - 1),
         }
@@ -53,7 +54,7 @@ class FreeSurface:
                 left.
         """
         fields = {"V": volume, "o": opaque}
-        out = (self.divergence, self.exposed, self.normal, self.area)
+        out = (self.divergence, self.at_surface, self.normal, self.area)
         self.backend.pair_sum(
             surface_terms, pairs, fields, out, finish=surface_state, rows=rows, **self._constants
         )

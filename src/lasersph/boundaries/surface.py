@@ -16,6 +16,11 @@ from lasersph.particles.neighbor_lists import NeighborList
 Vector = tuple[float, ...]
 
 
+def upward(dimension: int) -> Vector:
+    """Outward normal of a surface as it was laid out, against beam and gravity."""
+    return (0.0,) * (dimension - 1) + (1.0,)
+
+
 class PressureCondition(NamedTuple):
     """What a surface gives the pressure equation, arrays (n,) or None for none.
 

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.columns import (
@@ -95,7 +96,7 @@ class FirstHitLight:
         self._lower = low[:, None] + number * self.width[:, None]
         self.center = self._lower + 0.5 * self.width[:, None]
         self._upper = self._lower + self.width[:, None]
-        self.up = (0.0,) * (self.dimension - 1) + (1.0,)
+        self.up = upward(self.dimension)
         self._above = {"up": self.up, "band": BAND * spacing}
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._R_T, self._R_R = (backend.asarray(values) for values in table)

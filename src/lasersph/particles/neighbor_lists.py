@@ -2,8 +2,8 @@
 
 Three ways lead to a list, which loops over pairs take alike:
 
-    find_neighbors    of particles that stay (static)
-    search_pairs      of chosen rows among chosen particles (partial), or of all
+    find_neighbors    of particles that stay (static), or of chosen rows among all (partial)
+    search_pairs      of chosen rows among chosen particles of one support, or of all
     `VerletList`      of particles that move (`verlet_list`), kept until near ones have moved apart
 """
 
@@ -81,22 +81,44 @@ class Subset:
 
 
 def find_neighbors(
-    backend: Backend, position: Array, support: Array, count: int, *, kernel: Any, mean: Mean
+    backend: Backend,
+    position: Array,
+    support: Array,
+    count: int,
+    *,
+    kernel: Any,
+    mean: Mean,
+    box: Box | None = None,
+    radius: Array | None = None,
+    wanted: Rows | None = None,
 ) -> NeighborList:
     """All pairs closer than their support radius, of the first `count` particles with any.
 
+    Args:
+        box: that no particle may leave; default: around them all, as they are. radius: (N,) to
+            search within [m], where it is more than the support. wanted: rows that are to be
+            found, the others stay empty; None for all.
+
     Raises:
-        ValueError: a position that is not finite.
+        EscapedParticle: a position that is not finite, or not in the box.
     """
-    host = backend.to_host(position)
-    margin = float(np.max(backend.to_host(support)))
-    lower = tuple(float(v) for v in host.min(axis=1) - margin)
-    upper = tuple(float(v) for v in host.max(axis=1) + margin)
-    period = (0.0,) * host.shape[0]
+    if box is None:
+        host, margin = backend.to_host(position), float(np.max(backend.to_host(support)))
+        ends = host.min(axis=1) - margin, host.max(axis=1) + margin
+        low, high = (tuple(float(v) for v in end) for end in ends)
+        box = Box(low, high, (0.0,) * host.shape[0])
     row_start, neighbor = search.neighbor_list(
-        backend, position, support, count, mean=mean, lower=lower, upper=upper, period=period
+        backend,
+        position,
+        support if radius is None else radius,
+        count,
+        mean=mean,
+        lower=box.low,
+        upper=box.high,
+        period=box.period,
+        wanted=wanted,
     )
-    return NeighborList(row_start, neighbor, position, support, kernel, mean, period)
+    return NeighborList(row_start, neighbor, position, support, kernel, mean, box.period)
 
 
 def item(place, numbers):

@@ -14,6 +14,7 @@ from __future__ import annotations
 from enum import Enum
 from math import isfinite, sqrt
 
+from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array, Rows
 from lasersph.particles.particles import Particles
 from lasersph.particles.verlet_list import VerletList
@@ -79,7 +80,7 @@ class Rates:
             "alpha_solid": parameters.alpha_solid,
             "alpha_liquid": parameters.alpha_liquid,
             "factor": parameters.weight_factor,
-            "up": (0.0,) * (dimension - 1) + (1.0,),
+            "up": upward(dimension),
             **parameters.ambient,
         }
         self.moving, self.weights = Moving.ALL, None

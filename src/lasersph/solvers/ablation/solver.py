@@ -244,7 +244,10 @@ class Ablation:
         if self.ejection is None:
             return
         surface = self._surface
-        fields = self.particles.by_symbol() | {"exposed": surface.exposed, "normal": surface.normal}
+        fields = self.particles.by_symbol() | {
+            "exposed": surface.at_surface,
+            "normal": surface.normal,
+        }
         ejecta = self.ejection.eject(fields, self.pairs.now, self.rows, self.state.time, step)
         self.body.refresh(self.particles, self.rows)
         if ejecta.number:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
+from lasersph.boundaries.surface import upward
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.layered import LayeredLight
 from lasersph.lasers import Laser
@@ -158,7 +159,7 @@ def weighing_of(lattice: Lattice, layers: Layers, *, use_second_moment: bool) ->
     mean = graded if lattice.arrangement == "graded" else arithmetic
     if not use_second_moment:
         return Weighing(shape, mean, ratio, weight, {}, _equal_factors)
-    up = (0.0,) * (layers.dimension - 1) + (1.0,)
+    up = upward(layers.dimension)
     factors = layer_factors(layers, shape, ratio, mean)
     return Weighing(shape, mean, ratio, layered_weight, {"up": up}, factors.at)
 

@@ -18,13 +18,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lasersph.boundaries.surface import Surface
-from lasersph.compute import search
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, outer
 from lasersph.particles.faces import LEFT
 from lasersph.particles.ghosts import LOWER, UPPER, GhostParticles, ghost_types_of
-from lasersph.particles.neighbor_lists import NeighborList
+from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
 from lasersph.solvers.conduction.body import Weighing
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.near_melt import NearMelt
@@ -226,14 +225,12 @@ class Block:
             backend.pointwise(ghost_layer, fields, value)
         place = self._place(position)
         self._vary(place)
-        kernel, mean = lattice.weighing.kernel, lattice.weighing.mean
-        box = {"lower": self._corner(0), "upper": self._corner(1)}
-        row_start, neighbor = search.neighbor_list(
-            backend, place, radius, self.count, mean=mean, wanted=self.rows, **box
+        how = {"kernel": lattice.weighing.kernel, "mean": lattice.weighing.mean}
+        how["box"] = Box(self._corner(0), self._corner(1), (0.0, 0.0))
+        self.pairs = find_neighbors(
+            backend, place, self.support, self.count, radius=radius, wanted=self.rows, **how
         )
-        self.pairs = NeighborList(
-            row_start, neighbor, place, self.support, kernel, mean, (0.0, 0.0)
-        )
+        neighbor = self.pairs.neighbor
         self._folded = backend.zeros(neighbor.shape[0], "index")
         backend.gather(self.source, neighbor, self._folded)
         self.weights = backend.zeros(neighbor.shape[0])

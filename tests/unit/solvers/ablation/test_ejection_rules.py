@@ -42,7 +42,7 @@ class Sample:
         }
         self.fields |= {"x": backend.asarray(self.host), "v": backend.zeros((3, count))}
         self.surface = FreeSurface(backend, count, 3, DX)
-        self.fields |= {"exposed": self.surface.exposed, "normal": self.surface.normal}
+        self.fields |= {"exposed": self.surface.at_surface, "normal": self.surface.normal}
         self.middle = SIDE * (SIDE // 2) + SIDE // 2
         self.find()
 

@@ -51,7 +51,7 @@ def _surface(solver: Ablation, count: int) -> np.ndarray:
         found = backend.look(solver.light.rows).astype(np.int64)
         found = found[found < count]
     else:
-        found = np.flatnonzero(backend.look(solver.surface.exposed)[:count])
+        found = np.flatnonzero(backend.look(solver.surface.at_surface)[:count])
     return found if found.size else np.zeros(1, np.int64)
 
 
