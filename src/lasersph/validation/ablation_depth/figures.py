@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
+from lasersph.validation.ablation_depth.column import Columns, Pulse
 from lasersph.validation.ablation_depth.front import Ablation
 from lasersph.validation.drawing import Panel, exact, line, marks
 from lasersph.validation.study import Study
@@ -12,12 +12,17 @@ from lasersph.validation.study import Study
 CITED = ((10.0, 0.6, "s", "SPH, paper"), (10.0, 0.8, "D", "experiment (Lutey et al., as cited)"))
 """Values in the text for 10 ns: fluence [J/cm2], depth [um], marker, name."""
 CITED_RANGE = (20.0, 1.0, 1.2)
-Solutions = Mapping[tuple[int, int], Ablation]
+Solutions = Mapping[Pulse, Ablation]
+ByPreset = Mapping[str, Columns]
 DEPTH = "depth of ablation [µm]"
 
 
 def draw_over_fluence(
-    study: Study, duration: int, solutions: Solutions, columns: Any, published: Any
+    study: Study,
+    duration: int,
+    solutions: Solutions,
+    columns: Columns,
+    published: ByPreset,
 ) -> None:
     """Depth over fluence: Stefan solution, both rules, values cited in the text (10 ns)."""
     fluences = sorted(f for ns, f in solutions if ns == duration)
@@ -42,7 +47,9 @@ def draw_over_fluence(
     study.draw(f"depth-{duration}ns", panel, height=4.4, legend=3)
 
 
-def draw_over_spacing(study: Study, solutions: Solutions, columns: Any, published: Any) -> None:
+def draw_over_spacing(
+    study: Study, solutions: Solutions, columns: Columns, published: ByPreset
+) -> None:
     """Depth at 10 and 20 J/cm2 in 10 ns over the spacing, (a) enthalpy, (b) published rule."""
     spacings = study.plan.spacings
     ends, by_enthalpy, by_rule = [0.0, max(spacings)], [], []
