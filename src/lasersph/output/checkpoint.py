@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -20,9 +20,10 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_file
-from lasersph.output.errors import OutputError, clear_errors
+from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 
-CHECKPOINT_SCHEMA = 3
+CHECKPOINT_SCHEMA = 4
+"""Raised whenever names or meaning of what solvers and observers keep change."""
 FIRST_LINE = b"lasersph checkpoint\n"
 NAME = re.compile(r"step-(\d{10})\.checkpoint")
 KEPT = 2
@@ -107,7 +108,7 @@ def load(path: Path) -> Checkpoint:
     """Read one checkpoint file.
 
     Raises:
-        OutputError: it is damaged, unreadable, or of a later version of the program.
+        OutputError: it is damaged or unreadable. FolderRefused: it is of another version.
     """
     with clear_errors("read", path):
         data = path.read_bytes()
@@ -115,15 +116,10 @@ def load(path: Path) -> Checkpoint:
     if not body.startswith(FIRST_LINE) or hashlib.sha256(body).digest() != checksum:
         raise OutputError(f"cannot read {path}: it is damaged")
     start = len(FIRST_LINE) + 8
-    length = int.from_bytes(body[len(FIRST_LINE) : start], "little")
-    header = json.loads(body[start : start + length])
-    if header["schema_version"] != CHECKPOINT_SCHEMA:
-        raise OutputError(
-            f"cannot read {path}: it has format {header['schema_version']},"
-            f" this program reads format {CHECKPOINT_SCHEMA}"
-        )
+    offset = start + int.from_bytes(body[len(FIRST_LINE) : start], "little")
+    header = json.loads(body[start:offset])
+    refuse_other_format(path, header)
     arrays = {}
-    offset = start + length
     for name, kind, shape in header["arrays"]:
         count = int(np.prod(shape, dtype=np.int64))
         flat = np.frombuffer(body, dtype=kind, count=count, offset=offset)
@@ -137,6 +133,38 @@ def load(path: Path) -> Checkpoint:
         scalars=header["scalars"],
         meta=header["meta"],
     )
+
+
+def refuse_other_format(path: Path, header: Mapping[str, Any]) -> None:
+    """Refuse a checkpoint of another version of this program.
+
+    Raises:
+        FolderRefused: with both formats, and what can be done.
+    """
+    written = header["schema_version"]
+    if written != CHECKPOINT_SCHEMA:
+        raise FolderRefused(
+            f"{path} is of another version of lasersph: its format is {written}, this version "
+            f"reads {CHECKPOINT_SCHEMA}; resume with that version, or start again in a new folder"
+        )
+
+
+def refuse_formats(files: Sequence[Path]) -> None:
+    """Refuse a folder whose latest checkpoint that can be read is of another version.
+
+    Raises:
+        FolderRefused: see `refuse_other_format`.
+    """
+    for path in files:
+        with clear_errors("read", path), path.open("rb") as stream:
+            start = stream.read(len(FIRST_LINE) + 8)
+            text = stream.read(int.from_bytes(start[len(FIRST_LINE) :], "little"))
+        try:
+            header = json.loads(text)
+        except ValueError:  # damaged: the one before it tells
+            continue
+        refuse_other_format(path, header)
+        return
 
 
 def numbers_only(value: Any) -> Any:

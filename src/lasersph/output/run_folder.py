@@ -121,7 +121,8 @@ class RunFolder:
             `is_complete`, nothing is left to do.
 
         Raises:
-            FolderRefused: the folder belongs to another case or is not a run folder.
+            FolderRefused: the folder belongs to another case or to another version of this
+                program, or is not a run folder.
             OutputError: no checkpoint in it can be used.
         """
         folder = Path(path)
@@ -130,10 +131,13 @@ class RunFolder:
             clear_leftovers(folder)
             return cls.create(folder, **arguments, case_hash=case_hash), None
         wanted = case_hash or hash_of_case(case)
-        check_owner(folder, wanted)
-        if (folder / "summary.json").exists():
-            return cls(folder, wanted), None
         files = checkpoints.candidates(folder / "checkpoint")
+        is_complete = (folder / "summary.json").exists()
+        if not is_complete:  # an earlier version hashed cases in its own way: ask for it first
+            checkpoints.refuse_formats(files)
+        check_owner(folder, wanted)
+        if is_complete:
+            return cls(folder, wanted), None
         if not files:
             run = cls._start(folder, case_text, case, versions, wanted)
             run.restart()

@@ -73,10 +73,10 @@ def test_full_disk_keeps_the_last_good_one(tmp_path, monkeypatch):
     assert checkpoint.load(good).step == 1
 
 
-def test_a_later_format_is_refused(tmp_path, monkeypatch):
-    """A checkpoint of a later program version is named as such."""
+def test_another_format_is_refused(tmp_path, monkeypatch):
+    """A checkpoint of another program version is named as such."""
     with monkeypatch.context() as patch:
         patch.setattr(checkpoint, "CHECKPOINT_SCHEMA", 99)
         path = checkpoint.save(tmp_path, state(1))
-    with pytest.raises(OutputError, match="format 99"):
+    with pytest.raises(OutputError, match="its format is 99, this version reads 4"):
         checkpoint.load(path)

@@ -11,7 +11,7 @@ import sys
 import numpy as np
 import pytest
 
-from lasersph.output import FolderRefused, OutputError, RunFolder, open_run
+from lasersph.output import FolderRefused, OutputError, RunFolder, checkpoint, open_run
 
 CASE = {"case_text": 'spacing = "8 nm"\n', "case": {"spacing": 8e-9}, "versions": {"lasersph": "1"}}
 SUMMARY = {
@@ -254,3 +254,21 @@ def test_tables_for_other_tools(tmp_path):
         else:
             assert len(view())
     assert json.dumps(run.summary)
+
+
+def test_checkpoint_of_an_earlier_version(tmp_path, monkeypatch):
+    """One line says so before anything is touched, also where the hash of the case has changed."""
+    folder = tmp_path / "run"
+    with monkeypatch.context() as patch:
+        patch.setattr(checkpoint, "CHECKPOINT_SCHEMA", 3)
+        run = RunFolder.create(folder, **CASE)
+        run.save_checkpoint(step=4, time=0.4, arrays={}, scalars={})
+        run.close()
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    for case_hash in (None, "another"):
+        with pytest.raises(FolderRefused) as told:
+            RunFolder.resume(folder, **CASE, case_hash=case_hash)
+        assert "of another version of lasersph: its format is 3, this version reads 4; " in str(
+            told.value
+        )
+    assert before == {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
