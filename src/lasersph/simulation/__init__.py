@@ -1,6 +1,7 @@
 """Simulation: builds particles and solver from a case, forecasts the cost, holds the time loop."""
 
 from lasersph.simulation.forecast import Forecast, forecast
-from lasersph.simulation.time_loop import Result, RunProgress, Stopped, run
+from lasersph.simulation.progress import RunProgress
+from lasersph.simulation.time_loop import Result, Stopped, run
 
 __all__ = ["Forecast", "Result", "RunProgress", "Stopped", "forecast", "run"]

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import sqrt
+from typing import Any
 
 from lasersph.case import Case
 from lasersph.case.active_region import active_share
 from lasersph.case.size import BYTES_PER_PARTICLE, neighbor_count
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
-from lasersph.simulation.recipes import FlowForecast, recipe_of
+from lasersph.simulation.progress import Span
+from lasersph.simulation.recipes import FlowForecast, Recipe, StepForecast, recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 PAIRS_PER_SECOND = 2.0e8
@@ -53,10 +55,7 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
     recipe = recipe_of(case)
     layers, steps = recipe.layers, recipe.step_forecast()
     spacing, count = layers.spacing, layers.particle_count
-    share = active_share(case, case.particles.support_over_spacing * spacing)
-    pairs = share * count * neighbor_count(case.particles, case.solver.dimensions)
-    products = sum(phase.steps * phase.products for phase in steps.phases)
-    seconds = products * pairs / PAIRS_PER_SECOND / max(1, threads)
+    pairs = active_pairs(recipe)
     length, penetration = _lengths(case)
     is_fine = layers.thickness <= spacing * (1.0 + 1e-9)
     return Forecast(
@@ -69,11 +68,28 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         limits=steps.limits,
         binding=binding_limit(steps.limits)[0],
         steps=steps.steps,
-        wall_time=seconds + steps.steps * SECONDS_PER_STEP,
+        wall_time=sum(span.seconds for span in spans_of(recipe, steps, threads)),
         absorption_length=length,
         penetration=penetration,
         warnings=(*_warnings(case, layers, length, penetration), *recipe.warnings()),
         flow=recipe.flow,
+    )
+
+
+def active_pairs(recipe: Recipe[Any, Any]) -> float:
+    """Estimated number of pairs of particles that are computed."""
+    case, layers = recipe.case, recipe.layers
+    share = active_share(case, case.particles.support_over_spacing * layers.spacing)
+    neighbors = neighbor_count(case.particles, case.solver.dimensions)
+    return share * layers.particle_count * neighbors
+
+
+def spans_of(recipe: Recipe[Any, Any], steps: StepForecast, threads: int) -> tuple[Span, ...]:
+    """What each phase of a run is expected to cost on some threads."""
+    product = active_pairs(recipe) / PAIRS_PER_SECOND / max(1, threads)
+    return tuple(
+        Span(phase.name, phase.end, phase.steps * (phase.products * product + SECONDS_PER_STEP))
+        for phase in steps.phases
     )
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
-from lasersph.analytic.melt_depth import melt_depth
+from lasersph.analytic.melt_depth import MeltEstimate, melt_depth
 from lasersph.case import Case
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import InterferenceBeam
@@ -24,25 +26,35 @@ def caloric_curve(case: Case) -> CaloricCurve:
     )
 
 
-def lay_out(case: Case) -> Layers:
-    """Layers of the case; where graded and not given, the fine depth follows from an estimate."""
+def lay_out(case: Case, melt: Callable[[], MeltEstimate | None] | None = None) -> Layers:
+    """Layers of the case; where graded and not given, the fine depth follows from an estimate.
+
+    Args:
+        melt: the estimate, where it is known already.
+    """
     fine = case.particles.fine_depth or 0.0
     if case.particles.arrangement == "graded" and not fine:
-        fine = fine_depth(case)
+        fine = fine_depth(case, melt() if melt is not None else expected_melt(case))
     return stack(case.domain, case.particles, case.solver.dimensions, fine)
 
 
-def fine_depth(case: Case) -> float:
+def fine_depth(case: Case, melt: MeltEstimate | None) -> float:
     """Depth of the finest layers [m]: expected melt plus two support radii, and all the light."""
     spacing = case.particles.spacing
     least = LEAST_FINE_LAYERS * spacing
+    if case.laser is not None:
+        alpha = case.laser.absorption_coefficient(case.material)
+        least = max(least, ABSORPTION_LENGTHS / alpha)
+    if melt is None or melt.depth == 0.0:
+        return least
+    return max(least, melt.safe_depth + 2.0 * case.particles.support_over_spacing * spacing)
+
+
+def expected_melt(case: Case) -> MeltEstimate | None:
+    """How deep light will melt the case, and when; None without light or melting."""
     laser = case.laser
-    if laser is None:
-        return least
-    alpha = laser.absorption_coefficient(case.material)
-    least = max(least, ABSORPTION_LENGTHS / alpha)
-    if not case.solver.phase_change or case.material.melting is None:
-        return least
+    if laser is None or not case.solver.phase_change or case.material.melting is None:
+        return None
     width = case.domain.width
     columns, column_width = 1, None
     is_pattern = isinstance(laser.beam, InterferenceBeam)
@@ -57,19 +69,16 @@ def fine_depth(case: Case) -> float:
         fluence = density / share
     curve = caloric_curve(case)
     T, R = laser.reflectivity_table(case.material, COLDEST, HOTTEST)
-    estimate = melt_depth(
+    return melt_depth(
         enthalpy=curve.enthalpy,
         temperature=curve.temperature,
         potential=curve.potential,
         melt_fraction=curve.melt_fraction,
         density=case.material.density_reference,
-        absorption_coefficient=alpha,
+        absorption_coefficient=laser.absorption_coefficient(case.material),
         reflectivity=lambda surface: np.interp(surface, T, R),
         fluence=fluence,
         delivered=lambda start, end: float(laser.pulse.delivered(start, end)),
         end_time=case.time.end,
         column_width=column_width,
     )
-    if estimate.depth == 0.0:
-        return least
-    return max(least, estimate.safe_depth + 2.0 * case.particles.support_over_spacing * spacing)

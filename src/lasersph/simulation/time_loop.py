@@ -22,29 +22,13 @@ from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.output.schedule import SnapshotSchedule
+from lasersph.simulation.forecast import spans_of
+from lasersph.simulation.progress import RemainingTime, RunProgress
 from lasersph.simulation.recipes import Recipe, recipe_of
 from lasersph.solvers.step_control import Solver, StepFailed, choose_step
 
 PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
 END = 1.0 - 1e-12
-
-
-@dataclass(frozen=True)
-class RunProgress:
-    """How far a run is after a step, for display only: nothing in a run depends on it.
-
-    Attributes:
-        time, end: simulated [s]. steps: done. hottest: largest temperature [K].
-        work_done: part of the work that is done, 0 to 1.
-        remaining_s: expected wall time to the end [s], None before it can be told.
-    """
-
-    time: float
-    end: float
-    steps: int
-    hottest: float
-    work_done: float
-    remaining_s: float | None = None
 
 
 Progress = Callable[[RunProgress], None]
@@ -131,6 +115,7 @@ class _Loop:
         self.snapshots = SnapshotSchedule(case.output.snapshots, case.time.end)
         self.steps, self.limit, self.wall_before = 0, "", 0.0
         self.started = clock.monotonic()
+        self._remaining: RemainingTime | None = None
 
     def begin(self, checkpoint: Checkpoint | None) -> None:
         """Start at rest, or where the checkpoint left off."""
@@ -165,10 +150,24 @@ class _Loop:
             if self.steps % self.case.output.checkpoint_every == 0:
                 self._save()
             if progress is not None:
-                progress(RunProgress(state.time, end, self.steps, self.hottest, state.time / end))
+                progress(self._progress())
             if should_stop():
                 self._save()
                 raise Stopped(f"stopped at {state.time:.4g} s after {self.steps} steps")
+
+    def _progress(self) -> RunProgress:
+        time, wall = self.solver.state.time, clock.monotonic()
+        if self._remaining is None:
+            steps = self.recipe.step_forecast()
+            self._remaining = RemainingTime(spans_of(self.recipe, steps, self._backend.threads))
+        return RunProgress(
+            time,
+            self.case.time.end,
+            self.steps,
+            self.hottest,
+            self._remaining.work_done(time),
+            self._remaining.step_to(time, wall),
+        )
 
     def _step(self, step: float, unclipped_step: float) -> float:
         """A step of the solver; where it fails, what was reached is kept.

@@ -13,13 +13,14 @@ from functools import cached_property
 from math import ceil
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
+from lasersph.analytic.melt_depth import MeltEstimate
 from lasersph.case import Case
 from lasersph.compute.backend import Backend
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.observers import Observers
 from lasersph.observers.view import View
 from lasersph.particles.layers import Layers
-from lasersph.simulation.layers import caloric_curve, lay_out
+from lasersph.simulation.layers import caloric_curve, expected_melt, lay_out
 from lasersph.simulation.scales import heat_scales
 from lasersph.simulation.spot_edges import halves_spot
 from lasersph.solvers.solver_settings import SolverSettings
@@ -89,7 +90,12 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
     @cached_property
     def layers(self) -> Layers:
         """Layers of the particles."""
-        return lay_out(self.case)
+        return lay_out(self.case, lambda: self.melt)
+
+    @cached_property
+    def melt(self) -> MeltEstimate | None:
+        """Expected melt under the light; None without light or melting."""
+        return expected_melt(self.case)
 
     @cached_property
     def curve(self) -> CaloricCurve:
