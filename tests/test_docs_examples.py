@@ -1,7 +1,10 @@
 """The documentation is true: its material file can be read and the files it names exist."""
 
 import re
+import runpy
 from pathlib import Path
+
+import pytest
 
 from lasersph import validation
 from lasersph.input import build, parse_toml
@@ -39,6 +42,21 @@ def test_example_validation_runs(tmp_path, monkeypatch):
         report = validation.validate("surface-rise", tmp_path / "runs", quick=quick)
         assert report.passed and len(report.rows) == count, report.table()
         assert report.figures[0].exists()
+
+
+EXTEND = (ROOT / "docs" / "extend.md").read_text(encoding="utf-8")
+SECTIONS = [text for text in re.split(r"^## ", EXTEND, flags=re.M) if "```python" in text]
+
+
+@pytest.mark.parametrize("section", SECTIONS, ids=[text.splitlines()[0] for text in SECTIONS])
+def test_example_code_of_extend_runs(section, tmp_path, monkeypatch):
+    """The blocks of Python of each section run one after the other, and what they assert holds."""
+    monkeypatch.chdir(tmp_path)
+    # loops read the text of their functions from files
+    file = tmp_path / "example.py"
+    blocks = re.findall(r"^```python\n(.*?)^```", section, flags=re.M | re.S)
+    file.write_text("\n".join(blocks), encoding="utf-8")
+    runpy.run_path(str(file))
 
 
 def test_named_files_exist():

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import platform
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -17,6 +17,7 @@ from typing import Any
 from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
+from lasersph.observers import Observer, Observers
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
@@ -55,6 +56,8 @@ def run(
     threads: int | None = None,
     precision: str = "float64",
     backend: str = "cpu",
+    recipe: type[Recipe[Any, Any]] | None = None,
+    observers: Sequence[Observer] = (),
     progress: Progress | None = None,
     should_stop: Callable[[], bool] = lambda: False,
 ) -> Result:
@@ -65,6 +68,8 @@ def run(
         resume: continue from the last checkpoint in `out`; from the start where there is none.
         threads: None takes all processors. precision: "float64" or "float32".
         backend: "cpu", or "cuda" for a graphics card. Either continues what the other began.
+        recipe: a class of one's own in place of that of the case's solver, with terms, boundaries
+            or a solver of one's own. observers: of one's own, beside those of the recipe.
         should_stop: asked after each step; True writes a checkpoint and raises `Stopped`.
 
     Raises:
@@ -74,12 +79,13 @@ def run(
     """
     refuse_if_too_large(case, backend)
     device = compute.cuda(precision) if backend == "cuda" else compute.cpu(threads, precision)
-    folder, checkpoint = _open(case, out, resume, precision)
+    chosen = recipe_of(case) if recipe is None else recipe(case)
+    own = "" if recipe is None else f"-{recipe.__name__}"
+    folder, checkpoint = _open(case, out, resume, precision + own)
     try:
         if folder.is_complete:
             return Result(folder.path, folder.summary)
-        recipe = recipe_of(case)
-        loop = _Loop(case, recipe, recipe.build(device), folder)
+        loop = _Loop(case, chosen, chosen.build(device), folder, observers)
         loop.begin(checkpoint)
         loop.go(progress, should_stop)
         return Result(folder.path, loop.finish())
@@ -88,7 +94,7 @@ def run(
 
 
 def _open(
-    case: Case, out: str | Path, resume: bool, precision: str
+    case: Case, out: str | Path, resume: bool, variant: str
 ) -> tuple[RunFolder, Checkpoint | None]:
     versions = {"lasersph": __version__, "python": platform.python_version()}
     versions |= {name: version(name) for name in PACKAGES}
@@ -96,7 +102,7 @@ def _open(
         "case_text": case.text,
         "case": case.resolved(),
         "versions": versions,
-        "case_hash": f"{case.hash()}-{precision}",
+        "case_hash": f"{case.hash()}-{variant}",
     }
     if resume:
         return RunFolder.resume(out, **arguments)
@@ -107,11 +113,17 @@ class _Loop:
     """One run from its first or resumed step to its end."""
 
     def __init__(
-        self, case: Case, recipe: Recipe[Any, Any], solver: Solver, folder: RunFolder
+        self,
+        case: Case,
+        recipe: Recipe[Any, Any],
+        solver: Solver,
+        folder: RunFolder,
+        observers: Sequence[Observer],
     ) -> None:
         self.case, self.recipe, self.solver, self.folder = case, recipe, solver, folder
         self._backend = solver.backend
-        self.observers = recipe.observers(tuple(solver.iterations))
+        members = recipe.observers(tuple(solver.iterations)).members
+        self.observers = Observers([*members, *observers])
         self.snapshots = SnapshotSchedule(case.output.snapshots, case.time.end)
         self.steps, self.limit, self.wall_before = 0, "", 0.0
         self.started = clock.monotonic()
