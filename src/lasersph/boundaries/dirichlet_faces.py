@@ -65,9 +65,9 @@ def boundary_coefficients(
         extents: bounds of the block along each axis [m].
     """
     found = {}
-    held = filling.dirichlet[neighbor]
+    beyond = filling.dirichlet[neighbor]
     for face in faces:
-        pairs = np.flatnonzero(held == FACES.index(face.name))
+        pairs = np.flatnonzero(beyond == FACES.index(face.name))
         i, j = row[pairs], neighbor[pairs]
         place, weight = filling.position[:, j], weights[pairs]
         if not face.is_wall:

@@ -40,7 +40,7 @@ NODES = 257
 
 @dataclass(frozen=True)
 class ImposedTemperature:
-    """Temperature of a surface that is held: mean [K] and what varies along x."""
+    """Temperature that a case gives a surface: mean [K] and what varies along x."""
 
     mean: float
     wave: TemperatureWave | None = None
@@ -68,7 +68,7 @@ def surface_tension(T, T_nodes, gamma_nodes):
 
 
 def imposed_temperature(x, along, mean, amplitude, wave_number):
-    """Temperature of the held surface above a particle [K]."""
+    """Given temperature of the surface above a particle [K]."""
     return mean + amplitude * cos(wave_number * dot(x, along))
 
 
@@ -88,7 +88,7 @@ class FlatSurface:
     Args:
         count: particles of the whole body. spacing, support: of the particles at it [m].
         material: gamma(T) or its slope. viscosity: eta [Pa s]. has_stress: whether gamma drives
-            the flow. held: the surface's own temperature, where it is given.
+            the flow. given: the surface's own temperature, where the case gives it.
     """
 
     def __init__(
@@ -102,9 +102,9 @@ class FlatSurface:
         material: Material,
         viscosity: float,
         has_stress: bool,
-        held: ImposedTemperature | None,
+        given: ImposedTemperature | None,
     ) -> None:
-        self.backend, self.viscosity, self.held = backend, viscosity, held
+        self.backend, self.viscosity, self.given = backend, viscosity, given
         self.normal, self.tangent, self.has_stress = (0.0, 1.0), (1.0, 0.0), has_stress
         self.normal_velocity = self.heat_flux = 0.0
         self.pressure: PressureCondition | None = None
@@ -135,14 +135,14 @@ class FlatSurface:
         rows = self._rows(self.at_surface, active)
         # temperature of the surface: that of the particles at it, or a given one
         backend.copy(T, self.temperature)
-        if self.held is not None:
-            wave = self.held.wave
+        if self.given is not None:
+            wave = self.given.wave
             backend.pointwise(
                 imposed_temperature,
                 {"x": position},
                 self.temperature,
                 along=self.tangent,
-                mean=self.held.mean,
+                mean=self.given.mean,
                 amplitude=wave.amplitude if wave else 0.0,
                 wave_number=2.0 * np.pi / wave.period if wave else 0.0,
             )

@@ -44,7 +44,7 @@ KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left
 
 
 class TemperatureWave(Model):
-    """What the temperature of a held surface varies by: amplitude cos(2 pi x / period)."""
+    """What a given temperature of the surface varies by: amplitude cos(2 pi x / period)."""
 
     amplitude: TemperatureDifference = Field(description="at x = 0")
     period: Annotated[Length, Field(gt=0)]
@@ -158,12 +158,12 @@ class Boundaries(Model):
         return getattr(self, face, None) or self.sides
 
     def temperature_of(self, face: str, initial: float) -> float:
-        """Temperature of a face where it is held [K], without the surface's wave."""
+        """Temperature of a face where it is given [K], without the surface's wave."""
         given = self._given(face, "temperature")
         return initial if given is None else given
 
     def temperature_along(self, face: str, x: Array, initial: float) -> Array:
-        """Temperature of a held face [K] at places x along it [m], any shape."""
+        """Given temperature of a face [K] at places x along it [m], any shape."""
         mean = np.full(np.shape(x), self.temperature_of(face, initial))
         wave = self.surface_temperature_wave
         return mean + wave.at(x) if wave is not None and face == SURFACE else mean

@@ -11,7 +11,7 @@ def enthalpy_rate(total, T, k, E, q, m, a, b, w, step):
 
     Args:
         T: [K]. k: [W/(m K)]. E: light absorbed in the step [J]. q: loss of the surface [W].
-        m: mass [kg]. a, b: sums over held faces of A_i and A_i T_w. w: power of prescribed
+        m: mass [kg]. a, b: sums over Dirichlet faces of A_i and A_i T_w. w: power of prescribed
         fluxes [W]. step: [s].
     """
     walls = k * (b - a * T) + w

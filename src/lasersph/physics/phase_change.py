@@ -61,7 +61,7 @@ def potential_slope(h, h_nodes, P_nodes):
     return interpolation_slope(h, h_nodes, P_nodes)
 
 
-def followed(h, dP, dh, h_nodes, P_nodes):
+def follow_potential(h, dP, dh, h_nodes, P_nodes):
     """Enthalpy h [J/kg], heat potential P [W/m] and slope dP/dh after P has changed by dP.
 
     From node to node the change is followed up to a plateau. There what is left of it turns into

@@ -6,7 +6,7 @@ with the weights g_ij of conduction, which discretize V_i times the Laplacian. I
 
     (V_i + nu dt sum_j g_ij) v_i - nu dt sum_j g_ij v_j = V_i v*_i
 
-for the fluid particles; particles of the solid have v = 0, images the velocity that the faces give.
+for the fluid particles; particles of the solid have v = 0, ghosts the velocity that the faces give.
 The published scheme is explicit.
 """
 

@@ -6,7 +6,7 @@ import pytest
 from lasersph.physics.conduction import enthalpy_rate
 from lasersph.physics.phase_change import (
     balanced_enthalpy,
-    followed,
+    follow_potential,
     potential_slope,
     state,
     thermal_state,
@@ -84,21 +84,23 @@ def test_balanced_enthalpy_by_hand():
 )
 def test_followed(h, dP, dh, expected):
     """A change of the potential, off and on the plateau from 2e5 to 4e5 J/kg."""
-    assert followed(h, dP, dh, H, P) == pytest.approx(expected)
+    assert follow_potential(h, dP, dh, H, P) == pytest.approx(expected)
 
 
 def test_followed_across_corners():
     """Slopes 0.02, 0.002, 0.01: 1000 W/m to the corner, 2000 W/m to the next, 1000 W/m beyond."""
     H_range, P_range = np.array([0.0, 2e5, 1.2e6, 1.4e6]), np.array([0.0, 4e3, 6e3, 8e3])
-    there = followed(1.5e5, 4000.0, 0.0, H_range, P_range)
+    there = follow_potential(1.5e5, 4000.0, 0.0, H_range, P_range)
     assert there == pytest.approx((1.3e6, 7000.0, 0.01))
-    assert followed(there[0], -4000.0, 0.0, H_range, P_range) == pytest.approx((1.5e5, 3e3, 0.02))
+    assert follow_potential(there[0], -4000.0, 0.0, H_range, P_range) == pytest.approx(
+        (1.5e5, 3e3, 0.02)
+    )
 
 
 def test_followed_on_the_last_plateau():
     """A plateau without end, as at the vaporization temperature, takes up any rest."""
-    assert followed(1e5, 9000.0, 0.0, H[:3], P[:3]) == pytest.approx((5.5e5, 4000.0, 0.0))
-    assert followed(3e5, 0.0, 9e5, H[:3], P[:3]) == pytest.approx((1.2e6, 4000.0, 0.0))
+    assert follow_potential(1e5, 9000.0, 0.0, H[:3], P[:3]) == pytest.approx((5.5e5, 4000.0, 0.0))
+    assert follow_potential(3e5, 0.0, 9e5, H[:3], P[:3]) == pytest.approx((1.2e6, 4000.0, 0.0))
 
 
 def test_enthalpy_rate():

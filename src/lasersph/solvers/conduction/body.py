@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.surface import upward
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.layered import LayeredLight
 from lasersph.lasers import Laser
@@ -30,14 +31,11 @@ from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.laplacian import layered_weight, weight
 from lasersph.sph.second_moment import layer_factors
 
-KINDS = {
-    "adiabatic": MIRROR, "periodic": PERIODIC, "free": FREE,
-    "fixed-temperature": DIRICHLET, "wall": DIRICHLET, "prescribed-flux": MIRROR,
-}  # fmt: skip
-FIELDS = (
-    "mass", "enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before",
-    "evaporated_mass",
-)  # fmt: skip
+KINDS = {"adiabatic": MIRROR, "prescribed-flux": MIRROR, "periodic": PERIODIC, "free": FREE}
+KINDS |= {"fixed-temperature": DIRICHLET, "wall": DIRICHLET}
+"""What lies beyond a face of each kind."""
+HISTORY = ("enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before")
+"""Fields from which a step is predicted."""
 DERIVED = ("temperature", "potential", "melt_fraction", "vapor_fraction")
 
 
@@ -61,11 +59,11 @@ class Body:
     curve: CaloricCurve
     light: LayeredLight
     pairs: PairOperator
-    wall_flow: Any
-    wall_heat: Any
-    wall_power: Any
-    area: Any
-    tables: dict[str, Any]
+    wall_flow: Array
+    wall_heat: Array
+    wall_power: Array
+    area: Array
+    tables: dict[str, Array]
     ambient: dict[str, float]
 
     @property
@@ -108,7 +106,8 @@ def assemble(
     )
     area = np.zeros(count)
     area[filling.surface] = np.prod(filling.width[:-1, filling.surface], axis=0)
-    particles = Particles(backend, count, layers.dimension, (*FIELDS, *DERIVED))
+    fields = ("mass", *HISTORY, "evaporated_mass", *DERIVED)
+    particles = Particles(backend, count, layers.dimension, fields)
     particles.set("mass", material.density_reference * filling.volume[:count])
     body = Body(
         backend=backend,

@@ -8,6 +8,7 @@ between two particles takes the harmonic mean of their conductivities.
 
 from __future__ import annotations
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.vectors import interpolate
 from lasersph.physics.conduction import enthalpy_rate
 from lasersph.physics.phase_change import thermal_state
@@ -73,22 +74,23 @@ class ExplicitStep:
         (stored,) = backend.pointwise(step_from, fields, (h, None), reduce=(None, "sum"), dt=step)
         return energy | {"stored": stored}
 
-    def _evaluate(self, enthalpy, step: float) -> dict[str, float]:
+    def _evaluate(self, enthalpy: Array, step: float) -> dict[str, float]:
         """Rate of heating at given enthalpies; returns the energies of a whole step at it [J]."""
         body, backend = self.body, self.body.backend
         backend.pointwise(properties, {"h": enthalpy}, (self.T, self.k), **self.tables)
         absorbed = body.light.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
-        fields = {
-            "T": self.T, "k": self.k, "E": body.light.deposit, "q": self.exchange.power,
-            "m": body.particles["mass"], "a": body.pairs.pull, "b": body.wall_heat,
-            "w": body.wall_power, "g_ij": body.pairs.weights,
-        }  # fmt: skip
+        fields = {"T": self.T, "k": self.k, "m": body.particles["mass"]}
+        fields |= {"E": body.light.deposit, "q": self.exchange.power, "w": body.wall_power}
+        fields |= {"a": body.pairs.pull, "b": body.wall_heat, "g_ij": body.pairs.weights}
         (walls,) = backend.pair_sum(
-            harmonic_flow, body.pairs.neighbors, fields, (self.rate, None),
-            finish=enthalpy_rate, reduce=(None, "sum"), step=step,
-        )  # fmt: skip
-        return {
-            "absorbed": absorbed, "lost": lost * step, "removed": removed * step,
-            "walls": walls * step,
-        }  # fmt: skip
+            harmonic_flow,
+            body.pairs.neighbors,
+            fields,
+            (self.rate, None),
+            finish=enthalpy_rate,
+            reduce=(None, "sum"),
+            step=step,
+        )
+        surface = {"absorbed": absorbed, "lost": lost * step, "removed": removed * step}
+        return surface | {"walls": walls * step}

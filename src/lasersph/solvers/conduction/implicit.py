@@ -26,8 +26,8 @@ import numpy as np
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.vectors import interpolate, interpolation_slope
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
-from lasersph.physics.phase_change import balanced_enthalpy, followed, potential_slope
-from lasersph.solvers.conduction.body import Body
+from lasersph.physics.phase_change import balanced_enthalpy, follow_potential, potential_slope
+from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
 from lasersph.solvers.step_control import NotConverged
@@ -45,8 +45,6 @@ MAX_NEWTON = 60
 ROUNDING = 4.0
 """Smallest residual asked for, in units of the rounding of its terms."""
 MAX_LINEAR = 400
-HISTORY = ("enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before")
-"""Fields from which a step is predicted."""
 
 
 def initial_guess(h, excess, h_old, h_older, ratio, near, far, h_nodes, P_nodes):
@@ -59,7 +57,8 @@ def initial_guess(h, excess, h_old, h_older, ratio, near, far, h_nodes, P_nodes)
     P_old = interpolate(h_old, h_nodes, P_nodes)
     change = interpolate(start, h_nodes, P_nodes) - P_old
     before = P_old - interpolate(h_older, h_nodes, P_nodes)
-    return followed(start, near * change + far * before, ratio * (start - h_old), h_nodes, P_nodes)
+    dP, dh = near * change + far * before, ratio * (start - h_old)
+    return follow_potential(start, dP, dh, h_nodes, P_nodes)
 
 
 def balance(total, h0, P, E, q, m, S, a, B, s, h_nodes, P_nodes):
@@ -94,7 +93,7 @@ def linearize(h, slope, m, dq, s, h_nodes, T_nodes):
 
 def move(h, dP, damping, h_nodes, P_nodes):
     """Enthalpy, P and dP/dh after a damped Newton step; on plateaus nothing moves."""
-    return followed(h, damping * dP, 0.0, h_nodes, P_nodes)
+    return follow_potential(h, damping * dP, 0.0, h_nodes, P_nodes)
 
 
 def same(new):

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.light import energies
 from lasersph.lasers import Laser
+from lasersph.lasers.pulses import PulseTrain
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.conduction.explicit import ExplicitStep
 from lasersph.solvers.conduction.implicit import ImplicitStep
@@ -23,12 +24,12 @@ from lasersph.solvers.time_settings import TimeSettings
 EXPECTED_SHARE = 1e-3
 
 
-def change(T, T_old):
+def temperature_change(T, T_old):
     """Largest change of temperature."""
     return abs(T - T_old)
 
 
-def clipped(h, m, h_limit):
+def clip_enthalpy(h, m, h_limit):
     """Enthalpy cut at the full latent heat, and the energy discarded [J]."""
     return min(h, h_limit), m * max(h - h_limit, 0.0)
 
@@ -58,7 +59,7 @@ class Conduction:
         backend: Backend = body.backend
         self._before = backend.zeros(body.count)
         if settings.scheme == "explicit":
-            self.scheme: Any = ExplicitStep(body, self.exchange)
+            self.scheme: ExplicitStep | ImplicitStep = ExplicitStep(body, self.exchange)
             self._stable = self.scheme.stable_step()
         else:
             scheme = PublishedStep if settings.iteration == "published" else ImplicitStep
@@ -71,7 +72,7 @@ class Conduction:
             self.expected = EXPECTED_SHARE * laser.mean_fluence * area
 
     @property
-    def fields(self) -> dict[str, Any]:
+    def fields(self) -> dict[str, Array]:
         """Arrays of a checkpoint by name."""
         return self.particles.kept
 
@@ -175,7 +176,9 @@ class Conduction:
             backend.pointwise(accumulate_evaporated_mass, fields, mass, step=step)
         self._account(energy, discarded)
         fields = {"T": temperature, "T_old": self._before}
-        (state.temperature_change,) = backend.pointwise(change, fields, (None,), reduce=("max",))
+        (state.temperature_change,) = backend.pointwise(
+            temperature_change, fields, (None,), reduce=("max",)
+        )
         if self.laser is not None and self.laser.pulse.active(state.time, state.time + step):
             state.lit_until = state.time + step
         state.time_step_before = state.time_step
@@ -194,7 +197,7 @@ class Conduction:
             return 0.0
         fields = self.particles.by_symbol("enthalpy", "mass")
         (cut,) = self.body.backend.pointwise(
-            clipped, fields, (fields["h"], None), reduce=(None, "sum"), h_limit=limit
+            clip_enthalpy, fields, (fields["h"], None), reduce=(None, "sum"), h_limit=limit
         )
         return cut
 
@@ -209,7 +212,7 @@ class Conduction:
         total["discarded"] += discarded
 
 
-def next_light(pulse: Any, time: float, longest: float) -> float:
+def next_light(pulse: PulseTrain, time: float, longest: float) -> float:
     """Largest step [s] that resolves the light from `time` on: `longest` while it is on."""
     step = longest
     while step < 1e4 * longest and not pulse.active(time, time + 2.0 * step):

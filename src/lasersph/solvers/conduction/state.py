@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 ENERGIES = (
-    "incident", "absorbed", "reflected", "transmitted", "stored", "lost", "removed", "discarded",
-    "rescaled",
-)  # fmt: skip
+    *("incident", "absorbed", "reflected", "transmitted"),
+    *("stored", "lost", "removed", "discarded", "rescaled"),
+)
 
 
 @dataclass

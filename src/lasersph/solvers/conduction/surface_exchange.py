@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from lasersph.compute.array_types import Array
 from lasersph.physics.evaporation import STANDARD_ATMOSPHERE
 from lasersph.physics.losses import evaporation_loss, surface_loss
 from lasersph.solvers.conduction.body import Body
@@ -12,14 +11,14 @@ NEVER = 1e9
 """Critical temperature of a metal that has none in its file: L_v stays constant [K]."""
 
 
-def cooled(T, area, T_a, h_c, eps):
+def surface_power(T, area, T_a, h_c, eps):
     """Power lost by a surface particle [W] and its slope in T [W/K]."""
     loss, slope = surface_loss(T, T_a, h_c, eps)
     return area * loss, area * slope, area * loss
 
 
-def evaporating(T, area, T_a, h_c, eps, p_b, T_b, L_b, T_c, R_s):
-    """As `cooled` with evaporation; also its power [W] and the mass flux [kg/(m^2 s)]."""
+def evaporating_power(T, area, T_a, h_c, eps, p_b, T_b, L_b, T_c, R_s):
+    """As `surface_power` with evaporation; also its power [W] and the mass flux [kg/(m^2 s)]."""
     loss, slope = surface_loss(T, T_a, h_c, eps)
     heat, heat_slope, mass = evaporation_loss(T, p_b, T_b, L_b, T_c, R_s)
     return area * (loss + heat), area * (slope + heat_slope), area * loss, area * heat, mass
@@ -39,7 +38,7 @@ class SurfaceExchange:
         self.power, self.slope, self.mass_flux = (backend.zeros(count) for _ in range(3))
         self.rows = backend.asarray(body.filling.surface, "index")
         self.is_idle = not evaporates and not body.ambient["h_c"] and not body.ambient["eps"]
-        self.constants: dict[str, Any] = dict(body.ambient)
+        self.constants: dict[str, float] = dict(body.ambient)
         vapor = body.material.vaporization
         if evaporates and vapor is not None:
             self.constants |= {
@@ -50,19 +49,18 @@ class SurfaceExchange:
                 "R_s": vapor.specific_gas_constant,
             }
 
-    def evaluate(self, temperature: Any) -> tuple[float, float]:
+    def evaluate(self, temperature: Array) -> tuple[float, float]:
         """Set power and slope; returns the power lost and the power removed by vapor [W]."""
         if self.is_idle:
             return 0.0, 0.0
         fields = {"T": temperature, "area": self.body.area}
         if not self.evaporates:
-            (lost,) = self.body.backend.pointwise(
-                cooled, fields, (self.power, self.slope, None), rows=self.rows,
-                reduce=(None, None, "sum"), **self.constants,
-            )  # fmt: skip
-            return lost, 0.0
-        lost, removed = self.body.backend.pointwise(
-            evaporating, fields, (self.power, self.slope, None, None, self.mass_flux),
-            rows=self.rows, reduce=(None, None, "sum", "sum", None), **self.constants,
-        )  # fmt: skip
-        return lost, removed
+            function, out = surface_power, (self.power, self.slope, None)
+            reduce = (None, None, "sum")
+        else:
+            function, out = evaporating_power, (self.power, self.slope, None, None, self.mass_flux)
+            reduce = (None, None, "sum", "sum", None)
+        lost, *removed = self.body.backend.pointwise(
+            function, fields, out, rows=self.rows, reduce=reduce, **self.constants
+        )
+        return lost, sum(removed)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from lasersph.compute.splice import PairRows, splice
 from lasersph.solvers.conduction.body import Body
@@ -34,7 +33,7 @@ class HeatPairs:
         """
         backend, body, pairs = self.backend, self.body, self.body.pairs
         rows = backend.rows_where(backend.head(block.has_row, block.complete_rows), 1.0)
-        weights: Any = block.weights
+        weights = block.weights
         fields = {"g_ij": block.weights} | block.rules
         if block.has_walls:
             out = (pairs.pull, body.wall_flow, body.wall_heat)

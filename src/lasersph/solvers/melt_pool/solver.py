@@ -8,13 +8,13 @@ step is that of `Conduction`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.solvers.conduction.solver import Conduction
+from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.flow import Flow, advect, move
@@ -67,8 +67,8 @@ class MeltPool:
         self._find_surface()
 
     @property
-    def state(self) -> Any:
-        """State of heat: time, energies, enthalpies."""
+    def state(self) -> HeatState:
+        """Time and energies."""
         return self.heat.state
 
     @property
@@ -77,7 +77,7 @@ class MeltPool:
         return self.body.count
 
     @property
-    def fields(self) -> dict[str, Any]:
+    def fields(self) -> dict[str, Array]:
         """Arrays of a checkpoint by name."""
         return self.particles.kept
 
@@ -210,7 +210,7 @@ class MeltPool:
             light.follow(self.position, self._depth, moved, T)
 
     def shift(self, step: float) -> None:
-        """Displacements that keep the particles evenly spread (73)."""
+        """Displacements that keep the density of particles even (73)."""
         surface = self.domain.surface
         at_face = self.kinds.dummy if surface is None else surface.at_surface
         speed = max(self.flow.largest_speed, self.domain.conditions.largest_wall_speed())

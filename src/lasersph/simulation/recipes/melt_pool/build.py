@@ -47,7 +47,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             material=case.material,
             viscosity=liquid.viscosity * liquid.density,
             has_stress=settings.marangoni,
-            held=_held_surface(case),
+            given=_given_temperature(case),
         )
     domain = PoolDomain(
         backend, layers, static, conditions, surface,
@@ -79,7 +79,7 @@ def liquid_of(case: Case, settings: MeltPoolSettings) -> Liquid:
     )
 
 
-def _held_surface(case: Case) -> ImposedTemperature | None:
+def _given_temperature(case: Case) -> ImposedTemperature | None:
     if case.boundaries.kind_of("surface") not in DIRICHLET:
         return None
     mean = case.boundaries.temperature_of("surface", case.initial_temperature)
