@@ -124,22 +124,12 @@ def flow_observers(
         box: a closed box that is all liquid has no melt pool, but center lines and heat through
             its walls.
     """
-    if not box:
-        heat = heat_observers(dimension, probes=probes, iterations=iterations)
-        flow = [FlowSpeed(dimension), SurfaceSpeed(), FlowExtrema(), SurfacePressure()]
-        return Observers([*heat.members, *flow])
-    return Observers(
-        [
-            Steps(tuple(iterations)),
-            SurfaceTemperature(),
-            EnergyBudget(dimension),
-            Probes(tuple(probes)),
-            FlowSpeed(dimension),
-            SurfaceSpeed(),
-            SurfacePressure(),
-            BoxFlow(),
-        ]
-    )
+    heat = heat_observers(dimension, probes=probes, iterations=iterations).members
+    flow = (FlowSpeed(dimension), SurfaceSpeed(), SurfacePressure())
+    if box:
+        here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
+        return Observers([*here, *flow, BoxFlow()])
+    return Observers([*heat, *flow, FlowExtrema()])
 
 
 def ablation_observers(

@@ -23,7 +23,7 @@ from lasersph.observers.ablation_view import CONDENSED, EJECTED, AblationView
 from lasersph.observers.crater import ablation_of
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.probes import weights_at
-from lasersph.observers.quantity import Quantity
+from lasersph.observers.quantity import Quantity, suffix
 from lasersph.observers.view import View
 from lasersph.output.settings import Trace
 
@@ -37,7 +37,7 @@ class Life:
 
     particle: int
     start: list[float]
-    temperature: float
+    temperature_end: float
     speed: float = 0.0
     height: float = 0.0
     stage: int = CONDENSED
@@ -57,14 +57,14 @@ class Life:
         k = self.particle
         if k >= view.temperature.size:
             return
-        self.temperature = float(view.temperature[k])
+        self.temperature_end = float(view.temperature[k])
         self.speed = float(np.linalg.norm(seen.velocity[:, k]))
         self.height = float(view.position[-1, k])
         self.stage = int(seen.stage[k])
-        self.temperature_max = max(self.temperature_max, self.temperature)
+        self.temperature_max = max(self.temperature_max, self.temperature_end)
         if self.melted_at is None and view.melt_fraction[k] > 0.0:
             self.melted_at = view.time
-        boils = view.vaporization is not None and self.temperature >= view.vaporization * (
+        boils = view.vaporization is not None and self.temperature_end >= view.vaporization * (
             1.0 - AT_BOILING
         )
         if self.boiled_at is None and (boils or self.stage != CONDENSED):
@@ -73,7 +73,7 @@ class Life:
             self.moved_at, self.speed_moved = view.time, self.speed
             self.step_moved = view.time_step
         if self.left_at is None and self.stage >= EJECTED:
-            self.left_at, self.temperature_left = view.time, self.temperature
+            self.left_at, self.temperature_left = view.time, self.temperature_end
             self.speed_left = self.speed
             self.vapor_pressure = float(seen.vapor_pressure[k])
 
@@ -88,6 +88,23 @@ class Life:
         return self.speed_left / self.step_moved if self.step_moved > 0.0 else None
 
 
+RESULTS = {
+    "start": ("m", "place at the start"),
+    "melted_at": ("s", "melted"),
+    "boiled_at": ("s", "boiled"),
+    "moved_at": ("s", "took on the velocity of the vapor"),
+    "left_at": ("s", "left"),
+    "temperature_max": ("K", "largest temperature"),
+    "temperature_left": ("K", "temperature when it left"),
+    "temperature_end": ("K", "temperature at the end"),
+    "speed_moved": ("m/s", "speed when it began to move"),
+    "speed_left": ("m/s", "speed when it left"),
+    "acceleration": ("m/s^2", "acceleration between both"),
+    "vapor_pressure": ("Pa", "vapor pressure when it left"),
+}
+"""Attributes of a `Life` that the summary gives, with unit and words."""
+
+
 class Traces(Observer):
     """Observes named particles."""
 
@@ -99,21 +116,8 @@ class Traces(Observer):
         Quantity("trace_<name>_stage", "", "0 body, 1 leaving, 2 in flight, 3 beyond the box"),
     )
     results = tuple(
-        Quantity(f"traces.<name>.{key}", unit, words)
-        for key, unit, words in (
-            ("start_m", "m", "place at the start"),
-            ("melted_at_s", "s", "melted"),
-            ("boiled_at_s", "s", "boiled"),
-            ("moved_at_s", "s", "took on the velocity of the vapor"),
-            ("left_at_s", "s", "left"),
-            ("temperature_max_K", "K", "largest temperature"),
-            ("temperature_left_K", "K", "temperature when it left"),
-            ("temperature_end_K", "K", "temperature at the end"),
-            ("speed_moved_m_s", "m/s", "speed when it began to move"),
-            ("speed_left_m_s", "m/s", "speed when it left"),
-            ("acceleration_m_s2", "m/s^2", "acceleration between both"),
-            ("vapor_pressure_Pa", "Pa", "vapor pressure when it left"),
-        )
+        Quantity(f"traces.<name>.{name}{suffix(unit)}", unit, words)
+        for name, (unit, words) in RESULTS.items()
     )
 
     def __init__(self, traces: tuple[Trace, ...]) -> None:
@@ -133,28 +137,15 @@ class Traces(Observer):
         values: list[float] = []
         for life in self.lives:
             life.update(view, seen)
-            values += [life.temperature, life.speed, life.height, float(life.stage)]
+            values += [life.temperature_end, life.speed, life.height, float(life.stage)]
         return self.record(view.time, values)
 
     def values(self) -> dict[str, object]:
         """Where each particle began and when it melted, boiled and left."""
         return {
-            f"traces.{trace.name}.{key}": value
+            f"traces.{trace.name}.{name}{suffix(unit)}": getattr(life, name)
             for trace, life in zip(self.traces, self.lives, strict=True)
-            for key, value in {
-                "start_m": life.start,
-                "melted_at_s": life.melted_at,
-                "boiled_at_s": life.boiled_at,
-                "moved_at_s": life.moved_at,
-                "left_at_s": life.left_at,
-                "temperature_max_K": life.temperature_max,
-                "temperature_left_K": life.temperature_left,
-                "temperature_end_K": life.temperature,
-                "speed_moved_m_s": life.speed_moved,
-                "speed_left_m_s": life.speed_left,
-                "acceleration_m_s2": life.acceleration,
-                "vapor_pressure_Pa": life.vapor_pressure,
-            }.items()
+            for name, (unit, _) in RESULTS.items()
         }
 
     def state(self) -> dict[str, Any]:
@@ -174,6 +165,6 @@ def life_at_start(trace: Trace, view: View) -> Life:
     return Life(
         particle=k,
         start=[float(value) for value in view.position[:, k]],
-        temperature=float(view.temperature[k]),
+        temperature_end=float(view.temperature[k]),
         height=float(view.position[-1, k]),
     )

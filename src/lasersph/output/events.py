@@ -15,7 +15,7 @@ from typing import Any
 
 from lasersph.output.atomic import to_json_values
 from lasersph.output.errors import OutputError, clear_errors
-from lasersph.output.history import complete_lines
+from lasersph.output.history import complete_lines, keep_lines
 
 
 class Events:
@@ -47,13 +47,7 @@ class Events:
 
     def cut(self, count: int) -> None:
         """Keep the first `count` events. Raises OutputError where the file holds fewer."""
-        lines = complete_lines(self.path) if self.path.exists() else []
-        if len(lines) < count:
-            raise OutputError(f"{self.path} holds fewer events than the checkpoint: {count}")
-        if self.path.exists():
-            length = len("".join(line + "\n" for line in lines[:count]).encode())
-            with clear_errors("write", self.path):
-                os.truncate(self.path, length)
+        keep_lines(self.path, count, "events")
         self.count = count
 
 

@@ -80,12 +80,7 @@ class History:
                 self.path.unlink(missing_ok=True)
             self.columns = ()
         else:
-            lines = complete_lines(self.path) if self.path.exists() else []
-            if len(lines) < rows + 1:
-                raise OutputError(f"{self.path} holds fewer rows than the checkpoint: {rows}")
-            length = len("".join(line + "\n" for line in lines[: rows + 1]).encode())
-            with clear_errors("write", self.path):
-                os.truncate(self.path, length)
+            lines = keep_lines(self.path, rows + 1, "rows")
             self.columns = tuple(lines[0].split(","))
         self.rows = rows
 
@@ -106,6 +101,21 @@ def complete_lines(path: Path) -> list[str]:
     with clear_errors("read", path):
         data = path.read_bytes()
     return data[: data.rfind(b"\n") + 1].decode(errors="replace").splitlines()
+
+
+def keep_lines(path: Path, count: int, what: str) -> list[str]:
+    """Keep the first lines of a text file, cut off the others, and return those kept.
+
+    Raises:
+        OutputError: the file holds fewer complete lines.
+    """
+    lines = complete_lines(path) if path.exists() else []
+    if len(lines) < count:
+        raise OutputError(f"{path} holds fewer {what} than the checkpoint: {count}")
+    if path.exists():
+        with clear_errors("write", path):
+            os.truncate(path, sum(len(line.encode()) + 1 for line in lines[:count]))
+    return lines[:count]
 
 
 def read_history(path: Path) -> dict[str, np.ndarray]:

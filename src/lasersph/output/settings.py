@@ -42,8 +42,8 @@ class OutputSettings(Model):
     )
 
 
-class Probe(Model):
-    """A named point whose temperature is recorded in every step."""
+class NamedPoint(Model):
+    """A point of the metal with a name."""
 
     name: Annotated[
         str,
@@ -51,22 +51,17 @@ class Probe(Model):
             min_length=1,
             max_length=40,
             pattern=r"^[A-Za-z0-9_-]+$",
-            description="letters, digits, - and _; names the history column probe_<name>_K",
+            description="letters, digits, - and _; stands in the names of the history columns",
         ),
     ]
     depth: Length = Field(default=0.0, description="below the original surface")
     x: Length = Field(default=0.0, description="not used in 1-D")
     y: Length = Field(default=0.0, description="used in 3-D")
-    method: Literal["nearest", "linear", "even"] = Field(
-        default="nearest",
-        description="nearest: the closest particle; linear: exact for linear fields; even: exact "
-        "for fields of no slope at the surface, for adiabatic surfaces",
-    )
 
     @field_validator("depth")
     @classmethod
     def _below_the_surface(cls, depth: float) -> float:
-        """A probe lies in the metal."""
+        """The point lies in the metal."""
         if depth < 0.0:
             raise ValueError("a depth is counted downward from the surface and not negative")
         return depth
@@ -76,24 +71,15 @@ class Probe(Model):
         return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
 
 
-class Trace(Model):
-    """A named particle that is followed: the one closest to a point at the start."""
+class Probe(NamedPoint):
+    """A named point whose temperature is recorded in every step."""
 
-    name: Annotated[
-        str,
-        Field(
-            min_length=1,
-            max_length=40,
-            pattern=r"^[A-Za-z0-9_-]+$",
-            description="letters, digits, - and _; names the history columns trace_<name>_...",
-        ),
-    ]
-    depth: Annotated[Length, Field(ge=0.0)] = Field(
-        default=0.0, description="below the original surface"
+    method: Literal["nearest", "linear", "even"] = Field(
+        default="nearest",
+        description="nearest: the closest particle; linear: exact for linear fields; even: exact "
+        "for fields of no slope at the surface, for adiabatic surfaces",
     )
-    x: Length = Field(default=0.0, description="not used in 1-D")
-    y: Length = Field(default=0.0, description="used in 3-D")
 
-    def place(self, dimension: int) -> np.ndarray:
-        """Coordinates of the point, (dim,) [m]."""
-        return np.array({1: (), 2: (self.x,), 3: (self.x, self.y)}[dimension] + (-self.depth,))
+
+class Trace(NamedPoint):
+    """A named particle that is followed: the one closest to a point at the start."""
