@@ -115,6 +115,7 @@ class Rates:
         if self.moving is Moving.VAPOR:
             term, how["factor"] = pair_heat, self.parameters.weight_factor
         else:
+            assert self.weights is not None
             term, pairs, fields["g_ij"] = harmonic_flow, self.pairs.now, self.weights
         (lost,) = pair_sum(term, pairs, fields, (self._dh, None), rows=rows, **how)
         return lost

@@ -56,6 +56,12 @@ class AblationState:
 
     def count_ejecta(self, ejecta: Ejecta) -> None:
         """Count what left in a step."""
-        self.ejecta = Ejecta(*(was + new for was, new in zip(self.ejecta, ejecta, strict=True)))
+        was = self.ejecta
+        self.ejecta = Ejecta(
+            was.number + ejecta.number,
+            was.mass + ejecta.mass,
+            was.energy + ejecta.energy,
+            was.kinetic + ejecta.kinetic,
+        )
         self.energy["removed"] += ejecta.energy
         self.energy["stored"] -= ejecta.energy

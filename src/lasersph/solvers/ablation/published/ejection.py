@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import inf
+from typing import Any
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
@@ -36,7 +37,7 @@ class PublishedEjection:
     ) -> None:
         self.backend, self.vapor = backend, vapor
         self._covered = backend.zeros(count)
-        self._layer = {"distance": NEXT_LAYER * spacing, "alignment": ALIGNMENT}
+        self._layer: dict[str, Any] = {"distance": NEXT_LAYER * spacing, "alignment": ALIGNMENT}
         self._rule = {"T_v": vapor.temperature, "distance": left_after, **vapor.speed}
 
     def longest_step(self, flux: float, density: float) -> float:
