@@ -56,7 +56,7 @@ def load_case(
     Args:
         name_or_path: "dlip-steel" or "my-case.toml".
         overrides: settings like "laser.fluence=0.8 J/cm^2"; later ones win.
-        quick: four times coarser, where `overrides` do not say otherwise.
+        quick: coarser, see `case.quick`, where `overrides` do not say otherwise.
 
     Raises:
         CaseError: every problem of the case in one line: file, line, key, what is wrong.

@@ -1,21 +1,29 @@
-"""`--quick`: the same case four times coarser, to see within seconds that it works."""
+"""`--quick`: the same case coarser, to see within seconds that it works and what it is about."""
 
 from __future__ import annotations
 
+from lasersph.analytic.half_space import ablated_depth
 from lasersph.case.case import Case
+from lasersph.input import format_quantity
 
 COARSER = 4.0
 FEWEST_CELLS = 10
 LONGER = 2.0
+SHOWN = 1.25
+"""Particles that a depth needs to be seen: where it is estimated a fifth too large, one is left."""
 
 
 def quick_settings(case: Case) -> list[str]:
     """Overrides that make a case coarse: spacing times 4 and steps times 2.
 
-    At least 10 cells stay along each side of the domain.
+    At least 10 cells stay along each side of the domain, and a crater that is expected stays deeper
+    than a particle.
     """
     sides = [high - low for low, high in case.domain.lateral(case.solver.dimensions)]
     largest = min([case.domain.depth, *sides]) / FEWEST_CELLS
+    crater = expected_crater(case)
+    if crater:
+        largest = min(largest, crater / SHOWN)
     spacing = max(case.particles.spacing, min(COARSER * case.particles.spacing, largest))
     settings = [f"particles.spacing={spacing!r} m"]
     if case.particles.coarsest < spacing:
@@ -25,3 +33,37 @@ def quick_settings(case: Case) -> list[str]:
     if case.time.step is not None and not case.solver.is_explicit:
         settings.append(f"time.step={LONGER * case.time.step!r} s")
     return settings
+
+
+def expected_crater(case: Case) -> float:
+    """Depth that light is expected to ablate by heat alone [m]; 0 where nothing can be ablated."""
+    laser, material = case.laser, case.material
+    boiling = material.vaporization
+    if laser is None or boiling is None or "ejection" not in case.solver.reads:
+        return 0.0
+    cold = case.initial_temperature
+    reflectivity = float(laser.reflectivity_table(material, cold, cold + 1.0)[1][0])
+    if case.ejection is not None and case.ejection.reflectivity is not None:
+        reflectivity = case.ejection.reflectivity
+    return ablated_depth(
+        (1.0 - reflectivity) * laser.peak_fluence,
+        laser.pulse.on_time or 100.0 * laser.pulse.resolution,
+        density=material.density_reference,
+        heat_capacity=float(material.heat_capacity_at(material.reference_temperature)),
+        diffusivity=material.diffusivity_reference,
+        rise=boiling.temperature - cold,
+        latent_heat=boiling.latent_heat
+        + (0.0 if material.melting is None else material.melting.latent_heat),
+    )
+
+
+def what_is_not_shown(case: Case) -> str:
+    """One line where a particle is larger than the crater to be found; empty elsewhere."""
+    crater, spacing = expected_crater(case), case.particles.spacing
+    if crater == 0.0 or spacing <= crater:
+        return ""
+    return (
+        f"the crater of a pulse is expected to be {format_quantity(crater, 'm', 3)} deep, less "
+        f"than a particle of {format_quantity(spacing, 'm', 3)}: it is not shown; take a finer "
+        "spacing"
+    )

@@ -21,7 +21,9 @@ Settings = Annotated[
     ),
 ]
 Out = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder to write into.")]
-Quick = Annotated[bool, typer.Option("--quick", help="Four times coarser, to see that it works.")]
+Quick = Annotated[
+    bool, typer.Option("--quick", help="Up to four times coarser, to see that it works.")
+]
 Threads = Annotated[
     int | None, typer.Option("--threads", min=1, metavar="N", help="Default: all processors.")
 ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 import signal
+import sys
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -79,9 +80,12 @@ def run(
 ) -> None:
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
     from lasersph.case import load_case
+    from lasersph.case.quick import what_is_not_shown
 
     refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
+    if not_shown := what_is_not_shown(loaded):
+        print(f"warning: {not_shown}", file=sys.stderr)
     folder = out or RUNS / loaded.name
     command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
     command += [word for setting in settings or () for word in ("--set", setting)]

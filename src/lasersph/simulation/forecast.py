@@ -8,6 +8,7 @@ from typing import Any
 
 from lasersph.case import Case
 from lasersph.case.active_region import active_share
+from lasersph.case.quick import what_is_not_shown
 from lasersph.case.size import BYTES_PER_PARTICLE, neighbor_count
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
@@ -105,7 +106,7 @@ def _lengths(case: Case) -> tuple[float | None, float | None]:
 def _warnings(
     case: Case, layers: Layers, length: float | None, penetration: float | None
 ) -> list[str]:
-    found = []
+    found = [text] if (text := what_is_not_shown(case)) else []
     spacing = layers.spacing
     if abs(spacing - case.particles.spacing) > 1e-2 * case.particles.spacing:
         found.append(

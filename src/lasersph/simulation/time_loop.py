@@ -73,11 +73,13 @@ def run(
         should_stop: asked after each step; True writes a checkpoint and raises `Stopped`.
 
     Raises:
-        CaseError: too large for this machine or its card. FolderRefused, OutputError: see `output`.
+        CaseError: too large for this machine or its card. ValueError: two observers with
+            the same column. FolderRefused, OutputError: see `output`.
         NoDevice: no graphics card for backend "cuda".
         StepFailed: a step does not converge however small; the last checkpoint is kept.
     """
     refuse_if_too_large(case, backend)
+    Observers(observers)  # refuses them before anything is written
     device = compute.cuda(precision) if backend == "cuda" else compute.cpu(threads, precision)
     chosen = recipe_of(case) if recipe is None else recipe(case)
     own = "" if recipe is None else f"-{recipe.__name__}"

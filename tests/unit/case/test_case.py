@@ -15,7 +15,7 @@ from lasersph.case import (
 )
 from lasersph.case import size as size_module
 from lasersph.case.checks import refuse_if_too_large
-from lasersph.case.quick import quick_settings
+from lasersph.case.quick import expected_crater, quick_settings, what_is_not_shown
 from lasersph.case.size import in_words
 from lasersph.compute import cuda_device
 from lasersph.input import CaseError
@@ -207,12 +207,13 @@ def test_names_of_cases():
 
 @pytest.mark.parametrize("name", available_cases())
 def test_quick_is_four_times_coarser(name):
-    """Spacing times 4 but 10 cells at least, steps times 2 (implicit), unless an override says
-    otherwise."""
+    """Spacing times 4 but 10 cells at least and finer than a crater, steps times 2 (implicit),
+    unless an override says otherwise."""
     usual, quick = load_case(name), load_case(name, quick=True)
     sides = [high - low for low, high in usual.domain.lateral(usual.solver.dimensions)]
     coarser = min(4 * usual.particles.spacing, min([usual.domain.depth, *sides]) / 10)
-    assert math.isclose(quick.particles.spacing, coarser)
+    crater = expected_crater(usual)
+    assert math.isclose(quick.particles.spacing, min(coarser, crater / 1.25) if crater else coarser)
     scheme = getattr(usual.solver, "scheme", "implicit")
     is_explicit = usual.solver.kind == "ablation" or scheme == "explicit"
     if usual.time.step is not None and not is_explicit:
@@ -220,6 +221,21 @@ def test_quick_is_four_times_coarser(name):
     spacing = 0.5 * usual.particles.spacing
     chosen = load_case(name, [f"particles.spacing={spacing} m"], quick=True)
     assert chosen.particles.spacing == spacing
+
+
+@pytest.mark.parametrize("name", ["ablation-aluminium", "ablation-depth"])
+def test_quick_shows_the_crater(name):
+    """0.55 um deep by the balance of energy; particles of 0.8 um leave a crater of 0 m."""
+    quick = load_case(name, quick=True)
+    assert expected_crater(quick) == pytest.approx(0.55e-6, rel=0.01)
+    assert quick.particles.spacing < 0.45e-6
+    assert what_is_not_shown(quick) == ""
+    coarse = load_case(name, ["particles.spacing=0.8 um"], quick=True)
+    assert what_is_not_shown(coarse) == (
+        "the crater of a pulse is expected to be 550 nm deep, less than a particle of 800 nm: it "
+        "is not shown; take a finer spacing"
+    )
+    assert what_is_not_shown(load_case("dlip-steel")) == ""
 
 
 def test_quick_keeps_ten_cells():

@@ -37,9 +37,10 @@ def test_own_observer_survives_a_stop(tmp_path):
 
 
 def test_own_column_twice(tmp_path):
-    """Two observers that fill the same column are refused."""
+    """Two observers that fill the same column are refused before anything is written."""
     with pytest.raises(ValueError, match="same history column"):
-        run(load_case("stefan", CASE), tmp_path, observers=[Coldest(), Coldest()])
+        run(load_case("stefan", CASE), tmp_path / "run", observers=[Coldest(), Coldest()])
+    assert not (tmp_path / "run").exists()
 
 
 def test_own_recipe_is_remembered(tmp_path):
