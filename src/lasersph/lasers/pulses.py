@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.input import Count, Model, Time
+from lasersph.input import Count, Model, Time, format_quantity
 
 Array = NDArray[np.float64]
 PositiveTime = Annotated[Time, Field(gt=0)]
@@ -127,7 +127,8 @@ class SquarePulse(PulseTrain):
     def _check_overlap(self) -> SquarePulse:
         if self.count > 1 and self.period is not None and self.period < self.duration:
             raise ValueError(
-                f"pulses of {self.duration:g} s would overlap with a period of {self.period:g} s; "
+                f"pulses of {format_quantity(self.duration, 's')} would overlap with a period of "
+                f"{format_quantity(self.period, 's')}; "
                 "the period runs from start to start and must not be shorter than the duration"
             )
         return self
@@ -166,8 +167,9 @@ class GaussianPulse(PulseTrain):
     def _check_center(self) -> GaussianPulse:
         if self.center < 2.0 * self.fwhm:
             raise ValueError(
-                f"a pulse of fwhm {self.fwhm:g} s centered at {self.center:g} s begins before the "
-                f"run does; give a center of at least two fwhm, {2.0 * self.fwhm:g} s"
+                f"a pulse of fwhm {format_quantity(self.fwhm, 's')} centered at "
+                f"{format_quantity(self.center, 's')} begins before the run does; give a center of "
+                f"at least two fwhm, {format_quantity(2.0 * self.fwhm, 's')}"
             )
         return self
 
@@ -219,7 +221,9 @@ class TabulatedPulse(PulseTrain):
     def _check_table(self) -> TabulatedPulse:
         times = np.array([row[0] for row in self.table])
         if times[0] < 0.0:
-            raise ValueError(f"the table begins at {times[0]:g} s; times must not be negative")
+            raise ValueError(
+                f"the table begins at {format_quantity(times[0], 's')}; times must not be negative"
+            )
         if np.any(np.diff(times) < 0.0) or np.any(times[2:] == times[:-2]):
             raise ValueError(
                 "the times of a pulse table must rise from row to row; two rows at one time make "
@@ -229,8 +233,8 @@ class TabulatedPulse(PulseTrain):
             raise ValueError("a pulse table of zeros holds no energy; give a power above 0")
         if self.count > 1 and self.period is not None and self.period < times[-1] - times[0]:
             raise ValueError(
-                f"the table spans {times[-1] - times[0]:g} s, longer than the period of "
-                f"{self.period:g} s; the pulses would overlap"
+                f"the table spans {format_quantity(times[-1] - times[0], 's')}, longer than the "
+                f"period of {format_quantity(self.period, 's')}; the pulses would overlap"
             )
         return self
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lasersph.input import format_quantity
 from lasersph.output.settings import SnapshotPlan
 
 DEFAULT_COUNT = 40
@@ -23,7 +24,7 @@ class SnapshotSchedule:
         if end / interval > LARGEST_COUNT:
             raise ValueError(
                 f"{end / interval:.0f} snapshots are too many:"
-                f" give an interval of at least {end / LARGEST_COUNT:.3g} s"
+                f" give an interval of at least {format_quantity(end / LARGEST_COUNT, 's')}"
             )
         multiples = interval * np.arange(int(end / interval) + 1)
         wanted = np.concatenate([multiples, np.array(plan.times), [end]])

@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from lasersph.input import Length, Model
+from lasersph.input import Length, Model, format_quantity
 
 KernelName = Literal["cubic-spline", "quintic-spline", "wendland-c2"]
 Size = Annotated[Length, Field(gt=0)]
@@ -54,7 +54,7 @@ class Lattice(Model):
     def _check_sizes(self) -> Lattice:
         if self.arrangement == "graded" and self.coarsest < self.spacing:
             raise ValueError(
-                f"coarsest ({self.coarsest:g} m) is finer than the spacing ({self.spacing:g} m); "
-                "give a coarsest spacing above it"
+                f"coarsest ({format_quantity(self.coarsest, 'm')}) is finer than the spacing "
+                f"({format_quantity(self.spacing, 'm')}); give a coarsest spacing above it"
             )
         return self

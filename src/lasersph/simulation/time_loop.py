@@ -17,6 +17,7 @@ from typing import Any
 from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
+from lasersph.input import format_quantity
 from lasersph.observers import Observer, Observers
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
@@ -144,7 +145,7 @@ class _Loop:
         self.solver.restore(dict(checkpoint.arrays), scalars["solver"])
         self.observers.restore(scalars["observers"])
         self.snapshots.restore(scalars["snapshots"])
-        self.folder.log(f"resumed at step {self.steps}, {checkpoint.time:.6g} s")
+        self.folder.log(f"resumed at step {self.steps}, {format_quantity(checkpoint.time, 's')}")
         self.folder.events.append(
             "resumed", time=checkpoint.time, step=self.steps, backend=self._backend.name
         )
@@ -167,7 +168,9 @@ class _Loop:
                 progress(self._progress())
             if should_stop():
                 self._save()
-                raise Stopped(f"stopped at {state.time:.4g} s after {self.steps} steps")
+                raise Stopped(
+                    f"stopped at {format_quantity(state.time, 's')} after {self.steps} steps"
+                )
 
     def _progress(self) -> RunProgress:
         time, wall = self.solver.state.time, clock.monotonic()
@@ -194,9 +197,10 @@ class _Loop:
         except StepFailed as error:
             self._save()
             self._snapshot(self._view())
+            time = format_quantity(self.solver.state.time, "s")
             raise StepFailed(
-                f"{error}; stopped at {self.solver.state.time:.6g} s after {self.steps} steps, "
-                "the checkpoint and the last good snapshot are kept"
+                f"{error}; stopped at {time} after {self.steps} steps, the checkpoint and the last "
+                "good snapshot are kept"
             ) from error
 
     def finish(self) -> dict[str, Any]:

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from lasersph.analytic.convergence import Convergence, assess
+from lasersph.input import format_quantity
 from lasersph.studies.variation import Run, changed, simulate
 
 NOT_ANSWERS = re.compile(
@@ -57,7 +58,7 @@ class SpacingStudy:
 
     def table(self) -> list[list[str]]:
         """Header and rows as text: number, values, kind, order, extrapolated value, GCI."""
-        header = ["number", *(f"{1e9 * d:.4g} nm" for d in self.spacings)]
+        header = ["number", *(format_quantity(d, "m") for d in self.spacings)]
         lines = [[*header, "behavior", "order", "at zero spacing", "GCI"]]
         for row in self.rows:
             c = row.convergence
@@ -107,7 +108,7 @@ def converge(
     used, numbers, cells = [], [], 1
     for number, spacing in enumerate(reversed(wanted), start=1):
         if report:
-            report(f"run {number} of {len(wanted)}: spacing {1e9 * spacing:.4g} nm")
+            report(f"run {number} of {len(wanted)}: spacing {format_quantity(spacing, 'm')}")
         folder = out / f"spacing-{1e9 * spacing:.4g}nm"
         summary = run(changed(case, "particles.spacing", spacing), folder).summary
         used.insert(0, float(summary.get("spacing_m", spacing)))

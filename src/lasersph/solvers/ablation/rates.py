@@ -16,6 +16,7 @@ from math import isfinite, sqrt
 
 from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array, Rows
+from lasersph.input import format_quantity
 from lasersph.particles.particles import Particles
 from lasersph.particles.verlet_list import VerletList
 from lasersph.solvers.ablation.equations import (
@@ -140,7 +141,9 @@ class Rates:
             least = LEAST_DENSITY * particles.material.density_reference
             is_stable = isfinite(stored) and isfinite(force) and thinnest > least
         if not is_stable:
-            raise NotConverged(f"a step of {step:.4g} s is unstable; take shorter ones")
+            raise NotConverged(
+                f"a step of {format_quantity(step, 's')} is unstable; take shorter ones"
+            )
         return stored
 
     def advance(self, target: Particles, source: Particles, step: float, rows: Rows | None) -> None:

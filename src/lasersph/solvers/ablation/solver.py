@@ -14,6 +14,7 @@ import numpy as np
 
 from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.compute.array_types import Array, Rows
+from lasersph.input import format_quantity
 from lasersph.irradiation.first_hit import FirstHitLight
 from lasersph.irradiation.light import energies
 from lasersph.particles.kinds import EJECTED
@@ -210,7 +211,8 @@ class Ablation:
         motion = LargestMotion(step, state.speed, state.acceleration)
         if not 2.0 * motion.displacement <= pairs.largest_skin:
             raise NotConverged(
-                f"matter moves {motion.displacement:.3g} m in {step:.3g} s; take shorter steps"
+                f"matter moves {format_quantity(motion.displacement, 'm')} in "
+                f"{format_quantity(step, 's')}; take shorter steps"
             )
         if has_grown or pairs.is_stale(motion, self.rows):
             pairs.rebuild(motion, self.rows)

@@ -9,6 +9,7 @@ import numpy as np
 from lasersph.boundaries.surface import Surface
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
 from lasersph.solvers.melt_pool.block import Block, StaticParticleData
 from lasersph.solvers.melt_pool.face_conditions import FACES, FaceConditions
@@ -97,8 +98,9 @@ class PoolDomain:
         (deepest,) = self.backend.pointwise(fluid_depth, fields, (None,), reduce=("max",))
         if deepest > self.fine_depth and not self.is_box:
             raise PoolTooDeep(
-                f"the melt is {deepest:.4g} m deep and flows into layers coarser than "
-                f"{self.spacing:.4g} m, which begin at {self.fine_depth:.4g} m; give "
+                f"the melt is {format_quantity(deepest, 'm')} deep and flows into layers coarser "
+                f"than {format_quantity(self.spacing, 'm')}, which begin at "
+                f"{format_quantity(self.fine_depth, 'm')}; give "
                 f'particles.fine_depth = "{1.3e9 * deepest:.0f} nm" or more'
             )
         total = self._bottom.size

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lasersph.compute.backend import Backend
+from lasersph.input import format_quantity
 from lasersph.observers import Observers, ablation_observers
 from lasersph.observers.view import View
 from lasersph.physics.compressible_limits import compressible_limits
@@ -83,10 +84,11 @@ class AblationRecipe(Recipe[AblationSettings, Ablation]):
             return []
         moving = self.motion_limits(is_still=False)
         name = min(moving, key=lambda key: moving[key])
-        words = f"once condensed matter moves, steps are limited to {moving[name]:.3g} s ({name})"
+        limit = format_quantity(moving[name], "s")
+        words = f"once condensed matter moves, steps are limited to {limit} ({name})"
         step = self.case.time.fixed_step
         if step is not None and step > moving[name]:
-            words += f", less than the fixed one of {step:.3g} s"
+            words += f", less than the fixed one of {format_quantity(step, 's')}"
         return [words]
 
     def summary(self) -> dict[str, Any]:
