@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries.settings import TemperatureWave
-from lasersph.boundaries.surface import PressureCondition, SurfaceNeighbors
+from lasersph.boundaries.surface import PressureCondition, SurfaceNeighbors, upward
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, interpolate
@@ -105,7 +105,7 @@ class FlatSurface:
         given: ImposedTemperature | None,
     ) -> None:
         self.backend, self.viscosity, self.given = backend, viscosity, given
-        self.normal, self.tangent, self.has_stress = (0.0, 1.0), (1.0, 0.0), has_stress
+        self.normal, self.tangent, self.has_stress = upward(2), (1.0, 0.0), has_stress
         self.normal_velocity = self.heat_flux = 0.0
         self.pressure: PressureCondition | None = None
         self._place = {"n": self.normal, "plane": plane, "near": spacing, "far": support}

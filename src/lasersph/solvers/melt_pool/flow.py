@@ -19,7 +19,7 @@ from math import isfinite
 
 import numpy as np
 
-from lasersph.boundaries.surface import Surface
+from lasersph.boundaries.surface import Surface, upward
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.vectors import dot
 from lasersph.particles.particles import Particles
@@ -220,7 +220,7 @@ class Flow:
             beta=liquid.expansion,
             T_l=liquid.reference_temperature,
             g=liquid.gravity,
-            up=(0.0, 1.0),
+            up=upward(2),
         )
         self.iterations["viscosity"] = self.viscous.advance(
             block, self.velocity, self.body_force, self.ghost_velocity_jump(), kinds, step

@@ -11,6 +11,7 @@ particle comes closer to a face than three tenths.
 
 from __future__ import annotations
 
+from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, matvec, outer, vector
@@ -135,7 +136,7 @@ class ParticleShifting:
             self.displacement,
             finish=shift,
             rows=kinds.fluid_rows,
-            normal=(0.0, 1.0),
+            normal=upward(2),
             scale=self.factor * speed * step,
             limit=LARGEST * self.spacing,
         )
