@@ -9,8 +9,8 @@ from __future__ import annotations
 import ast
 import inspect
 import types
-from typing import TYPE_CHECKING
 from typing import Any as AnyObject
+from typing import Protocol
 
 from lasersph.compute import algebra
 from lasersph.compute.intrinsics import intrinsic, is_helper
@@ -21,6 +21,7 @@ from lasersph.compute.values import (
     LoopSourceError,
     Number,
     boolean_text,
+    constant,
     flat_parts,
     is_atom,
     joined_kind,
@@ -29,9 +30,6 @@ from lasersph.compute.values import (
     scalar,
 )
 
-if TYPE_CHECKING:
-    from lasersph.compute.source import SourceUnit
-
 _BINARY = {
     ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
     ast.Pow: "**",
@@ -39,11 +37,27 @@ _BINARY = {
 _COMPARE = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 
 
+class Unit(Protocol):
+    """What knows the names that functions read, and writes those that they call: `SourceUnit`."""
+
+    def add(self, function: types.FunctionType, kinds: tuple) -> tuple[str, AnyObject]:
+        """Name in the generated file and kind of the result."""
+        ...
+
+    def look_up(self, function: types.FunctionType, name: str) -> AnyObject:
+        """Object that a global name means inside a function."""
+        ...
+
+    def attribute(self, owner: AnyObject, name: str) -> AnyObject:
+        """Attribute of a module or of a constant object."""
+        ...
+
+
 class ExpressionWriter:
     """Writes the expressions of one function, and the statements that they need before them."""
 
     def __init__(
-        self, unit: SourceUnit, function: types.FunctionType, tree: ast.FunctionDef, place: tuple
+        self, unit: Unit, function: types.FunctionType, tree: ast.FunctionDef, place: tuple
     ) -> None:
         self.unit, self.function, self.tree = unit, function, tree
         self.file, self.first_line = place
@@ -110,8 +124,6 @@ class ExpressionWriter:
 
     def name(self, node: ast.expr) -> Any:
         """Local variable or module constant."""
-        from lasersph.compute.source import constant
-
         if isinstance(node, ast.Name) and node.id in self.locals:
             return self.locals[node.id]
         found = constant(self.resolved(node))
@@ -210,8 +222,6 @@ class ExpressionWriter:
         self, target: types.FunctionType, values: list[Any], options: dict[str, Any]
     ) -> Any:
         """Call of a plain Python function, which is written into the same file."""
-        from lasersph.compute.source import constant
-
         try:
             bound = inspect.signature(target).bind(*values, **options)
         except TypeError as error:

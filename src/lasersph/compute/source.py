@@ -18,7 +18,7 @@ from functools import cache
 from typing import Any as AnyObject
 
 from lasersph.compute.translate import FunctionWriter
-from lasersph.compute.values import Group, LoopSourceError, Number
+from lasersph.compute.values import LoopSourceError
 
 
 class SourceUnit:
@@ -83,22 +83,6 @@ class SourceUnit:
 def is_current(watched: tuple[tuple[AnyObject, str, AnyObject], ...]) -> bool:
     """Whether every watched name still means the same object."""
     return not [name for space, name, value in watched if space.get(name) is not value]
-
-
-def constant(value: AnyObject) -> Number | Group | None:
-    """Literal for a module constant; None where the object is no number or tuple of numbers."""
-    if isinstance(value, bool):
-        return Number(value)
-    if hasattr(value, "dtype") and getattr(value, "ndim", None) == 0:
-        value = value.item()
-    if isinstance(value, int):
-        return Number(int(value))
-    if isinstance(value, float):
-        return Number(float(value))
-    if isinstance(value, tuple):
-        items = tuple(constant(item) for item in value)
-        return None if None in items else Group(items)  # type: ignore[arg-type]
-    return None
 
 
 def parsed(function: AnyObject) -> tuple[ast.FunctionDef, str, int]:

@@ -58,6 +58,22 @@ class Group:
 Any = Number | Value | Group
 
 
+def constant(value: object) -> Number | Group | None:
+    """Literal for a module constant; None where the object is no number or tuple of numbers."""
+    if isinstance(value, bool):
+        return Number(value)
+    if hasattr(value, "dtype") and getattr(value, "ndim", None) == 0:
+        value = value.item()  # type: ignore[attr-defined]
+    if isinstance(value, int):
+        return Number(int(value))
+    if isinstance(value, float):
+        return Number(float(value))
+    if isinstance(value, tuple):
+        items = tuple(constant(item) for item in value)
+        return None if None in items else Group(items)  # type: ignore[arg-type]
+    return None
+
+
 def scalar(text: str, kind: str = "real") -> Value:
     """Scalar value from its code."""
     return Value(kind, (), (text,))

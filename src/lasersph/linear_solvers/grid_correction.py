@@ -29,6 +29,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.dense import invert
 from lasersph.compute.routine import Step
 from lasersph.linear_solvers import grid_nodes, grid_transfer
 from lasersph.linear_solvers.cells import Axis, Bins, Cells, find_bins
@@ -227,8 +228,6 @@ def _inverse(backend: Backend, level: Level) -> np.ndarray:
     """(n n,) inverse of K on the coarsest grid, with 0 in rows and columns of vanishing pivots.
 
     Vanishing beside the largest: a node that particles touch by a rounding error has nothing else.
-    Gauss and Jordan's elimination, stable without exchange for matrices that are not negative, in
-    elementwise operations: a library's may depend on its number of threads.
     """
     n, stencil = level.count, level.stencil
     s, a = (backend.to_host(level.at[name]).astype(np.float64) for name in ("s", "a"))
@@ -245,19 +244,4 @@ def _inverse(backend: Backend, level: Level) -> np.ndarray:
             g = stencil["aslant" if i and j else "across" if i else "along"] * s[k] * s[other[k]]
             K[k, other[k]] -= g
             K[k, k] += g
-    least = VANISHING * np.diag(K).max(initial=0.0)
-    is_kept = np.ones(n, bool)
-    for k in range(n):
-        pivot = K[k, k]
-        if pivot <= least:
-            is_kept[k] = False
-            continue
-        K[k, k] = 1.0
-        K[k] /= pivot
-        factor = K[:, k].copy()
-        factor[k] = 0.0
-        K[:, k] *= np.arange(n) == k
-        K -= factor[:, None] * K[k]
-    K[~is_kept] = 0.0
-    K[:, ~is_kept] = 0.0
-    return K.ravel()
+    return invert(K, VANISHING * np.diag(K).max(initial=0.0)).ravel()

@@ -26,6 +26,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.dense import invert
 from lasersph.compute.launch import Launch
 from lasersph.compute.routine import Step
 from lasersph.linear_solvers.aggregation import Aggregates, coarsen
@@ -265,11 +266,7 @@ class Multigrid:
 
 
 def _inverse(backend: Backend, level: _Level, s: float) -> np.ndarray:
-    """(n n,) inverse of A on the coarsest level.
-
-    Gauss and Jordan's elimination, stable without pivots for positive definite A, in elementwise
-    operations: a library's may depend on its number of threads.
-    """
+    """(n n,) inverse of A on the coarsest level."""
     n = level.count
     start = backend.to_host(level.pairs.row_start).astype(np.int64)
     row = np.repeat(np.arange(n), np.diff(start))
@@ -278,12 +275,4 @@ def _inverse(backend: Backend, level: _Level, s: float) -> np.ndarray:
     column = backend.to_host(level.pairs.neighbor)
     A[row, column] = -s * w[row] * w[column] * backend.to_host(level.weights)
     A[np.arange(n), np.arange(n)] = backend.to_host(level.d)
-    for k in range(n):
-        pivot = A[k, k]
-        A[k, k] = 1.0
-        A[k] /= pivot
-        factor = A[:, k].copy()
-        factor[k] = 0.0
-        A[:, k] *= np.arange(n) == k
-        A -= factor[:, None] * A[k]
-    return A.ravel()
+    return invert(A).ravel()
