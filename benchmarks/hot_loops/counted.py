@@ -100,7 +100,7 @@ class Table:
         return Counted(self.array[place], self.tally)
 
 
-def counted(value: Any, tally: Tally) -> Any:
+def as_counted(value: Any, tally: Tally) -> Any:
     """A number or vector as counted ones; whole numbers as they are."""
     array = np.asarray(value)
     if array.dtype.kind != "f":

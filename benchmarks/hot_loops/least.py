@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from hot_loops.counted import Table, Tally, counted
+from hot_loops.counted import Table, Tally, as_counted
 from lasersph.compute.signature import Call, Signature, listed
 from lasersph.compute.vectors import norm
 
@@ -136,7 +136,7 @@ class _Given:
                 values.append(_at(self.arrays[symbol], i))
             else:
                 array = self.arrays[symbol]
-                values.append(counted(_at(array, j if role == "neighbor" else pair), tally))
+                values.append(as_counted(_at(array, j if role == "neighbor" else pair), tally))
         return listed(function(*values))  # type: ignore[return-value]
 
     def _geometry(self, wanted: set[str], i: int, j: int, tally: Tally) -> dict[str, Any]:
@@ -145,12 +145,12 @@ class _Given:
         lists = self.call.neighbors
         if wanted - {"l_ij"}:
             x = self.arrays["x"]
-            found["x_ij"] = x[:, i] - counted(x[:, j], tally)
+            found["x_ij"] = x[:, i] - as_counted(x[:, j], tally)
         if wanted & {"r_ij", "W_ij", "dW_ij"}:
             found["r_ij"] = norm(found["x_ij"])
         if wanted & {"l_ij", "W_ij", "dW_ij"}:
             support = self.arrays["l"]
-            found["l_ij"] = lists.mean(support[i], counted(support[j], tally))
+            found["l_ij"] = lists.mean(support[i], as_counted(support[j], tally))
         if wanted & {"W_ij", "dW_ij"}:
             inverse = 1.0 / found["l_ij"]
             s, scale = found["r_ij"] * inverse, lists.kernel.sigma
@@ -176,7 +176,7 @@ class _Given:
             elif role == "constant":
                 values.append(self._constant(name, tally))
             else:
-                values.append(counted(_at(self.arrays[symbol], row), tally))
+                values.append(as_counted(_at(self.arrays[symbol], row), tally))
         function(*values)
         tally.simple += sum(1 for how in self.signature.reduce if how is not None)
 
@@ -202,8 +202,8 @@ def _at(array: np.ndarray, index: int) -> Any:
 def _noted_in(tally: Tally, value: Any) -> Any:
     """A value of a pair function, counted anew for the row."""
     if isinstance(value, np.ndarray):
-        return counted(np.array([getattr(v, "value", v) for v in value], dtype=float), tally)
-    return counted(float(getattr(value, "value", value)), tally)
+        return as_counted(np.array([getattr(v, "value", v) for v in value], dtype=float), tally)
+    return as_counted(float(getattr(value, "value", value)), tally)
 
 
 def _size(values: tuple) -> int:

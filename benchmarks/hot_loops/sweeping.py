@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hot_loops.counted import Tally, counted
+from hot_loops.counted import Tally, as_counted
 from hot_loops.least import Least
 from lasersph.compute.sweeps import Sweep
 
@@ -18,7 +18,7 @@ def least_of_sweep(sweep: Sweep) -> Least:
     fetched = sum(array.nbytes for array in sweep.out if all(array is not a for a in sweep.read))
     traffic = sum(array.nbytes for array in (*tiles, inner, *sweep.read)) + written + fetched
     tally = Tally()
-    results = sweep.function(*(counted(1.0, tally) for _ in range(sweep.arguments)))
+    results = sweep.function(*(as_counted(1.0, tally) for _ in range(sweep.arguments)))
     reduces = len(results) - len(sweep.out)
     rows = sweep.out[0].shape[0]
     return Least(
