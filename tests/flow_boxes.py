@@ -26,9 +26,12 @@ def box_case(
             "material": MATERIAL | (material or {}), "initial_temperature": 300.0,
             "domain": {"width": width, "depth": depth},
             "particles": {"spacing": 1.0 / cells, "arrangement": "uniform"},
-            "flow": LID if flow is None else flow, "boundaries": heat or {},
-            "solver": {"kind": "melt-pool", **settings},
-            "time": {"end": end, "step": step, "steady": steady},
+            "boundaries": heat or {},
+            "solver": {
+                "kind": "melt-pool", "flow": LID if flow is None else flow, "steady": steady,
+                **settings,
+            },
+            "time": {"end": end, "step": step},
             "output": {"snapshots": {"interval": 0.25 * end}},
         }
     )  # fmt: skip

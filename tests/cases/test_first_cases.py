@@ -213,7 +213,7 @@ A_MELT_POOL_SAYS = """\
 :13: boundaries.surface_temperature: is missing where surface = "fixed-temperature"; write e.g. surface_temperature = "1000 K"
 :14: boundaries.surface: a laser heats the surface, "fixed-temperature" holds its temperature; remove one of the two
 :17: solver.dimensions: must be 2, got 3
-:20: ejection: kind = "melt-pool" does not read it; leave it out, or write kind = "ablation" in [solver]
+:20: solver.ejection: unknown key; belongs to kind = "ablation"
 """
 
 CASES = {

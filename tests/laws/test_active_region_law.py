@@ -14,7 +14,7 @@ SPOT = ("solver.dimensions=2", "particles.spacing=0.2 um", "domain.depth=12 um",
 UNIFORM = ("solver.dimensions=1", "particles.spacing=0.1 um", "laser.fluence=20 J/cm2",
            "time.end=8 ns")  # fmt: skip
 TOP_HAT = ("laser.beam.kind=top-hat", "laser.beam.radius=1.5 um")
-PUBLISHED = ("ejection.model=published", "ejection.preset=timeline")
+PUBLISHED = ("solver.ejection.model=published", "solver.ejection.preset=timeline")
 
 
 def computed(*settings):

@@ -7,7 +7,7 @@ from law_runs import go, host, solver_of
 from lasersph.observers.energy_budget import relative_imbalance
 from lasersph.simulation.recipes import recipe_of
 
-BOX = ("particles.spacing=0.0625 m", "time.end=0.4 s", "time.steady=")
+BOX = ("particles.spacing=0.0625 m", "time.end=0.4 s", "solver.steady=")
 SMALL_POOL = (
     'laser.beam={kind="interference", period="2 um"}',
     "domain.width=2 um", "particles.spacing=25 nm", "time.step=0.2 ns", "probes=",
@@ -47,7 +47,7 @@ def vortices_in_a_wind():
         for z in s for x in s
     ]  # fmt: skip
     table = ", ".join("[" + ", ".join(f"{float(value)!r}" for value in row) + "]" for row in rows)
-    return f'flow.initial={{kind="table", rows=[{table}]}}'
+    return f'solver.flow.initial={{kind="table", rows=[{table}]}}'
 
 
 @pytest.mark.parametrize(("shifting", "allowed"), [(0.0, 1e-10), (0.04, 1e-4)])
@@ -68,7 +68,7 @@ def test_no_flow_at_uniform_temperature():
         case, solver = flow_solver(
             "marangoni-layer", "boundaries.surface_temperature_wave=", "particles.spacing=100 nm",
             "boundaries.surface_temperature=1750 K", "initial_temperature=1750 K",
-            "material.expansion=8.5e-5 1/K", f"solver.gravity={gravity}", "time.steady=",
+            "material.expansion=8.5e-5 1/K", f"solver.gravity={gravity}", "solver.steady=",
         )  # fmt: skip
         go(solver, 2e-7)
         assert view(case, solver).flow.velocity == pytest.approx(0.0, abs=1e-9)
@@ -76,10 +76,12 @@ def test_no_flow_at_uniform_temperature():
 
 def test_mirror_symmetry():
     """Vortices between mirrors: u(-x) = -u(x), w(-x) = w(x) for particles that began mirrored."""
-    case, solver = flow_solver("taylor-green", *BOX, "flow.left=symmetry", "flow.right=symmetry",
-                             "flow.surface=free-slip", "flow.bottom=free-slip",
+    case, solver = flow_solver("taylor-green", *BOX,
+                             "solver.flow.left=symmetry", "solver.flow.right=symmetry",
+                             "solver.flow.surface=free-slip", "solver.flow.bottom=free-slip",
                              "boundaries.sides=", "boundaries.surface=", "boundaries.bottom=",
-                             'flow.initial={kind="taylor-green", speed="1 m/s", period="2 m"}',
+                             'solver.flow.initial={kind="taylor-green", speed="1 m/s", '
+                             'period="2 m"}',
                              )  # fmt: skip
     start = view(case, solver).position.copy()
     go(solver, 0.4)
@@ -96,7 +98,7 @@ def test_mirror_symmetry():
 
 def test_particles_stay_apart_and_inside():
     """None is lost, none leaves the box, none comes closer than 0.4 of the spacing."""
-    case, solver = flow_solver("lid-driven-cavity", "particles.spacing=0.0625 m", "time.steady=")
+    case, solver = flow_solver("lid-driven-cavity", "particles.spacing=0.0625 m", "solver.steady=")
     before = view(case, solver)
     go(solver, 3.0)
     after = view(case, solver)

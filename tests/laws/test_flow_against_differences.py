@@ -20,7 +20,7 @@ SIDE, ETA, RHO = 1e-6, 7e-3, 6863.0
 COUNT = 24
 SETTINGS = (
     f"domain.width={SIDE} m", f"domain.depth={SIDE} m", "domain.extent=full",
-    "flow.left=no-slip", "flow.right=no-slip", "time.step=5 ns", "time.end=0.4 us",
+    "solver.flow.left=no-slip", "solver.flow.right=no-slip", "time.step=5 ns", "time.end=0.4 us",
 )  # fmt: skip
 
 

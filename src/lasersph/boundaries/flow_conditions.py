@@ -9,7 +9,7 @@
                    eta d(v t)/dn (top only)                            [Demuth2020, eq. (15)]
 
 n is the normal of a face and t its tangent: x along surface and bottom, z along left and right.
-Without a `[flow]` table what is molten flows in the block below the flat surface.
+Without a `[solver.flow]` table what is molten flows in the block below the flat surface.
 """
 
 from __future__ import annotations

@@ -17,6 +17,7 @@ class Case(CaseContents):
 
     _name: str = PrivateAttr("")
     _text: str = PrivateAttr("")
+    _moved: str = PrivateAttr("")
 
     @model_validator(mode="after")
     def _check_together(self) -> Self:
@@ -36,10 +37,15 @@ class Case(CaseContents):
         """The case file as given, headed by its overrides as comments."""
         return self._text or "# Built in Python: all values are in resolved.json.\n"
 
-    def named(self, name: str, text: str) -> Self:
-        """The same case with the name and the text of its file."""
+    @property
+    def moved(self) -> str:
+        """One line that says which keys of an older file were read elsewhere; empty for none."""
+        return self._moved
+
+    def named(self, name: str, text: str, moved: str = "") -> Self:
+        """The same case with the name and the text of its file, and what moved in it."""
         copy = self.model_copy()
-        copy._name, copy._text = name, text
+        copy._name, copy._text, copy._moved = name, text, moved
         return copy
 
     def resolved(self) -> dict[str, Any]:

@@ -66,9 +66,7 @@ def refuse_if_too_large(case: CaseContents, backend: str = "cpu") -> None:
 def _unread_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
     """What the solver of the case would ignore."""
     for key in sorted(SELECTIVE_KEYS - case.solver.reads):
-        table, _, name = key.partition(".")
-        given = getattr(case, table)
-        if getattr(given, name) if name else given:
+        if getattr(case, key):
             yield (
                 key,
                 f'kind = "{case.solver.kind}" does not read it; leave it out, or write kind = '

@@ -17,13 +17,13 @@ from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.time_settings import TimeSettings
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 
 
 class CaseContents(Model):
     """One problem: metal, light, block, particles, boundaries, solver, times, what is stored."""
 
-    schema_version: Literal[1] = Field(
+    schema_version: Literal[2] = Field(
         default=SCHEMA_VERSION, description="of the case file's format"
     )
     title: str = Field(default="", max_length=200, description="one line for reports")
@@ -38,19 +38,6 @@ class CaseContents(Model):
     particles: Lattice
     boundaries: Boundaries = Boundaries.model_validate({})
     laser: Laser | None = None
-    flow: FlowConditions | None = Field(
-        default=None,
-        description="only for a closed box that is all fluid; without it what is molten flows",
-    )
-    vessel: Vessel | None = Field(
-        default=None, description="only where matter moves (ablation): walls around the block"
-    )
-    motion: InitialMotion | None = Field(
-        default=None, description="only where matter moves (ablation): how it starts"
-    )
-    ejection: EjectionSettings | None = Field(
-        default=None, description="only where a laser ablates: how particles leave the surface"
-    )
     solver: SolverChoice = ConductionSettings.model_validate({})
     time: TimeSettings
     probes: tuple[Probe, ...] = ()
@@ -58,3 +45,23 @@ class CaseContents(Model):
         default=(), description="only where matter moves (ablation): particles that are followed"
     )
     output: OutputSettings = OutputSettings.model_validate({})
+
+    @property
+    def flow(self) -> FlowConditions | None:
+        """`solver.flow`: a closed box that is all fluid; None without."""
+        return getattr(self.solver, "flow", None)
+
+    @property
+    def vessel(self) -> Vessel | None:
+        """`solver.vessel`: walls around the block; None without."""
+        return getattr(self.solver, "vessel", None)
+
+    @property
+    def motion(self) -> InitialMotion | None:
+        """`solver.motion`: how matter starts; None where it rests."""
+        return getattr(self.solver, "motion", None)
+
+    @property
+    def ejection(self) -> EjectionSettings | None:
+        """`solver.ejection`: how particles leave the surface; None for the usual way."""
+        return getattr(self.solver, "ejection", None)

@@ -77,13 +77,13 @@ def _pool(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, s
         yield (
             "material",
             f'"{case.material.name}" has no melting data, so it is fluid everywhere; say in '
-            "[flow] what holds at the sides of the box, or add melting",
+            "[solver.flow] what holds at the sides of the box, or add melting",
         )
     elif not solver.phase_change:
         yield (
             "solver.phase_change",
-            "nothing melts, so nothing flows; leave it out, or say in [flow] what holds at the "
-            "sides of a box that is all fluid",
+            "nothing melts, so nothing flows; leave it out, or say in [solver.flow] what holds at "
+            "the sides of a box that is all fluid",
         )
     is_heated = case.laser is not None or any(
         case.boundaries.kind_of(face) in (*DIRICHLET, NEUMANN) for face in faces_of(2)
@@ -92,7 +92,7 @@ def _pool(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, s
         yield (
             "laser",
             "missing: nothing would melt; give [laser] or a heated face in [boundaries], or "
-            "[flow] for a box that is all fluid",
+            "[solver.flow] for a box that is all fluid",
         )
     if case.boundaries.surface == "periodic":
         yield "boundaries.surface", 'a pool lies below a surface; write surface = "adiabatic"'
@@ -103,7 +103,7 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
     if case.material.melting is not None and case.solver.phase_change:
         yield (
             "solver.phase_change",
-            f'a box of [flow] is all fluid, but "{case.material.name}" melts; write '
+            f'a box of [solver.flow] is all fluid, but "{case.material.name}" melts; write '
             "phase_change = false",
         )
     if case.particles.arrangement != "uniform":
@@ -116,8 +116,12 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
         if (heat == "periodic") == (kind == "periodic"):
             continue
         own = getattr(case.boundaries, side) is not None
-        key = f"flow.{side}" if heat == "periodic" else f"boundaries.{side if own else 'sides'}"
-        given, other = (kind, "boundaries") if heat == "periodic" else (heat, "flow")
+        key = (
+            f"solver.flow.{side}"
+            if heat == "periodic"
+            else f"boundaries.{side if own else 'sides'}"
+        )
+        given, other = (kind, "boundaries") if heat == "periodic" else (heat, "solver.flow")
         yield (
             key,
             f'"{given}", but {side} is periodic in [{other}]; write "periodic" in both or in '
@@ -125,7 +129,7 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
         )
     if case.domain.extent == "half" and flow.left.kind not in ("symmetry", "free-slip"):
         yield (
-            "flow.left",
+            "solver.flow.left",
             f'half a box is symmetric at x = 0, "{flow.left.kind}" does not fit; write '
             'left = "symmetry", or extent = "full" in [domain]',
         )
@@ -145,7 +149,7 @@ def _vortices(case: CaseContents, initial: TaylorGreenFlow) -> Iterator[tuple[st
                 f"{format_quantity(length, 'm')} is no whole number of vortices of "
                 f"{format_quantity(0.5 * period, 'm')}; write e.g. {key} = "
                 f'"{format_quantity(0.5 * period * max(1, round(count)), "m", 10)}", or another '
-                "period in flow.initial",
+                "period in solver.flow.initial",
             )
 
 
@@ -155,10 +159,11 @@ def _steps(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, 
     speeds = {}
     if case.flow is not None:
         speeds = {
-            f"flow.{name}.velocity": abs(side.velocity) for name, side in case.flow.faces.items()
+            f"solver.flow.{name}.velocity": abs(side.velocity)
+            for name, side in case.flow.faces.items()
         }
         if isinstance(case.flow.initial, TaylorGreenFlow):
-            speeds["flow.initial.speed"] = case.flow.initial.speed
+            speeds["solver.flow.initial.speed"] = case.flow.initial.speed
     for key, speed in speeds.items():
         steps = end * speed / (LARGEST_COURANT * spacing)
         if steps > LARGEST_STEPS:

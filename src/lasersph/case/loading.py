@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from lasersph.case.case import Case
+from lasersph.case.contents import SCHEMA_VERSION
+from lasersph.case.conversion import convert
 from lasersph.case.other_words import OTHER_WORDS
-from lasersph.case.overrides import override
+from lasersph.case.overrides import moved_settings, override
 from lasersph.case.quick import quick_settings
 from lasersph.input import CaseError, Document, build, nearest, read_toml
 
@@ -43,9 +45,15 @@ def case_file(name_or_path: str | os.PathLike[str]) -> Path:
     raise CaseError(f'no case "{text}"', hint)
 
 
-def read_case(name_or_path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Document:
-    """The document of a case with its overrides applied, not yet validated. Raises CaseError."""
-    return override(read_toml(case_file(name_or_path), tolerant=True), overrides)
+def read_case(
+    name_or_path: str | os.PathLike[str], overrides: Sequence[str] = ()
+) -> tuple[Document, str]:
+    """The document of a case, not yet validated, with its keys at their present places and its
+    overrides applied, and what moved in words. Raises CaseError."""
+    document, moved = convert(read_toml(case_file(name_or_path), tolerant=True))
+    moved += moved_settings(overrides)
+    text = f"read as schema version {SCHEMA_VERSION}: {', '.join(moved)}" if moved else ""
+    return override(document, overrides), text
 
 
 def load_case(
@@ -63,11 +71,11 @@ def load_case(
     """
     if quick:
         overrides = [*quick_settings(load_case(name_or_path, overrides)), *overrides]
-    document = read_case(name_or_path, overrides)
+    document, moved = read_case(name_or_path, overrides)
     file = Path(document.file)
     case = build(Case, document, {"folder": file.parent}, OTHER_WORDS)
     settings = "".join(f"# --set {setting}\n" for setting in overrides)
-    return case.named(file.stem, settings + document.text)
+    return case.named(file.stem, settings + document.text, moved)
 
 
 def write_new_case(name_or_path: str | os.PathLike[str], target: str | os.PathLike[str]) -> Path:

@@ -42,9 +42,9 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
         return
     for side in LATERAL[0]:
         if getattr(case.vessel, side) > 0.0 and dimensions == 1:
-            yield f"vessel.{side}", "a 1-D column has no sides; leave it out"
+            yield f"solver.vessel.{side}", "a 1-D column has no sides; leave it out"
         elif getattr(case.vessel, side) > 0.0 and case.boundaries.kind_of(side) == "periodic":
-            yield f"vessel.{side}", "no wall stands on a periodic side; leave it out"
+            yield f"solver.vessel.{side}", "no wall stands on a periodic side; leave it out"
 
 
 def _particles(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, str]]:
@@ -73,25 +73,25 @@ def _motion(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str,
     if isinstance(motion, SoundWave):
         if case.boundaries.surface != "periodic":
             yield (
-                "motion.kind",
+                "solver.motion.kind",
                 'a sound wave runs through a block that is periodic in z; write surface = '
                 '"periodic" and bottom = "periodic" in [boundaries]',
             )  # fmt: skip
         if motion.amplitude > 0.1 * solver.sound_speed:
             yield (
-                "motion.amplitude",
+                "solver.motion.amplitude",
                 f"{motion.amplitude:g} m/s is no small wave where sound runs at "
                 f"{solver.sound_speed:g} m/s; take less than a tenth",
             )
     if isinstance(motion, Rest) and motion.hydrostatic and solver.gravity == 0.0:
-        yield "motion.hydrostatic", "nothing weighs anything without gravity in [solver]"
+        yield "solver.motion.hydrostatic", "nothing weighs anything without gravity in [solver]"
 
 
 def _light(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, str]]:
     material = case.material
     if case.laser is None:
         if case.ejection is not None:
-            yield "ejection", "nothing leaves without a [laser]; add one or leave it out"
+            yield "solver.ejection", "nothing leaves without a [laser]; add one or leave it out"
         return
     if case.boundaries.surface not in ("free", "adiabatic"):
         yield "boundaries.surface", 'a surface that ablates lies open; write "free"'
@@ -116,14 +116,14 @@ def _light(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, 
         yield (
             "solver.phase_change",
             "the enthalpy model of ejection is about latent heats; leave it out, or write model = "
-            '"published" in [ejection]',
+            '"published" in [solver.ejection]',
         )
     rule = case.ejection
     if rule is None or rule.reflectivity is None:
         return
     if case.laser.reflectivity not in (None, rule.reflectivity):
         yield (
-            "ejection.preset",
+            "solver.ejection.preset",
             f'"{rule.preset}" means a reflectivity of {rule.reflectivity:g}, but [laser] has '
             "another; leave one of them out, or write leave and leave_distance instead of the "
             "preset",

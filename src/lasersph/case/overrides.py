@@ -15,7 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lasersph.input import CaseError, Document
+from lasersph.case.conversion import present_place
+from lasersph.input import CaseError, Document, dotted
 
 _STEP = re.compile(r"([A-Za-z0-9_-]+)(?:\[([0-9]{1,6})\])?")
 
@@ -30,11 +31,19 @@ def override(document: Document, settings: Iterable[str]) -> Document:
     for setting in settings:
         where = f"--set {setting if len(setting) <= 80 else setting[:77] + '...'}"
         path, value = _parse(setting, where)
+        path = present_place(path)
         if path[0] == "material" and len(path) == 1 and isinstance(value, str):
             value = _from_here(value)
         _put(data, path, value, where)
         origins[path] = where
     return replace(document, data=data, origins=origins)
+
+
+def moved_settings(settings: Iterable[str]) -> list[str]:
+    """Keys of settings that are read elsewhere today, each as "flow is solver.flow"."""
+    paths = [_parse(setting, f"--set {setting}")[0] for setting in settings]
+    moved = {dotted(path): dotted(present_place(path)) for path in paths}
+    return [f"{old} is {new}" for old, new in moved.items() if old != new]
 
 
 def _parse(setting: str, where: str) -> tuple[tuple[str | int, ...], Any]:

@@ -30,12 +30,12 @@ def reader_of(key: str) -> str:
 
 def computes_flow(solver: SolverSettings) -> TypeGuard[MeltPoolSettings]:
     """Whether a solver computes the incompressible flow of a melt, or of a box."""
-    return "flow" in solver.reads
+    return "flow" in type(solver).model_fields
 
 
 def moves_matter(solver: SolverSettings) -> TypeGuard[AblationSettings]:
     """Whether the matter of a solver moves, compresses and leaves."""
-    return "motion" in solver.reads
+    return "motion" in type(solver).model_fields
 
 
 def _with_kind(value: Any) -> Any:

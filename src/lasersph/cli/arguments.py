@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from lasersph.cli.failures import WrongCommand
+
+if TYPE_CHECKING:
+    from lasersph.case import Case
 
 CaseName = Annotated[
     str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")
@@ -75,3 +79,9 @@ def read_quantities(option: str, text: str, kind: str) -> list[float]:
         if value <= 0.0:
             raise WrongCommand(f'{option}: "{one}" must be greater than 0')
     return values
+
+
+def say_what_moved(case: Case) -> None:
+    """Say which keys of an older case file were read at another place."""
+    if case.moved:
+        print(f"note: {case.moved}", file=sys.stderr)

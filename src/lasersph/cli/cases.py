@@ -14,6 +14,7 @@ from lasersph.cli.arguments import (
     Settings,
     Threads,
     refuse_backend,
+    say_what_moved,
 )
 from lasersph.cli.tables import aligned
 
@@ -66,6 +67,7 @@ def check(
 
     refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
+    say_what_moved(loaded)
     refuse_if_too_large(loaded, backend)
     count = chosen(threads)
     expected = forecast(loaded, threads=count)

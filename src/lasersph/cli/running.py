@@ -19,6 +19,7 @@ from lasersph.cli.arguments import (
     Settings,
     Threads,
     refuse_backend,
+    say_what_moved,
 )
 from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal
 
@@ -84,6 +85,7 @@ def run(
 
     refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
+    say_what_moved(loaded)
     if not_shown := what_is_not_shown(loaded):
         print(f"warning: {not_shown}", file=sys.stderr)
     folder = out or RUNS / loaded.name

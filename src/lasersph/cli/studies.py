@@ -93,7 +93,7 @@ def threshold(
     loaded = load_case(case, settings or (), quick=quick)
     if loaded.laser is None:
         raise WrongCommand(f"{loaded.name} has no laser, so no threshold")
-    if of == "ablate" and "ejection" not in loaded.solver.reads:
+    if of == "ablate" and "ejection" not in type(loaded.solver).model_fields:
         raise WrongCommand(f'{loaded.name} ablates nothing: its solver is "{loaded.solver.kind}"')
     section = loaded.material.melting if of == "melt" else loaded.material.vaporization
     if section is None or not (loaded.solver.phase_change or of == "ablate"):

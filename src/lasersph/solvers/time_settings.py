@@ -33,11 +33,6 @@ class TimeSettings(Model):
     growth: Annotated[float, Field(gt=1, le=10)] = Field(
         default=1.25, description="of the step, at most, from one to the next"
     )
-    steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
-        default=None,
-        description="stop before the end once the flow is steady: range of its kinetic energy over "
-        "the mean, while the fastest particle crosses the width five times",
-    )
 
     @property
     def fixed_step(self) -> float | None:

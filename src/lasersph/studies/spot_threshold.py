@@ -103,7 +103,7 @@ class SpotThreshold:
 
 def no_spot(case: Any, fluences: Sequence[float]) -> str:
     """Why the study is not possible; empty where it is."""
-    if "ejection" not in case.solver.reads or case.laser is None:
+    if "ejection" not in type(case.solver).model_fields or case.laser is None:
         return "nothing is ablated here"
     if not isinstance(case.laser.beam, GaussianBeam) or case.solver.dimensions == 1:
         return "D^2 over ln F needs a gaussian beam in 2-D or 3-D"

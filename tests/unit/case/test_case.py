@@ -142,7 +142,7 @@ def test_resolved_is_plain_json_in_si():
     assert json.loads(json.dumps(resolved)) == resolved
     assert resolved["particles"]["spacing"] == 8e-9
     assert resolved["solver"]["tolerance"] == 1e-8
-    assert resolved["schema_version"] == 1
+    assert resolved["schema_version"] == 2
 
 
 def test_hash_depends_on_content_only():

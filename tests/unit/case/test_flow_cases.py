@@ -47,10 +47,10 @@ def test_kind_may_be_left_out():
         (("solver.dimensions=3",), "solver.dimensions: must be 2, got 3"),
         (("solver.viscosity=explicit", "time.end=1 s"), "solver.viscosity: 1.02e-06 m^2/s needs"),
         (("solver.viscosities=explicit",), 'solver.viscosities: unknown key; do you mean "visc'),
-        (("time.steady=0",), "time.steady: must be greater than 0"),
+        (("solver.steady=0",), "solver.steady: must be greater than 0"),
         (
             ('flow={bottom="no-slip"}',),
-            'a box of [flow] is all fluid, but "steel-304-demuth" melts',
+            'a box of [solver.flow] is all fluid, but "steel-304-demuth" melts',
         ),
     ],
 )
@@ -61,7 +61,7 @@ def test_refused(settings, message):
 
 def test_a_liquid_needs_a_box():
     """What is liquid everywhere says what holds at its sides."""
-    assert "fluid everywhere; say in [flow]" in refused("flow=", case="natural-convection")
+    assert "fluid everywhere; say in [solver.flow]" in refused("flow=", case="natural-convection")
 
 
 def test_a_heated_face_melts_as_well():
@@ -75,7 +75,7 @@ def test_a_heated_face_melts_as_well():
 
 def test_marangoni_needs_its_slope_only_where_it_pulls():
     """A box under a lid, or without Marangoni stress, does not ask for surface tension."""
-    surface = 'flow.surface="free-surface"'
+    surface = 'solver.flow.surface="free-surface"'
     assert "has no surface_tension_slope" in refused(surface, case="natural-convection")
     assert load_case("natural-convection", [surface, "solver.marangoni=false"]).flow is not None
 
@@ -109,11 +109,11 @@ def test_a_start_from_a_file_is_kept_with_the_case(tmp_path):
     """The table's numbers are part of the resolved case and of its hash."""
     (tmp_path / "field.csv").write_text("x,z,u,w\n0,0,1,2\n", encoding="utf-8")
     text = load_case("natural-convection").text.replace(
-        "[flow]\n", '[flow]\ninitial = { kind = "table", path = "field.csv" }\n'
+        "[solver.flow]\n", '[solver.flow]\ninitial = { kind = "table", path = "field.csv" }\n'
     )
     (tmp_path / "case.toml").write_text(text, encoding="utf-8")
     case = load_case(tmp_path / "case.toml")
-    assert case.resolved()["flow"]["initial"]["rows"] == [[0.0, 0.0, 1.0, 2.0]]
+    assert case.resolved()["solver"]["flow"]["initial"]["rows"] == [[0.0, 0.0, 1.0, 2.0]]
     assert Case.model_validate(case.resolved()).hash() == case.hash()
     (tmp_path / "field.csv").write_text("x,z,u,w\n0,0,1,3\n", encoding="utf-8")
     assert load_case(tmp_path / "case.toml").hash() != case.hash()

@@ -1,4 +1,4 @@
-"""`EjectionSettings`: the `[ejection]` table, how particles leave the surface.
+"""`EjectionSettings`: the `[solver.ejection]` table, how particles leave the surface.
 
 Two presets reproduce what [Alshaer2017] reports with the published rule; no setting gives both:
 

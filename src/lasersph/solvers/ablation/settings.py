@@ -6,14 +6,17 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from lasersph.boundaries.initial_motion import InitialMotion
+from lasersph.boundaries.vessel import Vessel
 from lasersph.input import Acceleration, Length, Velocity
+from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.solver_settings import SolverSettings
 
 
 class AblationSettings(SolverSettings):
     """Weakly compressible flow with heat, melting and ejection of the surface."""
 
-    reads: ClassVar[frozenset[str]] = frozenset({"vessel", "motion", "ejection", "traces"})
+    reads: ClassVar[frozenset[str]] = frozenset({"traces"})
     bytes_per_neighbor: ClassVar[int] = 24
     """Nothing is assembled."""
 
@@ -62,6 +65,11 @@ class AblationSettings(SolverSettings):
     ejecta_height: Annotated[Length, Field(gt=0)] | None = Field(
         default=None,
         description="height over the surface up to which ejecta are followed; default: the depth",
+    )
+    vessel: Vessel | None = Field(default=None, description="walls around the block")
+    motion: InitialMotion | None = Field(default=None, description="how matter starts")
+    ejection: EjectionSettings | None = Field(
+        default=None, description="how particles leave the surface under a laser"
     )
 
     @property

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.input import Acceleration
 from lasersph.solvers.heat_settings import HeatSettings
 
@@ -13,7 +14,6 @@ from lasersph.solvers.heat_settings import HeatSettings
 class MeltPoolSettings(HeatSettings):
     """Heat, melting and the incompressible flow of what is molten, or of a closed box."""
 
-    reads: ClassVar[frozenset[str]] = frozenset({"flow", "time.steady"})
     bytes_per_neighbor: ClassVar[int] = 100
     """Weights of heat, viscosity and pressure."""
 
@@ -43,4 +43,13 @@ class MeltPoolSettings(HeatSettings):
     )
     gravity: Annotated[Acceleration, Field(ge=0)] = Field(
         default=9.81, description="along -z; it acts on differences of density only (Boussinesq)"
+    )
+    steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
+        default=None,
+        description="stop before the end once the flow is steady: range of its kinetic energy over "
+        "the mean, while the fastest particle crosses the width five times",
+    )
+    flow: FlowConditions | None = Field(
+        default=None,
+        description="only for a closed box that is all fluid; without it what is molten flows",
     )

@@ -60,7 +60,7 @@ class MeltPool:
             backend, count, settings.shifting, domain.spacing, domain.box, domain.periods
         )
         self.pairs = HeatPairs(heat.body)
-        self.steadiness = Steadiness(heat.time_settings.steady, domain.width)
+        self.steadiness = Steadiness(settings.steady, domain.width)
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False

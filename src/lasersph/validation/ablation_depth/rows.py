@@ -70,7 +70,11 @@ def column(study: Study, pulse: Pulse, spacing: float, label: str = "1d", *setti
 
 def published_column(study: Study, pulse: Pulse, spacing: float, preset: str) -> Column:
     """The same with the published rule; it ends later, as its particles need time to leave."""
-    rule = ["ejection.model=published", f"ejection.preset={preset}", f"time.end={pulse[0] + 5} ns"]
+    rule = [
+        "solver.ejection.model=published",
+        f"solver.ejection.preset={preset}",
+        f"time.end={pulse[0] + 5} ns",
+    ]
     return column(study, pulse, spacing, preset, *rule)
 
 

@@ -47,7 +47,7 @@ def lines_of(one: Run, reference: dict[str, CenterLine]) -> Lines:
     """u and w over the speed of the lid at the tabulated places, by component "u", "v"."""
     first, last = one.snapshots[0], one.snapshots[-1]
     box = Box.around(first["position"], first["width"])
-    lid = one.case["flow"]["surface"]["velocity"]
+    lid = one.case["solver"]["flow"]["surface"]["velocity"]
     found: Lines = {}
     for component, line in reference.items():
         lines = center_lines(last["position"], last["velocity"], box, line.share)
@@ -76,7 +76,7 @@ def add_rows(study: Study, reynolds: int, line: CenterLine, found: dict[int, np.
 def add_vortex(study: Study, reynolds: int, one: Run) -> None:
     """The stream function in the main vortex, and the least distance of two particles."""
     summary, printed = one.summary, study.plan.vortex[str(reynolds)]
-    lid = one.case["flow"]["surface"]["velocity"] * one.case["domain"]["width"]
+    lid = one.case["solver"]["flow"]["surface"]["velocity"] * one.case["domain"]["width"]
     psi = summary["box"]["stream_function"]["min_m2_s"] / lid
     study.add("vortex", psi, printed, published=printed, Re=reynolds)
     study.add("spacing", summary["flow"]["spacing_min_m"] / summary["spacing_m"], Re=reynolds)

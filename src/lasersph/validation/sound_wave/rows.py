@@ -33,7 +33,9 @@ def compare(study: Study) -> None:
         case = found.run.case
         moment = found.moment if study.plan.runs[name]["kernel"] == "cubic-spline" else 1.0
         study.add("speed", found.speed, case["solver"]["sound_speed"] * moment, name=name)
-        change = float(np.max(np.abs(found.amplitude / case["motion"]["amplitude"] - 1.0)))
+        change = float(
+            np.max(np.abs(found.amplitude / case["solver"]["motion"]["amplitude"] - 1.0))
+        )
         study.add("amplitude", 100.0 * change, name=name)
         study.remarks.append(f"{name}: second moment of the lattice {found.moment:.5f}")
     draw(study, waves)

@@ -11,8 +11,8 @@ from lasersph.solvers.ablation.equations import advance_vapor, pair_heat
 from lasersph.solvers.ablation.rates import Moving
 from lasersph.solvers.step_control import binding_limit
 
-PUBLISHED = ("particles.spacing=0.2 um", "domain.depth=6 um", "ejection.model=published",
-             "ejection.preset=timeline", "time.end=2 ns")  # fmt: skip
+PUBLISHED = ("particles.spacing=0.2 um", "domain.depth=6 um", "solver.ejection.model=published",
+             "solver.ejection.preset=timeline", "time.end=2 ns")  # fmt: skip
 
 
 def test_position_and_enthalpy():
