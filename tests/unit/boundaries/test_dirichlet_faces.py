@@ -38,13 +38,13 @@ def test_wall_of_particles():
     assert weights.tolist() == [0.0, 0.0, 0.0, 5.0]
 
 
-def test_held_face():
+def test_dirichlet_face():
     """Extrapolation through the face at -4 m: 8 * 1/0.5 + 2 * 2/0.5 = 24, and 1 * 2/1.5."""
     coefficient, _ = coefficients_of(is_wall=False)
     assert coefficient == pytest.approx([0.0, 0.0, 2.0 / 1.5, 24.0])
 
 
-def test_held_sides_and_corner():
+def test_dirichlet_sides_and_corner():
     """Beyond a side the distances along x count: n_ij = 1 m, n_i = 0.5 m."""
     layers = stack(Domain(depth=4.0, width=4.0, extent="full"), Lattice(spacing=1.0), 2, 0.0)
     filling = fill(layers, surface=FREE, bottom=FREE, sides=DIRICHLET)

@@ -74,7 +74,7 @@ def test_two_columns_are_reflected_repeatedly():
     assert filling.source[row].tolist() == [0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1]
 
 
-def test_held_faces_are_marked():
+def test_dirichlet_faces_are_marked():
     """Dummies of a held bottom carry its index, at the corners too; mirrored sides carry none."""
     filling = fill(block(), surface=MIRROR, bottom=DIRICHLET, sides=MIRROR)
     beyond = filling.position[-1] < -8e-7

@@ -214,7 +214,7 @@ def test_without_shifting():
     assert np.array_equal(backend.to_host(solver.particles["enthalpy"]), h)
 
 
-def test_rearrangement_needs_no_block_to_settle(backend):
+def test_shifting_needs_no_block_to_move(backend):
     """Positions alone: two particles in a periodic strip."""
     shifting = ParticleShifting(backend, 2, 0.04, 0.1, ((0.0, 1.0), (-1.0, 0.0)), (1.0, 0.0))
     position = backend.asarray([[1.05, 0.5], [-0.5, 0.2]])
