@@ -39,7 +39,7 @@ def expected_crater(case: Case) -> float:
     """Depth that light is expected to ablate by heat alone [m]; 0 where nothing can be ablated."""
     laser, material = case.laser, case.material
     boiling = material.vaporization
-    if laser is None or boiling is None or "ejection" not in case.solver.reads:
+    if laser is None or boiling is None or "ejection" not in type(case.solver).model_fields:
         return 0.0
     cold = case.initial_temperature
     reflectivity = float(laser.reflectivity_table(material, cold, cold + 1.0)[1][0])
