@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import importlib
+import re
 from collections.abc import Callable
 from functools import cache
 from importlib.metadata import version
@@ -17,6 +18,10 @@ from typing import Any
 FAST = {"reassoc", "contract", "arcp", "nsz"}
 """What the compiler may do with sums and products of a loop; NaN and infinity stay."""
 _SUM_BYTES = 16
+_RELEASE = re.compile(r"^declare void @NRT_MemInfo_call_dtor\(.*$", re.MULTILINE)
+"""What frees arrays in Numba, and exists only where Numba has compiled something; tables that are
+handed on name it, but a frame owns no array."""
+_RELEASES_NOTHING = "define internal void @NRT_MemInfo_call_dtor(ptr %0) { ret void }"
 _ENTRY = """
 define void @{name}({parameters}) {{
   %result = alloca ptr
@@ -95,7 +100,9 @@ def llvm_of(function: Callable[..., None], name: str, *, is_fast: bool) -> str:
     entry = _ENTRY.format(name=name, native=native, parameters=parameters)
     module = llvm.parse_assembly(compiled.inspect_llvm() + entry)
     _drop_unused(module, name, _machine())
-    return str(module)
+    return _RELEASE.sub(
+        "define internal void @NRT_MemInfo_call_dtor(ptr %0) { ret void }", str(module)
+    )
 
 
 def _drop_unused(module: Any, name: str, machine: Any) -> None:

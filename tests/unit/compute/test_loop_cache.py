@@ -171,3 +171,24 @@ def test_import_is_light():
         "assert not {'numba', 'llvmlite'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", text], check=True)
+
+
+def test_loop_of_tables_is_found(folder):
+    """A process that compiles nothing runs a loop that hands tables on."""
+    (folder / "terms.py").write_text(
+        "def last(nodes):\n    return nodes[len(nodes) - 1]\n"
+        "def heated(T, nodes):\n"
+        "    total = 0.0\n"
+        "    for k in range(len(nodes)):\n"
+        "        total += T * last(nodes)\n"
+        "    return total\n"
+    )
+    text = """
+        import terms
+        from lasersph import compute
+        backend = compute.cpu(threads=1)
+        T, out = backend.asarray([4.0]), backend.zeros(1)
+        backend.pointwise(terms.heated, {"T": T}, out, nodes=backend.asarray([1.0, 2.5]))
+        print(out[0])
+    """
+    assert run(folder, text) == run(folder, text) == ["20.0"]
