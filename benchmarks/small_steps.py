@@ -159,7 +159,7 @@ def _print(title: str, found: dict[str, Any]) -> None:
 
 def main() -> None:
     """Measure this tree, beside another where one is given."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--beside", type=Path, help="root of another tree of this package")
     parser.add_argument("--turns", type=int, default=2, help="processes for each tree and case")
     parser.add_argument("--case", choices=CASES, action="append", help="only this case")

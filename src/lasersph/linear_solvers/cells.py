@@ -97,7 +97,7 @@ class Cells:
         return self.x.cells * self.z.cells
 
     @property
-    def shape(self) -> dict[str, int]:
+    def shape(self) -> dict[str, Any]:
         """Numbers of cells by the names of `placed`."""
         x, z = self.x, self.z
         return {

@@ -72,9 +72,9 @@ class Melting(Sourced):
         if not isinstance(data, dict) or "liquidus" in data or "solidus" not in data:
             return data
         source = data.get("source")
-        is_one_each = isinstance(source, dict) and "solidus" in source
-        sources = {"source": {"liquidus": source["solidus"], **source}} if is_one_each else {}
-        return {**data, "liquidus": data["solidus"], **sources}
+        if isinstance(source, dict) and "solidus" in source:  # one for each number
+            data = {**data, "source": {"liquidus": source["solidus"], **source}}
+        return {**data, "liquidus": data["solidus"]}
 
     @model_validator(mode="after")
     def _check_order(self) -> Melting:

@@ -102,7 +102,7 @@ class MeltPool(Observer):
     def values(self) -> dict[str, object]:
         """Times, None where no such cell was seen; in 1-D there are no widths."""
         absent = (one for column in sizes("width") for one in (column.largest, column.largest_at))
-        found: dict[str, object] = dict.fromkeys(absent if self.dimension == 1 else ())
+        found: dict[str, object] = {one: None for one in absent if self.dimension == 1}
         for level, span in self.span.items():
             found |= {f"melt.start{level}_s": span.first, f"melt.end{level}_s": span.last}
         return {**found, "melt.molten_at_end": self.span[""].last == self.end_time}

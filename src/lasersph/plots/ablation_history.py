@@ -45,8 +45,8 @@ def crater_history(run: Run) -> Figure | None:
         lines = {"crater_depth_m": "whole layers"}
         unit = style.fitting_unit("m", float(np.max(history["crater_depth_m"])))
         smooth = history["crater_vaporized_volume_m"] * unit.factor
-        name, look = "with the layer on its way", {"color": style.COLORS[1], "linestyle": "--"}
-        above.plot(time_axis(history)[0], smooth, label=name, **look)
+        name, color = "with the layer on its way", style.COLORS[1]
+        above.plot(time_axis(history)[0], smooth, label=name, color=color, linestyle="--")
     draw_columns(above, run, lines, label="depth of the crater")
     style.legend(above)
     energy = {"removed": "carried away by ejecta", "stored": "in the body"}

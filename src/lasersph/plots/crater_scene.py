@@ -44,7 +44,7 @@ def crater_scene(run: Run, path: Path, time: float | None = None) -> Path:
         raise OutputError(f"{run.path} is no 3-D run with ablation")
     step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
     limits = temperature_range(run)
-    bar = {"fmt": "%.0f", "color": "black", "vertical": True, "position_y": 0.25}
+    bar: Any = {"fmt": "%.0f", "color": "black", "vertical": True, "position_y": 0.25}
     look: dict[str, Any] = {"cmap": style.TEMPERATURE_COLORS, "clim": limits}
     surface = height_map(step)
     faces = surface.triangles()
@@ -60,12 +60,12 @@ def crater_scene(run: Run, path: Path, time: float | None = None) -> Path:
         dots = pyvista.PolyData(MICROMETERS * step["position"][:, flying].T)
         dots[name] = step["temperature"][flying]
         size = 0.8 * MICROMETERS * float(np.min(step["width"]))
-        balls = dots.glyph(geom=pyvista.Sphere(radius=0.5 * size), scale=False, orient=False)
+        balls: Any = dots.glyph(geom=pyvista.Sphere(radius=0.5 * size), scale=False, orient=False)
         plotter.add_mesh(balls, scalars=name, show_scalar_bar=False, **look)
     plotter.add_text(style.time_text(step["time"]), font_size=12, color="black")
-    names = {f"{axis}title": f"{axis} [um]" for axis in "xyz"}
+    names: dict[str, Any] = {f"{axis}title": f"{axis} [um]" for axis in "xyz"}
     plotter.show_bounds(**names, color="black", location="outer", font_size=11)
-    plotter.set_background("white")
+    plotter.set_background("white")  # pyright: ignore[reportCallIssue, reportArgumentType]
     with clear_errors("write", path):
         plotter.screenshot(str(path))
     plotter.close()

@@ -52,7 +52,8 @@ def draw_columns(
         if stairs:
             x, y = style.without_stairs(x, y)
         axes.plot(x, y, style.LINES[k % 4], color=style.COLORS[k % 8], label=text)
-    is_lowest = axes.get_subplotspec() is None or axes.get_subplotspec().is_last_row()
+    place = axes.get_subplotspec()
+    is_lowest = place is None or place.is_last_row()
     words = label or first.words
     style.label(axes, time_label if is_lowest else "", f"{words} [{unit.name}]")
     axes.set_xlim(time[0], time[-1])

@@ -141,10 +141,16 @@ def paint(
 
     `look` goes to matplotlib's `imshow`; axes are in `unit`.
     """
-    extent = tuple(edge * unit.factor for edge in edges)
+    left, right, bottom, top = (edge * unit.factor for edge in edges)
     axes.grid(False)
     label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
-    return axes.imshow(values, extent=extent, origin="lower", interpolation="nearest", **look)
+    return axes.imshow(
+        values,
+        extent=(left, right, bottom, top),
+        origin="lower",
+        interpolation="nearest",
+        **look,
+    )
 
 
 def color_bar(axes: Axes | Sequence[Axes], image: Any, name: str, aspect: float = 14.0) -> Any:

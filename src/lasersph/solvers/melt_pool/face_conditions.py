@@ -156,8 +156,9 @@ class FaceConditions:
                 added[1 - axis, chosen] = 2.0 * self.wall_velocity(face)
         for axis, _, chosen, _, _ in crossings:
             factor[axis, chosen] *= -1.0
-            is_free = surface is not None and self.flow_kind(face) == "free-surface"
-            added[axis, chosen] = 2.0 * surface.normal_velocity if is_free else 0.0
+            added[axis, chosen] = 0.0
+            if surface is not None and self.flow_kind(face) == "free-surface":
+                added[axis, chosen] = 2.0 * surface.normal_velocity
         return factor, added
 
     def _carries_heat(self, face: str) -> bool:

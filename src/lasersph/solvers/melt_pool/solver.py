@@ -224,8 +224,8 @@ class MeltPool:
             block, self.kinds, flow.velocity, flow.ghost_velocity_jump(), C
         )
         names = ("enthalpy", "vapor_fraction", "mass")
-        heat = (particles[name] for name in names)
-        self.shifting.adjust_enthalpy(block, self.kinds, *heat, C)
+        h, vapor, m = (particles[name] for name in names)
+        self.shifting.adjust_enthalpy(block, self.kinds, h, vapor, m, C)
         self.shifting.move(self.position, self.kinds)
         self.body.update_temperature()
 

@@ -11,6 +11,8 @@ The paper states no stopping rule; here it is the residual of `implicit`.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from lasersph.compute.array_types import Rows
@@ -60,8 +62,8 @@ class PublishedStep(ImplicitStep):
         fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
         out, reduce = (self.spare, None), (None, "sum")
         (rz,) = backend.pointwise(descend, fields, out, reduce=reduce, **self.constants)
-        pairs, finish = body.pairs.neighbors, {"finish": curvature, "reduce": ("sum",)}
-        (zAz,) = backend.pair_sum(difference, pairs, fields, (None,), **finish, **self.constants)
+        finish: dict[str, Any] = {"finish": curvature, "reduce": ("sum",), **self.constants}
+        (zAz,) = backend.pair_sum(difference, body.pairs.neighbors, fields, (None,), **finish)
         self.alpha = rz / zAz
         self.linear += 1
 
