@@ -114,7 +114,7 @@ class Loops:
         ones += [id(unwrap(constants[name])) for name in signature.tables]
         found = signature.rebound.get(kinds)
         is_current = found is not None and source.is_current(found.watched)
-        if is_current and found.run(array("Q", ones), numbers):
+        if found is not None and is_current and found.run(array("Q", ones), numbers):
             return tuple(found.launch.results)
         bound, threads = self._bound(self.given(call)), self.launcher.threads
         is_values = call.shape == "pair_values"
@@ -171,7 +171,7 @@ class Loops:
                 geometry = _geometry(signature, neighbors, arrays)
         tables = [unwrap(constants[name]) for name in signature.tables]
         numbers = {name: constants[name] for name in signature.numbers}
-        if geometry is not None:
+        if geometry is not None and neighbors is not None:
             numbers["period"] = neighbors.period
         outs = [o if o is None else unwrap(o) for o in listed(call.out)]
         active = None if call.rows is None else unwrap(call.rows)
