@@ -51,7 +51,7 @@ def convert(document: Document) -> tuple[Document, list[str]]:
     return replace(document, data=data, lines=lines), moved
 
 
-def _move(data: dict[str, Any], old: Path, new: Path) -> bool:
+def _move(data: dict[Any, Any], old: Path, new: Path) -> bool:
     """Move a key; where its place is taken or it is not there, nothing happens."""
     (*tables, key), source = old, data
     for step in tables:
