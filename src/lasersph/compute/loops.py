@@ -21,7 +21,7 @@ from lasersph.compute import source
 from lasersph.compute.arguments import argument_for, array_kind, fingerprint
 from lasersph.compute.generate import Loop, LoopText
 from lasersph.compute.launch import Bound, Compiled, Launch, Launcher, bytes_of
-from lasersph.compute.rebinding import Rebound, rebinding_function
+from lasersph.compute.rebinding import Rebound, has_known_layout, rebinding_function
 from lasersph.compute.signature import Call, Signature, listed
 
 _layout = attrgetter("dtype", "shape", "strides")
@@ -57,7 +57,8 @@ class Loops:
         self.real = np.dtype(precision)
         self._signatures: dict[Any, Signature] = {}
         self._record: list[Launch] | None = None
-        if launcher.rebinds:
+        self._rebinds = launcher.rebinds and has_known_layout()
+        if self._rebinds:
             rebinding_function(precision)
 
     def run(self, call: Call) -> tuple[float, ...]:
@@ -68,7 +69,7 @@ class Loops:
                 raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
             self._record.append(launch)
             return launch()
-        if self.launcher.rebinds:
+        if self._rebinds:
             return self._run_rebound(call)
         return self.launcher.launch(self._bound(self.given(call)))()
 

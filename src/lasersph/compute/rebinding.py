@@ -217,6 +217,18 @@ def _entry(one: Any, role: int, place: int) -> list[int]:
 
 
 @cache
+def has_known_layout() -> bool:
+    """Whether NumPy's arrays lie in memory as `TEXT` reads them; else calls are bound in Python."""
+    one = np.zeros((2, 3), np.float32)[:, 1:]
+    words = (ctypes.c_uint64 * 8).from_address(id(one))
+    axes = ctypes.c_uint32.from_address(id(one) + 8 * 3).value
+    if (words[2], axes, words[7]) != (one.ctypes.data, one.ndim, id(one.dtype)):
+        return False
+    shape, strides = ((ctypes.c_uint64 * 2).from_address(words[k]) for k in (4, 5))
+    return (*shape, *strides) == (*one.shape, *one.strides)
+
+
+@cache
 def rebinding_function(precision: str) -> Callable[[int, int, int], None]:
     """What binds and runs: of the addresses of a plan, of arrays' addresses and of a frame."""
     address = folder.entry(rebinding_text(precision), is_fast=False)
