@@ -48,7 +48,7 @@ def test_center_lines_of_a_cavity(study):
     inside = (position + np.array([[0.5], [1.0]])).T
     at_particles = np.stack([RegularGridInterpolator((nodes, nodes), v)(inside) for v in velocity])
     step = {"time": 1.0, "position": position, "width": width, "velocity": 2.0 * at_particles}
-    one = MadeUp([step, step], case={"flow": {"surface": {"velocity": 2.0}}})
+    one = MadeUp([step, step], case={"solver": {"flow": {"surface": {"velocity": 2.0}}}})
     reference = {c: center_line(c, 100) for c in ("u", "v")}
     found = lid_driven_cavity.lines_of(one, reference)
     for component, line in reference.items():

@@ -62,7 +62,7 @@ def test_pool_too_deep():
         solver = molten_to(2e-6)
         solver.step(1e-12)
     text = str(told.value)
-    assert "flows into layers coarser than 1.25e-07 m, which begin at 1.25e-06 m" in text
+    assert "flows into layers coarser than 125 nm, which begin at 1.25 um" in text
     remedy = text.partition('give particles.fine_depth = "')[2].partition('"')[0]
     block_after(molten_to(2e-6, f"particles.fine_depth={remedy}"))
 
