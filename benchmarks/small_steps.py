@@ -94,8 +94,8 @@ def measure(case: str) -> dict[str, Any]:
 
     def advance(steps: int) -> None:
         for _ in range(steps):
-            _, step, pace = choose_step(solver.time_step_limits())
-            solver.step(step, pace)
+            _, step, unclipped_step = choose_step(solver.time_step_limits())
+            solver.step(step, unclipped_step)
 
     while start is not None and solver.state.time < start:
         advance(1)

@@ -67,7 +67,7 @@ def test_ten_million_particles(tmp_path):
 def test_gain_over_all_active():
     """Time per step of the whole sample, mostly inactive after 2 ns and all active."""
     partial, active_count = seconds_per_step(before=40, steps=20)
-    everything, count = seconds_per_step("solver.sleep=false", before=2, steps=3)
+    everything, count = seconds_per_step("solver.active_region=false", before=2, steps=3)
     memory = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     print(
         f"\n{partial:.3f} s a step with {active_count} particles active, {everything:.2f} s with "

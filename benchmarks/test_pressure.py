@@ -39,9 +39,9 @@ class Pool:
         def inside(margin):
             return (x / (width + margin)) ** 2 + (z / (depth + margin)) ** 2 < 1.0
 
-        self.role = np.select([inside(0.0), inside(1.5), inside(5.5)], [1, 2, 3], 0)
+        self.kind = np.select([inside(0.0), inside(1.5), inside(5.5)], [1, 2, 3], 0)
         step = np.random.default_rng(0).uniform(-0.15, 0.15, (2, x.size))
-        position = np.array([x, z]) + step * (self.role == 1)
+        position = np.array([x, z]) + step * (self.kind == 1)
         self.count, self.backend = x.size, backend
         source = np.arange(x.size)
         for axis in (0, 1):
@@ -60,7 +60,7 @@ class Pool:
         ones = backend.asarray(np.ones(source.size))
         backend.pair_values(weight, self.neighbors, {"V": ones}, self.weights)
         self.volume = backend.asarray(np.ones(self.count))
-        self.mask = backend.asarray(((self.role == 1) | (self.role == 2)).astype(float))
+        self.mask = backend.asarray(((self.kind == 1) | (self.kind == 2)).astype(float))
         x, z = position[:, : self.count]
         noise = np.random.default_rng(1).standard_normal(self.count)
         self.b = backend.asarray(np.cos(3.0 * x / width) + np.sin(5.0 * z / depth) + 0.3 * noise)
@@ -120,11 +120,11 @@ def test_pressure(name):
     plain, plain_time = timed(backend, jacobi, pool, 2)
 
     published = PublishedPressure(backend, pool.count, tolerance=TOLERANCE)
-    role = backend.asarray(pool.role, "flag")
-    published.set_operator(pool.neighbors, pool.source, pool.weights, role, pool.volume)
+    kind = backend.asarray(pool.kind, "flag")
+    published.set_operator(pool.neighbors, pool.source, pool.weights, kind, pool.volume)
     paper, paper_time = timed(backend, published, pool, 2)
 
-    unknowns = int((pool.role == 1).sum() + (pool.role == 2).sum())
+    unknowns = int((pool.kind == 1).sum() + (pool.kind == 2).sum())
     pairs = backend.to_host(pool.neighbors.neighbor).size
     floor = 12.0 * pairs / bandwidth(backend)
     each = time / outcome.iterations

@@ -32,7 +32,7 @@ class Pairs:
     def flux_through_planes(self):
         """Heat per area through the plane under each layer, for a unit gradient along z.
 
-        Exact is 1. The first and last planes within reach of a face are meaningless: pairs of two
+        Exact is 1. The first and last planes near a face are meaningless: pairs of two
         dummies are not in the list.
         """
         layer = self.filling.layer

@@ -13,11 +13,11 @@ def square(side):
     """Positions of side x side particles at distance 1, pairs within the support, their weights."""
     axis = np.arange(side) + 0.5
     position = np.stack([c.ravel() for c in np.meshgrid(axis, axis, indexing="ij")])
-    reach = int(SUPPORT)
+    farthest = int(SUPPORT)
     index = np.arange(side * side).reshape(side, side)
     rows, columns, weights = [], [], []
-    for i in range(-reach, reach + 1):
-        for k in range(-reach, reach + 1):
+    for i in range(-farthest, farthest + 1):
+        for k in range(-farthest, farthest + 1):
             distance = np.hypot(i, k)
             if 0 < distance < SUPPORT:
                 here = index[max(0, -i) : side - max(0, i), max(0, -k) : side - max(0, k)]

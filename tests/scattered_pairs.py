@@ -18,9 +18,9 @@ LEFT, RIGHT, BOTTOM, TOP, NONE = range(5)
 
 @dataclass(frozen=True)
 class Scattered:
-    """Pairs (i, j) with weights g; `face` is the face that an image lies beyond, else NONE.
+    """Pairs (i, j) with weights g; `face` is the face that a ghost lies beyond, else NONE.
 
-    image: (2, pairs) where j or its image lies [m].
+    partner: (2, pairs) where j or its ghost lies [m].
     """
 
     position: np.ndarray
@@ -30,7 +30,7 @@ class Scattered:
     j: np.ndarray
     g: np.ndarray
     face: np.ndarray
-    image: np.ndarray
+    partner: np.ndarray
 
     @property
     def count(self):
@@ -57,7 +57,7 @@ class Scattered:
             period=(0.0, 0.0),
         )
 
-    def dense(self, mask=None, pull=0.0):
+    def dense(self, mask=None, coefficient=0.0):
         """A = sum g (p_i - p_j) + a p on the particles of the mask, as a matrix of all."""
         mask = np.ones(self.count) if mask is None else mask
         A = np.zeros((self.count, self.count))
@@ -66,7 +66,7 @@ class Scattered:
         A[np.arange(self.count), np.arange(self.count)] += np.bincount(
             self.i, g, minlength=self.count
         )
-        return A + np.diag(pull * mask)
+        return A + np.diag(coefficient * mask)
 
     def arrays(self, backend, *arrays):
         """On the backend."""
@@ -95,11 +95,11 @@ def scattered(rows, width=1.0, *, jitter=0.0, seed=0, is_periodic=False, mirrors
             if not repeats and face not in mirrors:
                 continue
             near = np.abs(every[0][axis] - (other if repeats else plane)) < RATIO * d
-            image = every[0][:, near].copy()
-            image[axis] = image[axis] + plane - other if repeats else 2.0 * plane - image[axis]
-            places.append(image)
+            ghost = every[0][:, near].copy()
+            ghost[axis] = ghost[axis] + plane - other if repeats else 2.0 * plane - ghost[axis]
+            places.append(ghost)
             sources.append(every[1][near])
-            faces.append(np.full(image.shape[1], face))
+            faces.append(np.full(ghost.shape[1], face))
     place, source, face = (np.concatenate(v, axis=-1) for v in (places, sources, faces))
     pairs = cKDTree(position.T).sparse_distance_matrix(
         cKDTree(place.T), RATIO * d, output_type="coo_matrix"

@@ -69,9 +69,9 @@ def view_at(time, step, position, width, strength=1.0):
     rise = 0.5 * (1.0 + np.tanh((time - 47 * NS) / (4 * NS)))
     decay = 1.0 / np.sqrt(1.0 + max(time - 50 * NS, 0.0) / (6 * NS))
     amplitude = strength * 7000.0 * rise * decay
-    reach = np.sqrt((200 * NM) ** 2 + 4 * 4e-6 * max(time - 40 * NS, 0.0))
+    penetration = np.sqrt((200 * NM) ** 2 + 4 * 4e-6 * max(time - 40 * NS, 0.0))
     x = position[0] if position.shape[0] > 1 else np.zeros(position.shape[1])
-    profile = 0.5 * (1.0 + np.cos(2 * np.pi * x / PERIOD)) * np.exp(position[-1] / reach)
+    profile = 0.5 * (1.0 + np.cos(2 * np.pi * x / PERIOD)) * np.exp(position[-1] / penetration)
     raw = T0 + amplitude * profile
     volume = np.prod(width, axis=0)
     enthalpy = 669.0 * (raw - T0)

@@ -15,7 +15,7 @@ BAD_ABLATION_CASES = {
     "motion under conduction": (KIND + "dimensions = 2\n" + SOUND + "\n\n" + TIME, 'dimensions = 2\n\n[motion]\nkind = "uniform"\nx = "1 m/s"\n\n[time]', ':29: solver.motion: unknown key; belongs to kind = "ablation"'),
     "ejection under conduction": (KIND + "dimensions = 2\n" + SOUND + "\n\n" + TIME, 'dimensions = 2\n\n[ejection]\nmodel = "enthalpy"\n\n[time]', ':29: solver.ejection: unknown key; belongs to kind = "ablation"'),
     "graded particles": ('spacing = "0.2 um"', 'spacing = "0.2 um"\narrangement = "graded"', ':18: particles.arrangement: particles that move need one size; write "uniform"'),
-    "held face": (SIDES, 'sides = "fixed-temperature"', ':24: boundaries.sides: "fixed-temperature" holds the face itself; write "wall" for particles of that temperature'),
+    "face of given temperature": (SIDES, 'sides = "fixed-temperature"', ':24: boundaries.sides: "fixed-temperature" holds the face itself; write "wall" for particles of that temperature'),
     "flux": ('bottom = "wall"', 'bottom = "prescribed-flux"\nbottom_flux = "1 W/m^2"', ':23: boundaries.bottom: "prescribed-flux" is for bodies at rest; write "adiabatic" or "wall"'),
     "narrow period": ('width = "3 um"', 'width = "1 um"', ":14: domain.width: 1 um must be more than twice the support and its skin, 1.32 um; take a wider domain or a finer spacing"),
     "room beside a period": (TIME, '[vessel]\nright = "1 um"\n\n[time]', ":32: solver.vessel.right: no wall stands on a periodic side; leave it out"),

@@ -44,7 +44,7 @@ BAD_FLOW_CASES = {
     # heat
     "flux missing": (RIGHT, 'right = "prescribed-flux"', ':21: boundaries.right_flux: is missing; write e.g. right_flux = "1e6 W/m^2", positive into the body'),
     "flux in K": (RIGHT, 'right = "prescribed-flux"\nright_flux = "3 K"', ':25: boundaries.right_flux: "3 K" is a temperature, not a heat flux; write e.g. "1e6 W/m^2"'),
-    "flux through a held face": ('right_temperature = "299.5 K"', 'right_flux = "3 W/m^2"', ':25: boundaries.right_flux: says nothing where right = "fixed-temperature"; leave it out, or set right to "prescribed-flux"'),
+    "flux through a face of given temperature": ('right_temperature = "299.5 K"', 'right_flux = "3 W/m^2"', ':25: boundaries.right_flux: says nothing where right = "fixed-temperature"; leave it out, or set right to "prescribed-flux"'),
     "wave of an adiabatic surface": (RIGHT, RIGHT + '\nsurface_temperature_wave = { amplitude = "1 K", period = "1 m" }', ':26: boundaries.surface_temperature_wave: says nothing where surface = "adiabatic"; write surface = "fixed-temperature"'),
     # start and end
     "unknown start": (LID, LID + '\ninitial = { kind = "vortex" }', ':37: solver.flow.initial.kind: must be "rest" or "taylor-green" or "table", got "vortex"'),

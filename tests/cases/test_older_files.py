@@ -52,3 +52,14 @@ def test_mistakes_have_the_line_of_the_file(tmp_path):
     file.write_text(text.replace("schema_version = 1", "schema_version = 2"), encoding="utf-8")
     with pytest.raises(CaseError, match=r'motion: unknown key; do you mean "solver.motion"'):
         load_case(file)
+
+
+def test_a_key_of_another_name(tmp_path):
+    """`solver.sleep` is `solver.active_region`, in a file of version 1 and with `--set`."""
+    old = FOLDER / "ablation-aluminium.toml"
+    file = tmp_path / "case.toml"
+    text = old.read_text(encoding="utf-8")
+    file.write_text(text.replace('kind = "ablation"', 'kind = "ablation"\nsleep = false'), "utf-8")
+    for case in (load_case(file), load_case("ablation-aluminium", ["solver.sleep=false"])):
+        assert not case.solver.active_region
+        assert "solver.sleep is solver.active_region" in case.moved

@@ -33,7 +33,7 @@ def computed(*settings):
 )
 def test_inactive_matter_changes_nothing(settings):
     """Temperatures agree within 1e-8 of the rise, and the same particles have left."""
-    partial, whole = computed(*settings), computed(*settings, "solver.sleep=false")
+    partial, whole = computed(*settings), computed(*settings, "solver.active_region=false")
     assert whole.region is None and partial.region.active_count < 0.95 * partial.particles.capacity
     assert partial.state.ejecta.number == whole.state.ejecta.number > 0
     T, expected = (s.backend.to_host(s.particles["temperature"]) for s in (partial, whole))

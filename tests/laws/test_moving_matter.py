@@ -69,13 +69,13 @@ def test_galilean_invariance():
         step = binding_limit(solvers[0].time_step_limits())[1]
         for solver in solvers:
             solver.step(step)
-    way = drift * solvers[0].state.time
-    assert way[0, 0] > 2e-6
+    displacement = drift * solvers[0].state.time
+    assert displacement[0, 0] > 2e-6
     still, drifting = solvers
     difference = host(drifting, "velocity") - drift - host(still, "velocity")
     assert np.abs(difference).max() < 1e-7 * 20.0
     size = np.array([[10e-6], [12e-6]])
-    apart = host(drifting, "position") - way - host(still, "position")
+    apart = host(drifting, "position") - displacement - host(still, "position")
     apart -= size * np.round(apart / size)
     assert np.abs(apart).max() < 1e-15
 

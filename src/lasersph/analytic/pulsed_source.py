@@ -154,8 +154,8 @@ def _images(top, bottom, thickness, diffusivity, elapsed):
     yield top, bottom, 1.0
     if thickness is None:
         return
-    reach = 14.0 * np.sqrt(diffusivity * elapsed.max()) + 2.0 * thickness
-    for n in range(1, int(np.ceil(reach / (2.0 * thickness))) + 1):
+    farthest = 14.0 * np.sqrt(diffusivity * elapsed.max()) + 2.0 * thickness
+    for n in range(1, int(np.ceil(farthest / (2.0 * thickness))) + 1):
         shift = 2.0 * n * thickness
         for s in (shift, -shift):
             yield top + s, None if bottom is None else bottom + s, 1.0

@@ -1,7 +1,7 @@
 """Keys of older case files at their present places.
 
-Version 1 had the keys that only one solver reads beside [solver]; version 2 has them in it. They
-move with all that is in them, so that a table keeps keys that came later.
+Version 1 had the keys that only one solver reads beside [solver]; version 2 has them in it, and one
+has another name. They move with all that is in them, so that a table keeps keys that came later.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ MOVED: dict[Path, Path] = {
     ("motion",): ("solver", "motion"),
     ("ejection",): ("solver", "ejection"),
     ("time", "steady"): ("solver", "steady"),
+    ("solver", "sleep"): ("solver", "active_region"),
 }
 
 

@@ -91,8 +91,8 @@ def _pool(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, s
     if not is_heated:
         yield (
             "laser",
-            "missing: nothing would melt; give [laser] or a heated face in [boundaries], or "
-            "[solver.flow] for a box that is all fluid",
+            "missing: nothing would melt; give [laser] or a face of given temperature or heat "
+            "flux in [boundaries], or [solver.flow] for a box that is all fluid",
         )
     if case.boundaries.surface == "periodic":
         yield "boundaries.surface", 'a pool lies below a surface; write surface = "adiabatic"'

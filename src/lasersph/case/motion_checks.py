@@ -54,17 +54,17 @@ def _particles(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[s
     if width is None or solver.dimensions == 1:
         return
     ratio = case.particles.support_over_spacing
-    reach = 2.0 * (ratio + solver.skin) * case.particles.spacing
+    shortest = 2.0 * (ratio + solver.skin) * case.particles.spacing
     for key, length, face in (
         ("width", width, "left"),
         ("breadth", case.domain.breadth or width, "front"),
     ):
         is_there = face == "left" or case.solver.dimensions == 3
-        if is_there and case.boundaries.kind_of(face) == "periodic" and length <= reach:
+        if is_there and case.boundaries.kind_of(face) == "periodic" and length <= shortest:
             yield (
                 f"domain.{key}",
                 f"{format_quantity(length, 'm')} must be more than twice the support and its skin, "
-                f"{format_quantity(reach, 'm')}; take a wider domain or a finer spacing",
+                f"{format_quantity(shortest, 'm')}; take a wider domain or a finer spacing",
             )
 
 

@@ -204,8 +204,10 @@ class Laser(Model):
         cuts = [np.empty((2, 0))]
         for a, b in pairwise(edges):
             if float(self.pulse.delivered(a, b)) > 0.0:
-                way = float(np.linalg.norm(self.axis(b) - self.axis(a)))
-                longest = max(2.0 * way / self.beam.scale, (b - a) / (20 * self.pulse.resolution))
+                distance = float(np.linalg.norm(self.axis(b) - self.axis(a)))
+                longest = max(
+                    2.0 * distance / self.beam.scale, (b - a) / (20 * self.pulse.resolution)
+                )
                 parts = np.linspace(a, b, max(1, int(np.ceil(longest))) + 1)
                 cuts.append(np.array([parts[:-1], parts[1:]]))
         start, end = np.concatenate(cuts, axis=1)

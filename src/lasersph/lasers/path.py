@@ -22,8 +22,8 @@ class LinearPath(Model):
 
     def at(self, time: ArrayLike) -> Array:
         """Displacement from the start at times [s], shape (2, ...) [m]."""
-        way = self.speed * np.asarray(time, float)
-        return np.stack([way * np.cos(self.direction), way * np.sin(self.direction)])
+        distance = self.speed * np.asarray(time, float)
+        return np.stack([distance * np.cos(self.direction), distance * np.sin(self.direction)])
 
     def breakpoints(self) -> Array:
         """Times of corners [s]: none."""

@@ -195,8 +195,8 @@ def heat_of(view: View, box: Box) -> dict[str, Any]:
     Empty where the temperature is the same everywhere; no Nusselt number without two opposite sides
     that heat crosses.
     """
-    flow, spread = flow_of(view), float(np.ptp(view.temperature))
-    if spread <= SMALLEST_DIFFERENCE * float(np.max(view.temperature)):
+    flow, difference = flow_of(view), float(np.ptp(view.temperature))
+    if difference <= SMALLEST_DIFFERENCE * float(np.max(view.temperature)):
         return {}
     wall = {
         side: wall_temperature(

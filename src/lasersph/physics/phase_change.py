@@ -1,4 +1,4 @@
-"""Phase change: state from enthalpy, and the balance of one particle with its neighbors held.
+"""Phase change: state from enthalpy, and the balance of one particle with its neighbors fixed.
 
 h(T) has plateaus where T stays while latent heat enters [Demuth2020, eqs. (24)-(28)]; a
 `materials.CaloricCurve` gives it as nodes, linear between them. All functions are plain and
@@ -35,7 +35,7 @@ def thermal_state(h, h_nodes, T_nodes, P_nodes):
 
 
 def balanced_enthalpy(energy, m, S, h_nodes, P_nodes):
-    """Enthalpy h [J/kg] with  m h + S P(h) = energy  [J], the neighbors' potentials held.
+    """Enthalpy h [J/kg] with  m h + S P(h) = energy  [J], the neighbors' potentials fixed.
 
     The left side rises with h, also on plateaus, so that the segment is found by bisection; this
     is the paper's eq. (65) with the fractions eliminated exactly.

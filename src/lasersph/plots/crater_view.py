@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST_CELLS = 110
-"""Cells of the surface along an axis; finer maps are thinned."""
+"""Cells of the surface along an axis; of finer maps only some are drawn."""
 MOST_EJECTA = 1500
 FLATTEST = 0.35
 """Height of the picture over its width, at least; flat craters are drawn deeper than to scale."""

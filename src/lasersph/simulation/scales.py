@@ -4,7 +4,7 @@ A number of the run divided by its scale is the paper's starred quantity: x* = x
 t* = t / time, T* = (T - T_0) / temperature, h* = h / enthalpy, v* = v / velocity.
 
 Boxes have the numbers of their walls instead: with the speed U of the fastest one and the width,
-or the difference dT of two opposite held ones and their distance,
+or the difference dT of two opposite ones of given temperature and their distance,
 
     Re = U width / nu,    Ra = g beta dT L^3 / (nu a),    Pr = nu / a.
 """
@@ -83,7 +83,7 @@ def melt_numbers(case: Case, settings: MeltPoolSettings, length: float) -> dict[
 
 
 def box_numbers(case: Case, flow: FlowConditions, settings: MeltPoolSettings) -> dict[str, float]:
-    """Pr, and Re and Ra where a wall moves or two opposite ones are held apart."""
+    """Pr, and Re and Ra where a wall moves or two opposite ones differ in temperature."""
     material = case.material
     if case.domain.width is None:
         return {}
@@ -93,7 +93,7 @@ def box_numbers(case: Case, flow: FlowConditions, settings: MeltPoolSettings) ->
     fastest = max(abs(side.velocity) for side in flow.faces.values())
     if fastest > 0.0:
         numbers["Re"] = reynolds_number(fastest, case.domain.width, nu)
-    difference, length = held_apart(case)
+    difference, length = wall_temperature_difference(case)
     expansion = float(material.expansion_at(T))
     if difference > 0.0 and expansion > 0.0:
         gravity = settings.gravity
@@ -101,7 +101,7 @@ def box_numbers(case: Case, flow: FlowConditions, settings: MeltPoolSettings) ->
     return numbers
 
 
-def held_apart(case: Case) -> tuple[float, float]:
+def wall_temperature_difference(case: Case) -> tuple[float, float]:
     """Largest difference of two opposite sides of given temperature [K], and their distance [m]."""
     boundaries, initial = case.boundaries, case.initial_temperature
     found = [(0.0, 0.0)]

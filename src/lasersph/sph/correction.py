@@ -110,9 +110,9 @@ def vector_gradient_term(v_i, v_j, V_j, x_ij, r_ij, dW_ij):
 
 def bounded_inverse(total):
     """M^-1 where M is near the unit tensor, else 1: next to a gap a correction would amplify."""
-    size, spread = determinant(total), trace(total)
+    size, diagonal = determinant(total), trace(total)
     if size < LEAST_DETERMINANT or size > MOST_DETERMINANT:
         return identity(len(total))
-    if spread * spread > MOST_ANISOTROPY * size:
+    if diagonal * diagonal > MOST_ANISOTROPY * size:
         return identity(len(total))
     return inverse(total)

@@ -32,8 +32,8 @@ def lattice_neighbors(kernel: Kernel, ratio: float) -> tuple[Array, Array]:
     Args:
         ratio: support radius over spacing.
     """
-    reach = range(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1)
-    place = np.array(list(product(reach, repeat=kernel.dimension)), float).T
+    offsets = range(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1)
+    place = np.array(list(product(offsets, repeat=kernel.dimension)), float).T
     r = np.sqrt(np.sum(place * place, axis=0))
     is_near = (r > 0.0) & (r < ratio)
     place, r = place[:, is_near], r[is_near]

@@ -209,7 +209,7 @@ class _Lattice:
         count = int(self.layers.columns[axis, k])
         columns = np.arange(1 if abs(w_i - w_j) < 1e-9 * w_i else min(count, LARGEST_SAMPLE))
         x = (columns + 0.5) * w_i
-        reach = int(np.ceil(support / w_j)) + 1
+        farthest = int(np.ceil(support / w_j)) + 1
         nearest = np.floor(x / w_j).astype(np.int64)
-        steps = np.arange(-reach, reach + 1)
+        steps = np.arange(-farthest, farthest + 1)
         return x[:, None] - (nearest[:, None] + steps + 0.5) * w_j

@@ -57,8 +57,8 @@ def test_rise_is_the_convolution(depth, time, wavenumber):
     def integrand(u):
         s = u * u
         pulse = np.exp(-0.5 * ((time - 50e-9 - s) / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))
-        spread = float(pulsed_source.impulse_density(depth, s, ALPHA, DIFFUSIVITY))
-        return 2 * u * pulse * spread * np.exp(-(wavenumber**2) * DIFFUSIVITY * s)
+        density = float(pulsed_source.impulse_density(depth, s, ALPHA, DIFFUSIVITY))
+        return 2 * u * pulse * density * np.exp(-(wavenumber**2) * DIFFUSIVITY * s)
 
     marks = np.sqrt(np.maximum(time - 50e-9 + sigma * np.array([-4, -2, 0, 2, 4]), 1e-14))
     edges = np.unique(np.concatenate([[1e-12, 1e-7, 1e-6, 1e-5], marks, [np.sqrt(time)]]))

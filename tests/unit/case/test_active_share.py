@@ -13,7 +13,7 @@ from lasersph.case.size import size_of
     ("name", "overrides", "expected"),
     [
         ("ablation-depth", [], True),
-        ("ablation-depth", ["solver.sleep=false"], False),
+        ("ablation-depth", ["solver.active_region=false"], False),
         ("ablation-depth", ["solver.gravity=9.81 m/s^2"], False),
         ("dam-break", [], False),
         ("sound-wave", [], False),
@@ -38,6 +38,6 @@ def test_active_region_saves_memory():
     sample = ["solver.dimensions=3", "domain.width=20 um", "domain.depth=200 um",
               "particles.spacing=0.2 um"]  # fmt: skip
     partial = size_of(load_case("ablation-depth", sample))
-    whole = size_of(load_case("ablation-depth", [*sample, "solver.sleep=false"]))
+    whole = size_of(load_case("ablation-depth", [*sample, "solver.active_region=false"]))
     assert partial.particles == whole.particles == pytest.approx(1e7)
     assert partial.bytes < 6 * 2**30 < 0.25 * whole.bytes

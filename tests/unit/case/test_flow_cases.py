@@ -35,7 +35,10 @@ def test_kind_may_be_left_out():
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        (BARE, "laser: missing: nothing would melt; give [laser] or a heated face"),
+        (
+            BARE,
+            "laser: missing: nothing would melt; give [laser] or a face of given temperature",
+        ),
         (("solver.phase_change=false",), "solver.phase_change: nothing melts, so nothing flows"),
         (("material=aluminium-aa6014",), '"aluminium-aa6014" has no viscosity, which flow needs'),
         (
@@ -64,7 +67,7 @@ def test_a_liquid_needs_a_box():
     assert "fluid everywhere; say in [solver.flow]" in refused("flow=", case="natural-convection")
 
 
-def test_a_heated_face_melts_as_well():
+def test_a_neumann_face_melts_as_well():
     """A pool under a face that is hot or takes up a flux needs no laser."""
     for face in (
         ["boundaries.surface=fixed-temperature", "boundaries.surface_temperature=2000 K"],

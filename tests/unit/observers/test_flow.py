@@ -148,9 +148,9 @@ def test_edge_of_the_spreading_liquid_is_no_extremum():
     x = view.position[0, view.flow.surface]
     rising = view.flow.surface_velocity + np.where(x > 1000 * NM, 1.5, 0.0)
     flows = view.flow.flows & (view.position[0] < 1020 * NM)
-    spread = replace(view, flow=replace(view.flow, surface_velocity=rising, flows=flows))
-    assert len(surface_extrema(spread)) == 2
-    (only,) = surface_extrema(spread, margin=4.0)
+    two_maxima = replace(view, flow=replace(view.flow, surface_velocity=rising, flows=flows))
+    assert len(surface_extrema(two_maxima)) == 2
+    (only,) = surface_extrema(two_maxima, margin=4.0)
     assert only[1] == pytest.approx(600 * NM, abs=3 * NM)
 
 
@@ -217,7 +217,7 @@ def test_inner_extremum_that_remains_alone():
 
 
 def test_lid_pressure_beside_the_recoil_pressure(view):
-    """The largest lid pressure lies at the edge, the recoil pressure where the surface is hot."""
+    """The surface pressure is largest at the edge, the recoil pressure where it is hot."""
     observer = SurfacePressure()
     row = observer.observe(view)
     x = 0.5 * PERIOD - 2.5 * NM

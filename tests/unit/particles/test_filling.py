@@ -29,7 +29,7 @@ def test_real_particles_fill_the_box(dimensions):
     assert filling.surface.size == 6 ** (dimensions - 1)
 
 
-def test_image_dummies_mirror_surface_bottom_and_sides():
+def test_mirror_dummies_mirror_surface_bottom_and_sides():
     """Every dummy lies at the mirror image of its source about the face (twice at corners)."""
     filling = fill(block(), surface=MIRROR, bottom=MIRROR, sides=MIRROR)
     count = filling.count
@@ -75,7 +75,7 @@ def test_two_columns_are_reflected_repeatedly():
 
 
 def test_dirichlet_faces_are_marked():
-    """Dummies of a held bottom carry its index, at the corners too; mirrored sides carry none."""
+    """Dummies of a Dirichlet bottom have its index, at the corners too; mirrored sides none."""
     filling = fill(block(), surface=MIRROR, bottom=DIRICHLET, sides=MIRROR)
     beyond = filling.position[-1] < -8e-7
     assert np.all(filling.dirichlet[beyond] == FACES.index("bottom"))

@@ -27,11 +27,11 @@ def ghosts(backend):
     have ghosts.
     """
 
-    def find(position, *kinds, reach=0.3, count=None):
+    def find(position, *kinds, search_radius=0.3, count=None):
         faces = (FacePair(kinds[0], kinds[1], *X), FacePair(kinds[2], kinds[3], *Z))
         position = np.array(position, float).T
         count = count or position.shape[1]
-        found = GhostParticles(backend, count, reach, ghost_types_of(faces))
+        found = GhostParticles(backend, count, search_radius, ghost_types_of(faces))
         found.find(backend.asarray(position))
         source, ghost_type = (
             backend.to_host(part).astype(int) for part in (found.source, found.ghost_type)
@@ -102,14 +102,14 @@ def test_corner_of_a_period_and_a_mirror(ghosts):
 
 
 def test_reach(ghosts):
-    """Strictly closer than `reach`: 0.29 has an ghost, 0.3 has none."""
+    """Strictly closer than `search_radius`: 0.29 has a ghost, 0.3 has none."""
     found, _ = ghosts([(0.29, -0.5), (0.3, -0.5)], MIRROR, MIRROR, OPEN, OPEN)
     assert found.source.tolist() == [0]
 
 
 def test_box_narrower_than_the_reach(ghosts):
-    """A particle near both faces of a narrow box has an ghost beyond each."""
-    _, place = ghosts([(0.4, -0.5)], MIRROR, MIRROR, OPEN, OPEN, reach=0.8)
+    """A particle near both faces of a narrow box has a ghost beyond each."""
+    _, place = ghosts([(0.4, -0.5)], MIRROR, MIRROR, OPEN, OPEN, search_radius=0.8)
     assert sorted(place[0]) == pytest.approx([-0.4, 1.6])
 
 

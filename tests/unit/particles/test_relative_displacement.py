@@ -14,7 +14,7 @@ from lasersph.particles.relative_displacement import (
 
 
 def relative_of(solver, distance):
-    """The bound for the particles of a solver whose pairs reach so far [m]."""
+    """The bound for the particles of a solver whose lists have this search radius [m]."""
     pairs = solver.pairs
     fields = solver.particles.by_symbol()
     return RelativeDisplacement(solver.backend, fields, pairs.box, distance)
@@ -52,16 +52,19 @@ def test_bounds_all_that_is_near(dimension):
     x = host(solver, "position")
     rng = np.random.default_rng(3)
     phase = 2.0 * np.pi * (x[-1] / 24e-6 + rng.random((dimension, 1)))
-    way = 1e-6 * np.sin(phase) + 1e-8 * rng.uniform(-1.0, 1.0, x.shape)
-    put(solver, "velocity", 0.5 * way / 1e-9)
-    put(solver, "position", x + 0.5 * way)
+    displacement = 1e-6 * np.sin(phase) + 1e-8 * rng.uniform(-1.0, 1.0, x.shape)
+    put(solver, "velocity", 0.5 * displacement / 1e-9)
+    put(solver, "position", x + 0.5 * displacement)
     bound = relative.bound(1e-9)
     largest = 0.0
     for i in range(0, x.shape[1], 1 + x.shape[1] // 200):
         apart = x - x[:, [i]]
         apart -= size * np.round(apart / size)
         near = np.sum(apart**2, axis=0) < relative.clear**2
-        largest = max(largest, float(np.linalg.norm((way - way[:, [i]])[:, near], axis=0).max()))
+        largest = max(
+            largest,
+            float(np.linalg.norm((displacement - displacement[:, [i]])[:, near], axis=0).max()),
+        )
     assert largest <= bound < 2.0 * largest
 
 

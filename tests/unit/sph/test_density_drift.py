@@ -1,4 +1,4 @@
-"""Crowding of particles, by hand on a lattice and on a pair."""
+"""Density drift of particles, by hand on a lattice and on a pair."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from lasersph.sph.lattice_sums import kernel_sum
 
 
 def test_lattice():
-    """Only the four nearest neighbors are in reach: 4 W(1) of the cubic spline at l = 1.2."""
+    """The four nearest neighbors lie within the support: 4 W(1) of the cubic spline at l = 1.2."""
     shape = kernel("cubic-spline", 2)
     s = 1.0 / 1.2
     expected = 4.0 * shape.sigma / 1.2**2 * shape.shape(s)

@@ -42,7 +42,7 @@ def test_two_particles_by_hand():
 
 
 def test_beyond_the_support():
-    """A pair of the search that is out of reach counts nothing."""
+    """A pair of the search beyond the support counts nothing."""
     terms = repulsion_terms(np.array([2.0, 0.0]), 2.0, 1.9)
     assert not terms[0].any() and terms[1:] == (0.0, 0.0)
     assert shift(*terms, **FREE).tolist() == [0.0, 0.0]

@@ -57,10 +57,10 @@ class AblationSettings(SolverSettings):
         description="how much further than their support moving particles look for neighbors at "
         "most, in spacings; a thinner skin serves slow ones",
     )
-    sleep: bool = Field(
+    active_region: bool = Field(
         default=True,
-        description="whether cold matter at rest is left alone until heat comes near (only where "
-        "nothing moves at the start and there is no gravity)",
+        description="whether only the region around heat and motion is computed, cold matter at "
+        "rest being inactive (only where nothing moves at the start and there is no gravity)",
     )
     ejecta_height: Annotated[Length, Field(gt=0)] | None = Field(
         default=None,
@@ -90,4 +90,4 @@ class AblationSettings(SolverSettings):
     @property
     def leaves_rest_inactive(self) -> bool:
         """Whether cold matter at rest is left alone; under gravity nothing rests."""
-        return self.sleep and self.gravity == 0.0
+        return self.active_region and self.gravity == 0.0

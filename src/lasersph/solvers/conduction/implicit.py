@@ -12,7 +12,7 @@ this one. A step is
     solve      Newton: (C + s G) dP = r on these, by conjugate gradients, as exactly as the last
                iteration has made it worth
     correct    these take the enthalpy that dP leads to; one that reaches a plateau stores the rest
-               as latent heat; those on a plateau are balanced with their neighbors held (65), which
+               as latent heat; those on a plateau are balanced, their neighbors fixed (65), which
                lets them leave it; dP is halved until the sum of |r| falls
 
 the last three again until sum |r| <= tolerance times the absorbed energy. Whatever is left of r is
@@ -62,7 +62,7 @@ def initial_guess(h, excess, h_old, h_older, ratio, near, far, h_nodes, P_nodes)
 
 
 def balance(total, h0, P, E, q, m, S, a, B, s, h_nodes, P_nodes):
-    """Enthalpy, P and dP/dh of a particle that balances with its neighbors held.
+    """Enthalpy, P and dP/dh of a particle that balances with its neighbors fixed.
 
     Args:
         total: sum of g_ij (P_j - P_i). h0: enthalpy before the step. S, a: sums of weights.
@@ -237,7 +237,7 @@ class ImplicitStep:
         return error, surface | {"walls": walls * step}
 
     def _balance(self, step: float, rows: Rows) -> None:
-        """Balance the particles `rows` with their neighbors held."""
+        """Balance the particles `rows` with their neighbors fixed."""
         backend, out = self.body.backend, (self.h, self.spare, self.slope)
         pairs, fields = self.body.pairs.neighbors, self._fields()
         backend.pair_sum(flow, pairs, fields, out, rows=rows, finish=balance, s=step, **self.curve)

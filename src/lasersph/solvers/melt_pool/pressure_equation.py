@@ -96,7 +96,7 @@ def turn(z, s, beta):
     return z + beta * s
 
 
-def kept(p, mask):
+def masked_value(p, mask):
     """First guess, where there is an equation."""
     return mask * p
 
@@ -132,27 +132,27 @@ class PressureEquation:
         )
 
     def set_operator(
-        self, neighbors: Any, weights: Any, mask: Any, volume: Any, pull: Any = None
+        self, neighbors: Any, weights: Any, mask: Any, volume: Any, coefficient: Any = None
     ) -> None:
         """Take the operator of the present particles; call it whenever one of these has changed.
 
         Args:
             neighbors: folded list of pairs with position (2, n) [m]. weights: (pairs,) g_ij.
             mask: (n,) 1 for unknown pressures, else 0. volume: (n,) V_i [m^2].
-            pull: (n,) a_i >= 0; None for no boundary with a given pressure.
+            coefficient: (n,) a_i >= 0; None for no boundary with a given pressure.
         """
         backend, components = self.backend, self.components
         self._neighbors, self._weights = neighbors, weights
-        self._pull = self._nothing if pull is None else pull
-        components.find(neighbors.position, mask, self._pull)
-        fields = {"g_ij": weights, "component": components.number, "a": self._pull}
+        self._coefficient = self._nothing if coefficient is None else coefficient
+        components.find(neighbors.position, mask, self._coefficient)
+        fields = {"g_ij": weights, "component": components.number, "a": self._coefficient}
         backend.pair_sum(inner, neighbors, fields, self._d, finish=total_weight)
         if components.count > 1:
             if self._inner.shape[0] < weights.shape[0]:
                 self._inner = backend.zeros(weights.shape[0])
             self._weights = self._inner
             backend.pair_values(inner, neighbors, fields, self._inner)
-        self._correction.prepare(neighbors.position, components.mask, volume, self._pull)
+        self._correction.prepare(neighbors.position, components.mask, volume, self._coefficient)
 
     def solve(self, b: Any, pressure: Any, *, value: Any = None, flux: Any = None) -> Outcome:
         """Solve for the pressure, from what it holds as the first guess.
@@ -168,10 +168,10 @@ class PressureEquation:
         mask, p, r, s, q = components.mask, pressure, self._r, self._s, self._q
         fields = {
             "p": p, "r": r, "z": self._z, "s": s, "q": q, "d": self._d, "mask": mask, "b": b,
-            "a": self._pull, "f": nothing if flux is None else flux,
+            "a": self._coefficient, "f": nothing if flux is None else flux,
             "p_b": nothing if value is None else value, "g_ij": self._weights,
         }  # fmt: skip
-        backend.pointwise(kept, fields, p)
+        backend.pointwise(masked_value, fields, p)
         backend.pointwise(right_side, fields, self._b)
         scale = components.remove_means(self._b) ** 0.5
         (r_r,) = backend.pair_sum(

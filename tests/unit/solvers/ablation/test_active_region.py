@@ -115,11 +115,11 @@ def test_periodic_sides(backend):
 def test_pairs_are_those_of_all(backend, period):
     """Active rows have the neighbors that they have in the list of everything, others none."""
     found = Block(backend, (18,), 40, period)
-    reach = backend.asarray(np.full(18 * 40, SUPPORT))
-    pairs = search_pairs(backend, found.fields["x"], reach, period, found.region.subset)
+    support = backend.asarray(np.full(18 * 40, SUPPORT))
+    pairs = search_pairs(backend, found.fields["x"], support, period, found.region.subset)
     start, neighbor = (backend.to_host(a) for a in pairs)
     every = search.neighbor_list(
-        backend, found.fields["x"], reach, 18 * 40, mean=arithmetic, period=period
+        backend, found.fields["x"], support, 18 * 40, mean=arithmetic, period=period
     )
     full_start, full = (backend.to_host(a) for a in every)
     active = set(backend.to_host(found.region.rows).tolist())
@@ -150,7 +150,7 @@ def heated(backend, steps, *, is_partial):
     found = Block(backend, (18,), 60, (18.0, 0.0))
     count = found.host.shape[1]
     q = np.where((found.host[1] > -1.0) & (found.host[0] < 9.0), 1.0, 0.0)
-    reach = backend.asarray(np.full(count, SUPPORT))
+    support = backend.asarray(np.full(count, SUPPORT))
     if not is_partial:
         found.put("v", slice(None), 1e-3)
         found.grow()
@@ -160,10 +160,10 @@ def heated(backend, steps, *, is_partial):
     for _ in range(steps):
         if found.grow() or pairs is None:
             start, neighbor = search_pairs(
-                backend, found.fields["x"], reach, (18.0, 0.0), found.region.subset
+                backend, found.fields["x"], support, (18.0, 0.0), found.region.subset
             )
             pairs = NeighborList(
-                start, neighbor, found.fields["x"], reach, kernel("cubic-spline", 2), arithmetic,
+                start, neighbor, found.fields["x"], support, kernel("cubic-spline", 2), arithmetic,
                 (18.0, 0.0),
             )  # fmt: skip
         rows = found.region.rows

@@ -76,7 +76,7 @@ def test_largest_change_is_recorded():
 
 
 def test_a_state_restored_continues_to_the_bit():
-    """Fields and carried numbers are all that a step reads."""
+    """Fields and checkpoint scalars are all that a step reads."""
     first, *_ = heated("implicit")
     first.step(STEP)
     second = solver_of()

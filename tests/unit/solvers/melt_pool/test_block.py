@@ -140,7 +140,7 @@ def test_ghost_tensor():
     assert ghost_tensor(M, np.array([-1.0, -1.0])).tolist() == M.tolist()
 
 
-def test_image_velocity():
+def test_ghost_velocity():
     """S v + c + slope * jump * t."""
     v, S, c = np.array([2.0, 3.0]), np.array([1.0, -1.0]), np.array([0.5, 0.0])
     along = np.array([1.0, 0.0])
@@ -148,19 +148,19 @@ def test_image_velocity():
     assert ghost_velocity(v, S, c, -1.0, 0.25, along).tolist() == [2.25, -3.0]
 
 
-def test_terms_of_a_held_face():
+def test_terms_of_a_dirichlet_face():
     """Particle 1 above a floor at z = -2, ghost 3 below it: c = (1 + 3) / 1, no power."""
     x_i, x_j, down = np.array([0.0, -1.0]), np.array([5.0, -5.0]), np.array([0.0, -1.0])
-    pull, flow, heat, power = wall_terms(0.5, 1.0, 7.0, 11.0, 0.0, down, 2.0, x_i, x_j)
-    assert (pull, flow, heat, power) == (2.0, 14.0, 22.0, 0.0)
+    coefficient, flow, heat, power = wall_terms(0.5, 1.0, 7.0, 11.0, 0.0, down, 2.0, x_i, x_j)
+    assert (coefficient, flow, heat, power) == (2.0, 14.0, 22.0, 0.0)
     assert inner_weight(0.5, 1.0) == 0.0
 
 
-def test_terms_of_a_heated_face():
+def test_terms_of_a_neumann_face():
     """2 q n_j g with the ghost 3 beyond the face; the pair still conducts between particles."""
     x_i, x_j, down = np.array([0.0, -1.0]), np.array([5.0, -5.0]), np.array([0.0, -1.0])
-    pull, _, _, power = wall_terms(0.5, 0.0, 0.0, 0.0, 10.0, down, 2.0, x_i, x_j)
-    assert (pull, power) == (0.0, 2.0 * 10.0 * 3.0 * 0.5)
+    coefficient, _, _, power = wall_terms(0.5, 0.0, 0.0, 0.0, 10.0, down, 2.0, x_i, x_j)
+    assert (coefficient, power) == (0.0, 2.0 * 10.0 * 3.0 * 0.5)
     assert inner_weight(0.5, 0.0) == 0.5
 
 
@@ -172,7 +172,7 @@ def test_a_pair_inside_has_no_wall():
 
 
 @pytest.mark.parametrize("share", [0.0, 0.2])
-def test_power_of_a_heated_face(share):
+def test_power_of_a_neumann_face(share):
     """What enters through a face of 10 W/m2 over 1 m, lattice or not: 10 W per meter."""
     heat = {"left": "prescribed-flux", "left_flux": 10.0}
     solver = box(flow={}, heat=heat)

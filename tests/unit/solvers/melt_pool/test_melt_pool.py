@@ -202,7 +202,7 @@ def test_limits_by_name(life):
     assert not {"advection", "viscosity"} & set(solver.time_step_limits())
 
 
-def test_iterations_and_carried_numbers():
+def test_iterations_and_checkpoint_scalars():
     """What is reported of a step."""
     solver = box()
     go(solver, 2)

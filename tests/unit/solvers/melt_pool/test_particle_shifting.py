@@ -71,7 +71,7 @@ def test_balanced():
     assert (balance_change(5.0, 1.0, 0.5, 1.0), balance_change(5.0, -1.0, 0.5, 1.0)) == (5.5, 4.0)
 
 
-def test_enthalpy_beyond_a_held_face():
+def test_enthalpy_beyond_a_dirichlet_face():
     """Odd about the wall's: 2 * 7 - 5; else the source's."""
     assert (ghost_enthalpy(5.0, 1.0, 7.0), ghost_enthalpy(5.0, 0.0, 7.0)) == (9.0, 5.0)
 
@@ -93,7 +93,7 @@ def test_settled():
     assert shifted_position(x, 0.0 * x, 0.0, **box_) == pytest.approx(x)
 
 
-def rearranged(solver, place, shift, *, v=None, h=None):
+def shift_particles(solver, place, shift, *, v=None, h=None):
     """The solver's own adjustment at `place` for given shifts; returns v and h."""
     block = block_of(solver, place)
     shifting, backend = solver.shifting, solver.backend
@@ -114,7 +114,7 @@ def test_velocity_is_exact_on_linear_fields(share):
     place = jittered(solver, share)
     shift = np.random.default_rng(6).uniform(-0.004, 0.004, place.shape)
     A = np.array([[1.0, 2.0], [-3.0, -1.0]])
-    found, _ = rearranged(solver, place, shift, v=A @ place)
+    found, _ = shift_particles(solver, place, shift, v=A @ place)
     inside = (np.abs(place - [[0.0], [-0.5]]) < 0.5 - 4.0 / 12).all(axis=0)
     assert inside.sum() >= 4
     assert found[:, inside] == pytest.approx((A @ (place + shift))[:, inside], abs=1e-12)
@@ -126,7 +126,7 @@ def test_positions_settle():
     place = place_of(solver)
     shift = np.zeros_like(place)
     shift[0] = -0.04
-    rearranged(solver, place, shift)
+    shift_particles(solver, place, shift)
     expected = np.maximum(place[0] - 0.04, -0.5 + CLOSEST * 0.1)
     assert place_of(solver)[0] == pytest.approx(expected)
 
@@ -139,7 +139,7 @@ def test_energy_of_the_adjustment(periodic):
     place = jittered(solver)
     shift = np.random.default_rng(6).uniform(-0.01, 0.01, place.shape)
     h = 10.0 * np.cos(7.0 * place[0]) * np.sin(5.0 * place[1])
-    _, found = rearranged(solver, place, shift, h=h)
+    _, found = shift_particles(solver, place, shift, h=h)
     mass = solver.backend.to_host(solver.particles["mass"])
     assert np.abs(found - h).max() > 0.1
     assert mass @ found == pytest.approx(mass @ h, abs=1e-13 * (mass @ np.abs(h)))
@@ -153,7 +153,7 @@ def test_adjusted_enthalpy_follows_the_field():
     shift = np.zeros_like(place)
     shift[0] = 0.005 * np.sin(2.0 * np.pi * place[0])
     h = 10.0 * np.sin(2.0 * np.pi * place[0])
-    _, found = rearranged(solver, place, shift, h=h)
+    _, found = shift_particles(solver, place, shift, h=h)
     slope = 20.0 * np.pi * np.cos(2.0 * np.pi * place[0])
     top = np.isclose(np.abs(h), np.abs(h).max())
     assert (found - h)[~top] == pytest.approx((slope * shift[0])[~top], abs=0.02)

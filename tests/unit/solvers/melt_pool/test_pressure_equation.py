@@ -8,7 +8,7 @@ from lasersph import compute
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 
 
-def equation(backend, pairs, *, mask=None, pull=None, tolerance=1e-10, max_iterations=200):
+def equation(backend, pairs, *, mask=None, coefficient=None, tolerance=1e-10, max_iterations=200):
     """Equation of the pairs with its operator set."""
     mask = np.ones(pairs.count) if mask is None else mask
     solver = PressureEquation(
@@ -16,8 +16,10 @@ def equation(backend, pairs, *, mask=None, pull=None, tolerance=1e-10, max_itera
         period=pairs.period,
     )  # fmt: skip
     mask, volume = pairs.arrays(backend, mask, pairs.volume)
-    pull = None if pull is None else backend.asarray(pull)
-    solver.set_operator(pairs.neighbors(backend), backend.asarray(pairs.g), mask, volume, pull)
+    coefficient = None if coefficient is None else backend.asarray(coefficient)
+    solver.set_operator(
+        pairs.neighbors(backend), backend.asarray(pairs.g), mask, volume, coefficient
+    )
     return solver
 
 
@@ -54,26 +56,28 @@ def manufactured_error(rows, jitter, is_simple):
     g = np.array(pairs.g)
     if is_simple:
         is_first = z > -pairs.spacing
-        pull = np.where(is_first, pairs.spacing / -z, 0.0)
+        coefficient = np.where(is_first, pairs.spacing / -z, 0.0)
         value = np.cos(np.pi * x)
         g[pairs.face == TOP] = 0.0
     else:
         on_top = pairs.face == TOP
-        ratio = (pairs.image[1] - z[i]) / -z[i]
+        ratio = (pairs.partner[1] - z[i]) / -z[i]
         share = np.where(on_top, g * ratio, 0.0)
-        place = x[i] + (pairs.image[0] - x[i]) / np.where(on_top, ratio, 1.0)
-        pull = np.bincount(i, share, minlength=n)
-        value = np.bincount(i, share * np.cos(np.pi * place), minlength=n) / np.maximum(pull, 1e-30)
+        place = x[i] + (pairs.partner[0] - x[i]) / np.where(on_top, ratio, 1.0)
+        coefficient = np.bincount(i, share, minlength=n)
+        value = np.bincount(i, share * np.cos(np.pi * place), minlength=n) / np.maximum(
+            coefficient, 1e-30
+        )
         g[on_top] = 0.0
-    # dp/dn = -dp/dz on the bottom; the image of j has p_j + 2 depth_j dp/dn
+    # dp/dn = -dp/dz on the bottom; the ghost of j has p_j + 2 depth_j dp/dn
     below = pairs.face == BOTTOM
-    slope = -exact(pairs.image[0], -1.0)
+    slope = -exact(pairs.partner[0], -1.0)
     flux = np.bincount(
-        i, np.where(below, g * 2.0 * (-1.0 - pairs.image[1]) * slope, 0.0), minlength=n
+        i, np.where(below, g * 2.0 * (-1.0 - pairs.partner[1]) * slope, 0.0), minlength=n
     )
     solver = PressureEquation(backend, n, pairs.support, tolerance=1e-8)
-    one, volume, g, pull = pairs.arrays(backend, np.ones(n), pairs.volume, g, pull)
-    solver.set_operator(pairs.neighbors(backend), g, one, volume, pull)
+    one, volume, g, coefficient = pairs.arrays(backend, np.ones(n), pairs.volume, g, coefficient)
+    solver.set_operator(pairs.neighbors(backend), g, one, volume, coefficient)
     outcome, p = solved(backend, solver, pairs.volume * laplacian(x, z), value=value, flux=flux)
     assert outcome.residual <= 1e-8
     return np.sqrt(np.mean((p - exact(x, z)) ** 2))
@@ -124,14 +128,14 @@ def test_pool_without_given_pressure(make):
 
 
 def test_given_pressure_is_left_alone():
-    """With a pull anywhere nothing is removed: p solves A p = a p_b + f - b as it stands."""
+    """With a boundary coefficient nothing is removed: p solves A p = a p_b + f - b."""
     backend = compute.cpu(threads=2)
     pairs = scattered(16, 1.0, jitter=0.2, mirrors=(LEFT, RIGHT))
-    pull = np.where(pairs.position[1] > -pairs.spacing, 2.0, 0.0)
+    coefficient = np.where(pairs.position[1] > -pairs.spacing, 2.0, 0.0)
     b, value, flux = rough(pairs.count), np.full(pairs.count, 3.0), 0.1 * rough(pairs.count, 2)
-    solver = equation(backend, pairs, pull=pull)
+    solver = equation(backend, pairs, coefficient=coefficient)
     _, p = solved(backend, solver, b, value=value, flux=flux)
-    expected = np.linalg.solve(pairs.dense(pull=pull), pull * value + flux - b)
+    expected = np.linalg.solve(pairs.dense(coefficient=coefficient), coefficient * value + flux - b)
     assert np.abs(p - expected).max() <= 1e-7 * np.abs(expected).max()
 
 
@@ -139,8 +143,8 @@ def test_uniform_given_pressure_without_flow_is_exact():
     """p_b everywhere the same, no divergence, no flux: p = p_b to rounding."""
     backend = compute.cpu(threads=2)
     pairs = scattered(16, 1.0, jitter=0.2, mirrors=(LEFT, RIGHT))
-    pull = np.where(pairs.position[1] > -pairs.spacing, 2.0, 0.0)
-    solver = equation(backend, pairs, pull=pull, tolerance=1e-12)
+    coefficient = np.where(pairs.position[1] > -pairs.spacing, 2.0, 0.0)
+    solver = equation(backend, pairs, coefficient=coefficient, tolerance=1e-12)
     value = np.full(pairs.count, 1e5)
     _, p = solved(backend, solver, np.zeros(pairs.count), value=value)
     np.testing.assert_allclose(p, 1e5, rtol=1e-11)
@@ -156,7 +160,7 @@ def two_pools(x, z):
 
 
 def test_pools_and_remnants():
-    """Each pool has its own mean; two lone particles have p = 0; held particles take no part."""
+    """Each pool has its own mean; two lone particles have p = 0; fixed particles take no part."""
     backend = compute.cpu(threads=2)
     pairs = scattered(20, 2.0)
     x, z = pairs.position

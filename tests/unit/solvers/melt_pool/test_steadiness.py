@@ -47,7 +47,7 @@ def test_at_rest():
     assert not steadiness.reached
 
 
-def test_carried_over():
+def test_resumed():
     """Restored it goes on where it was."""
     looks = turnovers(5.0, 5.0, 5.0, 5.0, 5.0)
     first = looked(1e-3, *looks[:4])

@@ -90,12 +90,12 @@ def _temperature_range(case: Case) -> float:
     if case.flow is None:
         boiling = material.vaporization.temperature if material.vaporization else None
         return (boiling or 1.5 * material.flow_temperature) - material.flow_temperature
-    held = [
+    given = [
         faces.temperature_of(face, case.initial_temperature)
         for face in ("surface", "bottom", "left", "right")
         if faces.kind_of(face) in DIRICHLET
     ]
-    return max([*held, case.initial_temperature]) - min([*held, case.initial_temperature])
+    return max([*given, case.initial_temperature]) - min([*given, case.initial_temperature])
 
 
 def _imposed_gradient(case: Case) -> float:

@@ -31,7 +31,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
     settings_type = MeltPoolSettings
 
     def __init__(self, case: Case) -> None:
-        """The flow is foreseen at once."""
+        """The recipe holds the forecast of the flow."""
         super().__init__(case)
         self.flow = flow_forecast(case, self.settings, self.layers.spacing)
 

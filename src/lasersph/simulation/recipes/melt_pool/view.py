@@ -48,7 +48,7 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Any], np.ndarray]) -
     T = material.flow_temperature
     has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
     is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in SIDES}
-    held = {
+    wall_temperature = {
         side: case.boundaries.temperature_of(side, case.initial_temperature)
         for side, kind in kinds.items()
         if is_box and kind in DIRICHLET
@@ -71,7 +71,7 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Any], np.ndarray]) -
         recoil_pressure=_recoil(case, temperature),
         box=is_box,
         conductivity=float(material.conductivity_at(T)),
-        wall_temperature=held,
+        wall_temperature=wall_temperature,
         conducting_sides=tuple(
             s for s, kind in kinds.items() if is_box and kind in (*DIRICHLET, NEUMANN)
         ),
