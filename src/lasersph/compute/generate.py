@@ -46,9 +46,10 @@ START = {"sum": "real(0.0)", "max": "real(-np.inf)", "min": "real(np.inf)"}
 """Values that change nothing when they are combined; also what a row without neighbors has."""
 REDUCE = {
     "sum": "{0} += {1}",
-    "max": "{0} = {1} if ({1} > {0} or {1} != {1}) else {0}",
-    "min": "{0} = {1} if ({1} < {0} or {1} != {1}) else {0}",
+    "max": "{0} = maximum({0}, {1})",
+    "min": "{0} = minimum({0}, {1})",
 }
+"""How a value enters a reduction; NaN stays."""
 
 
 @dataclass(frozen=True)
@@ -99,10 +100,12 @@ class LoopText:
 
     Attributes:
         HEAD: first lines of the file. INNER: decorator of the functions that the loop calls.
+        REDUCE: how a value enters a reduction.
     """
 
     HEAD = _HEAD
     INNER = INNER
+    REDUCE = REDUCE
 
     def __init__(self, loop: Loop) -> None:
         self.loop = loop
@@ -131,13 +134,13 @@ class LoopText:
             if loop.finish is not None:
                 values, items = self._finish(values, items, after)
         outputs = self._outputs(values, items)
-        if loop.shape == "pair_values":
-            inner += outputs("p")
-        else:
+        if loop.shape != "pair_values":
             store += outputs("i")
         starts, reduces, ends = self._reductions(values, items)
         lines = ["i = np.uint64(rows[k])" if loop.listed else "i = k", *rows]
-        if pairs:
+        if loop.shape == "pair_values":
+            lines += self.pair_values(inner, outputs)
+        elif pairs:
             lines.append("for p in range(row_start[i], row_start[i + ONE]):")
             lines += ["    " + line for line in inner]
         lines += after + store + reduces
@@ -145,6 +148,30 @@ class LoopText:
         parts = [head, *(f"{self.INNER}\n{text}\n" for text in self.unit.texts)]
         parts.append(self.compiled(starts, lines, ends))
         return "\n".join(parts)
+
+    def pair_values(self, inner: list[str], outputs: AnyObject) -> list[str]:
+        """Lines that store a value for each pair of a row.
+
+        They are first put where no array can be: a compiler that must expect a store to change what
+        is read next does one pair after the other.
+        """
+        kinds = dict(self.loop.types)
+        stores = [line.partition(" = ") for line in outputs("p")]
+        names = [target.removesuffix("[p]") for target, _, _ in stores]
+        values = [value for _, _, value in stores]
+        rooms = [kinds.get(name.partition("__")[0], self.loop.precision) for name in names]
+        lines = [f"b_{name} = room_{kind}()" for name, kind in zip(names, rooms, strict=True)]
+        lines += [
+            "for first_pair in range(row_start[i], row_start[i + ONE], np.uint64(ROOM)):",
+            "    length = min(row_start[i + ONE] - first_pair, np.uint64(ROOM))",
+            "    for m in range(length):",
+            "        p = first_pair + m",
+            *("        " + line for line in inner),
+            *(f"        b_{n}[m] = {value}" for n, value in zip(names, values, strict=True)),
+            "    for m in range(length):",
+            *(f"        {name}[first_pair + m] = b_{name}[m]" for name in names),
+        ]
+        return lines
 
     def _combine(
         self, values: list, sums: list, items: list, rows: list[str], inner: list[str]
@@ -160,7 +187,7 @@ class LoopText:
                 if how == "sum":
                     inner.append(f"{s} += real({y})")
                 else:
-                    inner += [f"{y} = real({y})", REDUCE[how].format(s, y)]
+                    inner += [f"{y} = real({y})", self.REDUCE[how].format(s, y)]
 
     def _call(
         self, function: AnyObject, arguments: tuple[Argument, ...], rows: list, inner: list
@@ -297,7 +324,7 @@ class LoopText:
                 raise ValueError(f"result {k} is no scalar and cannot be reduced")
             starts.append(f"q{k} = {START[how]}")
             updates.append(f"e{k} = real({values[k]})")
-            updates.append(REDUCE[how].format(f"q{k}", f"e{k}"))
+            updates.append(self.REDUCE[how].format(f"q{k}", f"e{k}"))
             ends.append(f"q{k}")
         return starts, updates, ends
 

@@ -13,7 +13,18 @@ from numba import types
 from numba.extending import intrinsic
 
 __all__ = [
-    "at_float32", "at_float64", "at_int64", "at_uint8", "at_uint32", "at_uint64", "invoke",
+    "ROOM",
+    "at_float32",
+    "at_float64",
+    "at_int64",
+    "at_uint8",
+    "at_uint32",
+    "at_uint64",
+    "invoke",
+    "maximum",
+    "minimum",
+    "room_float32",
+    "room_float64",
 ]  # fmt: skip
 
 
@@ -35,6 +46,48 @@ def _view(element: Any) -> Any:
 at_float64, at_float32 = _view(types.float64), _view(types.float32)
 at_uint64, at_uint32, at_uint8 = _view(types.uint64), _view(types.uint32), _view(types.uint8)
 at_int64 = _view(types.int64)
+
+ROOM = 64
+"""Elements of the room of a function: more than most particles have neighbors."""
+
+
+def _room(element: Any) -> Any:
+    """Intrinsic that gives a function room for some elements, which no other memory overlaps."""
+
+    @intrinsic
+    def room(_context: Any) -> tuple:
+        def code(context: Any, builder: Any, _signature: Any, _arguments: Any) -> Any:
+            kind = context.get_value_type(element)
+            with builder.goto_entry_block():
+                place = builder.alloca(kind, ROOM)
+            return place
+
+        return types.CPointer(element)(), code
+
+    return room
+
+
+room_float64, room_float32 = _room(types.float64), _room(types.float32)
+
+
+def _extreme(name: str) -> Any:
+    """Intrinsic of two numbers of one type; NaN where one is NaN, so that loops keep their order of
+    operations free and can be done several elements at a time."""
+
+    @intrinsic
+    def extreme(_context: Any, a: Any, b: Any) -> tuple:
+        def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+            kind = arguments[0].type
+            shape = ir.FunctionType(kind, [kind, kind])
+            function = builder.module.declare_intrinsic(f"llvm.{name}", [kind], shape)
+            return builder.call(function, arguments, fastmath=("nsz",))
+
+        return a(a, a), code
+
+    return extreme
+
+
+minimum, maximum = _extreme("minimum"), _extreme("maximum")
 
 
 @intrinsic
