@@ -22,8 +22,8 @@ def test_the_same_case(name):
     """Equal in every key to the shipped one, and said what moved; today's file says nothing."""
     old, new = load_case(FOLDER / f"{name}.toml"), load_case(name)
     assert old.hash() == new.hash()
-    assert old.moved == f"read as schema version 2: {MOVED[name]}"
-    assert new.moved == ""
+    assert old.conversion_note == f"read as schema version 2: {MOVED[name]}"
+    assert new.conversion_note == ""
 
 
 def test_check_says_it_once(capsys):
@@ -39,7 +39,7 @@ def test_settings_by_their_old_names():
         case = load_case(file, ["flow.surface.velocity=2 m/s", "time.steady="])
         assert case.flow is not None and case.flow.surface.velocity == 2.0
         assert case.solver.steady is None
-        assert "flow.surface.velocity is solver.flow.surface.velocity" in case.moved
+        assert "flow.surface.velocity is solver.flow.surface.velocity" in case.conversion_note
 
 
 def test_mistakes_have_the_line_of_the_file(tmp_path):
@@ -62,4 +62,4 @@ def test_a_key_of_another_name(tmp_path):
     file.write_text(text.replace('kind = "ablation"', 'kind = "ablation"\nsleep = false'), "utf-8")
     for case in (load_case(file), load_case("ablation-aluminium", ["solver.sleep=false"])):
         assert not case.solver.active_region
-        assert "solver.sleep is solver.active_region" in case.moved
+        assert "solver.sleep is solver.active_region" in case.conversion_note

@@ -51,8 +51,8 @@ def test_plateau_rules(plateau, scheme):
     assert (energy["removed"] > 0.0) == (plateau == "evaporate")
 
 
-def test_losses_and_held_walls():
-    """Convection, radiation and a held bottom take heat that the budget knows."""
+def test_losses_and_dirichlet_walls():
+    """Convection, radiation and a bottom of given temperature take heat that the budget knows."""
     found, solver = imbalance(
         "dlip-steel", "boundaries.convection=1e7 W/(m^2 K)", "boundaries.emissivity=0.8",
         "boundaries.bottom=wall", "boundaries.sides=fixed-temperature", "domain.extent=full",

@@ -110,7 +110,7 @@ def gaussian_pulse_rise(
             rise[row] += (
                 sign
                 * weight
-                @ _spread(
+                @ _impulse_response(
                     image_top, image_bottom, elapsed[:, None], absorption_coefficient, diffusivity
                 )
             )
@@ -137,7 +137,7 @@ def interference_rise(
     return mean + contrast * np.cos(wavenumber * np.atleast_1d(np.asarray(x, float))) * mode
 
 
-def _spread(top, bottom, elapsed, alpha, diffusivity) -> Array:
+def _impulse_response(top, bottom, elapsed, alpha, diffusivity) -> Array:
     """G at the depths, or its cell mean, shape (elapsed, depths)."""
     if bottom is None:
         return impulse_density(np.abs(top), elapsed, alpha, diffusivity)

@@ -17,7 +17,7 @@ class Case(CaseContents):
 
     _name: str = PrivateAttr("")
     _text: str = PrivateAttr("")
-    _moved: str = PrivateAttr("")
+    _conversion_note: str = PrivateAttr("")
 
     @model_validator(mode="after")
     def _check_together(self) -> Self:
@@ -38,14 +38,14 @@ class Case(CaseContents):
         return self._text or "# Built in Python: all values are in resolved.json.\n"
 
     @property
-    def moved(self) -> str:
+    def conversion_note(self) -> str:
         """One line that says which keys of an older file were read elsewhere; empty for none."""
-        return self._moved
+        return self._conversion_note
 
-    def named(self, name: str, text: str, moved: str = "") -> Self:
-        """The same case with the name and the text of its file, and what moved in it."""
+    def named(self, name: str, text: str, conversion_note: str = "") -> Self:
+        """The same case with the name, the text and the conversion note of its file."""
         copy = self.model_copy()
-        copy._name, copy._text, copy._moved = name, text, moved
+        copy._name, copy._text, copy._conversion_note = name, text, conversion_note
         return copy
 
     def resolved(self) -> dict[str, Any]:

@@ -71,11 +71,11 @@ def load_case(
     """
     if quick:
         overrides = [*quick_settings(load_case(name_or_path, overrides)), *overrides]
-    document, moved = read_case(name_or_path, overrides)
+    document, note = read_case(name_or_path, overrides)
     file = Path(document.file)
     case = build(Case, document, {"folder": file.parent}, OTHER_WORDS)
     settings = "".join(f"# --set {setting}\n" for setting in overrides)
-    return case.named(file.stem, settings + document.text, moved)
+    return case.named(file.stem, settings + document.text, note)
 
 
 def write_new_case(name_or_path: str | os.PathLike[str], target: str | os.PathLike[str]) -> Path:

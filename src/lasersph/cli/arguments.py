@@ -83,5 +83,5 @@ def read_quantities(option: str, text: str, kind: str) -> list[float]:
 
 def say_what_moved(case: Case) -> None:
     """Say which keys of an older case file were read at another place."""
-    if case.moved:
-        print(f"note: {case.moved}", file=sys.stderr)
+    if case.conversion_note:
+        print(f"note: {case.conversion_note}", file=sys.stderr)

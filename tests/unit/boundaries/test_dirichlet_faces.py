@@ -63,15 +63,15 @@ def test_dirichlet_sides_and_corner():
 
 
 def test_temperature_of_a_face():
-    """Held faces take their own temperature, else the initial one."""
-    held = Boundaries(bottom="wall", sides="fixed-temperature", side_temperature=350.0)
-    assert held.temperature_of("bottom", 300.0) == 300.0
-    assert held.temperature_of("left", 300.0) == 350.0
-    assert held.temperature_of("back", 300.0) == 350.0
+    """Dirichlet faces take their own temperature, else the initial one."""
+    fixed = Boundaries(bottom="wall", sides="fixed-temperature", side_temperature=350.0)
+    assert fixed.temperature_of("bottom", 300.0) == 300.0
+    assert fixed.temperature_of("left", 300.0) == 350.0
+    assert fixed.temperature_of("back", 300.0) == 350.0
 
 
 def test_refusals():
-    """A temperature for a face that is not held, and a held surface without one, are refused."""
+    """A temperature without a Dirichlet face, and a Dirichlet surface without one, are refused."""
     with pytest.raises(ValueError, match="says nothing where bottom"):
         Boundaries(bottom_temperature=300.0)
     with pytest.raises(ValueError, match='is missing where surface = "wall"'):

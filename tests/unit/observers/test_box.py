@@ -14,7 +14,7 @@ from lasersph.observers.box_sections import Box, center_lines, extremum, wall_te
 SIZE, SPEED = 1e-3, 1.0
 
 
-def moved(view, share=0.15):
+def displace(view, share=0.15):
     """The same fields with particles moved by up to a share of the spacing."""
     exact = box_view()
     shift = np.random.default_rng(2).uniform(-share, share, view.position.shape) * view.width
@@ -35,7 +35,7 @@ def test_eddy_on_its_center_lines():
     """u of psi = -V L sin^2 sin^2: extrema pi V at a quarter and three quarters of the height."""
     observer = BoxFlow()
     observer.observe(box_view())
-    observer.observe(moved(replace(box_view(), step=EVERY)))
+    observer.observe(displace(replace(box_view(), step=EVERY)))
     box = observer.summary()["box"]
     assert (box["width_m"], box["height_m"]) == pytest.approx((SIZE, SIZE))
     center = box["center"]
@@ -62,7 +62,7 @@ def test_stream_function_of_a_clockwise_eddy():
 def test_conduction_has_the_nusselt_number_one():
     """A linear temperature between two given sides: Nu = 1, flux k dT / L, in and out."""
     observer = BoxFlow()
-    for view in (box_view(), moved(replace(box_view(), step=EVERY))):
+    for view in (box_view(), displace(replace(box_view(), step=EVERY))):
         row = observer.observe(view)
         assert row["box_nusselt_left"] == pytest.approx(1.0, rel=1e-6)
         heat = observer.summary()["box"]["heat"]
@@ -91,7 +91,7 @@ def test_nusselt_number_only_where_heat_crosses():
         assert heat["temperature_left_K"] == pytest.approx(310.0)
 
 
-def test_slope_at_a_held_wall_of_a_boundary_layer():
+def test_slope_at_a_dirichlet_wall_of_a_boundary_layer():
     """exp(-x/d) with five particles in d: within 2 %, better than without the wall's value."""
     view = box_view(count=50)
     box = Box.around(view.position, view.width)

@@ -101,13 +101,13 @@ def test_corner_of_a_period_and_a_mirror(ghosts):
     assert found.sign[:, corner].tolist() == [1.0, -1.0]
 
 
-def test_reach(ghosts):
+def test_search_radius(ghosts):
     """Strictly closer than `search_radius`: 0.29 has a ghost, 0.3 has none."""
     found, _ = ghosts([(0.29, -0.5), (0.3, -0.5)], MIRROR, MIRROR, OPEN, OPEN)
     assert found.source.tolist() == [0]
 
 
-def test_box_narrower_than_the_reach(ghosts):
+def test_box_narrower_than_the_search_radius(ghosts):
     """A particle near both faces of a narrow box has a ghost beyond each."""
     _, place = ghosts([(0.4, -0.5)], MIRROR, MIRROR, OPEN, OPEN, search_radius=0.8)
     assert sorted(place[0]) == pytest.approx([-0.4, 1.6])

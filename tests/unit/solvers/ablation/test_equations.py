@@ -40,7 +40,7 @@ def test_pair():
 
 
 def test_approaching_pair_feels_viscosity():
-    """Pi = alpha c |mu| / 2.5 with alpha = (5 + 0.1) / 2 adds to the push."""
+    """Pi = alpha c |mu| / 2.5 with alpha = (5 + 0.1) / 2 adds to the acceleration."""
     pair = PAIR | {"v_j": np.array([0.0, -1.0])}
     _, a, _, fourth = pair_rates(**pair, **FLOW)
     Pi = 2.55 * 10.0 * (4.0 / 4.01) / 2.5
@@ -55,7 +55,7 @@ def test_what_has_left_acts_on_nothing():
     assert not a.any()
 
 
-def test_listed_but_out_of_reach():
+def test_listed_but_beyond_the_support():
     """Where the kernel has no slope a pair counts for nothing, not even for the next step."""
     drho, a, q, mu = pair_rates(**PAIR | {"dW_ij": 0.0}, **FLOW)
     assert (drho, q, mu) == (0.0, 0.0, 0.0)
@@ -114,12 +114,12 @@ def test_heat_alone_is_the_same():
 
 def test_three_particles_in_a_row():
     """The middle one between equal neighbors is not pushed; its density grows as they close in."""
-    total, push = 0.0, np.zeros(1)
+    total, acceleration = 0.0, np.zeros(1)
     for x, v in ((np.array([1.0]), np.array([2.0])), (np.array([-1.0]), np.array([-2.0]))):
         pair = PAIR | {"v_i": np.zeros(1), "v_j": v, "x_ij": x, "r_ij": 1.0, "P_j": 10.0}
         drho, a, _, _ = pair_rates(**pair, **FLOW)
-        total, push = total + drho, push + a
-    assert push[0] == 0.0
+        total, acceleration = total + drho, acceleration + a
+    assert acceleration[0] == 0.0
     assert total == 2.0 * (2.0 * 6.0 / 3.0 * 2.0 * 3.0)
 
 

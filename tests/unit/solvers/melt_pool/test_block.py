@@ -100,7 +100,7 @@ def test_weights_move_with_the_particles():
     assert g == pytest.approx(again, abs=1e-12 * g.max())
 
 
-def test_velocities_of_images():
+def test_velocities_of_ghosts():
     """As the rules of the sides say, for every ghost: S v + c."""
     solver = box()
     block = block_of(solver)
