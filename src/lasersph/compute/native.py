@@ -25,7 +25,11 @@ __all__ = [
     "minimum",
     "room_float32",
     "room_float64",
-]  # fmt: skip
+    "room_int64",
+    "room_uint8",
+    "room_uint32",
+    "room_uint64",
+]
 
 
 def _view(element: Any) -> Any:
@@ -68,6 +72,8 @@ def _room(element: Any) -> Any:
 
 
 room_float64, room_float32 = _room(types.float64), _room(types.float32)
+room_uint64, room_uint32, room_uint8 = _room(types.uint64), _room(types.uint32), _room(types.uint8)
+room_int64 = _room(types.int64)
 
 
 def _extreme(name: str) -> Any:
