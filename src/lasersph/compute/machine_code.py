@@ -100,9 +100,7 @@ def llvm_of(function: Callable[..., None], name: str, *, is_fast: bool) -> str:
     entry = _ENTRY.format(name=name, native=native, parameters=parameters)
     module = llvm.parse_assembly(compiled.inspect_llvm() + entry)
     _drop_unused(module, name, _machine())
-    return _RELEASE.sub(
-        "define internal void @NRT_MemInfo_call_dtor(ptr %0) { ret void }", str(module)
-    )
+    return _RELEASE.sub(_RELEASES_NOTHING, str(module))
 
 
 def _drop_unused(module: Any, name: str, machine: Any) -> None:
