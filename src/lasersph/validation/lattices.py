@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,7 +19,7 @@ def cubic_lattice(dimension: int, side: int, spacing: float = 1.0) -> Array:
     return np.array([axis.ravel() for axis in axes], dtype=np.float64)
 
 
-def all_pairs(backend: Backend, position: Any, support: float, kernel: Kernel) -> NeighborList:
+def all_pairs(backend: Backend, position: Array, support: float, kernel: Kernel) -> NeighborList:
     """Neighbor list of all particles with equal support radii [m]."""
     count = position.shape[1]
     return find_neighbors(
