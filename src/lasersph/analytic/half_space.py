@@ -134,10 +134,10 @@ def pulse_train_temperature(
         flux: absorbed (1 - R) I_0 [W/m^2]. pulse_duration: t_p [s]. off_time: t_r between the end
             of one pulse and the start of the next [s]. disc_radius: see `step_rise`.
     """
-    return initial_temperature + _superpose(
-        step_rise, depth, time, pulse_duration, off_time, count,
-        flux=flux, conductivity=conductivity, diffusivity=diffusivity, disc_radius=disc_radius,
-    )  # fmt: skip
+    train = pulse_duration, off_time, count
+    body = {"conductivity": conductivity, "diffusivity": diffusivity, "disc_radius": disc_radius}
+    rise = _superpose(step_rise, depth, time, *train, flux=flux, **body)
+    return initial_temperature + rise
 
 
 def pulse_train_rate(
@@ -153,10 +153,9 @@ def pulse_train_rate(
     disc_radius: float | None = None,
 ) -> Array:
     """Heating rate dT/dt [K/s] under `count` square pulses; see `pulse_train_temperature`."""
-    return _superpose(
-        step_rate, depth, time, pulse_duration, off_time, count,
-        flux=flux, conductivity=conductivity, diffusivity=diffusivity, disc_radius=disc_radius,
-    )  # fmt: skip
+    train = pulse_duration, off_time, count
+    body = {"conductivity": conductivity, "diffusivity": diffusivity, "disc_radius": disc_radius}
+    return _superpose(step_rate, depth, time, *train, flux=flux, **body)
 
 
 def _superpose(step, depth, time, pulse_duration, off_time, count, **properties) -> Array:

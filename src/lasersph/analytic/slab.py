@@ -41,9 +41,12 @@ def slab_step_rise(
     early = np.zeros(depth.shape)
     for n in range(-3, 4):
         early = early + step_rise(
-            np.abs(depth + 2 * n * thickness), time,
-            flux=flux, conductivity=conductivity, diffusivity=diffusivity,
-        )  # fmt: skip
+            np.abs(depth + 2 * n * thickness),
+            time,
+            flux=flux,
+            conductivity=conductivity,
+            diffusivity=diffusivity,
+        )
     y = 1.0 - depth / thickness
     late = fourier + (3.0 * y**2 - 1.0) / 6.0
     for n in range(1, 8):

@@ -84,10 +84,12 @@ class Melting:
         solid = self.solid or self.liquid
         contrast = np.sqrt(self.diffusivity(self.liquid) / self.diffusivity(solid))
         cooling = (
-            solid.conductivity / self.liquid.conductivity * contrast
+            solid.conductivity
+            / self.liquid.conductivity
+            * contrast
             * (self.melting_temperature - self.initial_temperature)
             / (self.surface_temperature - self.melting_temperature)
-        )  # fmt: skip
+        )
 
         def imbalance(x: float) -> float:
             # exp(-y^2)/erfc(y) = 1/erfcx(y), which neither over- nor underflows

@@ -76,10 +76,7 @@ class ThermocapillaryLayer:
         k = self.wave_number
         x, z = np.asarray(position, float)
         a, c, _ = self._constants()
-        return (
-            -2.0 * self.viscosity * k
-            * (c * np.cosh(k * z) + a * np.sinh(k * z)) * np.cos(k * x)
-        )  # fmt: skip
+        return -2.0 * self.viscosity * k * (c * np.cosh(k * z) + a * np.sinh(k * z)) * np.cos(k * x)
 
     def _constants(self) -> tuple[float, float, float]:
         """a, c [m/s] and d [m^2/s] of f(z) = c z cosh + (d + a z) sinh."""

@@ -14,7 +14,7 @@ Without a `[solver.flow]` table what is molten flows in the block below the flat
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, model_validator
 from pydantic_core import CoreSchema
@@ -24,9 +24,6 @@ from lasersph.input import Model, Velocity, refusal
 from lasersph.particles.faces import PLANE, face_pairs
 
 FlowKind = Literal["no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface"]
-KINDS: tuple[FlowKind, ...] = (
-    "no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface",
-)  # fmt: skip
 WALLS = ("no-slip", "moving-wall")
 
 
@@ -65,7 +62,7 @@ class FlowCondition(Model):
         cls, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
         """A word or the table."""
-        words = [kind for kind in KINDS if kind != "moving-wall"]
+        words = [kind for kind in get_args(FlowKind) if kind != "moving-wall"]
         table = handler.resolve_ref_schema(handler(schema))
         return {"anyOf": [{"enum": words, "type": "string"}, table]}
 

@@ -67,8 +67,10 @@ def _conductivity(data: dict[str, Any]) -> dict[str, Any] | None:
     """D rho c_p where all three are constants; None where one is not or cannot be read."""
     product = 1.0
     for name, kind in (
-        ("diffusivity", "diffusivity"), ("density", "density"), ("heat_capacity", "specific_heat"),
-    ):  # fmt: skip
+        ("diffusivity", "diffusivity"),
+        ("density", "density"),
+        ("heat_capacity", "specific_heat"),
+    ):
         value = data.get(name, {}).get("value")
         if not isinstance(value, str):
             return None

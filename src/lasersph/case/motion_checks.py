@@ -74,9 +74,9 @@ def _motion(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str,
         if case.boundaries.surface != "periodic":
             yield (
                 "solver.motion.kind",
-                'a sound wave runs through a block that is periodic in z; write surface = '
+                "a sound wave runs through a block that is periodic in z; write surface = "
                 '"periodic" and bottom = "periodic" in [boundaries]',
-            )  # fmt: skip
+            )
         if motion.amplitude > 0.1 * solver.sound_speed:
             yield (
                 "solver.motion.amplitude",

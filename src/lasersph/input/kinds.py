@@ -69,7 +69,7 @@ _ALL = (
     Kind("heat_transfer_coefficient", "W/(m^2 K)", "20 W/(m^2 K)", dimension(kg=1, s=-3, K=-1)),
     Kind("frequency", "Hz", "10 kHz", dimension(s=-1)),
     Kind("fraction", "1", "25 %", NONE),
-)  # fmt: skip
+)
 KINDS: dict[str, Kind] = {kind.name: kind for kind in _ALL}
 
 

@@ -46,10 +46,8 @@ class Unit:
     parts: frozenset[Dimension] = frozenset()
 
 
-_PREFIXES = {
-    "f": -15, "p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "d": -1, "": 0,
-    "h": 2, "k": 3, "M": 6, "G": 9, "T": 12, "P": 15,
-}  # fmt: skip
+_PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "d": -1, "": 0}
+_PREFIXES |= {"h": 2, "k": 3, "M": 6, "G": 9, "T": 12, "P": 15}
 _PREFIXED = {
     "m": (1, dimension(m=1)),
     "g": (Fraction(1, 1000), dimension(kg=1)),
@@ -100,13 +98,12 @@ def _table() -> dict[str, Unit]:
 
 
 _TABLE = _table()
-_SPELLINGS = {  # micro, Greek mu, angstrom (two signs), degree signs, dots, minus, superscripts
-    "\u00b5": "u", "\u03bc": "u", "\u00c5": "angstrom", "\u212b": "angstrom",
-    "\u2103": "degC", "\u00b0C": "degC", "\u00b0F": "degF", "\u00b0K": "K", "\u00b0": "deg",
-    "\u00b7": "*", "\u22c5": "*", "\u00d7": "*", "\u2212": "-", "**": "^",
-    "\u00a0": " ", "\u202f": " ",
-    "\u207b": "^-", "\u00b9": "^1", "\u00b2": "^2", "\u00b3": "^3", "\u2074": "^4",
-}  # fmt: skip
+# Micro, Greek mu, angstrom (two signs), degree signs, dots, minus, superscripts.
+_SPELLINGS = {"\u00b5": "u", "\u03bc": "u", "\u00c5": "angstrom", "\u212b": "angstrom"}
+_SPELLINGS |= {"\u2103": "degC", "\u00b0C": "degC", "\u00b0F": "degF", "\u00b0K": "K"}
+_SPELLINGS |= {"\u00b0": "deg", "\u00b7": "*", "\u22c5": "*", "\u00d7": "*", "\u2212": "-"}
+_SPELLINGS |= {"**": "^", "\u00a0": " ", "\u202f": " ", "\u207b": "^-", "\u00b9": "^1"}
+_SPELLINGS |= {"\u00b2": "^2", "\u00b3": "^3", "\u2074": "^4"}
 _TOKEN = re.compile(r"([A-Za-z_]+|%|1)(?:\^?([+-]?\d))?|([*/()])|(\s+)|\^([+-]?\d)")
 
 
@@ -218,8 +215,15 @@ def _from_pint(name: str) -> Unit:
         quantity = registry.Quantity(1.0, registry.parse_units(name)).to_base_units()
     except Exception as error:  # pint raises many types; all mean that this word is no plain unit
         raise UnitError(f'unknown unit "{name}"{_case_hint(name)}') from error
-    names = {"[length]": "m", "[mass]": "kg", "[time]": "s", "[temperature]": "K",
-             "[substance]": "mol", "[current]": "A", "[luminosity]": "cd"}  # fmt: skip
+    names = {
+        "[length]": "m",
+        "[mass]": "kg",
+        "[time]": "s",
+        "[temperature]": "K",
+        "[substance]": "mol",
+        "[current]": "A",
+        "[luminosity]": "cd",
+    }
     exponents: dict[str, int] = {}
     for key, power in quantity.dimensionality.items():
         if key not in names or power != int(power):

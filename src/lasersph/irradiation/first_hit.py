@@ -87,9 +87,11 @@ class FirstHitLight:
         counts = [max(1, round(extent / spacing)) for extent in high - low]
         shape, wraps = (*counts, 1, 1), (*(float(one) for one in periodic), 0.0, 0.0)
         self._grid = {
-            "count_x": float(shape[0]), "count_y": float(shape[1]),
-            "wraps_x": wraps[0], "wraps_y": wraps[1],
-        }  # fmt: skip
+            "count_x": float(shape[0]),
+            "count_y": float(shape[1]),
+            "wraps_x": wraps[0],
+            "wraps_y": wraps[1],
+        }
         self._low, self.width = low, (high - low) / np.array(counts, dtype=float)
         self.count = shape[0] * shape[1]
         number = np.indices(counts).reshape(len(counts), self.count)

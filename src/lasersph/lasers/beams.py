@@ -82,9 +82,11 @@ class TopHatBeam(Model):
             inside = np.clip(high[0], -chord, chord) - np.clip(low[0], -chord, chord)
             return inside / (high[0] - low[0])
         inside = (
-            _disc_area(high[0], high[1]) - _disc_area(low[0], high[1])
-            - _disc_area(high[0], low[1]) + _disc_area(low[0], low[1])
-        )  # fmt: skip
+            _disc_area(high[0], high[1])
+            - _disc_area(low[0], high[1])
+            - _disc_area(high[0], low[1])
+            + _disc_area(low[0], low[1])
+        )
         return inside / np.prod(high - low, axis=0)
 
 

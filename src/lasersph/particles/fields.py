@@ -52,27 +52,33 @@ HEAT = _table(
     Field("melt_fraction", "f_m", "1", "molten share"),
     Field("vapor_fraction", "f_v", "1", "share of the latent heat of vaporization taken up"),
     Field(
-        "enthalpy_excess", "excess", "J/kg",
+        "enthalpy_excess",
+        "excess",
+        "J/kg",
         "added by the last step beside the result of its iteration, to close its balance",
         is_kept=True,
     ),
+    Field("enthalpy_before", "h_old", "J/kg", "enthalpy without excess one step ago", is_kept=True),
     Field(
-        "enthalpy_before", "h_old", "J/kg", "enthalpy without excess one step ago", is_kept=True
-    ),
-    Field(
-        "enthalpy_two_before", "h_older", "J/kg", "enthalpy without excess two steps ago",
+        "enthalpy_two_before",
+        "h_older",
+        "J/kg",
+        "enthalpy without excess two steps ago",
         is_kept=True,
     ),
     Field("evaporated_mass", "evaporated", "kg/m^2", "evaporated per area", is_kept=True),
     Field("absorbed_light", "E", "J", "light absorbed in the step"),
-)  # fmt: skip
+)
 FLOW = _table(
     Field("velocity", "v", "m/s", "velocity", "vector", is_kept=True),
     Field("speed", "speed", "m/s", "size of the velocity"),
     Field("pressure", "p", "Pa", "pressure", is_kept=True),
     Field("was_fluid", "was_fluid", "1", "1 where it flowed one step ago", is_kept=True),
     Field(
-        "has_moving_pairs", "has_moving_pairs", "1", "1 where its pairs were ever found anew",
+        "has_moving_pairs",
+        "has_moving_pairs",
+        "1",
+        "1 where its pairs were ever found anew",
         is_kept=True,
     ),
     Field("flows", "flows", "1", "1 where it flows", storage="flag"),
@@ -80,7 +86,7 @@ FLOW = _table(
     Field("surface_gradient", "dT_s", "K/m", "temperature gradient along the surface over it"),
     Field("surface_velocity", "v_s", "m/s", "velocity of the surface over it"),
     Field("lid_pressure", "p_s", "Pa", "pressure under the flat surface over it"),
-)  # fmt: skip
+)
 ABLATION = _table(
     Field("density", "rho", "kg/m^3", "density", is_kept=True),
     Field("acting_volume", "V_a", "m^d", "volume that acts on neighbors"),

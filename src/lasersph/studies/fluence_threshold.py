@@ -16,8 +16,12 @@ from lasersph.lasers.laser import AMOUNTS
 from lasersph.studies.variation import Run, changed, simulate
 
 Event = Literal["melt", "vaporize", "ablate"]
-UNITS = {"fluence": ("J/cm^2", 1e-4), "intensity": ("W/cm^2", 1e-4), "pulse_energy": ("J", 1.0),
-         "power": ("W", 1.0)}  # fmt: skip
+UNITS = {
+    "fluence": ("J/cm^2", 1e-4),
+    "intensity": ("W/cm^2", 1e-4),
+    "pulse_energy": ("J", 1.0),
+    "power": ("W", 1.0),
+}
 """By the last part of the key: unit to show and its number of SI units."""
 
 

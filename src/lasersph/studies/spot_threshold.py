@@ -75,11 +75,10 @@ class SpotThreshold:
         """Header and one row a run, as text."""
         rows = [["fluence", "diameter", "depth", "volume", "efficiency"]]
         for one in self.craters:
-            rows.append([
-                f"{1e-4 * one.fluence:.5g} J/cm2", f"{1e6 * one.diameter:.4g} um",
-                f"{1e6 * one.depth:.4g} um", one.shown_volume,
-                f"{CUBIC_MICROMETERS_PER_MICROJOULE * one.efficiency:.4g} um3/uJ",
-            ])  # fmt: skip
+            fluence, diameter = f"{1e-4 * one.fluence:.5g} J/cm2", f"{1e6 * one.diameter:.4g} um"
+            efficiency = f"{CUBIC_MICROMETERS_PER_MICROJOULE * one.efficiency:.4g} um3/uJ"
+            depth = f"{1e6 * one.depth:.4g} um"
+            rows.append([fluence, diameter, depth, one.shown_volume, efficiency])
         return rows
 
     def answer(self) -> str:

@@ -64,13 +64,10 @@ class EjectionSettings(Model):
     def _check_model(self) -> EjectionSettings:
         given = [key for key in OF_PUBLISHED if getattr(self, key) is not None]
         if self.model == "enthalpy" and given:
-            raise refusal(
-                *(
-                    (key, 'says nothing where model = "enthalpy"; leave it out or write model = '
-                     '"published"')
-                    for key in given
-                )
-            )  # fmt: skip
+            reason = (
+                'says nothing where model = "enthalpy"; leave it out or write model = "published"'
+            )
+            raise refusal(*((key, reason) for key in given))
         if self.preset is not None and len(given) > 1:
             raise refusal(
                 *(

@@ -22,9 +22,30 @@ from lasersph.sph.laplacian import conduction, weight
 
 
 def pair_rates(
-    v_i, v_j, rho_i, rho_j, P_i, P_j, V_a_j, V_i, V_j, T_i, T_j, k_i, k_j, f_m_i, f_m_j,
-    x_ij, r_ij, dW_ij, h_s, c_0, alpha_solid, alpha_liquid, factor,
-):  # fmt: skip
+    v_i,
+    v_j,
+    rho_i,
+    rho_j,
+    P_i,
+    P_j,
+    V_a_j,
+    V_i,
+    V_j,
+    T_i,
+    T_j,
+    k_i,
+    k_j,
+    f_m_i,
+    f_m_j,
+    x_ij,
+    r_ij,
+    dW_ij,
+    h_s,
+    c_0,
+    alpha_solid,
+    alpha_liquid,
+    factor,
+):
     """Terms of d rho/dt [kg/(m^d s)], dv/dt [m/s^2], heat [W], and mu_ij^4 [m^4/s^4].
 
     The fourth root of the sum of the last bounds the largest |mu_ij| from above, with which

@@ -21,22 +21,48 @@ from lasersph.solvers.ablation.geometry import Geometry, InitialState
 HOTTEST = 5e4
 """End of the table of conductivities [K]; its last law goes on."""
 DERIVED = (
-    "temperature", "melt_fraction", "vapor_fraction", "conductivity",
-    replace(FIELDS["pressure"], symbol="P", is_kept=False), "volume", "acting_volume",
-)  # fmt: skip
+    "temperature",
+    "melt_fraction",
+    "vapor_fraction",
+    "conductivity",
+    replace(FIELDS["pressure"], symbol="P", is_kept=False),
+    "volume",
+    "acting_volume",
+)
 """What `evaluate_state` finds, in its order."""
 LEVEL = ("position", "velocity", "density", "enthalpy", *DERIVED)
 """What changes within a step."""
 OTHERS = (
-    "mass", "support", replace(FIELDS["kind"], storage="real", is_kept=True), "conducts", "opaque",
-    "absorbed_light", "leaving_time", "vapor_pressure", "listed_position",
-)  # fmt: skip
+    "mass",
+    "support",
+    replace(FIELDS["kind"], storage="real", is_kept=True),
+    "conducts",
+    "opaque",
+    "absorbed_light",
+    "leaving_time",
+    "vapor_pressure",
+    "listed_position",
+)
 
 
 def evaluate_state(
-    h, rho, m, kind, conducts,
-    h_nodes, T_nodes, P_nodes, m_nodes, v_nodes, k_T, k_nodes, melts_at, rho_0, c_0, has_tension,
-):  # fmt: skip
+    h,
+    rho,
+    m,
+    kind,
+    conducts,
+    h_nodes,
+    T_nodes,
+    P_nodes,
+    m_nodes,
+    v_nodes,
+    k_T,
+    k_nodes,
+    melts_at,
+    rho_0,
+    c_0,
+    has_tension,
+):
     """What follows from enthalpy, density and kind.
 
     Returns temperature [K], melt and vapor fraction [1], conductivity [W/(m K)], pressure [Pa],

@@ -50,9 +50,14 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             given=_given_temperature(case),
         )
     domain = PoolDomain(
-        backend, layers, static, conditions, surface,
-        lambda T: wall_potential(curve, T), lambda T: wall_enthalpy(curve, T),
-    )  # fmt: skip
+        backend,
+        layers,
+        static,
+        conditions,
+        surface,
+        lambda T: wall_potential(curve, T),
+        lambda T: wall_enthalpy(curve, T),
+    )
     flow = Flow(body.particles, liquid, surface, settings, layers.spacing)
     body.particles.set("volume", static.volume)
     if case.flow is not None:
