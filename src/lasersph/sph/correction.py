@@ -103,11 +103,6 @@ def corrected_symmetric_term(p_i, p_j, V_j, C_i, C_j, x_ij, r_ij, dW_ij):
     return V_j * dW_ij / r_ij * (p_i * matvec(C_i, x_ij) + p_j * matvec(C_j, x_ij))
 
 
-def vector_gradient_term(v_i, v_j, V_j, x_ij, r_ij, dW_ij):
-    """Term of the standard gradient of a vector field: V_j (v_j - v_i) (x) grad W_ij."""
-    return V_j * dW_ij / r_ij * outer(v_j - v_i, x_ij)
-
-
 def bounded_inverse(total):
     """M^-1 where M is near the unit tensor, else 1: next to a gap a correction would amplify."""
     size, diagonal = determinant(total), trace(total)

@@ -44,10 +44,3 @@ def position_term(V_j, r_ij, dW_ij):
 def divergence(backend: Backend, neighbors: Any, fields: Mapping[str, Any], out: Any) -> None:
     """Write D- (47) into `out`, shape (n,); fields v, shape (d, N), m and rho, shape (N,)."""
     backend.pair_sum(difference_term, neighbors, fields, out)
-
-
-def position_divergence(
-    backend: Backend, neighbors: Any, fields: Mapping[str, Any], out: Any
-) -> None:
-    """Write (28) into `out`, shape (n,); field V, shape (N,)."""
-    backend.pair_sum(position_term, neighbors, fields, out)

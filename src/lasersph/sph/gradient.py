@@ -1,6 +1,5 @@
-"""Gradient of a scalar field, in the three forms of [Demuth2020, eqs. (44)-(46)].
+"""Gradient of a scalar field, in the two forms of [Demuth2020, eqs. (45) and (46)].
 
-    grad f_i = sum_j V_j f_j grad W_ij                                         kernel gradient (44)
     G-_i{f}  = 1/rho_i sum_j m_j (f_j - f_i) grad W_ij                         difference (45)
     G+_i{f}  = rho_i sum_j m_j (f_i / rho_i^2 + f_j / rho_j^2) grad W_ij       symmetric (46)
 
@@ -17,20 +16,12 @@ from typing import Any
 from lasersph.compute.backend import Backend
 
 
-def kernel_term(f_j, V_j, x_ij, r_ij, dW_ij):
-    """Term of the kernel gradient (44): V_j f_j grad W_ij [unit of f / m].
-
-    Args:
-        f: the field. V: volume [m^d]. x_ij: x_i - x_j [m]. dW_ij: dW/dr [1/m^(d+1)].
-    """
-    return V_j * f_j * dW_ij / r_ij * x_ij
-
-
 def difference_term(f_i, f_j, m_j, rho_i, x_ij, r_ij, dW_ij):
     """Term of G- (45): m_j / rho_i (f_j - f_i) grad W_ij [unit of f / m].
 
     Args:
-        f: the field. m: mass [kg]. rho: density [kg/m^d]. Others as in `kernel_term`.
+        f: the field. m: mass [kg]. rho: density [kg/m^d]. x_ij: x_i - x_j [m].
+        dW_ij: dW/dr [1/m^(d+1)].
     """
     return m_j / rho_i * (f_j - f_i) * dW_ij / r_ij * x_ij
 
@@ -39,16 +30,9 @@ def symmetric_term(f_i, f_j, m_j, rho_i, rho_j, x_ij, r_ij, dW_ij):
     """Term of G+ (46): rho_i m_j (f_i / rho_i^2 + f_j / rho_j^2) grad W_ij [unit of f / m].
 
     Args:
-        f: the field. m: mass [kg]. rho: density [kg/m^d]. Others as in `kernel_term`.
+        f: the field. m: mass [kg]. rho: density [kg/m^d]. Others as in `difference_term`.
     """
     return rho_i * m_j * (f_i / (rho_i * rho_i) + f_j / (rho_j * rho_j)) * dW_ij / r_ij * x_ij
-
-
-def kernel_gradient(
-    backend: Backend, neighbors: Any, fields: Mapping[str, Any], gradient: Any
-) -> None:
-    """Write (44) into `gradient`, shape (d, n); fields f and V, shape (N,)."""
-    backend.pair_sum(kernel_term, neighbors, fields, gradient)
 
 
 def difference_gradient(

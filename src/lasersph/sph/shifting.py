@@ -12,12 +12,6 @@ from __future__ import annotations
 from lasersph.compute.vectors import dot, norm
 
 
-def mean_distance_terms(r_ij, l_ij):
-    """Distance to a neighbor [m] and 1, for the mean over the neighbors within the support."""
-    inside = 1.0 if r_ij < l_ij else 0.0
-    return inside * r_ij, inside
-
-
 def repulsion_terms(x_ij, r_ij, l_ij):
     """Terms of R: n_ij / r_ij^2 [1/m^2], the distance [m] and 1; beyond the support nothing."""
     inside = 1.0 if r_ij < l_ij else 0.0
