@@ -72,7 +72,7 @@ class Diagonal:
     def __init__(self, backend):
         self.backend = backend
 
-    def prepare(self, position, mask, volume, pull):
+    def prepare(self, position, mask, volume, boundary_coefficient):
         """Nothing to do."""
 
     def correct(self, r, diagonal, mask, z):

@@ -30,7 +30,7 @@ def square(side):
     return position, row[order], column[order], weight[order]
 
 
-def system(backend, side, *, pull=0.0):
+def system(backend, side, *, boundary_coefficient=0.0):
     """Pair operator of a square of particles, and its weights on the host as (row, column, g)."""
     position, row, column, weight = square(side)
     count = side * side
@@ -48,18 +48,20 @@ def system(backend, side, *, pull=0.0):
     operator = PairOperator(
         neighbors=neighbors,
         weights=backend.asarray(weight),
-        pull=backend.asarray(np.full(count, pull)),
+        boundary_coefficient=backend.asarray(np.full(count, boundary_coefficient)),
         total=backend.asarray(total),
     )
     return operator, (row, column, weight)
 
 
-def dense(pairs, C, mask, s, pull):
+def dense(pairs, C, mask, s, boundary_coefficient):
     """A on the free particles, as a matrix of all with ones on the held diagonal."""
     row, column, weight = pairs
     A = np.zeros((C.size, C.size))
     A[row, column] = -s * weight
-    A[np.arange(C.size), np.arange(C.size)] = C + s * (np.bincount(row, weight) + pull)
+    A[np.arange(C.size), np.arange(C.size)] = C + s * (
+        np.bincount(row, weight) + boundary_coefficient
+    )
     A *= mask[:, None] * mask[None, :]
     return A + np.diag(1.0 - mask)
 

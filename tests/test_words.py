@@ -40,7 +40,7 @@ OLD_WORDS = {
     ),
     r"\bdef _?(reach|spread|pull|push|held|settled|carried|lid|way|ways|stride)\(": (
         "a verb, or the quantity that is returned",
-        "src/lasersph/linear_solvers/|tests/unit/compute/|docs/draw_architecture.py",
+        "tests/unit/compute/|docs/draw_architecture.py",
     ),
     r"\b(lasersph\.observers\.together|lasersph\.report\.words|lasersph\.reading)\b": (
         "observer list, summary text, input",

@@ -38,7 +38,7 @@ def product(backend: Backend, neighbors: NeighborList, weights) -> HotLoop:
 
 def conjugate_gradient(backend: Backend, operator: PairOperator) -> HotLoop:
     """An iteration with Jacobi's preconditioner, weights rounded to float32 as heat uses it."""
-    count = operator.pull.shape[0]
+    count = operator.boundary_coefficient.shape[0]
     solver = ConjugateGradient(backend, operator, count, rounds=True)
     b, ones = _noise(backend, count), backend.asarray(np.ones(count))
 
@@ -53,7 +53,7 @@ def factored_iteration(backend: CountingBackend, operator: PairOperator) -> HotL
 
     A solve begins with two sweeps more, which set the factors and the first residual.
     """
-    count = operator.pull.shape[0]
+    count = operator.boundary_coefficient.shape[0]
     solver = ConjugateGradient(backend, operator, count, rounds=True, rests=True)
     b, ones = _noise(backend, count), backend.asarray(np.ones(count))
 
@@ -82,7 +82,7 @@ def bicgstab(backend: Backend, neighbors: NeighborList, entries, diagonal) -> Ho
 
 def multigrid_cycle(backend: Backend, operator: PairOperator) -> HotLoop | None:
     """Preconditioner of heat beside Jacobi's; None where particles are too few."""
-    count = operator.pull.shape[0]
+    count = operator.boundary_coefficient.shape[0]
     multigrid = Multigrid(backend, operator, operator, count)
     if not multigrid.levels:
         return None

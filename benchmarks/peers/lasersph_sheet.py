@@ -87,11 +87,11 @@ class Sheet:
         factor = 1.0 / second_moment(shape, shape.support_ratio)
         on.pair_values(pair_weight, neighbors, {"V": ones}, weights, factor=factor)
         on.pair_sum(weight_of, neighbors, {"g_ij": weights}, total)
-        pull, heat = np.zeros(count), np.zeros(count)
+        boundary_coefficient, heat = np.zeros(count), np.zeros(count)
         for first, temperature in ((0, HOT), (edge - 1, COLD)):
             column = np.arange(first, count, edge)
-            pull[column], heat[column] = HALF_CELL, HALF_CELL * temperature
-        self.operator = PairOperator(neighbors, weights, on.asarray(pull), total)
+            boundary_coefficient[column], heat[column] = HALF_CELL, HALF_CELL * temperature
+        self.operator = PairOperator(neighbors, weights, on.asarray(boundary_coefficient), total)
         self.temperature = on.asarray(np.full(count, COLD))
         self._ones, self._heat, self._r = ones, on.asarray(heat), on.zeros(count)
         self.solver = ConjugateGradient(on, self.operator, count, rounds=True, rests=True)
@@ -100,8 +100,8 @@ class Sheet:
     def _fields(self) -> dict[str, Any]:
         operator = self.operator
         return {
-            "g_ij": operator.weights, "a": operator.pull, "B": self._heat, "b": self._r,
-            "T": self.temperature, "V": self._ones, "x": self.solver.solution,
+            "g_ij": operator.weights, "a": operator.boundary_coefficient, "B": self._heat,
+            "b": self._r, "T": self.temperature, "V": self._ones, "x": self.solver.solution,
         }  # fmt: skip
 
     def __call__(self) -> None:

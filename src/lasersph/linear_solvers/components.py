@@ -30,9 +30,9 @@ def total_of(k, values, order, start):
     return total
 
 
-def share_of(k, pull, order, start):
-    """1 / members of a component that nothing pulls toward a value; 0 for others and for none."""
-    if k == 0 or start[k] == start[k + 1] or total_of(k, pull, order, start) > 0.0:
+def share_of(k, boundary_coefficient, order, start):
+    """1 / members of a component that has no boundary coefficient; 0 for others and for none."""
+    if k == 0 or start[k] == start[k + 1] or total_of(k, boundary_coefficient, order, start) > 0.0:
         return 0.0
     return 1.0 / (start[k + 1] - start[k])
 
@@ -89,12 +89,12 @@ class Components:
         self.number, self.mask = backend.zeros(count, "index"), backend.zeros(count)
         self._cells = Cells(backend, count, CELL * support, period)
 
-    def find(self, position: Any, mask: Any, pull: Any) -> None:
+    def find(self, position: Any, mask: Any, boundary_coefficient: Any) -> None:
         """Label the particles with mask 1.
 
         Args:
-            position: (2, n) [m]. mask: (n,). pull: (n,) a_i >= 0 toward given values; a component
-                without any floats.
+            position: (2, n) [m]. mask: (n,). boundary_coefficient: (n,) a_i >= 0 toward given
+                values; a component without any floats.
         """
         backend, cells = self.backend, self._cells
         cells.place(position, mask)
@@ -116,7 +116,7 @@ class Components:
         self._bins = find_bins(backend, self.number, self.count + 1)
         self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
         self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
-        self._sum(share_of, self._share, pull=pull)
+        self._sum(share_of, self._share, boundary_coefficient=boundary_coefficient)
 
     def remove_means(self, values: Any) -> float:
         """Subtract from each floating component's values their mean; returns the sum of squares."""

@@ -37,17 +37,18 @@ VECTORS = ("x", "r", "z", "p", "q", "d")
 
 @dataclass
 class PairOperator:
-    """Weights g_ij on a list of pairs, and the pull a_i toward a fixed value.
+    """Weights g_ij on a list of pairs, and the boundary coefficient a_i toward a fixed value.
 
     Whoever moves the particles replaces what has changed.
 
     Attributes:
-        neighbors: list of pairs. weights: (pairs,) g_ij. pull: (n,) a_i. total: (n,) sum_j g_ij.
+        neighbors: list of pairs. weights: (pairs,) g_ij. boundary_coefficient: (n,) a_i >= 0.
+        total: (n,) sum_j g_ij.
     """
 
     neighbors: Any
     weights: Any
-    pull: Any
+    boundary_coefficient: Any
     total: Any
 
 
@@ -142,14 +143,25 @@ class ConjugateGradient:
         """
         self._is_set_up = self._is_set_up and not renews
         v, operator = self._v, self.operator
-        fields = {"C": C, "S": operator.total, "a": operator.pull, "mask": mask, "b": b}
+        fields = {
+            "C": C,
+            "S": operator.total,
+            "a": operator.boundary_coefficient,
+            "mask": mask,
+            "b": b,
+        }
         out = (*[v[name] for name in VECTORS], None, None, None)
         reduce = (None,) * len(VECTORS) + ("sum", "sum", "max")
         rz, error, stiffest = self.backend.pointwise(start, fields, out, reduce=reduce, s=s)
         factors = self._factored() if stiffest <= FACTORED and error > residual else None
         if factors:
             return factors.solve(
-                C, operator.pull, mask, s, residual=residual, max_iterations=max_iterations
+                C,
+                operator.boundary_coefficient,
+                mask,
+                s,
+                residual=residual,
+                max_iterations=max_iterations,
             )
         self._bind()
         multigrid = self._prepared(C, mask, s) if stiffest > STIFF else None

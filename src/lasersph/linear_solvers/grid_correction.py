@@ -70,7 +70,7 @@ class Level:
         return tuple(self.at[name] for name in names)
 
     def prepare(self) -> None:
-        """Diagonal of K from the volumes C and the pulls a."""
+        """Diagonal of K from the volumes C and the boundary coefficients a."""
         run, at = self.backend.pointwise, self.at
         run(grid_nodes.root, at, at["s"])
         run(
@@ -126,11 +126,12 @@ class GridCorrection:
         self._order = backend.zeros(count, "index")
         self._step: Step | None = None
 
-    def prepare(self, position: Any, mask: Any, volume: Any, pull: Any) -> None:
+    def prepare(self, position: Any, mask: Any, volume: Any, boundary_coefficient: Any) -> None:
         """Make the grids for the particles with mask 1.
 
         Args:
-            position: (2, n) [m]. mask: (n,). volume: (n,) V_i [m^2]. pull: (n,) a_i.
+            position: (2, n) [m]. mask: (n,). volume: (n,) V_i [m^2].
+            boundary_coefficient: (n,) a_i.
         """
         backend, cells = self.backend, self._cells
         cells.place(position, mask)
@@ -141,7 +142,7 @@ class GridCorrection:
         backend.copy(bins.start, self._bins.start)
         backend.gather(cells.u, self._bins.order, self._sorted_u)
         backend.gather(cells.w, self._bins.order, self._sorted_w)
-        for values, name in ((volume, "C"), (pull, "a")):
+        for values, name in ((volume, "C"), (boundary_coefficient, "a")):
             self._collect(values, (self.levels[0].at[name], None, None))
         for level, above in zip(self.levels, [*self.levels[1:], None], strict=True):
             level.prepare()

@@ -49,8 +49,8 @@ class Rows(NamedTuple):
     period: Any = ()
 
 
-def held(g_ij, mask_j):
-    """Weight toward a held neighbor."""
+def fixed_weight(g_ij, mask_j):
+    """Weight toward a neighbor whose value is given."""
     return g_ij * (1.0 - mask_j)
 
 
@@ -236,10 +236,15 @@ class Multigrid:
     def prepare(self, C: Any, mask: Any, s: float) -> None:
         """Set the operator of all levels for the diagonal C, the mask and the step s."""
         backend, operator, self._step = self.backend, self.operator, s
-        fields = {"g_ij": operator.weights, "C": C, "a": operator.pull, "mask": mask}
+        fields = {
+            "g_ij": operator.weights,
+            "C": C,
+            "a": operator.boundary_coefficient,
+            "mask": mask,
+        }
         (lowest,) = backend.pointwise(free, fields, (self._C, None), reduce=(None, "min"), s=s)
         if lowest < 1.0:
-            backend.pair_sum(held, operator.neighbors, fields, self._C, finish=pinned, s=s)
+            backend.pair_sum(fixed_weight, operator.neighbors, fields, self._C, finish=pinned, s=s)
         w, C = mask, self._C
         for level in self.levels:
             level.prepare(C, w, s)

@@ -7,14 +7,14 @@ from lasersph.linear_solvers.components import Components
 SUPPORT = 3.75
 
 
-def found(backend, position, mask=None, pull=None, period=(0.0, 0.0)):
+def found(backend, position, mask=None, boundary_coefficient=None, period=(0.0, 0.0)):
     """Components of positions in spacings."""
     position = np.asarray(position, float)
     count = position.shape[1]
     components = Components(backend, count, SUPPORT, period)
     mask = np.ones(count) if mask is None else mask
-    pull = np.zeros(count) if pull is None else pull
-    components.find(*(backend.asarray(v) for v in (position, mask, pull)))
+    boundary_coefficient = np.zeros(count) if boundary_coefficient is None else boundary_coefficient
+    components.find(*(backend.asarray(v) for v in (position, mask, boundary_coefficient)))
     return components, backend.to_host(components.number).tolist()
 
 
@@ -47,9 +47,9 @@ def test_components_join_across_the_period(backend):
 
 def test_means_of_floating_components_are_removed(backend):
     """The second line is pulled toward a value and keeps its mean."""
-    pull = np.zeros(10)
-    pull[7] = 0.5
-    components, _ = found(backend, lines(0, 6), pull=pull)
+    boundary_coefficient = np.zeros(10)
+    boundary_coefficient[7] = 0.5
+    components, _ = found(backend, lines(0, 6), boundary_coefficient=boundary_coefficient)
     values = backend.asarray(np.arange(10.0))
     square = components.remove_means(values)
     assert backend.to_host(values).tolist() == [-2.0, -1.0, 0.0, 1.0, 2.0, 5.0, 6.0, 7.0, 8.0, 9.0]

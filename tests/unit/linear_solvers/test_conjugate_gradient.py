@@ -36,30 +36,33 @@ class Ring:
 
 
 def system(seed=3):
-    """Symmetric weights of a ring, pull, diagonal, right-hand side, and the dense matrix."""
+    """Weights of a ring, boundary coefficient, diagonal, right-hand side, and the dense matrix."""
     random = np.random.default_rng(seed)
     dense = np.zeros((COUNT, COUNT))
     for i in range(COUNT):
         for step in (1, 2):
             dense[i, (i + step) % COUNT] = dense[(i + step) % COUNT, i] = random.uniform(0.1, 2.0)
-    pull, C, b = (random.uniform(0.0, 1.0, COUNT) for _ in range(3))
-    return dense, pull, 0.1 + C, b
+    boundary_coefficient, C, b = (random.uniform(0.0, 1.0, COUNT) for _ in range(3))
+    return dense, boundary_coefficient, 0.1 + C, b
 
 
 def solve(backend, mask, s, residual=1e-12, max_iterations=200):
     """Solution, iterations and the dense matrix of the masked system."""
-    g, pull, C, b = system()
+    g, boundary_coefficient, C, b = system()
     ring = Ring(backend)
     weights = np.take_along_axis(g, ring.host, axis=1).ravel()
     operator = PairOperator(
-        ring, backend.asarray(weights), backend.asarray(pull), backend.asarray(g.sum(axis=1))
+        ring,
+        backend.asarray(weights),
+        backend.asarray(boundary_coefficient),
+        backend.asarray(g.sum(axis=1)),
     )
     solver = ConjugateGradient(backend, operator, COUNT)
     iterations = solver.solve(
         backend.asarray(b), backend.asarray(C), backend.asarray(mask), s,
         residual=residual, max_iterations=max_iterations,
     )  # fmt: skip
-    matrix = np.diag(C + s * (g.sum(axis=1) + pull)) - s * g
+    matrix = np.diag(C + s * (g.sum(axis=1) + boundary_coefficient)) - s * g
     return backend.to_host(solver.solution), iterations, matrix, b
 
 
@@ -102,10 +105,12 @@ def test_terms_by_hand():
 
 def test_rounded_weights(backend):
     """Weights in float32 change the solution by no more than they are rounded."""
-    g, pull, C, b = system()
+    g, boundary_coefficient, C, b = system()
     ring = Ring(backend)
     weights = backend.asarray(np.take_along_axis(g, ring.host, axis=1).ravel())
-    operator = PairOperator(ring, weights, *(backend.asarray(v) for v in (pull, g.sum(axis=1))))
+    operator = PairOperator(
+        ring, weights, *(backend.asarray(v) for v in (boundary_coefficient, g.sum(axis=1)))
+    )
     found = []
     for rounds in (False, True):
         solver = ConjugateGradient(backend, operator, COUNT, rounds=rounds)
@@ -118,16 +123,18 @@ def test_rounded_weights(backend):
 
 def test_new_weights_are_taken(backend):
     """Weights that the operator was given after a solve count in the next one."""
-    g, pull, C, b = system()
+    g, boundary_coefficient, C, b = system()
     ring = Ring(backend)
     weights = np.take_along_axis(g, ring.host, axis=1).ravel()
     total = backend.asarray(g.sum(axis=1))
-    operator = PairOperator(ring, backend.asarray(weights), backend.asarray(pull), total)
+    operator = PairOperator(
+        ring, backend.asarray(weights), backend.asarray(boundary_coefficient), total
+    )
     solver = ConjugateGradient(backend, operator, COUNT)
     arrays = [backend.asarray(v) for v in (b, C, np.ones(COUNT))]
     solver.solve(*arrays, 1.0, residual=1e-12, max_iterations=200)
     operator.weights = backend.asarray(2.0 * weights)
     backend.copy(backend.asarray(2.0 * g.sum(axis=1)), operator.total)
     solver.solve(*arrays, 1.0, residual=1e-12, max_iterations=200)
-    matrix = np.diag(C + 2.0 * g.sum(axis=1) + pull) - 2.0 * g
+    matrix = np.diag(C + 2.0 * g.sum(axis=1) + boundary_coefficient) - 2.0 * g
     assert backend.to_host(solver.solution) == pytest.approx(np.linalg.solve(matrix, b), rel=1e-9)

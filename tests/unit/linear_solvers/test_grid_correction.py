@@ -9,16 +9,28 @@ from lasersph.linear_solvers.cells import Axis, Cells, find_bins
 from lasersph.linear_solvers.grid_correction import COARSEST, GridCorrection
 
 
-def prepared(backend, position, support, *, mask=None, volume=None, pull=None, period=(0.0, 0.0)):
+def prepared(
+    backend,
+    position,
+    support,
+    *,
+    mask=None,
+    volume=None,
+    boundary_coefficient=None,
+    period=(0.0, 0.0),
+):
     """Correction for the positions, and its mask."""
     count = position.shape[1]
     correction = GridCorrection(backend, count, support, period)
     mask = np.ones(count) if mask is None else mask
     volume = np.ones(count) if volume is None else volume
-    pull = np.zeros(count) if pull is None else pull
+    boundary_coefficient = np.zeros(count) if boundary_coefficient is None else boundary_coefficient
     mask = backend.asarray(mask)
     correction.prepare(
-        backend.asarray(position), mask, backend.asarray(volume), backend.asarray(pull)
+        backend.asarray(position),
+        mask,
+        backend.asarray(volume),
+        backend.asarray(boundary_coefficient),
     )
     return correction, mask
 
@@ -51,10 +63,14 @@ def test_axes():
     assert Axis(2, 2.0, True).coarser() == Axis(0, 2.0, False)
 
 
-def test_volumes_and_pulls_go_to_the_nodes(backend):
+def test_volumes_and_boundary_coefficients_go_to_the_nodes(backend):
     """A particle a quarter across and half along its cell shares itself 3/8, 3/8, 1/8, 1/8."""
     correction, _ = prepared(
-        backend, np.array([[0.5], [1.0]]), 3.0, volume=np.array([8.0]), pull=np.array([16.0])
+        backend,
+        np.array([[0.5], [1.0]]),
+        3.0,
+        volume=np.array([8.0]),
+        boundary_coefficient=np.array([16.0]),
     )
     level = correction.levels[0]
     assert level.count == 4
@@ -88,12 +104,15 @@ def dense_of(backend, level):
     return K
 
 
-@pytest.mark.parametrize("pull", [0.0, 0.3])
-def test_coarsest_grid_is_solved_exactly(backend, pull):
+@pytest.mark.parametrize("boundary_coefficient", [0.0, 0.3])
+def test_coarsest_grid_is_solved_exactly(backend, boundary_coefficient):
     """K times its inverse returns a right-hand side, one with sum 0 where K is singular."""
     pairs = scattered(6, 1.5, jitter=0.2)
     correction, _ = prepared(
-        backend, pairs.position, pairs.support, pull=np.full(pairs.count, pull)
+        backend,
+        pairs.position,
+        pairs.support,
+        boundary_coefficient=np.full(pairs.count, boundary_coefficient),
     )
     (level,) = correction.levels
     K = dense_of(backend, level)

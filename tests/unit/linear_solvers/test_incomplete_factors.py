@@ -51,9 +51,9 @@ def test_terms_by_hand():
 
 @pytest.mark.parametrize("block", [8192, 64])
 def test_solution_is_that_of_a_dense_solve(backend, block, monkeypatch):
-    """With held particles, an uneven diagonal and a pull, in one block and in many."""
+    """With held particles, an uneven diagonal and given values, in one block and in many."""
     monkeypatch.setattr(sweeps, "BLOCK", block)
-    operator, pairs = system(backend, SIDE, pull=0.02)
+    operator, pairs = system(backend, SIDE, boundary_coefficient=0.02)
     b, C, mask = problem()
     iterations, x, solver = solved(backend, operator, b, C, mask, STEP, residual=1e-9)
     A = dense(pairs, C, mask, STEP, 0.02)

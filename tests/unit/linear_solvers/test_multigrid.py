@@ -22,15 +22,15 @@ def solved(backend, operator, count, b, C, mask, s, share):
 
 
 @pytest.mark.parametrize("make", [compute.cpu, compute.strict])
-@pytest.mark.parametrize("pull", [0.0, 0.02])
-def test_solution_is_that_of_a_dense_solve(make, pull):
-    """With held particles, an uneven diagonal and a pull, on arrays that refuse NumPy too."""
+@pytest.mark.parametrize("boundary_coefficient", [0.0, 0.02])
+def test_solution_is_that_of_a_dense_solve(make, boundary_coefficient):
+    """With held particles, an uneven diagonal and given values, on arrays that refuse NumPy too."""
     backend, side, s = make(threads=2), 20, 300.0
-    operator, pairs = system(backend, side, pull=pull)
+    operator, pairs = system(backend, side, boundary_coefficient=boundary_coefficient)
     b, mask = right_side(side * side, side), held_front(side)
     C = 1.0 + 0.5 * np.sin(np.arange(side * side))
     iterations, x = solved(backend, operator, side * side, b, C, mask, s, 1e-10)
-    expected = np.linalg.solve(dense(pairs, C, mask, s, pull), mask * b)
+    expected = np.linalg.solve(dense(pairs, C, mask, s, boundary_coefficient), mask * b)
     assert np.abs(x - expected).max() <= 1e-8 * np.abs(expected).max()
     assert iterations < 60
 

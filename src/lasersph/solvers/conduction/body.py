@@ -101,7 +101,7 @@ def assemble(
     pairs = PairOperator(
         neighbors=neighbors.without_ghosts(backend, backend.asarray(filling.source, "index")),
         weights=backend.asarray(weights),
-        pull=backend.asarray(walls.coefficient),
+        boundary_coefficient=backend.asarray(walls.coefficient),
         total=backend.asarray(np.bincount(row, weights, minlength=count)),
     )
     area = np.zeros(count)

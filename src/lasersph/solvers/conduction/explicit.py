@@ -56,7 +56,11 @@ class ExplicitStep:
             curve.enthalpy[1:] - curve.enthalpy[:-1]
         )
         body = self.body
-        fields = {"S": body.pairs.total, "a": body.pairs.pull, "m": body.particles["mass"]}
+        fields = {
+            "S": body.pairs.total,
+            "a": body.pairs.boundary_coefficient,
+            "m": body.particles["mass"],
+        }
         (largest,) = body.backend.pointwise(
             relaxation_rate, fields, (None,), reduce=("max",), heaviest=float(slopes.max())
         )
@@ -82,7 +86,11 @@ class ExplicitStep:
         lost, removed = self.exchange.evaluate(self.T)
         fields = {"T": self.T, "k": self.k, "m": body.particles["mass"]}
         fields |= {"E": body.light.deposit, "q": self.exchange.power, "w": body.wall_power}
-        fields |= {"a": body.pairs.pull, "b": body.wall_heat, "g_ij": body.pairs.weights}
+        fields |= {
+            "a": body.pairs.boundary_coefficient,
+            "b": body.wall_heat,
+            "g_ij": body.pairs.weights,
+        }
         (walls,) = backend.pair_sum(
             harmonic_flow,
             body.pairs.neighbors,

@@ -247,5 +247,9 @@ class ImplicitStep:
         body = self.body
         fields = {"h": self.h, "h0": self.h_0, "P": self.P, "m": self.mass}
         fields |= {"E": body.light.deposit, "q": self.exchange.power, "B": body.wall_flow}
-        fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
+        fields |= {
+            "S": body.pairs.total,
+            "a": body.pairs.boundary_coefficient,
+            "g_ij": body.pairs.weights,
+        }
         return fields

@@ -36,7 +36,7 @@ class HeatPairs:
         weights = block.weights
         fields = {"g_ij": block.weights} | block.rules
         if block.has_walls:
-            out = (pairs.pull, body.wall_flow, body.wall_heat)
+            out = (pairs.boundary_coefficient, body.wall_flow, body.wall_heat)
             backend.pair_sum(wall_terms, block.pairs, fields, out, rows=rows, finish=wall_sums)
             weights = backend.zeros(block.weights.shape[0])
             backend.pair_values(inner_weight, block.pairs, fields, weights)

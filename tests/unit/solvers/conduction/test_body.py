@@ -17,7 +17,7 @@ def operator_of(*settings):
     row = np.repeat(np.arange(body.count), np.diff(start))
     matrix = np.zeros((body.count, body.count))
     np.add.at(matrix, (row, to_host(pairs.neighbors.neighbor)), to_host(pairs.weights))
-    return matrix, to_host(pairs.total), to_host(pairs.pull)
+    return matrix, to_host(pairs.total), to_host(pairs.boundary_coefficient)
 
 
 @pytest.mark.parametrize(

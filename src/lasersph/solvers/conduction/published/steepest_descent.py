@@ -59,7 +59,11 @@ class PublishedStep(ImplicitStep):
         """Direction z and length alpha of one preconditioned step of steepest descent."""
         body, backend = self.body, self.body.backend
         fields = {"r": self.r, "z": self.spare, "m": self.mass, "p": self.spare}
-        fields |= {"S": body.pairs.total, "a": body.pairs.pull, "g_ij": body.pairs.weights}
+        fields |= {
+            "S": body.pairs.total,
+            "a": body.pairs.boundary_coefficient,
+            "g_ij": body.pairs.weights,
+        }
         out, reduce = (self.spare, None), (None, "sum")
         (rz,) = backend.pointwise(descend, fields, out, reduce=reduce, **self.constants)
         finish: dict[str, Any] = {"finish": curvature, "reduce": ("sum",), **self.constants}
