@@ -11,9 +11,10 @@ References: [vanderVorst1992]; [Saad2003], Algorithm 7.7.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.jacobi import Jacobi
 from lasersph.linear_solvers.matrix import PairMatrix, entry_times, residual
@@ -84,10 +85,10 @@ class BiCGStab:
         self.preconditioner = preconditioner or Jacobi(backend, matrix)
         self.solution = backend.zeros(count)
         names = ("r", "shadow", "p", "v", "s", "t", "y", "z")
-        self._fields: dict[str, Any] = {name: backend.zeros(count) for name in names}
+        self._fields: dict[str, Array] = {name: backend.zeros(count) for name in names}
         self._fields |= {"x": self.solution, "a_ij": matrix.entries, "d": matrix.diagonal}
 
-    def solve(self, b: Any, *, residual: float, max_iterations: int) -> Outcome:
+    def solve(self, b: Array, *, residual: float, max_iterations: int) -> Outcome:
         """Solve A x = b until the 2-norm of b - A x is at most `residual`.
 
         Stops at `max_iterations`, or where restarts no longer help, with the x reached: the
@@ -106,7 +107,7 @@ class BiCGStab:
             restarts += 1
         return Outcome(iterations, error, restarts)
 
-    def _true_residual(self, b: Any) -> float:
+    def _true_residual(self, b: Array) -> float:
         return residual(self.backend, self.matrix, self.solution, b, self._fields["r"])
 
     def _cycle(self, error: float, wanted: float, most: int, is_tilted: bool) -> int:
@@ -130,10 +131,10 @@ class BiCGStab:
             self.preconditioner.apply(f["s"], f["z"])
             t_s, t_t = self._product("z", f["t"], stabilized)
             omega = t_s / t_t if t_t > 0.0 else 0.0
+            out, reduce = (f["x"], f["r"], None, None), (None, None, "sum", "sum")
             r_r, rho_new = backend.pointwise(
-                whole_step, f, (f["x"], f["r"], None, None),
-                reduce=(None, None, "sum", "sum"), alpha=alpha, omega=omega,
-            )  # fmt: skip
+                whole_step, f, out, reduce=reduce, alpha=alpha, omega=omega
+            )
             error, iterations = r_r**0.5, iterations + 1
             is_stuck = abs(t_s) <= BREAKDOWN * (t_t * s_s) ** 0.5
             if is_stuck or abs(rho_new) <= BREAKDOWN * shadow_norm * error:
@@ -154,10 +155,8 @@ class BiCGStab:
         )
         return square**0.5, rho
 
-    def _product(self, name: str, out: Any, finish: Any) -> tuple[float, ...]:
+    def _product(self, name: str, out: Array, finish: Callable) -> tuple[float, ...]:
         """Write A times a vector into `out`, with the two reductions of `finish`."""
-        fields = dict(self._fields, p=self._fields[name])
-        return self.backend.pair_sum(
-            entry_times, self.matrix.neighbors, fields, (out, None, None),
-            finish=finish, reduce=(None, "sum", "sum"),
-        )  # fmt: skip
+        fields, pairs = dict(self._fields, p=self._fields[name]), self.matrix.neighbors
+        outs, reduce = (out, None, None), (None, "sum", "sum")
+        return self.backend.pair_sum(entry_times, pairs, fields, outs, finish=finish, reduce=reduce)

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 
 FAR = 1e30
@@ -101,11 +102,13 @@ class Cells:
         """Numbers of cells by the names of `placed`."""
         x, z = self.x, self.z
         return {
-            "cells": x.cells, "cell_lines": z.cells,
-            "x_wraps": int(x.wraps), "z_wraps": int(z.wraps),
-        }  # fmt: skip
+            "cells": x.cells,
+            "cell_lines": z.cells,
+            "x_wraps": int(x.wraps),
+            "z_wraps": int(z.wraps),
+        }
 
-    def place(self, position: Any, mask: Any) -> None:
+    def place(self, position: Array, mask: Array) -> None:
         """Make the cells around the particles with mask 1; position (2, n) [m], mask (n,)."""
         fields = {"x": position, "mask": mask}
         bounds = self.backend.pointwise(
@@ -113,10 +116,9 @@ class Cells:
         )
         x_low, self.x = _axis(self.width, self.period[0], *bounds[:2])
         z_low, self.z = _axis(self.width, self.period[1], *bounds[2:])
-        self.backend.pointwise(
-            placed, fields, (self.u, self.w, self.number), lower=(x_low, z_low),
-            inverse=(1.0 / self.x.spacing, 1.0 / self.z.spacing), **self.shape,
-        )  # fmt: skip
+        lower, inverse = (x_low, z_low), (1.0 / self.x.spacing, 1.0 / self.z.spacing)
+        out = (self.u, self.w, self.number)
+        self.backend.pointwise(placed, fields, out, lower=lower, inverse=inverse, **self.shape)
 
 
 def _axis(width: float, period: float, low: float, high: float) -> tuple[float, Axis]:
@@ -141,11 +143,11 @@ class Bins:
         start: (bins + 1,) first place of each bin in it.
     """
 
-    order: Any
-    start: Any
+    order: Array
+    start: Array
 
 
-def find_bins(backend: Backend, keys: Any, count: int) -> Bins:
+def find_bins(backend: Backend, keys: Array, count: int) -> Bins:
     """Bins of members from the bin of each, `keys` (n,) of kind "index" below `count`."""
     start = backend.zeros(count + 1, "offset")
     backend.exclusive_scan(backend.count_by_key(keys, count), start)

@@ -8,11 +8,11 @@ dimensions.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.cells import Cells, find_bins
 
@@ -89,7 +89,7 @@ class Components:
         self.number, self.mask = backend.zeros(count, "index"), backend.zeros(count)
         self._cells = Cells(backend, count, CELL * support, period)
 
-    def find(self, position: Any, mask: Any, boundary_coefficient: Any) -> None:
+    def find(self, position: Array, mask: Array, boundary_coefficient: Array) -> None:
         """Label the particles with mask 1.
 
         Args:
@@ -109,16 +109,14 @@ class Components:
         backend.pointwise(large, {"members": head(members, total)}, marks)
         backend.exclusive_scan(marks, before)
         self.count = int(backend.look(before)[-1])
-        backend.pointwise(
-            component_of, {"part": self.number}, (self.number, self.mask), members=members,
-            before=before,
-        )  # fmt: skip
+        fields, out = {"part": self.number}, (self.number, self.mask)
+        backend.pointwise(component_of, fields, out, members=members, before=before)
         self._bins = find_bins(backend, self.number, self.count + 1)
         self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
         self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
         self._sum(share_of, self._share, boundary_coefficient=boundary_coefficient)
 
-    def remove_means(self, values: Any) -> float:
+    def remove_means(self, values: Array) -> float:
         """Subtract from each floating component's values their mean; returns the sum of squares."""
         fields = {"p": values, "component": self.number}
         self._sum(mean_of, self._means, share=self._share, values=values)
@@ -128,7 +126,9 @@ class Components:
         )
         return square
 
-    def _sum(self, function: Any, out: Any, share: Any = None, **arrays: Any) -> None:
+    def _sum(
+        self, function: Callable, out: Array, share: Array | None = None, **arrays: Array
+    ) -> None:
         fields = self._places if share is None else self._places | {"share": share}
         order, start = self._bins.order, self._bins.start
         self.backend.pointwise(function, fields, out, order=order, start=start, **arrays)

@@ -18,14 +18,15 @@ Reference: [Saad2003], Algorithm 9.1.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.routine import Step
 from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.incomplete_factors import IncompleteFactors
 from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.linear_solvers.multigrid import Multigrid
+from lasersph.particles.neighbor_lists import NeighborList
 
 STIFF = 20.0
 """Stiffness above which setting up and applying multigrid costs less than it saves Jacobi."""
@@ -46,10 +47,10 @@ class PairOperator:
         total: (n,) sum_j g_ij.
     """
 
-    neighbors: Any
-    weights: Any
-    boundary_coefficient: Any
-    total: Any
+    neighbors: NeighborList
+    weights: Array
+    boundary_coefficient: Array
+    total: Array
 
 
 def start(b, C, S, a, mask, s):
@@ -114,10 +115,8 @@ class ConjugateGradient:
         self._v = {name: backend.zeros(count) for name in VECTORS}
         self.solution = self._v["x"]
         v = self._v
-        self._advance = backend.prepare(
-            advance, v, (v["x"], v["r"], v["z"], None, None),
-            reduce=(None, None, None, "sum", "sum"), alpha=0.0,
-        )  # fmt: skip
+        out, reduce = (v["x"], v["r"], v["z"], None, None), (None, None, None, "sum", "sum")
+        self._advance = backend.prepare(advance, v, out, reduce=reduce, alpha=0.0)
         self._multigrid: Multigrid | None = None
         self._is_set_up = False
         self._given: tuple = (operator.neighbors, operator.weights) if rests else ()
@@ -125,9 +124,9 @@ class ConjugateGradient:
 
     def solve(
         self,
-        b: Any,
-        C: Any,
-        mask: Any,
+        b: Array,
+        C: Array,
+        mask: Array,
         s: float,
         *,
         residual: float,
@@ -197,7 +196,7 @@ class ConjugateGradient:
                 self.factors = IncompleteFactors(self.backend, pairs, self._v, count)
         return self.factors
 
-    def _weights(self) -> Any:
+    def _weights(self) -> Array:
         """Weights as they are read."""
         weights = self.operator.weights
         return self.backend.single(weights) if self.rounds else weights
@@ -211,11 +210,17 @@ class ConjugateGradient:
         self._bound = now
         used.neighbors, used.weights = operator.neighbors, self._weights()
         self._turn = self.backend.prepare(
-            neighbor, v | {"g_ij": used.weights}, (v["p"], v["q"], None),
-            neighbors=used.neighbors, finish=turn, reduce=(None, None, "sum"), beta=0.0, s=0.0,
-        )  # fmt: skip
+            neighbor,
+            v | {"g_ij": used.weights},
+            (v["p"], v["q"], None),
+            neighbors=used.neighbors,
+            finish=turn,
+            reduce=(None, None, "sum"),
+            beta=0.0,
+            s=0.0,
+        )
 
-    def _prepared(self, C: Any, mask: Any, s: float) -> Multigrid | None:
+    def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
         """Multigrid for this matrix; levels are built when first needed, from the first pairs,
         so that they do not depend on when that is."""
         if self._multigrid is None:

@@ -23,11 +23,12 @@ different sizes. References: [Xu1996], [Bramble1990] for the additive form.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.dense import invert
 from lasersph.compute.routine import Step
@@ -57,8 +58,11 @@ class Level:
         across, along = x.spacing**-2, z.spacing**-2
         is_flat = x.nodes == 1 or z.nodes == 1
         self.shape: dict[str, Any] = {
-            "columns": x.nodes, "lines": z.nodes, "x_wraps": int(x.wraps), "z_wraps": int(z.wraps),
-        }  # fmt: skip
+            "columns": x.nodes,
+            "lines": z.nodes,
+            "x_wraps": int(x.wraps),
+            "z_wraps": int(z.wraps),
+        }
         self.stencil = self.shape | {
             "across": across if is_flat else max(0.0, (2.0 * across - along) / 3.0),
             "along": along if is_flat else max(0.0, (2.0 * along - across) / 3.0),
@@ -74,32 +78,47 @@ class Level:
         run, at = self.backend.pointwise, self.at
         run(grid_nodes.root, at, at["s"])
         run(
-            grid_nodes.diagonal, at, self.outputs("d", "v"),
-            all_s=self.all["s"], damping=DAMPING, **self.stencil,
-        )  # fmt: skip
+            grid_nodes.diagonal,
+            at,
+            self.outputs("d", "v"),
+            all_s=self.all["s"],
+            damping=DAMPING,
+            **self.stencil,
+        )
 
-    def smooth(self, function: Any, out: Any) -> None:
+    def smooth(self, function: Callable, out: Array) -> None:
         """`rest` or `sweep` of the present x and y = s x."""
         self.backend.pointwise(function, self.at, out, all_y=self.all["y"], **self.stencil)
 
     def collect(self, above: Level, name: str, out: tuple) -> None:
         """P^T of an array of this level into those of the next, as `grid_nodes.started`."""
         self.backend.pointwise(
-            grid_nodes.collected, above.at, out, all_r=self.all[name],
-            x_step=self.x.step, z_step=self.z.step, **self.shape,
-        )  # fmt: skip
+            grid_nodes.collected,
+            above.at,
+            out,
+            all_r=self.all[name],
+            x_step=self.x.step,
+            z_step=self.z.step,
+            **self.shape,
+        )
 
     def add(self, above: Level) -> None:
         """x + P e with the x of the next level for e."""
         self.backend.pointwise(
-            grid_nodes.added, self.at, self.outputs("x", "y"), coarse_x=above.all["x"],
-            x_step=self.x.step, z_step=self.z.step,
-            coarse_columns=above.x.nodes, coarse_lines=above.z.nodes,
-            x_wraps=above.shape["x_wraps"], z_wraps=above.shape["z_wraps"],
-        )  # fmt: skip
+            grid_nodes.added,
+            self.at,
+            self.outputs("x", "y"),
+            coarse_x=above.all["x"],
+            x_step=self.x.step,
+            z_step=self.z.step,
+            coarse_columns=above.x.nodes,
+            coarse_lines=above.z.nodes,
+            x_wraps=above.shape["x_wraps"],
+            z_wraps=above.shape["z_wraps"],
+        )
 
 
-def _places(backend: Backend, columns: int, lines: int) -> dict[str, Any]:
+def _places(backend: Backend, columns: int, lines: int) -> dict[str, Array]:
     """Number k, column c and line m of each node or cell."""
     k = np.arange(columns * lines)
     arrays = {"k": k, "c": k // lines, "m": k % lines}
@@ -126,7 +145,9 @@ class GridCorrection:
         self._order = backend.zeros(count, "index")
         self._step: Step | None = None
 
-    def prepare(self, position: Any, mask: Any, volume: Any, boundary_coefficient: Any) -> None:
+    def prepare(
+        self, position: Array, mask: Array, volume: Array, boundary_coefficient: Array
+    ) -> None:
         """Make the grids for the particles with mask 1.
 
         Args:
@@ -151,7 +172,7 @@ class GridCorrection:
                     level.collect(above, name, (above.at[name], None, None))
         backend.copy(backend.asarray(_inverse(backend, self.levels[-1])), self._inverse)
 
-    def correction(self, r: Any, diagonal: Any, mask: Any, z: Any) -> Step:
+    def correction(self, r: Array, diagonal: Array, mask: Array, z: Array) -> Step:
         """Step that writes M^-1 r into z, 0 where the mask is 0, and reduces r z.
 
         Args:
@@ -190,20 +211,32 @@ class GridCorrection:
             self.levels.append(Level(backend, x, z))
         self._inverse = backend.zeros(self.levels[-1].count ** 2)
 
-    def _collect(self, values: Any, out: tuple) -> None:
+    def _collect(self, values: Array, out: tuple) -> None:
         """P^T of the particles' values into the finest grid, as `grid_nodes.started`."""
         backend = self.backend
         backend.pointwise(
-            grid_transfer.corner_sums, self._places, self._sum_heads, values=values,
-            order=self._bins.order, start=self._bins.start, u=self._sorted_u, w=self._sorted_w,
-        )  # fmt: skip
+            grid_transfer.corner_sums,
+            self._places,
+            self._sum_heads,
+            values=values,
+            order=self._bins.order,
+            start=self._bins.start,
+            u=self._sorted_u,
+            w=self._sorted_w,
+        )
         sum_00, sum_01, sum_10, sum_11 = self._sums
         backend.pointwise(
-            grid_transfer.from_cells, self.levels[0].at, out,
-            sum_00=sum_00, sum_01=sum_01, sum_10=sum_10, sum_11=sum_11, **self._cells.shape,
-        )  # fmt: skip
+            grid_transfer.from_cells,
+            self.levels[0].at,
+            out,
+            sum_00=sum_00,
+            sum_01=sum_01,
+            sum_10=sum_10,
+            sum_11=sum_11,
+            **self._cells.shape,
+        )
 
-    def _solve(self, r: Any) -> None:
+    def _solve(self, r: Array) -> None:
         """B P^T r on the finest grid."""
         self._collect(r, self.levels[0].outputs("r", "x", "y"))
         self._cycle(0)
@@ -213,9 +246,13 @@ class GridCorrection:
         level = self.levels[k]
         if level is self.levels[-1]:
             self.backend.pointwise(
-                grid_nodes.product, level.at, level.at["x"],
-                inverse=self._inverse, all_r=level.all["r"], count=level.count,
-            )  # fmt: skip
+                grid_nodes.product,
+                level.at,
+                level.at["x"],
+                inverse=self._inverse,
+                all_r=level.all["r"],
+                count=level.count,
+            )
             return
         above = self.levels[k + 1]
         level.smooth(grid_nodes.rest, level.at["rest"])

@@ -20,8 +20,7 @@ held particles have neither rows nor columns. The residual itself is not formed:
 
 from __future__ import annotations
 
-from typing import Any
-
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.routine import Step
 from lasersph.compute.sweeps import OrderedPairs, Sweep
@@ -70,29 +69,33 @@ class IncompleteFactors:
     """
 
     def __init__(
-        self, backend: Backend, pairs: OrderedPairs, vectors: dict[str, Any], count: int
+        self, backend: Backend, pairs: OrderedPairs, vectors: dict[str, Array], count: int
     ) -> None:
         self.backend, self.pairs = backend, pairs
         self._K, self._inverse, self._middle = (backend.zeros(count) for _ in range(3))
         self._t = vectors["z"]
         self._of: tuple | None = None
         v = {
-            "x": vectors["x"], "r": vectors["r"], "p": vectors["p"], "t": self._t,
-            "w": vectors["q"], "K": self._K, "inverse": self._inverse, "middle": self._middle,
+            "x": vectors["x"],
+            "r": vectors["r"],
+            "p": vectors["p"],
+            "t": self._t,
+            "w": vectors["q"],
+            "K": self._K,
+            "inverse": self._inverse,
+            "middle": self._middle,
             "F": pairs.after,
-        }  # fmt: skip
+        }
         self._eliminate = pairs.prepare(forward, v | {"p": v["r"]}, [v["r"]], reduces=1, s=0.0)
         self.sweeps = (
             pairs.prepare(backward, v, [v["t"], v["p"]], backward=True, beta=0.0, s=0.0),
             pairs.prepare(forward, v, [v["w"]], reduces=1, s=0.0),
         )
-        self._advance = backend.prepare(
-            advance, v, (v["x"], v["r"], None, None), reduce=(None, None, "sum", "sum"),
-            alpha=0.0, s=0.0,
-        )  # fmt: skip
+        out, reduce = (v["x"], v["r"], None, None), (None, None, "sum", "sum")
+        self._advance = backend.prepare(advance, v, out, reduce=reduce, alpha=0.0, s=0.0)
 
     def solve(
-        self, C: Any, a: Any, mask: Any, s: float, *, residual: float, max_iterations: int
+        self, C: Array, a: Array, mask: Array, s: float, *, residual: float, max_iterations: int
     ) -> int:
         """Iterate from x = 0, r the right-hand side and p = 0; returns the iterations."""
         self._factor_of(C, a, mask)(s=s)
@@ -112,7 +115,7 @@ class IncompleteFactors:
         )
         return int(iterations)
 
-    def _factor_of(self, C: Any, a: Any, mask: Any) -> Sweep:
+    def _factor_of(self, C: Array, a: Array, mask: Array) -> Sweep:
         """Sweep that sets the factors from these arrays, bound when they are new."""
         if self._of is None or any(x is not y for x, y in zip((C, a, mask), self._of, strict=True)):
             self._of = (C, a, mask)

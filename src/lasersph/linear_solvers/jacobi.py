@@ -9,8 +9,7 @@ need. Left out: coarse levels, which long waves in large bodies ask for. Referen
 
 from __future__ import annotations
 
-from typing import Any
-
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.matrix import PairMatrix, entry_times
 
@@ -44,7 +43,7 @@ class Jacobi:
         self.backend, self.matrix, self.sweeps, self.damping = backend, matrix, sweeps, damping
         self._other = backend.zeros(matrix.diagonal.shape[0]) if sweeps > 1 else None
 
-    def apply(self, r: Any, z: Any) -> None:
+    def apply(self, r: Array, z: Array) -> None:
         """Write the approximate solution of A z = r into `z`."""
         backend, matrix = self.backend, self.matrix
         backend.pointwise(scale, {"r": r, "d": matrix.diagonal}, z)

@@ -9,9 +9,10 @@ list `without_ghosts` where there are dummies). Left out: dense and blocked form
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.particles.neighbor_lists import NeighborList
 
 
 @dataclass(frozen=True)
@@ -22,9 +23,9 @@ class PairMatrix:
         neighbors: list of pairs. entries: (pairs,) a_ij. diagonal: (n,) d_i, not 0.
     """
 
-    neighbors: Any
-    entries: Any
-    diagonal: Any
+    neighbors: NeighborList
+    entries: Array
+    diagonal: Array
 
 
 def entry_times(a_ij, p_j):
@@ -38,7 +39,7 @@ def rest(total, d, p, b):
     return r, r * r
 
 
-def residual(backend: Backend, matrix: PairMatrix, x: Any, b: Any, r: Any) -> float:
+def residual(backend: Backend, matrix: PairMatrix, x: Array, b: Array, r: Array) -> float:
     """Write b - A x into `r`; returns its 2-norm."""
     fields = {"a_ij": matrix.entries, "d": matrix.diagonal, "p": x, "b": b}
     (square,) = backend.pair_sum(

@@ -25,6 +25,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.dense import invert
 from lasersph.compute.launch import Launch
@@ -40,13 +41,13 @@ class Rows(NamedTuple):
     `support` only tells how many values there are to sum, where not as many as rows.
     """
 
-    row_start: Any
-    neighbor: Any
-    support: Any
-    position: Any = None
+    row_start: Array
+    neighbor: Array
+    support: Array | None
+    position: Array | None = None
     kernel: Any = None
     mean: Any = None
-    period: Any = ()
+    period: tuple[float, ...] = ()
 
 
 def fixed_weight(g_ij, mask_j):
@@ -150,10 +151,7 @@ class _Level:
         self.C, self.w, self.d, self.r, self.x, self.rest = (backend.zeros(count) for _ in range(6))
         self._padded = backend.zeros(members)  # sums want as many values as there are rows
         self.solution = backend.head(self._padded, count)
-        v = {
-            "g_ij": self.weights, "r": self.r, "C": self.C, "w": self.w, "d": self.d,
-            "x": self.x,
-        }  # fmt: skip
+        v = {"g_ij": self.weights, "r": self.r, "C": self.C, "w": self.w, "d": self.d, "x": self.x}
         self._diagonal = backend.prepare(
             weighted, v, self.d, neighbors=self.pairs, finish=diagonal, s=0.0
         )
@@ -166,7 +164,7 @@ class _Level:
         )
         self._from: tuple = ()
 
-    def prepare(self, C: Any, w: Any, s: float) -> None:
+    def prepare(self, C: Array, w: Array, s: float) -> None:
         """Set the operator from the row sums C and the free shares w of the members."""
         if not _are(self._from, (C, w)):
             self._from = (C, w)
@@ -175,23 +173,27 @@ class _Level:
             sums()
         self._diagonal(s=s)
 
-    def _sum(self, values: Any, out: Any, finish: Callable | None = None) -> Launch:
+    def _sum(self, values: Array, out: Array, finish: Callable | None = None) -> Launch:
         """Loop that sums over members."""
         fields = {"v": values, "size": self.size}
         return self.backend.prepare(value, fields, out, neighbors=self.members, finish=finish)
 
-    def restriction(self, residual: Any) -> Launch:
+    def restriction(self, residual: Array) -> Launch:
         """Loop that sets the right-hand side from the members' residuals."""
         return self._sum(residual, self.r)
 
     def prolongation(
-        self, function: Callable, fields: dict, out: Any, reduce: Any = None
+        self,
+        function: Callable,
+        fields: dict[str, Array],
+        out: Array | tuple,
+        reduce: tuple | None = None,
     ) -> Launch:
         """Loop that gives members their aggregate's `solution`, as `total` of `function`."""
+        fields = fields | {"v": self._padded}
         return self.backend.prepare(
-            value, fields | {"v": self._padded}, out,
-            neighbors=self.parents, finish=function, reduce=reduce,
-        )  # fmt: skip
+            value, fields, out, neighbors=self.parents, finish=function, reduce=reduce
+        )
 
 
 def _are(some: tuple, others: tuple) -> bool:
@@ -233,7 +235,7 @@ class Multigrid:
         ]
         self._for: tuple = ()
 
-    def prepare(self, C: Any, mask: Any, s: float) -> None:
+    def prepare(self, C: Array, mask: Array, s: float) -> None:
         """Set the operator of all levels for the diagonal C, the mask and the step s."""
         backend, operator, self._step = self.backend, self.operator, s
         fields = {
@@ -251,7 +253,7 @@ class Multigrid:
             w, C = level.w, level.C
         backend.copy(backend.asarray(_inverse(backend, self.levels[-1], s)), self._inverse)
 
-    def correction(self, r: Any, z: Any, mask: Any) -> Step:
+    def correction(self, r: Array, z: Array, mask: Array) -> Step:
         """Step that adds P B P^T r to z on the particles whose mask is 1, and reduces r z."""
         if not _are(self._for, (r, z, mask)):
             self._for, finest = (r, z, mask), self.levels[0]

@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import (
     determinant,
@@ -25,6 +26,7 @@ from lasersph.compute.vectors import (
     outer,
     trace,
 )
+from lasersph.particles.neighbor_lists import NeighborList
 
 LEAST_DETERMINANT, MOST_DETERMINANT = 0.6, 1.6
 MOST_ANISOTROPY = 5.5
@@ -59,25 +61,29 @@ def corrected(total, C):
     return matvec(C, total)
 
 
-def correction_matrix(backend: Backend, neighbors: Any, fields: Mapping[str, Any], M: Any) -> None:
+def correction_matrix(
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], M: Array
+) -> None:
     """Write M into `M`, shape (d, d, n); field V, shape (N,)."""
     backend.pair_sum(correction_term, neighbors, fields, M)
 
 
-def inverse_correction(backend: Backend, neighbors: Any, fields: Mapping[str, Any], C: Any) -> None:
+def inverse_correction(
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], C: Array
+) -> None:
     """Write C = M^-1 into `C`, shape (d, d, n); field V, shape (N,)."""
     backend.pair_sum(correction_term, neighbors, fields, C, finish=inverted)
 
 
 def standard_gradient(
-    backend: Backend, neighbors: Any, fields: Mapping[str, Any], gradient: Any
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], gradient: Array
 ) -> None:
     """Write sum_j V_j (f_j - f_i) grad W_ij into `gradient`, shape (d, n); fields f and V."""
     backend.pair_sum(volume_difference_term, neighbors, fields, gradient)
 
 
 def corrected_gradient(
-    backend: Backend, neighbors: Any, fields: Mapping[str, Any], gradient: Any
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], gradient: Array
 ) -> None:
     """Write the corrected gradient into `gradient`, shape (d, n).
 

@@ -14,8 +14,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
+from lasersph.particles.neighbor_lists import NeighborList
 
 SURFACE_THRESHOLD = {1: 0.64, 2: 1.5, 3: 2.4}
 """Below it a particle of a lattice lies in the top layer, by dimension (cubic spline, h = 1.5 dx);
@@ -41,6 +43,8 @@ def position_term(V_j, r_ij, dW_ij):
     return -V_j * r_ij * dW_ij
 
 
-def divergence(backend: Backend, neighbors: Any, fields: Mapping[str, Any], out: Any) -> None:
+def divergence(
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], out: Array
+) -> None:
     """Write D- (47) into `out`, shape (n,); fields v, shape (d, N), m and rho, shape (N,)."""
     backend.pair_sum(difference_term, neighbors, fields, out)

@@ -24,8 +24,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, inverse, matvec, outer, trace
+from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.sph.correction import corrected_gradient
 
 
@@ -98,9 +100,9 @@ def matrix_term(mu_i, mu_j, C_i, N_i, factor_i, V_j, x_ij, r_ij, dW_ij):
 
 def schwaiger_laplacian(
     backend: Backend,
-    neighbors: Any,
+    neighbors: NeighborList,
     fields: Mapping[str, Any],
-    out: Any,
+    out: Array,
     *,
     use_gamma: bool = True,
 ) -> None:
@@ -111,6 +113,7 @@ def schwaiger_laplacian(
             the corrected kernel gradient, unit tensors for the raw one.
         use_gamma: divide by Gamma, (17); without it the factor in front is 1.
     """
+    assert neighbors.position is not None
     d, n = neighbors.position.shape[0], out.shape[0]
     work = dict(fields, df=backend.zeros((d, n)))
     corrected_gradient(backend, neighbors, work, work["df"])
@@ -120,9 +123,9 @@ def schwaiger_laplacian(
 
 def schwaiger_matrix(
     backend: Backend,
-    neighbors: Any,
+    neighbors: NeighborList,
     fields: Mapping[str, Any],
-    out: Any,
+    out: Array,
     *,
     use_gamma: bool = True,
 ) -> None:
@@ -138,9 +141,10 @@ def schwaiger_matrix(
 
 
 def _moments(
-    backend: Backend, neighbors: Any, fields: Mapping[str, Any], n: int, use_gamma: bool
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], n: int, use_gamma: bool
 ) -> dict[str, Any]:
     """N, shape (d, n), and the factor in front, shape (n,)."""
+    assert neighbors.position is not None
     d = neighbors.position.shape[0]
     found = {"N": backend.zeros((d, n)), "factor": backend.zeros(n)}
     backend.pair_sum(normal_term, neighbors, fields, found["N"])

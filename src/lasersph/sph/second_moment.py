@@ -200,8 +200,7 @@ class _Lattice:
         share = z * z / (r * r)
         lateral = np.mean([s[is_near] for s in squares], axis=0)
         parts = (share * g, (1.0 - share) * g)
-        return np.array([parts[0].sum(), parts[1].sum(),
-                         (parts[0] * lateral).sum(), (parts[1] * lateral).sum()])  # fmt: skip
+        return np.array([(part * factor).sum() for factor in (1.0, lateral) for part in parts])
 
     def _offsets(self, axis: int, k: int, other: int, support: float) -> Array:
         """(columns of layer k, neighbors) x_i - x_j along an axis of the endless lattice."""

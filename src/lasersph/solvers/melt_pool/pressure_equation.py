@@ -27,13 +27,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.routine import Step
 from lasersph.linear_solvers.components import Components
 from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.iteration import conjugate_gradients
+from lasersph.particles.neighbor_lists import NeighborList
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,12 @@ class PressureEquation:
         )
 
     def set_operator(
-        self, neighbors: Any, weights: Any, mask: Any, volume: Any, coefficient: Any = None
+        self,
+        neighbors: NeighborList,
+        weights: Array,
+        mask: Array,
+        volume: Array,
+        coefficient: Array | None = None,
     ) -> None:
         """Take the operator of the present particles; call it whenever one of these has changed.
 
@@ -144,7 +150,9 @@ class PressureEquation:
         backend, components = self.backend, self.components
         self._neighbors, self._weights = neighbors, weights
         self._coefficient = self._nothing if coefficient is None else coefficient
-        components.find(neighbors.position, mask, self._coefficient)
+        position = neighbors.position
+        assert position is not None
+        components.find(position, mask, self._coefficient)
         fields = {"g_ij": weights, "component": components.number, "a": self._coefficient}
         backend.pair_sum(inner, neighbors, fields, self._d, finish=total_weight)
         if components.count > 1:
@@ -152,9 +160,11 @@ class PressureEquation:
                 self._inner = backend.zeros(weights.shape[0])
             self._weights = self._inner
             backend.pair_values(inner, neighbors, fields, self._inner)
-        self._correction.prepare(neighbors.position, components.mask, volume, self._coefficient)
+        self._correction.prepare(position, components.mask, volume, self._coefficient)
 
-    def solve(self, b: Any, pressure: Any, *, value: Any = None, flux: Any = None) -> Outcome:
+    def solve(
+        self, b: Array, pressure: Array, *, value: Array | None = None, flux: Array | None = None
+    ) -> Outcome:
         """Solve for the pressure, from what it holds as the first guess.
 
         Args:
@@ -167,17 +177,26 @@ class PressureEquation:
         backend, components, nothing = self.backend, self.components, self._nothing
         mask, p, r, s, q = components.mask, pressure, self._r, self._s, self._q
         fields = {
-            "p": p, "r": r, "z": self._z, "s": s, "q": q, "d": self._d, "mask": mask, "b": b,
-            "a": self._coefficient, "f": nothing if flux is None else flux,
-            "p_b": nothing if value is None else value, "g_ij": self._weights,
-        }  # fmt: skip
+            "p": p,
+            "r": r,
+            "z": self._z,
+            "s": s,
+            "q": q,
+            "d": self._d,
+            "mask": mask,
+            "b": b,
+            "a": self._coefficient,
+            "f": nothing if flux is None else flux,
+            "p_b": nothing if value is None else value,
+            "g_ij": self._weights,
+        }
         backend.pointwise(masked_value, fields, p)
         backend.pointwise(right_side, fields, self._b)
         scale = components.remove_means(self._b) ** 0.5
+        given, reduce = fields | {"b": self._b}, (None, "sum")
         (r_r,) = backend.pair_sum(
-            neighbor_value, self._neighbors, fields | {"b": self._b}, (r, None),
-            finish=rest, reduce=(None, "sum"),
-        )  # fmt: skip
+            neighbor_value, self._neighbors, given, (r, None), finish=rest, reduce=reduce
+        )
         correction = self._correction.correction(r, self._d, mask, self._z)
         turned = backend.prepare(turn, fields, s, beta=0.0)
         multiplied = backend.prepare(

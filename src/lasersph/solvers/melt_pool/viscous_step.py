@@ -8,8 +8,7 @@ symmetric and positive, since a ghost changes at most the sign of a component.
 
 from __future__ import annotations
 
-from typing import Any
-
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.routine import Step
 from lasersph.compute.vectors import vector
@@ -44,7 +43,7 @@ class ViscousStep:
         volume: (n,) V [m^2]. viscosity: nu [m^2/s]. kind: "implicit" or "explicit".
     """
 
-    def __init__(self, backend: Backend, volume: Any, viscosity: float, kind: str) -> None:
+    def __init__(self, backend: Backend, volume: Array, viscosity: float, kind: str) -> None:
         count, self.volume = volume.shape[0], volume
         self.backend, self.nu, self.is_implicit = backend, viscosity, kind == "implicit"
         vectors = 5 if self.is_implicit else 1
@@ -52,21 +51,25 @@ class ViscousStep:
         self._g_sum = backend.zeros(count)
 
     def advance(
-        self, block: Block, v: Any, b: Any, jump: Any, kinds: ParticleKinds, step: float
+        self, block: Block, v: Array, b: Array, jump: Array, kinds: ParticleKinds, step: float
     ) -> int:
         """Advance v (2, n) [m/s] under viscosity and the body force b [m/s^2]; iterations."""
         backend = self.backend
         rows = kinds.fluid_rows
         if rows.shape[0] == 0:
             return 0
-        fields = {
-            "v": block.extend_velocity(v, jump), "g_ij": block.weights, "V": block.V, "b": b,
-        }  # fmt: skip
+        fields = {"v": block.extend_velocity(v, jump), "g_ij": block.weights, "V": block.V, "b": b}
         if not self.is_implicit:
             backend.pair_sum(
-                momentum, block.pairs, fields, self._star, rows=rows, finish=predict, nu=self.nu,
+                momentum,
+                block.pairs,
+                fields,
+                self._star,
+                rows=rows,
+                finish=predict,
+                nu=self.nu,
                 step=step,
-            )  # fmt: skip
+            )
             backend.copy(self._star, v)
             return 0
         s = self.nu * step
@@ -77,12 +80,16 @@ class ViscousStep:
         backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
         fields |= {"v_star": self._star, "g_sum": self._g_sum}
         r_z, r_r = backend.pair_sum(
-            momentum, block.pairs, fields, (r, z, None, None), rows=rows, finish=start,
-            reduce=(None, None, "sum", "sum"), s=s,
-        )  # fmt: skip
-        points = {
-            "v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum,
-        }  # fmt: skip
+            momentum,
+            block.pairs,
+            fields,
+            (r, z, None, None),
+            rows=rows,
+            finish=start,
+            reduce=(None, None, "sum", "sum"),
+            s=s,
+        )
+        points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
         extended = backend.zeros((2, block.total))
         turned = backend.prepare(turn, points, d, rows=rows, beta=0.0)
         ghosts = backend.prepare(

@@ -16,14 +16,14 @@ support, are left out, as are boundary data: use `pressure_equation` for these, 
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.bicgstab import BiCGStab
 from lasersph.linear_solvers.matrix import PairMatrix
 from lasersph.particles.kinds import DUMMY, EDGE, FLUID
+from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.solvers.melt_pool.pressure_equation import Outcome
 
 REINFORCEMENT = 1e-6
@@ -115,7 +115,7 @@ class PublishedPressure:
         self._known, self._b, self._d = (backend.zeros(count) for _ in range(3))
 
     def set_operator(
-        self, neighbors: Any, source: Any, weights: Any, kind: Any, volume: Any
+        self, neighbors: NeighborList, source: Array, weights: Array, kind: Array, volume: Array
     ) -> None:
         """Take the matrix of the present particles.
 
@@ -133,23 +133,32 @@ class PublishedPressure:
         backend.pair_sum(edge_distance, neighbors, near, self._nearest, rows=dummies, combine="min")
         backend.copy(self._number, self._column)
         backend.pair_sum(
-            edge_number, neighbors, near | {"k": self._number}, self._column,
-            rows=dummies, combine="min", finish=assigned,
-        )  # fmt: skip
+            edge_number,
+            neighbors,
+            near | {"k": self._number},
+            self._column,
+            rows=dummies,
+            combine="min",
+            finish=assigned,
+        )
         fields = {"kind": kind, "column": self._column, "k": self._number}
         backend.pointwise(is_known, fields, self._known)
         entries = backend.zeros(weights.shape[0])
         fields |= {"g_ij": weights, "V": volume, "known": self._known}
         backend.pair_values(entry, inner, fields, entries)
         backend.pair_sum(
-            opposite, inner, {"a_ij": entries}, self._d,
-            finish=diagonal, reinforcement=REINFORCEMENT,
-        )  # fmt: skip
+            opposite,
+            inner,
+            {"a_ij": entries},
+            self._d,
+            finish=diagonal,
+            reinforcement=REINFORCEMENT,
+        )
         columns = inner.without_ghosts(backend, self._column)
         self._kind, self._volume = kind, volume
         self._solver = BiCGStab(backend, PairMatrix(columns, entries, self._d))
 
-    def solve(self, b: Any, pressure: Any) -> Outcome:
+    def solve(self, b: Array, pressure: Array) -> Outcome:
         """Solve for the pressure, from what it holds as the first guess.
 
         Args:
@@ -173,7 +182,7 @@ class PublishedPressure:
         self._less(pressure, total / rows if rows else 0.0)
         return Outcome(outcome.iterations, outcome.residual / scale if scale > 0.0 else 0.0)
 
-    def _less(self, values: Any, mean: float) -> float:
+    def _less(self, values: Array, mean: float) -> float:
         fields = {"p": values, "kind": self._kind}
         return self.backend.pointwise(
             less, fields, (values, None), reduce=(None, "sum"), mean=mean
