@@ -61,7 +61,7 @@ def test_factors_halve_the_time():
         name: ConjugateGradient(backend, operator, count, rounds=True, rests=rests)
         for name, rests in (("Jacobi", False), ("factors", True))
     }
-    large = np.ones(operator.weights.size)
+    large = np.ones(operator.weights.shape[0])
     seconds, iterations = {"Jacobi": [], "factors": [], "read": []}, {}
     for _ in range(ROUNDS):
         for name, solver in solvers.items():
@@ -82,7 +82,7 @@ def test_factors_halve_the_time():
         print(f"\n{name}: {count_of} iterations, {1e3 * time[name]:.0f} ms", end="")
     print(
         f"\n{1e3 * time['factors'] / iterations['factors']:.1f} ms an iteration with factors,"
-        f" floor {1e3 * floor:.1f} ms, {stored / operator.weights.size:.1f} bytes a pair;"
+        f" floor {1e3 * floor:.1f} ms, {stored / operator.weights.shape[0]:.1f} bytes a pair;"
         f" {time['Jacobi'] / time['factors']:.2f} times as fast"
     )
     assert 2 * iterations["factors"] <= iterations["Jacobi"]

@@ -5,7 +5,6 @@ Processor time is counted, since others may run. Run: pytest benchmarks/test_lau
 """
 
 from time import process_time
-from types import SimpleNamespace
 
 import numpy as np
 import pair_functions as functions
@@ -14,6 +13,7 @@ import setting
 
 from lasersph import compute
 from lasersph.linear_solvers.matrix import PairMatrix, residual
+from lasersph.particles.neighbor_lists import NeighborList
 
 CALLS, ROUNDS = 1000, 9
 BOUNDS = {
@@ -35,7 +35,7 @@ def pushed(v, T, dt):
 def calls(backend):
     """The calls by name, on one particle without neighbors."""
     one, vector = backend.asarray([1.0]), backend.zeros((3, 1))
-    neighbors = SimpleNamespace(
+    neighbors = NeighborList(
         row_start=backend.zeros(2, "offset"), neighbor=backend.zeros(0, "index"),
         position=backend.zeros((3, 1)), support=one, kernel=setting.Wendland(),
         mean=functions.arithmetic_mean, period=(0.0, 0.0, 0.0),

@@ -77,14 +77,8 @@ class Level:
         """Diagonal of K from the volumes C and the boundary coefficients a."""
         run, at = self.backend.pointwise, self.at
         run(grid_nodes.root, at, at["s"])
-        run(
-            grid_nodes.diagonal,
-            at,
-            self.outputs("d", "v"),
-            all_s=self.all["s"],
-            damping=DAMPING,
-            **self.stencil,
-        )
+        out, given = self.outputs("d", "v"), self.stencil | {"damping": DAMPING}
+        run(grid_nodes.diagonal, at, out, all_s=self.all["s"], **given)
 
     def smooth(self, function: Callable, out: Array) -> None:
         """`rest` or `sweep` of the present x and y = s x."""
@@ -92,14 +86,9 @@ class Level:
 
     def collect(self, above: Level, name: str, out: tuple) -> None:
         """P^T of an array of this level into those of the next, as `grid_nodes.started`."""
+        steps = {"x_step": self.x.step, "z_step": self.z.step}
         self.backend.pointwise(
-            grid_nodes.collected,
-            above.at,
-            out,
-            all_r=self.all[name],
-            x_step=self.x.step,
-            z_step=self.z.step,
-            **self.shape,
+            grid_nodes.collected, above.at, out, all_r=self.all[name], **steps, **self.shape
         )
 
     def add(self, above: Level) -> None:
@@ -224,17 +213,9 @@ class GridCorrection:
             u=self._sorted_u,
             w=self._sorted_w,
         )
-        sum_00, sum_01, sum_10, sum_11 = self._sums
-        backend.pointwise(
-            grid_transfer.from_cells,
-            self.levels[0].at,
-            out,
-            sum_00=sum_00,
-            sum_01=sum_01,
-            sum_10=sum_10,
-            sum_11=sum_11,
-            **self._cells.shape,
-        )
+        sums = dict(zip(("sum_00", "sum_01", "sum_10", "sum_11"), self._sums, strict=True))
+        finest = self.levels[0].at
+        backend.pointwise(grid_transfer.from_cells, finest, out, **sums, **self._cells.shape)
 
     def _solve(self, r: Array) -> None:
         """B P^T r on the finest grid."""
@@ -245,13 +226,9 @@ class GridCorrection:
         """V cycle from level k upward: turn x = v r into its solution."""
         level = self.levels[k]
         if level is self.levels[-1]:
+            factors = {"inverse": self._inverse, "all_r": level.all["r"]}
             self.backend.pointwise(
-                grid_nodes.product,
-                level.at,
-                level.at["x"],
-                inverse=self._inverse,
-                all_r=level.all["r"],
-                count=level.count,
+                grid_nodes.product, level.at, level.at["x"], count=level.count, **factors
             )
             return
         above = self.levels[k + 1]

@@ -60,15 +60,9 @@ class ViscousStep:
             return 0
         fields = {"v": block.extend_velocity(v, jump), "g_ij": block.weights, "V": block.V, "b": b}
         if not self.is_implicit:
+            pairs, star, nu = block.pairs, self._star, self.nu
             backend.pair_sum(
-                momentum,
-                block.pairs,
-                fields,
-                self._star,
-                rows=rows,
-                finish=predict,
-                nu=self.nu,
-                step=step,
+                momentum, pairs, fields, star, rows=rows, finish=predict, nu=nu, step=step
             )
             backend.copy(self._star, v)
             return 0
@@ -79,15 +73,9 @@ class ViscousStep:
         backend.pair_sum(weight_of, block.pairs, fields, self._g_sum, rows=rows)
         backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
         fields |= {"v_star": self._star, "g_sum": self._g_sum}
+        out, reduce = (r, z, None, None), (None, None, "sum", "sum")
         r_z, r_r = backend.pair_sum(
-            momentum,
-            block.pairs,
-            fields,
-            (r, z, None, None),
-            rows=rows,
-            finish=start,
-            reduce=(None, None, "sum", "sum"),
-            s=s,
+            momentum, block.pairs, fields, out, rows=rows, finish=start, reduce=reduce, s=s
         )
         points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
         extended = backend.zeros((2, block.total))

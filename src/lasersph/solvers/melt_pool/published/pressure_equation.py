@@ -132,28 +132,17 @@ class PublishedPressure:
         dummies = backend.rows_where(kind, DUMMY)
         backend.pair_sum(edge_distance, neighbors, near, self._nearest, rows=dummies, combine="min")
         backend.copy(self._number, self._column)
+        near["k"], column = self._number, self._column
         backend.pair_sum(
-            edge_number,
-            neighbors,
-            near | {"k": self._number},
-            self._column,
-            rows=dummies,
-            combine="min",
-            finish=assigned,
+            edge_number, neighbors, near, column, rows=dummies, combine="min", finish=assigned
         )
         fields = {"kind": kind, "column": self._column, "k": self._number}
         backend.pointwise(is_known, fields, self._known)
         entries = backend.zeros(weights.shape[0])
         fields |= {"g_ij": weights, "V": volume, "known": self._known}
         backend.pair_values(entry, inner, fields, entries)
-        backend.pair_sum(
-            opposite,
-            inner,
-            {"a_ij": entries},
-            self._d,
-            finish=diagonal,
-            reinforcement=REINFORCEMENT,
-        )
+        values, r = {"a_ij": entries}, REINFORCEMENT
+        backend.pair_sum(opposite, inner, values, self._d, finish=diagonal, reinforcement=r)
         columns = inner.without_ghosts(backend, self._column)
         self._kind, self._volume = kind, volume
         self._solver = BiCGStab(backend, PairMatrix(columns, entries, self._d))
