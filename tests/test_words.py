@@ -15,7 +15,7 @@ ENDINGS = {".py", ".md", ".toml", ".cu"}
 
 OLD_WORDS = {
     # old word: (the field's term, where it may stand)
-    r"far[_ ]?array|far_(functions|reductions)": ("device array", "src/lasersph/compute/"),
+    r"far[_ ]?array|far_(functions|reductions)": ("device array", ""),
     r"(held|heated)[_ ](faces?|boundary|boundaries|walls?)": ("Dirichlet or Neumann face", ""),
     r"(flat|rigid)[_ ]?lid": ("flat surface", ""),
     r"rearrange(ment|s)? of particles|particle[_ ]rearrangement": ("particle shifting", ""),

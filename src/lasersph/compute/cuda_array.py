@@ -28,10 +28,10 @@ class Memory:
 
 
 class CudaArray(OpaqueArray):
-    """Array of (n,), (dim, n) or (dim, dim, n) whose components are separate device arrays.
+    """Array of (n,), (dim, n) or (dim, dim, n) whose components are separate arrays of Numba.
 
     Attributes:
-        parts: 1-D device arrays of n elements, row-major; of one element, never read, where n is 0.
+        parts: 1-D arrays of n elements, row-major; of one element, never read, where n is 0.
         memory: shared with all views of the same elements.
     """
 

@@ -18,7 +18,7 @@ from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import THREADS, start
 from lasersph.compute.cuda_launch import CudaLauncher
 from lasersph.compute.cuda_search import CudaSearch
-from lasersph.compute.far_array import FarArray
+from lasersph.compute.device_array import DeviceArray
 
 
 def twice(value):
@@ -42,7 +42,7 @@ class CudaBackend(Backend):
         self.device = cuda_device.checked()
         super().__init__(1, precision)
         self.search = CudaSearch(self)
-        self._shown: dict[Any, FarArray] = {}
+        self._shown: dict[Any, DeviceArray] = {}
 
     def launcher(self) -> CudaLauncher:
         """What runs the loops."""
@@ -80,7 +80,7 @@ class CudaBackend(Backend):
 
     def look(self, array: Any) -> Any:
         """The array for reading, until the next loop; copied as far as it is looked at."""
-        return FarArray(self, self.unwrap(array))
+        return DeviceArray(self, self.unwrap(array))
 
     def shown(self, host: Any) -> Any:
         """Host array that never changes, with a copy on the card; copied once."""
@@ -88,7 +88,7 @@ class CudaBackend(Backend):
         key = place["data"], host.shape, host.strides
         if key not in self._shown:
             array = CudaArray.from_host(np.array(host, self.real, order="C"))
-            self._shown[key] = FarArray(self, array, whole=host)
+            self._shown[key] = DeviceArray(self, array, whole=host)
         return self._shown[key]
 
     def extremes(self, array: Any, rows: Any = None) -> tuple[float, float]:
@@ -219,9 +219,16 @@ class CudaBackend(Backend):
             self.exclusive_scan(counts, place)
             after, moved = self.empty(size, np.uint32), self.empty(size, np.uint32)
             start(
-                cuda_kernels.sort_digits, size, count, now, order.parts[0], *digit, place.parts[0],
-                after.parts[0], moved.parts[0],
-            )  # fmt: skip
+                cuda_kernels.sort_digits,
+                size,
+                count,
+                now,
+                order.parts[0],
+                *digit,
+                place.parts[0],
+                after.parts[0],
+                moved.parts[0],
+            )
             now, order = after.parts[0], moved
         return order
 
@@ -230,9 +237,14 @@ class CudaBackend(Backend):
         source = self.unwrap(keys)
         counts, beyond = self.zeros(key_count, "index"), self.zeros(1, "index")
         start(
-            cuda_kernels.count_keys, source.size, np.uint64(source.size), source.parts[0],
-            np.uint64(key_count), counts.parts[0], beyond.parts[0],
-        )  # fmt: skip
+            cuda_kernels.count_keys,
+            source.size,
+            np.uint64(source.size),
+            source.parts[0],
+            np.uint64(key_count),
+            counts.parts[0],
+            beyond.parts[0],
+        )
         key = int(beyond.to_host()[0])
         if key or (key_count == 0 and source.size):
             raise ValueError(f"key {key} is not below {key_count}")
@@ -246,8 +258,14 @@ class CudaBackend(Backend):
         first = self.empty(count, np.uint32)
         start(cuda_kernels.number, count, np.uint64(count), first.parts[0])
         start(
-            cuda_connected.join_touching, count, np.uint64(count), self.unwrap(filled).parts[0],
-            columns, lines, *wraps, first.parts[0],
-        )  # fmt: skip
+            cuda_connected.join_touching,
+            count,
+            np.uint64(count),
+            self.unwrap(filled).parts[0],
+            columns,
+            lines,
+            *wraps,
+            first.parts[0],
+        )
         start(cuda_connected.shorten, count, np.uint64(count), first.parts[0])
         return first

@@ -51,9 +51,11 @@ class CudaLaunch:
     def __init__(self, bound: Bound) -> None:
         self._bound, compiled = bound, bound.compiled
         self._arrays = [
-            part for one in (*bound.lists, *bound.fields, *bound.outs, *bound.tables)
-            if one is not None for part in one.parts
-        ]  # fmt: skip
+            part
+            for one in (*bound.lists, *bound.fields, *bound.outs, *bound.tables)
+            if one is not None
+            for part in one.parts
+        ]
         reals, whole = compiled.numbers
         self._numbers = np.zeros(reals, compiled.real), np.zeros(whole, np.int64)
         self.set(bound.constants)

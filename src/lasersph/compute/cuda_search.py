@@ -139,10 +139,17 @@ class CudaSearch:
         extent = max(*(np.abs([one.low, one.high]).max() for one in levels), widths.max())
         slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + largest))
         arguments = (
-            *self._targets(position, wanted).parts, support.parts[0], *x.parts, l_j.parts[0],
-            order.parts[0], starts.parts[0], cuda.to_device(_first_cells(grids)),
-            *self._tables(levels, grids), slack, cuda.to_device(widths),
-        )  # fmt: skip
+            *self._targets(position, wanted).parts,
+            support.parts[0],
+            *x.parts,
+            l_j.parts[0],
+            order.parts[0],
+            starts.parts[0],
+            cuda.to_device(_first_cells(grids)),
+            *self._tables(levels, grids),
+            slack,
+            cuda.to_device(widths),
+        )
         periodic = tuple(bool(width) for width in widths)
         text = cuda_scan_text(backend.precision, dimension, mean, periodic)
         return self._scanned(cache.load(text).scan, count, arguments)
@@ -155,9 +162,16 @@ class CudaSearch:
         count, rows = np.uint64(size), np.uint64(begin.size - 1)
         counts, beyond = backend.empty(size, np.uint32), backend.zeros(1, "index")
         start(
-            cuda_kernels.spliced_lengths, size, count, chosen.parts[0], begin.parts[0], rows,
-            kept.parts[0], counts.parts[0], beyond.parts[0],
-        )  # fmt: skip
+            cuda_kernels.spliced_lengths,
+            size,
+            count,
+            chosen.parts[0],
+            begin.parts[0],
+            rows,
+            kept.parts[0],
+            counts.parts[0],
+            beyond.parts[0],
+        )
         if beyond.to_host()[0]:
             raise ValueError(f"a row is chosen beyond the {int(rows)} of the first list")
         row_start = backend.empty(size + 1, np.uint64)
@@ -166,9 +180,17 @@ class CudaSearch:
         for ours, theirs in ((neighbor, kept_neighbor), (values, kept_values)):
             out = backend.empty(row_start.last(), theirs.dtype)
             start(
-                cuda_kernels.splice_rows, size, count, chosen.parts[0], begin.parts[0],
-                ours.parts[0], kept.parts[0], theirs.parts[0], row_start.parts[0], out.parts[0],
-            )  # fmt: skip
+                cuda_kernels.splice_rows,
+                size,
+                count,
+                chosen.parts[0],
+                begin.parts[0],
+                ours.parts[0],
+                kept.parts[0],
+                theirs.parts[0],
+                row_start.parts[0],
+                out.parts[0],
+            )
             joined.append(out)
         return PairRows(row_start, *joined)
 

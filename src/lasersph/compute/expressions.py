@@ -31,9 +31,14 @@ from lasersph.compute.values import (
 )
 
 _BINARY = {
-    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Mult: "*",
+    ast.Div: "/",
+    ast.FloorDiv: "//",
+    ast.Mod: "%",
     ast.Pow: "**",
-}  # fmt: skip
+}
 _COMPARE = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 
 
@@ -198,8 +203,13 @@ class ExpressionWriter:
         head = (self.indent, f"if {boolean_text(test)}:")
         tail = self.lines[middle:]
         self.lines[start:] = [
-            head, *self.lines[start:middle], copies[0], (self.indent, "else:"), *tail, copies[1],
-        ]  # fmt: skip
+            head,
+            *self.lines[start:middle],
+            copies[0],
+            (self.indent, "else:"),
+            *tail,
+            copies[1],
+        ]
         return result
 
     def call(self, node: ast.Call) -> Any:

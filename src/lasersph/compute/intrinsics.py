@@ -32,11 +32,26 @@ _MATH = {
     math.erfc: "erfc",
 }
 _MATH |= {
-    np.sqrt: "sqrt", np.exp: "exp", np.expm1: "expm1", np.log: "log", np.log1p: "log1p",
-    np.log10: "log10", np.sin: "sin", np.cos: "cos", np.tan: "tan", np.arcsin: "asin",
-    np.arccos: "acos", np.arctan: "atan", np.sinh: "sinh", np.cosh: "cosh", np.tanh: "tanh",
-    np.floor: "floor", math.floor: "floor", np.ceil: "ceil", math.ceil: "ceil",
-}  # fmt: skip
+    np.sqrt: "sqrt",
+    np.exp: "exp",
+    np.expm1: "expm1",
+    np.log: "log",
+    np.log1p: "log1p",
+    np.log10: "log10",
+    np.sin: "sin",
+    np.cos: "cos",
+    np.tan: "tan",
+    np.arcsin: "asin",
+    np.arccos: "acos",
+    np.arctan: "atan",
+    np.sinh: "sinh",
+    np.cosh: "cosh",
+    np.tanh: "tanh",
+    np.floor: "floor",
+    math.floor: "floor",
+    np.ceil: "ceil",
+    math.ceil: "ceil",
+}
 _EXTREME = {min: "min", max: "max", np.minimum: "min", np.maximum: "max"}
 _TWO = {
     math.atan2: "atan2",

@@ -105,9 +105,16 @@ class Launch:
     """
 
     __slots__ = (
-        "_bound", "_frame", "_partial", "_start", "address", "numbers", "places", "reductions",
+        "_bound",
+        "_frame",
+        "_partial",
+        "_start",
+        "address",
+        "numbers",
+        "places",
+        "reductions",
         "results",
-    )  # fmt: skip
+    )
 
     def __init__(self, bound: Bound, threads: int, *, holds: bool) -> None:
         compiled, _, rows, visits, lists, fields, outs, tables, constants = bound
@@ -122,9 +129,15 @@ class Launch:
         self.results = array("d", bytes(8 * reduced))
         self._partial = array(real, bytes(compiled.real.itemsize * reduced * blocks))
         words = [
-            compiled.entry, blocks, 1 if visits < SHARED else threads, rows, reduced,
-            _address(compiled.hows), _address(self._partial), _address(self.results),
-        ]  # fmt: skip
+            compiled.entry,
+            blocks,
+            1 if visits < SHARED else threads,
+            rows,
+            reduced,
+            _address(compiled.hows),
+            _address(self._partial),
+            _address(self.results),
+        ]
         for one in lists:
             words += addresses(one)
         for one in fields:

@@ -147,10 +147,15 @@ class Loops:
         """What the names in a call decide."""
         shape, function, _, fields, _, rows, finish, reduce, constants, combine = call
         names = (
-            shape, function, finish, tuple(fields), tuple(constants),
+            shape,
+            function,
+            finish,
+            tuple(fields),
+            tuple(constants),
             tuple(reduce) if type(reduce) is list else reduce,
-            tuple(combine) if type(combine) is list else combine, rows is None,
-        )  # fmt: skip
+            tuple(combine) if type(combine) is list else combine,
+            rows is None,
+        )
         signature = self._signatures.get(names)
         if signature is None:
             signature = self._signatures[names] = Signature(call)

@@ -165,9 +165,15 @@ def neighbor_list(
         raise ValueError(f"{total} particles; a list holds fewer than 2^32 - 1")
     if backend.search is not None:
         return backend.search.neighbor_list(
-            host, reach, count, mean=mean, lower=lower, upper=upper, period=period,
+            host,
+            reach,
+            count,
+            mean=mean,
+            lower=lower,
+            upper=upper,
+            period=period,
             wanted=None if wanted is None else backend.unwrap(wanted),
-        )  # fmt: skip
+        )
     refuse_escape(host, lower, upper)
     if total and not (np.isfinite(reach).all() and reach.min() > 0.0):
         refuse_support(reach)
@@ -268,9 +274,18 @@ def _levels(
         starts.append(start)
         cells, members = cells + start.size, members + group.size
     return _Cells(
-        np.take(position, order, axis=1), support[order], order, np.concatenate(starts),
-        first_cell, first_member, low, high, inverse, shape, largest,
-    )  # fmt: skip
+        np.take(position, order, axis=1),
+        support[order],
+        order,
+        np.concatenate(starts),
+        first_cell,
+        first_member,
+        low,
+        high,
+        inverse,
+        shape,
+        largest,
+    )
 
 
 def _sorted(

@@ -94,7 +94,16 @@ def splice(backend: Backend, first: PairRows, chosen: Any, rest: PairRows) -> Pa
     pairs = int(row_start[-1])
     joined, joined_values = np.empty(pairs, np.uint32), np.empty(pairs, kept_values.dtype)
     module.copy_rows(
-        *(np.uint64(k) for k in (0, -(-count // BLOCK), backend.threads, count)), mark, start,
-        neighbor, values, kept, kept_neighbor, kept_values, row_start, joined, joined_values,
-    )  # fmt: skip
+        *(np.uint64(k) for k in (0, -(-count // BLOCK), backend.threads, count)),
+        mark,
+        start,
+        neighbor,
+        values,
+        kept,
+        kept_neighbor,
+        kept_values,
+        row_start,
+        joined,
+        joined_values,
+    )
     return PairRows(*(backend.wrap(part) for part in (row_start, joined, joined_values)))

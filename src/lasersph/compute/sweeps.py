@@ -136,9 +136,14 @@ class Sweep:
         blocks = sum(blocks.size for blocks in pairs.colors)
         self._partial = np.zeros((blocks, reduces), backend.real)
         self._arguments = (
-            np.uint64(BLOCK), np.uint64(count), self._partial, *self.tiles, self.inner, *arrays,
+            np.uint64(BLOCK),
+            np.uint64(count),
+            self._partial,
+            *self.tiles,
+            self.inner,
+            *arrays,
             self._numbers,
-        )  # fmt: skip
+        )
         self._threads = np.uint64(backend.threads)
 
     def set(self, constants: Mapping[str, float]) -> None:

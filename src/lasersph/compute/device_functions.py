@@ -1,4 +1,4 @@
-"""NumPy's functions that are computed on the card where an observer applies them to a far array.
+"""NumPy's functions that are computed on the card where an observer applies them to a device array.
 
 Each elementwise function has a plain one for the loops; numbers that say yes or no are kept as
 flags. What is not listed here copies its arrays to the host.
@@ -103,16 +103,29 @@ def value(a):
 
 
 NUMBERS: dict[np.ufunc, Callable] = {
-    np.add: sum_of, np.subtract: difference, np.multiply: product, np.true_divide: quotient,
-    np.maximum: larger, np.minimum: smaller, np.negative: negative, np.absolute: size,
+    np.add: sum_of,
+    np.subtract: difference,
+    np.multiply: product,
+    np.true_divide: quotient,
+    np.maximum: larger,
+    np.minimum: smaller,
+    np.negative: negative,
+    np.absolute: size,
     np.sqrt: root,
-}  # fmt: skip
+}
 """Functions of numbers that give numbers."""
 TRUTHS: dict[np.ufunc, Callable] = {
-    np.less: below, np.less_equal: not_above, np.greater: above, np.greater_equal: not_below,
-    np.bitwise_and: both, np.logical_and: both, np.bitwise_or: any_of, np.logical_or: any_of,
-    np.invert: none, np.logical_not: none,
-}  # fmt: skip
+    np.less: below,
+    np.less_equal: not_above,
+    np.greater: above,
+    np.greater_equal: not_below,
+    np.bitwise_and: both,
+    np.logical_and: both,
+    np.bitwise_or: any_of,
+    np.logical_or: any_of,
+    np.invert: none,
+    np.logical_not: none,
+}
 """Functions that say yes or no."""
 OF_TRUTHS = frozenset({np.bitwise_and, np.bitwise_or, np.invert})
 """Those that mean this only where they are given yes or no."""

@@ -1,4 +1,4 @@
-"""NumPy's reductions and searches of far arrays that need no copy of them; see `far_array`.
+"""NumPy's reductions and searches of device arrays that need no copy of them; see `device_array`.
 
 Each returns NotImplemented where only the host can answer.
 """
@@ -20,16 +20,16 @@ def _extreme(how: str, of_all: Callable, a: Any, axis: Any, options: dict[str, A
     if "where" in options and "initial" in options:
         rest = options.pop("initial")
         a = np.where(options.pop("where"), a, rest)
-        found = _extreme(how, of_all, a, axis, options) if _is_far(a) else NotImplemented
+        found = _extreme(how, of_all, a, axis, options) if _is_on_device(a) else NotImplemented
         return found if found is NotImplemented else of_all(found, rest)
-    if options or not _is_far(a) or not _is_number(a):
+    if options or not _is_on_device(a) or not _is_number(a):
         return NotImplemented
     if axis is None:
         return of_all(a.reduced(how))
     return np.array(a.reduced(how)) if a.ndim == 2 and axis in (1, -1) else NotImplemented
 
 
-def _is_far(a: Any) -> bool:
+def _is_on_device(a: Any) -> bool:
     return hasattr(a, "is_known")
 
 
@@ -110,7 +110,14 @@ def _is_mask(a: Any) -> bool:
 
 
 FUNCTIONS: dict[Any, Callable] = {
-    np.max: largest, np.min: smallest, np.sum: total, np.any: is_any, np.count_nonzero: count,
-    np.flatnonzero: numbers, np.searchsorted: place, np.argmin: first_smallest,
-    np.argpartition: partition, np.shape: shape,
-}  # fmt: skip
+    np.max: largest,
+    np.min: smallest,
+    np.sum: total,
+    np.any: is_any,
+    np.count_nonzero: count,
+    np.flatnonzero: numbers,
+    np.searchsorted: place,
+    np.argmin: first_smallest,
+    np.argpartition: partition,
+    np.shape: shape,
+}

@@ -1,8 +1,8 @@
 """Array in a graphics card's memory as observers see it: copied as far as it is looked at.
 
 To NumPy it is an array that cannot be written. Listed particles come without the rest; what the
-functions of `far_functions` make of arrays, numbers and host arrays of one value stays on the card;
-anything else copies the whole, once.
+functions of `device_functions` make of arrays, numbers and host arrays of one value stays on the
+card; anything else copies the whole, once.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from lasersph.compute import far_functions, far_reductions
+from lasersph.compute import device_functions, device_reductions
 from lasersph.compute.cuda_array import CudaArray
 
 _ALL = slice(None)
 
 
-class FarArray(NDArrayOperatorsMixin):
+class DeviceArray(NDArrayOperatorsMixin):
     """What `look` gives of an array (n,), (dim, n) or (dim, dim, n) on a card.
 
     Args:
@@ -57,18 +57,18 @@ class FarArray(NDArrayOperatorsMixin):
             found = self._computed(ufunc, inputs)
         if found is not NotImplemented:
             return found
-        return getattr(ufunc, method)(*map(_near, inputs), **options)
+        return getattr(ufunc, method)(*map(_on_host, inputs), **options)
 
     def __array_function__(self, function: Any, types: Any, args: Any, kwargs: Any) -> Any:
         if function is np.where and len(args) == 3:
-            found = self.elementwise(far_functions.chosen, args)
+            found = self.elementwise(device_functions.chosen, args)
         else:
-            reduction = far_reductions.FUNCTIONS.get(function)
+            reduction = device_reductions.FUNCTIONS.get(function)
             found = NotImplemented if reduction is None else reduction(*args, **kwargs)
         if found is not NotImplemented:
             return found
-        named = {name: _near(one) for name, one in kwargs.items()}
-        return function(*map(_near, args), **named)
+        named = {name: _on_host(one) for name, one in kwargs.items()}
+        return function(*map(_on_host, args), **named)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
@@ -112,7 +112,7 @@ class FarArray(NDArrayOperatorsMixin):
 
     def reduced(self, how: str) -> list[float]:
         """The "sum", "max" or "min" of each component."""
-        run, value = self._backend.pointwise, far_functions.value
+        run, value = self._backend.pointwise, device_functions.value
         return [run(value, {"a": one}, (None,), reduce=(how,))[0] for one in self.components()]
 
     def rows(self) -> CudaArray:
@@ -121,7 +121,7 @@ class FarArray(NDArrayOperatorsMixin):
         return self._backend.rows_where(flags, 1.0)
 
     def elementwise(self, function: Any, inputs: Any, *, is_truth: bool = False) -> Any:
-        """Far array of a plain function of far arrays, numbers and host arrays of one value.
+        """Device array of a plain function of device arrays, numbers and host arrays of one value.
 
         NotImplemented where there is anything else.
         """
@@ -137,23 +137,23 @@ class FarArray(NDArrayOperatorsMixin):
             fields = {name: one for name, one in values.items() if isinstance(one, CudaArray)}
             rest = {name: one for name, one in values.items() if name not in fields}
             backend.pointwise(function, fields, out.component(k), **rest)
-        return FarArray(backend, out, is_truth=is_truth)
+        return DeviceArray(backend, out, is_truth=is_truth)
 
     def _computed(self, ufunc: Any, inputs: Any) -> Any:
         """What a function of NumPy gives; NotImplemented where it is not known here."""
-        far = [one for one in inputs if isinstance(one, FarArray)]
+        on_device = [one for one in inputs if isinstance(one, DeviceArray)]
         real = self._backend.real
-        if ufunc in far_functions.NUMBERS and any(one.dtype == real for one in far):
-            return self.elementwise(far_functions.NUMBERS[ufunc], inputs)
-        is_meant = ufunc not in far_functions.OF_TRUTHS or all(one.is_truth for one in far)
-        if ufunc in far_functions.TRUTHS and is_meant:
-            return self.elementwise(far_functions.TRUTHS[ufunc], inputs, is_truth=True)
+        if ufunc in device_functions.NUMBERS and any(one.dtype == real for one in on_device):
+            return self.elementwise(device_functions.NUMBERS[ufunc], inputs)
+        is_meant = ufunc not in device_functions.OF_TRUTHS or all(one.is_truth for one in on_device)
+        if ufunc in device_functions.TRUTHS and is_meant:
+            return self.elementwise(device_functions.TRUTHS[ufunc], inputs, is_truth=True)
         return NotImplemented
 
     def _operand(self, one: Any) -> list | None:
         """Value of an operand for each component; None for what only the host can take."""
         number = len(self._array.parts)
-        if isinstance(one, FarArray):
+        if isinstance(one, DeviceArray):
             known = (self._backend.real, np.dtype(bool), np.dtype(np.uint32))
             return one.components() if one.shape == self.shape and one.dtype in known else None
         if isinstance(one, int | float | np.integer | np.floating):
@@ -201,8 +201,8 @@ class FarArray(NDArrayOperatorsMixin):
             stop = self.shape[-1] if particles.stop is None else min(particles.stop, self.shape[-1])
             whole = None if self._whole is None else self._whole[index]
             view = array.head(stop)
-            return FarArray(self._backend, view, is_truth=self.is_truth, whole=whole)
-        if isinstance(particles, FarArray) and particles.is_truth:
+            return DeviceArray(self._backend, view, is_truth=self.is_truth, whole=whole)
+        if isinstance(particles, DeviceArray) and particles.is_truth:
             particles = np.flatnonzero(particles)
             index = particles if self.ndim == 1 else (component, particles)
         if self.is_known:
@@ -248,10 +248,10 @@ def _is_even(host: np.ndarray, shape: tuple[int, ...]) -> bool:
     return len(shape) > 1 and host.shape == (*shape[:-1], 1)
 
 
-def _near(one: Any) -> Any:
-    """A far array on the host, anything else as it is."""
-    if isinstance(one, FarArray):
+def _on_host(one: Any) -> Any:
+    """A device array on the host, anything else as it is."""
+    if isinstance(one, DeviceArray):
         return one._fetched()
     if isinstance(one, list | tuple):
-        return type(one)(_near(part) for part in one)
+        return type(one)(_on_host(part) for part in one)
     return one
