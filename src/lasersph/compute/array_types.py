@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -23,6 +24,53 @@ class Array(Protocol):
         """Kind "real", "index", "offset" or "flag" of the backend."""
         ...
 
+    @property
+    def size(self) -> int:
+        """Number of elements."""
+        ...
+
 
 Rows = Array
 """Numbers of particles, kind "index": the rows of a loop."""
+
+Outputs = Array | None | Sequence[Array | None]
+"""One array or several that a loop writes; None where a result is not stored."""
+
+
+class PairList(Protocol):
+    """What loops read of a neighbor list; see `particles.neighbor_lists.NeighborList`."""
+
+    @property
+    def row_start(self) -> Array:
+        """(n + 1,) kind "offset": where the pairs of each row begin, and their number."""
+        ...
+
+    @property
+    def neighbor(self) -> Array:
+        """(pairs,) kind "index"."""
+        ...
+
+    @property
+    def position(self) -> Array | None:
+        """(dim, N) [m]; None where no loop reads it."""
+        ...
+
+    @property
+    def support(self) -> Array | None:
+        """(N,) [m]; None where no loop reads it."""
+        ...
+
+    @property
+    def kernel(self) -> Any:
+        """The kernel, with plain functions for its values."""
+        ...
+
+    @property
+    def mean(self) -> Callable[[float, float], float]:
+        """l_ij of l_i and l_j."""
+        ...
+
+    @property
+    def period(self) -> tuple[float, ...]:
+        """Width of the box per axis [m], 0.0 where not periodic; () for no periodic axis."""
+        ...

@@ -6,9 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from lasersph.compute import connected, threads
 from lasersph.compute.arguments import components
+from lasersph.compute.array_types import Array, Outputs, PairList, Rows
 from lasersph.compute.launch import Launch, Launcher
 from lasersph.compute.loops import Loops
 from lasersph.compute.routine import Step, run_routine
@@ -52,27 +54,27 @@ class Backend:
             raise ValueError(f"kind must be real, index, offset or flag, not {kind!r}")
         return np.dtype(_KINDS[kind])
 
-    def wrap(self, array: np.ndarray) -> Any:
+    def wrap(self, array: np.ndarray) -> Array:
         """Array as the caller sees it."""
         return array
 
-    def unwrap(self, array: Any) -> np.ndarray:
+    def unwrap(self, array: Array) -> np.ndarray:
         """NumPy array behind the caller's array."""
-        return array
+        return array  # type: ignore[return-value]
 
-    def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> Any:
+    def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> Array:
         """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
         return self.wrap(np.zeros(shape, self.kind(kind)))
 
-    def asarray(self, array: Any, kind: str = "real") -> Any:
+    def asarray(self, array: ArrayLike, kind: str = "real") -> Array:
         """Copy of host data as an array of this backend."""
         return self.wrap(np.array(array, dtype=self.kind(kind), order="C"))
 
-    def to_host(self, array: Any) -> np.ndarray:
+    def to_host(self, array: Array) -> np.ndarray:
         """Copy as a NumPy array."""
         return np.array(self.unwrap(array))
 
-    def look(self, array: Any) -> Any:
+    def look(self, array: Array) -> Any:
         """The array for reading, until the next loop; not copied where it lies in this memory.
 
         Elsewhere it is copied only as far as it is looked at; to NumPy it is an array.
@@ -81,7 +83,7 @@ class Backend:
         host.flags.writeable = False
         return host
 
-    def snapshot(self, array: Any) -> Any:
+    def snapshot(self, array: Array) -> Any:
         """What `look` gives, of a copy that later loops do not change."""
         copy = self.wrap(np.empty(array.shape, array.dtype))
         self.copy(array, copy)
@@ -94,30 +96,30 @@ class Backend:
     def wait(self) -> None:
         """Return when everything that was started is done, as it is here."""
 
-    def single(self, array: Any) -> Any:
+    def single(self, array: Array) -> Array:
         """Copy in float32, which loops of any precision may read per pair; itself if it is."""
         host = self.unwrap(array)
         return array if host.dtype == np.float32 else self.wrap(host.astype(np.float32))
 
-    def copy(self, source: Any, destination: Any) -> None:
+    def copy(self, source: Array, destination: Array) -> None:
         """Copy all elements of `source` into `destination` of the same shape."""
         first, second = self.unwrap(source), self.unwrap(destination)
         if first.shape != second.shape:
             raise ValueError(f"copy of shape {first.shape} into shape {second.shape}")
         second[...] = first
 
-    def fill(self, array: Any, value: float) -> None:
+    def fill(self, array: Array, value: float) -> None:
         """Set all elements."""
         self.unwrap(array).fill(value)
 
-    def head(self, array: Any, count: int) -> Any:
+    def head(self, array: Any, count: int) -> Array:
         """View of the first `count` particles of (n,), (dim, n) or (dim, dim, n)."""
         host = self.unwrap(array)
         if not 0 <= count <= host.shape[-1]:
             raise ValueError(f"the first {count} of {host.shape[-1]} particles")
         return self.wrap(host[..., :count])
 
-    def gather(self, source: Any, order: Any, out: Any) -> None:
+    def gather(self, source: Array, order: Array, out: Array) -> None:
         """out[..., k] = source[..., order[k]]."""
         first, last = self.unwrap(source), self.unwrap(out)
         index = self.unwrap(order)
@@ -128,7 +130,7 @@ class Backend:
         for a, b in zip(components(first), components(last), strict=True):
             np.take(a, index, out=b[: index.size], mode="clip")  # others buffer what they write
 
-    def scatter(self, source: Any, order: Any, out: Any) -> None:
+    def scatter(self, source: Array, order: Array, out: Array) -> None:
         """out[..., order[k]] = source[..., k]; the other elements keep their values."""
         first, last = self.unwrap(source), self.unwrap(out)
         index = self.unwrap(order)
@@ -137,7 +139,7 @@ class Backend:
         for a, b in zip(components(first), components(last), strict=True):
             b[index] = a
 
-    def exclusive_scan(self, counts: Any, out: Any) -> None:
+    def exclusive_scan(self, counts: Array, out: Array) -> None:
         """out[k] = counts[0] + ... + counts[k-1] for k = 0 ... n; out is "offset", length n + 1."""
         first, last = self.unwrap(counts), self.unwrap(out)
         if last.dtype != np.uint64 or last.size != first.size + 1:
@@ -145,25 +147,25 @@ class Backend:
         last[0] = 0
         np.cumsum(first, dtype=np.uint64, out=last[1:])
 
-    def rows_where(self, array: Any, value: float) -> Any:
+    def rows_where(self, array: Array, value: float) -> Rows:
         """Rows k in order, kind "index", whose array[k] is exactly `value`."""
         return self.wrap(np.flatnonzero(self.unwrap(array) == value).astype(np.uint32))
 
-    def sort_by_key(self, keys: Any, key_count: int) -> Any:
+    def sort_by_key(self, keys: Array, key_count: int) -> Rows:
         """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
         host = self._keys(keys, key_count)
         if key_count <= 1 << 16:
             host = host.astype(np.uint16)  # sorted by digits, in linear time
         return self.wrap(np.argsort(host, kind="stable").astype(np.uint32))
 
-    def count_by_key(self, keys: Any, key_count: int) -> Any:
+    def count_by_key(self, keys: Array, key_count: int) -> Rows:
         """How often each key 0 ... key_count - 1 occurs among index keys, kind "index"."""
         host = self._keys(keys, key_count)
         return self.wrap(np.bincount(host, minlength=key_count).astype(np.uint32))
 
     def first_connected(
-        self, filled: Any, columns: int, lines: int, wraps: tuple[bool, bool]
-    ) -> Any:
+        self, filled: Array, columns: int, lines: int, wraps: tuple[bool, bool]
+    ) -> Rows:
         """Smallest number of a cell connected with each, kind "index"; see `connected`.
 
         Args:
@@ -172,7 +174,7 @@ class Backend:
         is_filled = self.unwrap(filled).reshape(columns, lines) > 0
         return self.wrap(connected.first_connected(is_filled, wraps).astype(np.uint32))
 
-    def _keys(self, keys: Any, key_count: int) -> np.ndarray:
+    def _keys(self, keys: Array, key_count: int) -> np.ndarray:
         host = self.unwrap(keys)
         if host.size and int(host.max()) >= key_count:
             raise ValueError(f"key {int(host.max())} is not below {key_count}")
@@ -183,11 +185,11 @@ class Backend:
     def pair_sum(
         self,
         function: Callable,
-        neighbors: Any,
-        fields: Mapping[str, Any],
-        out: Any,
+        neighbors: PairList,
+        fields: Mapping[str, Array],
+        out: Outputs,
         *,
-        rows: Any = None,
+        rows: Rows | None = None,
         finish: Callable | None = None,
         reduce: Any = None,
         combine: Any = None,
@@ -222,9 +224,9 @@ class Backend:
     def pair_values(
         self,
         function: Callable,
-        neighbors: Any,
-        fields: Mapping[str, Any],
-        out: Any,
+        neighbors: PairList,
+        fields: Mapping[str, Array],
+        out: Outputs,
         *,
         rows: Any = None,
         **constants: Any,
@@ -236,8 +238,8 @@ class Backend:
     def pointwise(
         self,
         function: Callable,
-        fields: Mapping[str, Any],
-        out: Any,
+        fields: Mapping[str, Array],
+        out: Outputs,
         *,
         rows: Any = None,
         reduce: Any = None,
@@ -253,12 +255,12 @@ class Backend:
     def prepare(
         self,
         function: Callable,
-        fields: Mapping[str, Any],
-        out: Any,
+        fields: Mapping[str, Array],
+        out: Outputs,
         *,
-        neighbors: Any = None,
+        neighbors: PairList | None = None,
         finish: Callable | None = None,
-        rows: Any = None,
+        rows: Rows | None = None,
         reduce: Any = None,
         **constants: Any,
     ) -> Launch:
@@ -280,7 +282,7 @@ class Backend:
         """
         return run_routine(function, steps, numbers, self.precision)
 
-    def component(self, array: Any, k: int) -> Any:
+    def component(self, array: Array, k: int) -> Array:
         """View of component k of a vector, (n,) of (dim, n)."""
         return self.wrap(self.unwrap(array)[k])
 

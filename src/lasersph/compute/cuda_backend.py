@@ -13,6 +13,7 @@ import numpy as np
 from numba import cuda
 
 from lasersph.compute import cuda_connected, cuda_device, cuda_kernels
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import THREADS, start
@@ -50,11 +51,11 @@ class CudaBackend(Backend):
 
     # --- arrays ---------------------------------------------------------------------------------
 
-    def wrap(self, array: Any) -> CudaArray:
+    def wrap(self, array: CudaArray | np.ndarray) -> CudaArray:
         """Array as the caller sees it; host data are copied."""
-        return array if type(array) is CudaArray else CudaArray.from_host(array)
+        return array if isinstance(array, CudaArray) else CudaArray.from_host(array)
 
-    def unwrap(self, array: Any) -> Any:
+    def unwrap(self, array: Array) -> Any:
         """The array, whose components are the kernels' arguments.
 
         Raises:
@@ -74,11 +75,11 @@ class CudaBackend(Backend):
         self.fill(array, 0)
         return array
 
-    def to_host(self, array: Any) -> np.ndarray:
+    def to_host(self, array: Array) -> np.ndarray:
         """Copy as a NumPy array."""
         return self.unwrap(array).to_host()
 
-    def look(self, array: Any) -> Any:
+    def look(self, array: Array) -> Any:
         """The array for reading, until the next loop; copied as far as it is looked at."""
         return DeviceArray(self, self.unwrap(array))
 
@@ -91,14 +92,14 @@ class CudaBackend(Backend):
             self._shown[key] = DeviceArray(self, array, whole=host)
         return self._shown[key]
 
-    def extremes(self, array: Any, rows: Any = None) -> tuple[float, float]:
+    def extremes(self, array: Array, rows: Rows | None = None) -> tuple[float, float]:
         """Least and largest element (n,), of some rows or all; NaN where there is one."""
         least, most = self.pointwise(
             twice, {"value": array}, (None, None), rows=rows, reduce=("min", "max")
         )
         return least, most
 
-    def snapshot(self, array: Any) -> Any:
+    def snapshot(self, array: Array) -> Any:
         """What `look` gives, of a copy that later loops do not change."""
         source = self.unwrap(array)
         copy = self.empty(source.shape, source.dtype)
@@ -109,7 +110,7 @@ class CudaBackend(Backend):
         """Return when the card has done everything that was started."""
         cuda.synchronize()
 
-    def single(self, array: Any) -> Any:
+    def single(self, array: Array) -> Array:
         """Copy in float32, which loops of any precision may read per pair; itself if it is."""
         source = self.unwrap(array)
         if source.dtype == np.float32:
@@ -120,7 +121,7 @@ class CudaBackend(Backend):
             start(cuda_kernels.cast, count, np.uint64(count), a, b)
         return out
 
-    def copy(self, source: Any, destination: Any) -> None:
+    def copy(self, source: Array, destination: Array) -> None:
         """Copy all elements of `source` into `destination` of the same shape."""
         first, second = self.unwrap(source), self.unwrap(destination)
         if first.shape != second.shape:
@@ -130,7 +131,7 @@ class CudaBackend(Backend):
             start(cuda_kernels.cast, count, np.uint64(count), a, b)
         second.changed()
 
-    def fill(self, array: Any, value: float) -> None:
+    def fill(self, array: Array, value: float) -> None:
         """Set all elements."""
         target = self.unwrap(array)
         count = target.shape[-1]
@@ -138,26 +139,26 @@ class CudaBackend(Backend):
             start(cuda_kernels.fill, count, np.uint64(count), part, target.dtype.type(value))
         target.changed()
 
-    def head(self, array: Any, count: int) -> CudaArray:
+    def head(self, array: Array, count: int) -> CudaArray:
         """View of the first `count` particles of (n,), (dim, n) or (dim, dim, n)."""
         source = self.unwrap(array)
         if not 0 <= count <= source.shape[-1]:
             raise ValueError(f"the first {count} of {source.shape[-1]} particles")
         return source.head(count)
 
-    def component(self, array: Any, k: int) -> CudaArray:
+    def component(self, array: Array, k: int) -> CudaArray:
         """View of component k of a vector, (n,) of (dim, n)."""
         return self.unwrap(array).component(k)
 
-    def gather(self, source: Any, order: Any, out: Any) -> None:
+    def gather(self, source: Array, order: Array, out: Array) -> None:
         """out[..., k] = source[..., order[k]]."""
         self._move(cuda_kernels.gather, "gather", source, order, out)
 
-    def scatter(self, source: Any, order: Any, out: Any) -> None:
+    def scatter(self, source: Array, order: Array, out: Array) -> None:
         """out[..., order[k]] = source[..., k]; the other elements keep their values."""
         self._move(cuda_kernels.scatter, "scatter", source, order, out)
 
-    def _move(self, kernel: Any, verb: str, source: Any, order: Any, out: Any) -> None:
+    def _move(self, kernel: Any, verb: str, source: Array, order: Array, out: Array) -> None:
         first, last, index = self.unwrap(source), self.unwrap(out), self.unwrap(order)
         if first.dtype != last.dtype or first.shape[:-1] != last.shape[:-1]:
             raise ValueError(f"{verb} between arrays of different kind")
@@ -167,7 +168,7 @@ class CudaBackend(Backend):
             start(kernel, index.size, np.uint64(index.size), a, index.parts[0], b)
         last.changed()
 
-    def exclusive_scan(self, counts: Any, out: Any) -> None:
+    def exclusive_scan(self, counts: Array, out: Array) -> None:
         """out[k] = counts[0] + ... + counts[k-1] for k = 0 ... n; out is "offset", length n + 1."""
         first, last = self.unwrap(counts), self.unwrap(out)
         if last.dtype != np.uint64 or last.size != first.size + 1:
@@ -188,7 +189,7 @@ class CudaBackend(Backend):
             self._scan(sums, pieces, before)
             start(cuda_kernels.add_piece_sums, size, count, before, out)
 
-    def rows_where(self, array: Any, value: float) -> CudaArray:
+    def rows_where(self, array: Array, value: float) -> CudaArray:
         """Rows k in order, kind "index", whose array[k] is exactly `value`."""
         source = self.unwrap(array)
         size, count = source.size, np.uint64(source.size)
@@ -203,7 +204,7 @@ class CudaBackend(Backend):
         start(cuda_kernels.list_marked, size, count, marks.parts[0], place.parts[0], rows.parts[0])
         return rows
 
-    def sort_by_key(self, keys: Any, key_count: int) -> CudaArray:
+    def sort_by_key(self, keys: Array, key_count: int) -> CudaArray:
         """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
         self.count_by_key(keys, key_count)
         size = keys.size
@@ -232,7 +233,7 @@ class CudaBackend(Backend):
             now, order = after.parts[0], moved
         return order
 
-    def count_by_key(self, keys: Any, key_count: int) -> CudaArray:
+    def count_by_key(self, keys: Array, key_count: int) -> CudaArray:
         """How often each key 0 ... key_count - 1 occurs among index keys, kind "index"."""
         source = self.unwrap(keys)
         counts, beyond = self.zeros(key_count, "index"), self.zeros(1, "index")
@@ -251,7 +252,7 @@ class CudaBackend(Backend):
         return counts
 
     def first_connected(
-        self, filled: Any, columns: int, lines: int, wraps: tuple[bool, bool]
+        self, filled: Array, columns: int, lines: int, wraps: tuple[bool, bool]
     ) -> CudaArray:
         """Smallest number of a cell connected with each, kind "index"; see `connected`."""
         count = filled.size

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 from operator import methodcaller
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numba import cuda
@@ -50,12 +50,10 @@ class CudaLaunch:
 
     def __init__(self, bound: Bound) -> None:
         self._bound, compiled = bound, bound.compiled
-        self._arrays = [
-            part
-            for one in (*bound.lists, *bound.fields, *bound.outs, *bound.tables)
-            if one is not None
-            for part in one.parts
-        ]
+        ours = [*bound.lists, *bound.fields, *bound.outs, *bound.tables]
+        arrays = cast("list[CudaArray]", [one for one in ours if one is not None])
+        self._arrays = [part for one in arrays for part in one.parts]
+        self._outs = cast("list[CudaArray]", [out for out in bound.outs if out is not None])
         reals, whole = compiled.numbers
         self._numbers = np.zeros(reals, compiled.real), np.zeros(whole, np.int64)
         self.set(bound.constants)
@@ -86,9 +84,8 @@ class CudaLaunch:
             compiled.entry[self._groups, THREADS](*taken, partial)
         else:
             compiled.entry[groups(rows), THREADS](*taken)
-        for out in self._bound.outs:
-            if out is not None:
-                out.changed()
+        for out in self._outs:
+            out.changed()
         if partial is None:
             return ()
         rows_of_parts = partial.copy_to_host().reshape(len(self.reductions), -1)

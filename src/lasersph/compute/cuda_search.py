@@ -156,8 +156,9 @@ class CudaSearch:
 
     def splice(self, first: PairRows, chosen: CudaArray, rest: PairRows) -> PairRows:
         """Rows of `first` where `chosen`, those of `rest` elsewhere; see `splice.splice`."""
-        backend, (begin, neighbor, values) = self.backend, first
-        kept, kept_neighbor, kept_values = rest
+        backend = self.backend
+        begin, neighbor, values = map(backend.unwrap, first)
+        kept, kept_neighbor, kept_values = map(backend.unwrap, rest)
         size = kept.size - 1
         count, rows = np.uint64(size), np.uint64(begin.size - 1)
         counts, beyond = backend.empty(size, np.uint32), backend.zeros(1, "index")

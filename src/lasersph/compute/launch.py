@@ -60,10 +60,10 @@ class Bound(NamedTuple):
     listed: int
     rows: int
     visits: int
-    lists: list[Any]
-    fields: list[Any]
-    outs: list[Any]
-    tables: list[Any]
+    lists: list[np.ndarray]
+    fields: list[np.ndarray]
+    outs: list[np.ndarray | None]
+    tables: list[np.ndarray]
     constants: dict[str, Any]
 
 
@@ -87,7 +87,7 @@ class Launcher:
         """What runs the loop of a text: the address of its machine code."""
         return folder.entry(text)
 
-    def largest(self, rows: Any) -> int:
+    def largest(self, rows: np.ndarray) -> int:
         """The largest of some row numbers."""
         return int(np.maximum.reduce(rows))
 

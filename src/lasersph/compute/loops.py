@@ -19,6 +19,7 @@ import numpy as np
 
 from lasersph.compute import source
 from lasersph.compute.arguments import argument_for, array_kind, fingerprint
+from lasersph.compute.array_types import PairList
 from lasersph.compute.generate import Loop, LoopText
 from lasersph.compute.launch import Bound, Compiled, Launch, Launcher, bytes_of
 from lasersph.compute.rebinding import Rebound, has_known_layout, rebinding_function
@@ -39,13 +40,13 @@ class Given(NamedTuple):
 
     call: Call
     signature: Signature
-    arrays: list[Any]
-    tables: list[Any]
+    arrays: list[np.ndarray]
+    tables: list[np.ndarray]
     numbers: dict[str, Any]
-    outs: list[Any]
-    rows: Any
-    row_start: Any
-    neighbor: Any
+    outs: list[np.ndarray | None]
+    rows: np.ndarray | None
+    row_start: np.ndarray | None
+    neighbor: np.ndarray | None
     geometry: tuple | None
 
 
@@ -266,7 +267,7 @@ class Loops:
                 raise ValueError(f"{name} is {one.dtype}, the backend {self.precision}")
 
 
-def _geometry(signature: Signature, neighbors: Any, arrays: list[Any]) -> tuple:
+def _geometry(signature: Signature, neighbors: PairList, arrays: list[np.ndarray]) -> tuple:
     """Kernel, mean, periodic axes and dimension, as far as they are asked for."""
     dimension = 0
     if signature.apart:
@@ -308,7 +309,7 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
     kinds += [table.dtype for table in tables]
     kinds += map(fingerprint, numbers.values())
     total = pairs = 0
-    if row_start is not None:
+    if row_start is not None and neighbor is not None:
         rows, total, pairs = _list_size(call, row_start, neighbor, launcher.last(row_start))
     elif written:
         rows = written[0]
@@ -336,7 +337,9 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
     return listed, rows, visits, tuple(kinds)
 
 
-def _list_size(call: Call, row_start: Any, neighbor: Any, pairs: int) -> tuple[int, int, int]:
+def _list_size(
+    call: Call, row_start: np.ndarray, neighbor: np.ndarray, pairs: int
+) -> tuple[int, int, int]:
     """Rows, particles and pairs of a list."""
     if row_start.dtype != _OFFSET or neighbor.dtype != _INDEX:
         raise ValueError(
@@ -344,14 +347,14 @@ def _list_size(call: Call, row_start: Any, neighbor: Any, pairs: int) -> tuple[i
             f" {neighbor.dtype}"
         )
     rows = row_start.size - 1
-    support = call.neighbors.support
+    support = None if call.neighbors is None else call.neighbors.support
     total = rows if support is None else support.shape[-1]
     if pairs > neighbor.size or total < rows:
         raise ValueError(f"{pairs} pairs, {neighbor.size} stored; {total} particles")
     return rows, total, pairs
 
 
-def _active(active: Any, rows: int, launcher: Launcher) -> int:
+def _active(active: np.ndarray, rows: int, launcher: Launcher) -> int:
     """Number of active rows."""
     if active.dtype != _INDEX:
         raise ValueError(f"rows must be of kind index (uint32), not {active.dtype}")

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lasersph.compute import cache, source
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.generate import BLOCK
 from lasersph.compute.scan import ScanText, scan_text, sort_text, store_text
@@ -90,11 +91,11 @@ class _Cells(NamedTuple):
 
 def cell_order(
     backend: Backend,
-    position: Any,
+    position: Array,
     cell_size: float,
     lower: Sequence[float] | None = None,
     upper: Sequence[float] | None = None,
-) -> Any:
+) -> Rows:
     """Order of the particles by cells of a grid, first axis fastest, for locality in memory.
 
     Args:
@@ -124,17 +125,17 @@ def cell_order(
 
 def neighbor_list(
     backend: Backend,
-    position: Any,
-    support: Any,
+    position: Array,
+    support: Array,
     count: int,
     *,
     mean: Callable[[float, float], float],
     lower: Sequence[float] | None = None,
     upper: Sequence[float] | None = None,
     period: Sequence[float] = (),
-    wanted: Any = None,
+    wanted: Rows | None = None,
     room: Room | None = None,
-) -> tuple[Any, Any]:
+) -> tuple[Array, Rows]:
     """Neighbors of the first `count` particles among all.
 
     Cells are counted from the corners of the box where they are given, so that the order within a

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from lasersph.compute.arguments import pair_roles, parameter_names
+from lasersph.compute.array_types import Array, Outputs, PairList, Rows
 
 NEEDS = ("row", "neighbor", "pair")
 """Roles of an array: with an entry for each row, each particle, each pair."""
@@ -21,10 +22,10 @@ class Call(NamedTuple):
 
     shape: str
     function: Callable
-    neighbors: Any
-    fields: Mapping[str, Any]
-    out: Any
-    rows: Any
+    neighbors: PairList | None
+    fields: Mapping[str, Array]
+    out: Outputs
+    rows: Rows | None
     finish: Callable | None
     reduce: Any
     constants: dict[str, Any]

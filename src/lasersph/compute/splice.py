@@ -7,11 +7,12 @@ that the result does not depend on the number of threads.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from lasersph.compute import cache
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.generate import BLOCK, DISPATCH, OUTER
 
@@ -64,12 +65,12 @@ def copy_rows(begin, end, threads, count, chosen, start, neighbor, values, kept,
 class PairRows(NamedTuple):
     """Rows of a list: row_start (n + 1,) offsets, neighbor (pairs,) indices, values (pairs,)."""
 
-    row_start: Any
-    neighbor: Any
-    values: Any
+    row_start: Array
+    neighbor: Rows
+    values: Array
 
 
-def splice(backend: Backend, first: PairRows, chosen: Any, rest: PairRows) -> PairRows:
+def splice(backend: Backend, first: PairRows, chosen: Array, rest: PairRows) -> PairRows:
     """Rows of `first` where `chosen`, those of `rest` elsewhere.
 
     Args:

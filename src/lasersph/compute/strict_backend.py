@@ -6,10 +6,9 @@ where these arrays live in the memory of a graphics card.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.opaque_array import OpaqueArray
 
@@ -27,11 +26,11 @@ class StrictArray(OpaqueArray):
 class StrictBackend(Backend):
     """CPU backend whose arrays are `StrictArray`."""
 
-    def wrap(self, array: np.ndarray) -> Any:
+    def wrap(self, array: np.ndarray) -> Array:
         """Array as the caller sees it."""
         return StrictArray(array)
 
-    def unwrap(self, array: Any) -> np.ndarray:
+    def unwrap(self, array: Array) -> np.ndarray:
         """NumPy array behind the caller's array.
 
         Raises:

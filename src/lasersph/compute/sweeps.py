@@ -18,12 +18,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from lasersph.compute import cache
 from lasersph.compute.arguments import parameter_names
+from lasersph.compute.array_types import Array, PairList
 from lasersph.compute.backend import Backend
 from lasersph.compute.sweep_text import ROWS, TILES, sweep_text
 
@@ -62,8 +63,8 @@ class OrderedPairs:
         colors: list[np.ndarray],
         sides: list[Tiles],
         inner: np.ndarray,
-        total: Any,
-        after: Any,
+        total: Array,
+        after: Array,
     ) -> None:
         self.backend, self.colors, self.sides, self.inner = backend, colors, sides, inner
         self.total, self.after = total, after
@@ -77,8 +78,8 @@ class OrderedPairs:
     def prepare(
         self,
         function: Callable,
-        fields: Mapping[str, Any],
-        out: Sequence[Any],
+        fields: Mapping[str, Array],
+        out: Sequence[Array],
         *,
         backward: bool = False,
         reduces: int = 0,
@@ -108,8 +109,8 @@ class Sweep:
         self,
         pairs: OrderedPairs,
         function: Callable,
-        fields: Mapping[str, Any],
-        out: Sequence[Any],
+        fields: Mapping[str, Array],
+        out: Sequence[Array],
         constants: Mapping[str, float],
         *,
         backward: bool,
@@ -160,7 +161,7 @@ class Sweep:
         return tuple(np.add.reduce(self._partial, dtype=np.float64).tolist())
 
 
-def ordered_pairs(backend: Backend, neighbors: Any, weights: Any) -> OrderedPairs | None:
+def ordered_pairs(backend: Backend, neighbors: PairList, weights: Array) -> OrderedPairs | None:
     """Pairs arranged for sweeps; None where they would not pay.
 
     Args:
