@@ -5,6 +5,7 @@ Processor time, both in turn, the best of some rounds. Run: pytest benchmarks/te
 
 from time import process_time
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pair_functions as functions
@@ -60,7 +61,7 @@ def loops(monkeypatch, tmp_path):
     monkeypatch.setenv("LASERSPH_CACHE", str(tmp_path))
     backend = compute.cpu(threads=1)
     one, vector = backend.asarray([1.0]), backend.zeros((3, 1))
-    neighbors = SimpleNamespace(
+    neighbors: Any = SimpleNamespace(
         row_start=backend.zeros(2, "offset"), neighbor=backend.zeros(0, "index"),
         position=vector, support=one, kernel=setting.Wendland(),
         mean=functions.arithmetic_mean, period=(0.0, 0.0, 0.0),

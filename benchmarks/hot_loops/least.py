@@ -58,12 +58,13 @@ class _Given:
     """Arrays of a call by symbol, and where its rows and pairs are."""
 
     def __init__(self, call: Call) -> None:
-        self.call, self.signature = call, Signature(call)
-        self.outs = [one for one in listed(call.out) if one is not None]
-        lists = call.neighbors
+        self.call: Any = call  # of NumPy's arrays, which are looked into here
+        self.signature = Signature(call)
+        self.outs: list[Any] = [one for one in listed(call.out) if one is not None]
+        lists: Any = call.neighbors
         extra = {"x": lists.position, "l": lists.support} if lists is not None else {}
         own = self.signature.fields
-        self.arrays = {
+        self.arrays: dict[str, Any] = {
             symbol: call.fields[symbol] if symbol in own else extra[symbol]
             for symbol in self.signature.symbols
         }

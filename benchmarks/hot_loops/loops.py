@@ -39,11 +39,11 @@ def pair_sum(backend: Backend, neighbors: NeighborList) -> HotLoop:
 def list_build(backend: Backend, neighbors: NeighborList) -> HotLoop:
     """Search for all pairs; only those that are found count as looked at."""
     dimension, count = shape_of(neighbors)
+    position, support = neighbors.position, neighbors.support
+    assert position is not None and support is not None
 
     def run() -> int:
-        search.neighbor_list(
-            backend, neighbors.position, neighbors.support, count, mean=neighbors.mean
-        )
+        search.neighbor_list(backend, position, support, count, mean=neighbors.mean)
         return 1
 
     name = f"neighbor list {dimension}-D"

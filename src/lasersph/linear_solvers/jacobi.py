@@ -48,6 +48,7 @@ class Jacobi:
         backend, matrix = self.backend, self.matrix
         backend.pointwise(scale, {"r": r, "d": matrix.diagonal}, z)
         for _ in range(self.sweeps - 1):
+            assert self._other is not None
             backend.copy(z, self._other)
             fields = {"a_ij": matrix.entries, "d": matrix.diagonal, "p": self._other, "r": r}
             backend.pair_sum(entry_times, matrix.neighbors, fields, z, finish=sweep, w=self.damping)
