@@ -26,6 +26,7 @@ from lasersph.materials import Material, load_material, material_file
 SET_HERE = "set in the case"
 UNNAMED = "of the case"
 SECTIONS = ("melting", "vaporization", "optics")
+UNSOURCED = ("source", "note", "uncertainty")
 PLAIN = ("name", "title", "composition", "note", "reference_temperature")
 
 
@@ -106,14 +107,16 @@ def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[s
     merged = dict(section)
     source = merged.get("source", {})
     sources = source if isinstance(source, dict) else dict.fromkeys(merged, source)
-    sources = {key: sources[key] for key in sources if key not in ("source", "note")}
+    sources = {key: sources[key] for key in sources if key not in UNSOURCED}
+    stated = {key: u for key, u in merged.get("uncertainty", {}).items() if key not in changes}
+    merged["uncertainty"] = stated  # that of the base says nothing about a changed number
     for key, value in changes.items():
         if value is None:
             continue
         if key == "reflectivity":
             merged[key] = _sourced(value)
             sources.pop(key, None)
-        elif key in ("source", "note"):
+        elif key in UNSOURCED:
             merged[key] = value
         else:
             merged[key] = value

@@ -44,6 +44,9 @@ def show(name: Name, plot: Plot = None) -> None:
         print(" ".join(material.note.split()))
     print()
     print(aligned([("quantity", "value", "range", "source"), *_rows(material)], header=True))
+    if stated := material.uncertainties():
+        print("\nstandard uncertainties")
+        print(aligned([(key, f"{100 * u:.3g} %", source) for key, (u, source) in stated.items()]))
 
 
 @app.command()

@@ -42,6 +42,7 @@ from lasersph.input.types import (
     Time,
     Velocity,
     Viscosity,
+    quantity_kind,
 )
 
 __all__ = [
@@ -91,6 +92,7 @@ __all__ = [
     "nearest",
     "parse_quantity",
     "parse_toml",
+    "quantity_kind",
     "read_toml",
     "refusal",
 ]

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from numbers import Real
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
-from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic import BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from lasersph.input.kinds import KINDS
@@ -81,6 +81,14 @@ def _float(value: Real) -> float | None:
 
 def _refusal(message: str) -> PydanticCustomError:
     return PydanticCustomError("quantity", "{message}", {"message": message})
+
+
+def quantity_kind(model: type[BaseModel], name: str) -> str:
+    """Kind of quantity that a field of a model reads ("density"); empty where it reads none."""
+    field = model.model_fields[name]
+    parts = get_args(field.annotation)  # of an optional field
+    marks = [*field.metadata, *(m for part in parts for m in getattr(part, "__metadata__", ()))]
+    return next((mark.kind for mark in marks if isinstance(mark, Quantity)), "")
 
 
 Length = Annotated[float, Quantity("length")]

@@ -102,6 +102,22 @@ class Material(Model):
             found["reflectivity"] = self.optics.reflectivity
         return found
 
+    def uncertainties(self) -> dict[str, tuple[float, str]]:
+        """By key ("density.liquid", "melting.latent_heat"): relative standard uncertainty and who
+        states it, of all that have one."""
+        found = {}
+        for name, property_ in self.properties().items():
+            home = f"optics.{name}" if name == "reflectivity" else name
+            for phase, law in property_.laws().items():
+                if law.uncertainty is not None:
+                    key = home if phase == "all" else f"{home}.{phase}"
+                    found[key] = (law.relative_uncertainty, law.uncertainty.source)
+        for home in ("melting", "vaporization", "optics"):
+            section = getattr(self, home)
+            for name, given in (section.uncertainty if section else {}).items():
+                found[f"{home}.{name}"] = (section.relative_uncertainty(name), given.source)
+        return found
+
     @property
     def solidus(self) -> float | None:
         """Temperature at which melting begins [K]; None without melting data."""

@@ -9,13 +9,14 @@ linearly in T from the solid's value at the solidus to the liquid's at the liqui
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Generic, TypeVar
+from typing import Generic, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.input import Model, Temperature
+from lasersph.input import Model, Temperature, quantity_kind, refusal
+from lasersph.materials.uncertainty import Uncertainty, checked_uncertainty
 
 Quantity = TypeVar("Quantity", bound=float)
 Array = NDArray[np.float64]
@@ -50,6 +51,9 @@ class Law(Model, Generic[Quantity]):
     )
     source: str = Field(default="", description="where the numbers come from")
     note: str = Field(default="", description="what a reader should know about them")
+    uncertainty: Uncertainty | None = Field(
+        default=None, exclude=True, description="standard uncertainty, where the source gives one"
+    )
 
     @model_validator(mode="after")
     def _check_form(self) -> Law[Quantity]:
@@ -67,6 +71,10 @@ class Law(Model, Generic[Quantity]):
             raise ValueError("a table needs two rows or more, rising in temperature")
         if self.range is not None and self.range[0] >= self.range[1]:
             raise ValueError("a range runs from the lower to the higher temperature")
+        if self.uncertainty is not None and not forms:
+            text = "belongs to one law; write it into the tables solid and liquid"
+            raise refusal(("uncertainty", text))
+        _ = self.relative_uncertainty
         return self
 
     def _forms(self) -> Iterator[tuple[str, object]]:
@@ -81,6 +89,23 @@ class Law(Model, Generic[Quantity]):
                 "give exactly one of value, table, polynomial, log10"
                 + (f", not {' and '.join(forms)}" if forms else "")
             )
+
+    @property
+    def relative_uncertainty(self) -> float | None:
+        """Standard uncertainty over the value, at every temperature; None where none is stated."""
+        if self.uncertainty is None:
+            return None
+        kind = quantity_kind(type(self), "value")
+        return checked_uncertainty("uncertainty", self.uncertainty, self.value, kind)
+
+    def scaled(self, factor: float) -> Self:
+        """The same law with every value times a factor."""
+        changes = {
+            "value": None if self.value is None else factor * self.value,
+            "table": tuple((T, factor * value) for T, value in self.table),
+            "scale": None if self.scale is None else factor * self.scale,
+        }
+        return self.model_copy(update=changes)
 
     @property
     def lower(self) -> float:
@@ -141,6 +166,12 @@ class Property(Law[Quantity], Generic[Quantity]):
             super()._check_count(forms)
         elif forms:
             raise ValueError(f"give either one law ({forms[0]}) or laws for solid and liquid")
+
+    def scaled(self, factor: float) -> Self:
+        """The same property with every value of its law, or of both laws, times a factor."""
+        both = {"solid": self.solid, "liquid": self.liquid}
+        laws = {name: law and law.scaled(factor) for name, law in both.items()}
+        return super().scaled(factor).model_copy(update=laws)
 
     @property
     def solid_law(self) -> Law[Quantity]:

@@ -14,8 +14,11 @@ from lasersph.input import (
     MolarMass,
     SpecificEnergy,
     Temperature,
+    quantity_kind,
+    refusal,
 )
 from lasersph.materials.property import Property
+from lasersph.materials.uncertainty import Uncertainty, checked_uncertainty
 
 GAS_CONSTANT = 8.314462618
 """Molar gas constant [J/(mol K)] (CODATA 2018)."""
@@ -26,14 +29,15 @@ class Sourced(Model):
 
     source: str | dict[str, str] = Field(description="source of all numbers, or one for each")
     note: str = Field(default="", description="what a reader should know about the numbers")
+    uncertainty: dict[str, Uncertainty] = Field(
+        default={}, exclude=True, description="standard uncertainty of each number that has one"
+    )
 
     @model_validator(mode="after")
     def _check_sources(self) -> Sourced:
         """Refuse a number without a source and a source without a number."""
         numbers = {
-            name
-            for name in type(self).model_fields
-            if name not in ("source", "note") and isinstance(getattr(self, name), float)
+            name for name in type(self).model_fields if isinstance(getattr(self, name), float)
         }
         if isinstance(self.source, str):
             sources = {name: self.source for name in numbers}
@@ -45,7 +49,19 @@ class Sourced(Model):
         surplus = sorted(set(sources) - numbers)
         if surplus:
             raise ValueError(f"a source for {', '.join(surplus)}, which is not given here")
+        for name in self.uncertainty:
+            if name not in numbers:
+                raise refusal((f"uncertainty.{name}", "is not given here; leave it out"))
+            _ = self.relative_uncertainty(name)
         return self
+
+    def relative_uncertainty(self, name: str) -> float | None:
+        """Standard uncertainty of a number over its value; None where none is stated."""
+        given = self.uncertainty.get(name)
+        if given is None:
+            return None
+        kind = quantity_kind(type(self), name)
+        return checked_uncertainty(f"uncertainty.{name}", given, getattr(self, name), kind)
 
     def source_of(self, name: str) -> str:
         """Source of one number; empty where the number is not given."""

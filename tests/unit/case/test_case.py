@@ -121,6 +121,17 @@ def test_changed_material():
     assert case.hash() != load_case("dlip-steel").hash()
 
 
+def test_changed_number_loses_the_uncertainty_of_its_base():
+    """An uncertainty of 6700 K says nothing about 7000 K; a case may state its own."""
+    kept = load_case("dlip-aluminium", ["material.vaporization.temperature=2800 K"]).material
+    assert "vaporization.critical_temperature" in kept.uncertainties()
+    key = "material.vaporization.critical_temperature"
+    assert load_case("dlip-aluminium", [f"{key}=7000 K"]).material.uncertainties() == {}
+    stated = '{standard = "3 %", source = "x"}'
+    own = load_case("dlip-aluminium", [f"material.melting.uncertainty.latent_heat={stated}"])
+    assert own.material.uncertainties()["melting.latent_heat"] == (0.03, "x")
+
+
 def test_changed_material_with_laws_and_optics():
     """Laws for solid and liquid, tables and reflectivity may be changed as well."""
     case = load_case(
