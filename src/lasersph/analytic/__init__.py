@@ -7,6 +7,7 @@ stefan          melting of a half-space held hot at its surface (Neumann's solut
 melt_depth      estimate of the melted depth under a pulse, for laying out fine particles
 taylor_green    decaying vortices in a periodic box
 thermocapillary_layer  slow flow of a layer whose surface is warm and cold in turns
+liquid_film     small waves and drives of a film whose surface is free, exact in time
 plane_flows     between parallel planes, from rest: Couette, Poiseuille, a sheared surface
 convergence     observed order, Richardson value, grid convergence index
 
