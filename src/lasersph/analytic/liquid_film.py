@@ -27,11 +27,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
-NODES = 80
-"""Of the contour: more let rounding grow, fewer see fewer waves; 1e-9 of the largest is left."""
-LARGEST_PHASE = 28.0
-"""Of a wave of the film without viscosity that the nodes resolve [rad], four periods; found by
-comparison with 96 nodes."""
+NODES = 64
+"""Of the contour: more let rounding grow, fewer see fewer waves; 1e-8 of the largest is left."""
+LARGEST_PHASE = 20.0
+"""Of a wave of the film without viscosity that the nodes resolve [rad], three periods; found by
+comparison with 80 nodes."""
 
 
 @dataclass(frozen=True)
