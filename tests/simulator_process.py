@@ -21,7 +21,7 @@ FILES = ("unit/compute/test_strict_arrays.py", "unit/compute/test_pair_loops.py"
          "unit/compute/test_search.py", "unit/compute/test_splice.py",
          "unit/compute/test_looking.py", "unit/compute/test_connected.py",
          "unit/particles/test_ghosts.py", "unit/solvers/melt_pool/test_near_melt.py",
-         "unit/particles/test_relative_displacement.py",
+         "unit/particles/test_cell_grid.py", "unit/particles/test_relative_displacement.py",
          "unit/linear_solvers/test_components.py", "unit/benchmarks/test_cuda_card.py",
          "laws/test_cuda_backend.py")  # fmt: skip
 

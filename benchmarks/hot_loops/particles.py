@@ -8,6 +8,7 @@ import numpy as np
 
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
+from lasersph.particles.cell_grid import CellGrid
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.particles.support import arithmetic
 
@@ -29,7 +30,9 @@ def jittered(backend: Backend, edge: int, kernel: Any, support: float = 2.9) -> 
     lattice = np.meshgrid(*(axis,) * dimension, indexing="ij")
     position = np.array([x.ravel() for x in lattice[::-1]])
     position += 0.2 * np.random.default_rng(1).random(position.shape)
-    order = backend.to_host(search.cell_order(backend, backend.asarray(position), support))
+    grid = CellGrid.over(np.zeros(dimension), np.full(dimension, float(edge)), support)
+    cell = grid.find_cells(backend, backend.asarray(position))
+    order = backend.to_host(backend.sort_by_key(cell, grid.count))
     sorted_position = backend.asarray(position[:, order])
     support_radius = backend.asarray(np.full(edge**dimension, support))
     row_start, neighbor = search.neighbor_list(

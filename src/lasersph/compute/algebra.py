@@ -12,10 +12,10 @@ import operator
 from typing import Protocol
 
 from lasersph.compute.values import (
-    Any,
     Group,
     LoopSourceError,
     Number,
+    Term,
     Value,
     boolean_text,
     integer_text,
@@ -53,7 +53,7 @@ _COMPARE = {
 }
 
 
-def binary(lines: Lines, op: str, a: Any, b: Any) -> Any:
+def binary(lines: Lines, op: str, a: Term, b: Term) -> Term:
     """a op b for + - * / // % and **."""
     if isinstance(a, Number) and isinstance(b, Number):
         return Number(_FOLD[op](a.value, b.value))
@@ -79,7 +79,7 @@ def binary(lines: Lines, op: str, a: Any, b: Any) -> Any:
     return Value("real", shape, tuple(f"({x} {op} {y})" for x, y in pairs))
 
 
-def power(lines: Lines, base: Any, exponent: Any) -> Any:
+def power(lines: Lines, base: Term, exponent: Term) -> Term:
     """base ** exponent: products for whole, sqrt for half exponents up to 8, else pow()."""
     shape = shape_of(base)
     if shape_of(exponent) != ():
@@ -116,7 +116,7 @@ def _product(lines: Lines, base: str, exponent: float) -> str:
     return text if exponent > 0 else f"(real(1.0) / {text})"
 
 
-def negative(a: Any) -> Any:
+def negative(a: Term) -> Term:
     """-a."""
     if isinstance(a, Number):
         return Number(-a.value)
@@ -125,7 +125,7 @@ def negative(a: Any) -> Any:
     return Value("real", shape_of(a), tuple(f"(-{part})" for part in real_parts(a)))
 
 
-def compare(op: str, a: Any, b: Any) -> Any:
+def compare(op: str, a: Term, b: Term) -> Term:
     """a op b for < <= > >= == !=."""
     if isinstance(a, Number) and isinstance(b, Number):
         return Number(_COMPARE[op](a.value, b.value))
@@ -136,14 +136,14 @@ def compare(op: str, a: Any, b: Any) -> Any:
     return scalar(f"({real_parts(a)[0]} {op} {real_parts(b)[0]})", "bool")
 
 
-def invert(a: Any) -> Any:
+def invert(a: Term) -> Term:
     """not a."""
     if isinstance(a, Number):
         return Number(not a.value)
     return scalar(f"(not {boolean_text(a)})", "bool")
 
 
-def select(lines: Lines, condition: Any, a: Any, b: Any) -> Any:
+def select(lines: Lines, condition: Term, a: Term, b: Term) -> Term:
     """a if condition else b, component by component."""
     if is_integer(a) and is_integer(b):
         test = boolean_text(condition)
@@ -157,7 +157,7 @@ def select(lines: Lines, condition: Any, a: Any, b: Any) -> Any:
     return Value("real", shape, tuple(f"({x} if {test} else {y})" for x, y in pairs))
 
 
-def extreme(lines: Lines, name: str, values: list[Any]) -> Any:
+def extreme(lines: Lines, name: str, values: list[Term]) -> Term:
     """min() or max() of two or more scalars."""
     if len(values) < 2 or any(shape_of(value) for value in values):
         raise LoopSourceError(f"{name}() takes two or more scalars")
@@ -171,7 +171,7 @@ def extreme(lines: Lines, name: str, values: list[Any]) -> Any:
     return scalar(result, "int" if whole else "real")
 
 
-def absolute(a: Any) -> Any:
+def absolute(a: Term) -> Term:
     """|a| of a scalar, or of each component."""
     if isinstance(a, Number):
         return Number(abs(a.value))
@@ -180,7 +180,7 @@ def absolute(a: Any) -> Any:
     return Value("real", shape_of(a), tuple(f"abs({part})" for part in real_parts(a)))
 
 
-def unary(name: str, a: Any) -> Any:
+def unary(name: str, a: Term) -> Term:
     """Function of module math, component by component."""
     if isinstance(a, Number) and hasattr(math, name):
         return Number(getattr(math, name)(a.value))
@@ -189,7 +189,7 @@ def unary(name: str, a: Any) -> Any:
     return Value("real", shape_of(a), parts)
 
 
-def component(lines: Lines, a: Any, index: list[Any]) -> Any:
+def component(lines: Lines, a: Term, index: list[Term]) -> Term:
     """a[index]: tables by integer code; vectors, tensors and tuples by literal numbers."""
     if isinstance(a, Value) and a.is_table:
         if len(index) != 1 or not is_integer(index[0]):

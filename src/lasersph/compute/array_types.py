@@ -20,7 +20,7 @@ class Array(Protocol):
         ...
 
     @property
-    def dtype(self) -> np.dtype[Any]:
+    def dtype(self) -> np.dtype:
         """Kind "real", "index", "offset" or "flag" of the backend."""
         ...
 
@@ -33,6 +33,8 @@ class Array(Protocol):
 Rows = Array
 """Numbers of particles, kind "index": the rows of a loop."""
 
+Combine = str | None | Sequence[str | None]
+"""How numbers of many particles become one, "sum", "max" or "min", for one result or for each."""
 Outputs = Array | None | Sequence[Array | None]
 """One array or several that a loop writes; None where a result is not stored."""
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from lasersph.compute import connected, threads
 from lasersph.compute.arguments import components
-from lasersph.compute.array_types import Array, Outputs, PairList, Rows
+from lasersph.compute.array_types import Array, Combine, Outputs, PairList, Rows
 from lasersph.compute.launch import Launch, Launcher
 from lasersph.compute.loops import Loops
 from lasersph.compute.routine import Step, run_routine
@@ -74,7 +74,7 @@ class Backend:
         """Copy as a NumPy array."""
         return np.array(self.unwrap(array))
 
-    def look(self, array: Array) -> Any:
+    def look(self, array: Array) -> np.ndarray:
         """The array for reading, until the next loop; not copied where it lies in this memory.
 
         Elsewhere it is copied only as far as it is looked at; to NumPy it is an array.
@@ -83,13 +83,13 @@ class Backend:
         host.flags.writeable = False
         return host
 
-    def snapshot(self, array: Array) -> Any:
+    def snapshot(self, array: Array) -> np.ndarray:
         """What `look` gives, of a copy that later loops do not change."""
         copy = self.wrap(np.empty(array.shape, array.dtype))
         self.copy(array, copy)
         return self.look(copy)
 
-    def shown(self, host: np.ndarray) -> Any:
+    def shown(self, host: np.ndarray) -> np.ndarray:
         """Host array that never changes, for reading beside what `look` gives."""
         return host
 
@@ -112,7 +112,7 @@ class Backend:
         """Set all elements."""
         self.unwrap(array).fill(value)
 
-    def head(self, array: Any, count: int) -> Array:
+    def head(self, array: Array, count: int) -> Array:
         """View of the first `count` particles of (n,), (dim, n) or (dim, dim, n)."""
         host = self.unwrap(array)
         if not 0 <= count <= host.shape[-1]:
@@ -191,8 +191,8 @@ class Backend:
         *,
         rows: Rows | None = None,
         finish: Callable | None = None,
-        reduce: Any = None,
-        combine: Any = None,
+        reduce: Combine = None,
+        combine: Combine = None,
         **constants: Any,
     ) -> tuple[float, ...]:
         """For each row i: out[i] = finish(sum over neighbors j of function(...)).
@@ -228,7 +228,7 @@ class Backend:
         fields: Mapping[str, Array],
         out: Outputs,
         *,
-        rows: Any = None,
+        rows: Rows | None = None,
         **constants: Any,
     ) -> None:
         """out[p] = function(...) for each pair p, in list order; see `pair_sum`."""
@@ -241,8 +241,8 @@ class Backend:
         fields: Mapping[str, Array],
         out: Outputs,
         *,
-        rows: Any = None,
-        reduce: Any = None,
+        rows: Rows | None = None,
+        reduce: Combine = None,
         **constants: Any,
     ) -> tuple[float, ...]:
         """out[i] = function(fields at i, constants) for each particle; see `pair_sum`.
@@ -261,7 +261,7 @@ class Backend:
         neighbors: PairList | None = None,
         finish: Callable | None = None,
         rows: Rows | None = None,
-        reduce: Any = None,
+        reduce: Combine = None,
         **constants: Any,
     ) -> Launch:
         """`pair_sum`, or `pointwise` without `neighbors`, bound to these arrays once for all.

@@ -7,7 +7,7 @@ they index.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numba import cuda
@@ -55,7 +55,7 @@ class CudaBackend(Backend):
         """Array as the caller sees it; host data are copied."""
         return array if isinstance(array, CudaArray) else CudaArray.from_host(array)
 
-    def unwrap(self, array: Array) -> Any:
+    def unwrap(self, array: Array) -> CudaArray:
         """The array, whose components are the kernels' arguments.
 
         Raises:
@@ -79,18 +79,18 @@ class CudaBackend(Backend):
         """Copy as a NumPy array."""
         return self.unwrap(array).to_host()
 
-    def look(self, array: Array) -> Any:
+    def look(self, array: Array) -> np.ndarray:
         """The array for reading, until the next loop; copied as far as it is looked at."""
-        return DeviceArray(self, self.unwrap(array))
+        return cast(np.ndarray, DeviceArray(self, self.unwrap(array)))  # to NumPy it is one
 
-    def shown(self, host: Any) -> Any:
+    def shown(self, host: np.ndarray) -> np.ndarray:
         """Host array that never changes, with a copy on the card; copied once."""
         place = host.__array_interface__
         key = place["data"], host.shape, host.strides
         if key not in self._shown:
             array = CudaArray.from_host(np.array(host, self.real, order="C"))
             self._shown[key] = DeviceArray(self, array, whole=host)
-        return self._shown[key]
+        return cast(np.ndarray, self._shown[key])
 
     def extremes(self, array: Array, rows: Rows | None = None) -> tuple[float, float]:
         """Least and largest element (n,), of some rows or all; NaN where there is one."""
@@ -99,7 +99,7 @@ class CudaBackend(Backend):
         )
         return least, most
 
-    def snapshot(self, array: Array) -> Any:
+    def snapshot(self, array: Array) -> np.ndarray:
         """What `look` gives, of a copy that later loops do not change."""
         source = self.unwrap(array)
         copy = self.empty(source.shape, source.dtype)

@@ -1,4 +1,4 @@
-"""Cell sort, neighbor list and splicing on the graphics card; see `search` and `splice`.
+"""Neighbor list and splicing on the graphics card; see `search` and `splice`.
 
 Levels and cells are those of the processor's search. Only what says how large the grid is goes to
 the host: corners, largest supports and numbers of pairs.
@@ -74,27 +74,10 @@ _CELL = {1: cell_1, 2: cell_2, 3: cell_3}
 
 
 class CudaSearch:
-    """Sorting and searching for one backend."""
+    """Searching for one backend."""
 
     def __init__(self, backend: Any) -> None:
         self.backend = backend
-
-    def cell_order(
-        self,
-        position: CudaArray,
-        cell_size: float,
-        lower: Sequence[float] | None,
-        upper: Sequence[float] | None,
-    ) -> CudaArray:
-        """Order of the particles by cells of a grid; see `search.cell_order`."""
-        backend, count = self.backend, position.shape[1]
-        if count == 0:
-            return backend.zeros(0, "index")
-        low, high = self._corners(position, None)
-        self._refuse_escape(position, low, high, lower, upper)
-        found = grid(low, high, cell_size, count, backend.real)
-        key = self._cells(position, backend.zeros(count, "index"), [low], [found])
-        return backend.sort_by_key(key, found.cells)
 
     def neighbor_list(
         self,

@@ -9,17 +9,16 @@ from __future__ import annotations
 import ast
 import inspect
 import types
-from typing import Any as AnyObject
-from typing import Protocol
+from typing import Any, Protocol
 
 from lasersph.compute import algebra
 from lasersph.compute.intrinsics import intrinsic, is_helper
 from lasersph.compute.tensors import HELPERS
 from lasersph.compute.values import (
-    Any,
     Group,
     LoopSourceError,
     Number,
+    Term,
     boolean_text,
     constant,
     flat_parts,
@@ -45,15 +44,15 @@ _COMPARE = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=="
 class Unit(Protocol):
     """What knows the names that functions read, and writes those that they call: `SourceUnit`."""
 
-    def add(self, function: types.FunctionType, kinds: tuple) -> tuple[str, AnyObject]:
+    def add(self, function: types.FunctionType, kinds: tuple) -> tuple[str, Any]:
         """Name in the generated file and kind of the result."""
         ...
 
-    def look_up(self, function: types.FunctionType, name: str) -> AnyObject:
+    def look_up(self, function: types.FunctionType, name: str) -> Any:
         """Object that a global name means inside a function."""
         ...
 
-    def attribute(self, owner: AnyObject, name: str) -> AnyObject:
+    def attribute(self, owner: Any, name: str) -> Any:
         """Attribute of a module or of a constant object."""
         ...
 
@@ -67,9 +66,9 @@ class ExpressionWriter:
         self.unit, self.function, self.tree = unit, function, tree
         self.file, self.first_line = place
         self.line = 1
-        self.lines: list[tuple[int, AnyObject]] = []
+        self.lines: list[tuple[int, Any]] = []
         self.indent = 1
-        self.locals: dict[str, Any] = {}
+        self.locals: dict[str, Term] = {}
         self.count = 0
         self.whole_names = {
             name.id
@@ -96,7 +95,7 @@ class ExpressionWriter:
             raise LoopSourceError(f"operator {type(node).__name__} is not understood")
         return _BINARY[type(node)]
 
-    def expression(self, node: ast.expr) -> Any:
+    def expression(self, node: ast.expr) -> Term:
         """Value of an expression."""
         if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
             return Number(node.value)
@@ -127,7 +126,7 @@ class ExpressionWriter:
             return self.call(node)
         raise LoopSourceError(f"a loop cannot contain `{ast.unparse(node)}`")
 
-    def name(self, node: ast.expr) -> Any:
+    def name(self, node: ast.expr) -> Term:
         """Local variable or module constant."""
         if isinstance(node, ast.Name) and node.id in self.locals:
             return self.locals[node.id]
@@ -136,7 +135,7 @@ class ExpressionWriter:
             raise LoopSourceError(f"{ast.unparse(node)} is no number; use constants only")
         return found
 
-    def resolved(self, node: ast.expr) -> AnyObject:
+    def resolved(self, node: ast.expr) -> Any:
         """Python object that a global name or dotted name means."""
         if isinstance(node, ast.Name):
             if node.id in self.locals:
@@ -146,10 +145,10 @@ class ExpressionWriter:
             return self.unit.attribute(self.resolved(node.value), node.attr)
         raise LoopSourceError(f"`{ast.unparse(node)}` is not understood")
 
-    def comparison(self, node: ast.Compare) -> Any:
+    def comparison(self, node: ast.Compare) -> Term:
         """Comparison, chains included."""
         values = [self.expression(value) for value in (node.left, *node.comparators)]
-        results: list[Any] = []
+        results: list[Term] = []
         for k, op in enumerate(node.ops):
             if type(op) not in _COMPARE:
                 raise LoopSourceError(f"`{ast.unparse(node)}` is not understood")
@@ -158,7 +157,7 @@ class ExpressionWriter:
             return results[0]
         return scalar("(" + " and ".join(boolean_text(r) for r in results) + ")", "bool")
 
-    def joined(self, word: str, stop: bool, nodes: list[ast.expr]) -> Any:
+    def joined(self, word: str, stop: bool, nodes: list[ast.expr]) -> Term:
         """and / or; a literal operand decides at once or drops out."""
         first = self.expression(nodes[0])
         if len(nodes) == 1:
@@ -179,7 +178,7 @@ class ExpressionWriter:
         self.lines.append((self.indent + 1, f"{result} = {rest}"))
         return scalar(result, "bool")
 
-    def conditional(self, node: ast.IfExp) -> Any:
+    def conditional(self, node: ast.IfExp) -> Term:
         """a if test else b: a select where both are plain, else branches."""
         test = self.expression(node.test)
         if isinstance(test, Number):
@@ -212,7 +211,7 @@ class ExpressionWriter:
         ]
         return result
 
-    def call(self, node: ast.Call) -> Any:
+    def call(self, node: ast.Call) -> Term:
         """Call of a mathematical function, a helper or another plain function."""
         target = self.resolved(node.func)
         values = [self.expression(argument) for argument in node.args]
@@ -229,8 +228,8 @@ class ExpressionWriter:
         return value
 
     def function_call(
-        self, target: types.FunctionType, values: list[Any], options: dict[str, Any]
-    ) -> Any:
+        self, target: types.FunctionType, values: list[Term], options: dict[str, Term]
+    ) -> Term:
         """Call of a plain Python function, which is written into the same file."""
         try:
             bound = inspect.signature(target).bind(*values, **options)

@@ -9,7 +9,7 @@ and neighbors uint32: signed indices cost 1.3 to 5 times as much.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any as AnyObject
+from typing import Any
 
 from lasersph.compute.source import SourceUnit
 from lasersph.compute.values import Group, LoopSourceError, flat_parts, named, number_text
@@ -63,7 +63,7 @@ class Argument:
     name: str
     role: str
     symbol: str
-    kind: AnyObject
+    kind: Any
 
 
 @dataclass(frozen=True)
@@ -78,14 +78,14 @@ class Loop:
 
     shape: str
     precision: str
-    function: AnyObject
+    function: Any
     arguments: tuple[Argument, ...]
-    outputs: tuple[AnyObject, ...]
+    outputs: tuple[Any, ...]
     reduce: tuple[str | None, ...] = ()
     listed: bool = False
-    finish: AnyObject = None
+    finish: Any = None
     finish_arguments: tuple[Argument, ...] = ()
-    geometry: AnyObject = None
+    geometry: Any = None
     combine: tuple[str, ...] = ()
     types: tuple[tuple[str, str], ...] = ()
 
@@ -110,8 +110,8 @@ class LoopText:
     def __init__(self, loop: Loop) -> None:
         self.loop = loop
         self.unit = SourceUnit()
-        self.arrays: dict[str, AnyObject] = {}
-        self.tables: dict[str, AnyObject] = {}
+        self.arrays: dict[str, Any] = {}
+        self.tables: dict[str, Any] = {}
         self.reals: dict[str, tuple[str, int]] = {}
         self.whole: dict[str, tuple[str, int]] = {}
 
@@ -149,7 +149,7 @@ class LoopText:
         parts.append(self.compiled(starts, lines, ends))
         return "\n".join(parts)
 
-    def pair_values(self, inner: list[str], outputs: AnyObject) -> list[str]:
+    def pair_values(self, inner: list[str], outputs: Any) -> list[str]:
         """Lines that store a value for each pair of a row.
 
         They are first put where no array can be: a compiler that must expect a store to change what
@@ -190,8 +190,8 @@ class LoopText:
                     inner += [f"{y} = real({y})", self.REDUCE[how].format(s, y)]
 
     def _call(
-        self, function: AnyObject, arguments: tuple[Argument, ...], rows: list, inner: list
-    ) -> tuple[str, AnyObject]:
+        self, function: Any, arguments: tuple[Argument, ...], rows: list, inner: list
+    ) -> tuple[str, Any]:
         """Call of a function with all loads written; returns its text and the result's kind."""
         name, result = self.unit.add(function, tuple(a.kind for a in arguments))
         self._geometry({a.name for a in arguments if a.role == "geometry"}, rows, inner)
@@ -229,7 +229,7 @@ class LoopText:
         if index == "j" and "j = np.uint64(neighbor[p])" not in lines:
             lines.insert(0, "j = np.uint64(neighbor[p])")
 
-    def _constant(self, local: str, kind: AnyObject, name: str, component: int) -> str:
+    def _constant(self, local: str, kind: Any, name: str, component: int) -> str:
         names = self.whole if kind[0] == "int" else self.reals
         names[local] = (name, component)
         return local
@@ -379,7 +379,7 @@ class LoopText:
         return "\n    ".join([*head, "words = at_uint64(frame)", *body]) + "\n"
 
 
-def _names(kind: AnyObject, name: str) -> tuple[str, ...]:
+def _names(kind: Any, name: str) -> tuple[str, ...]:
     """Names of the components of a value or array."""
     value = named(kind, name)
     if isinstance(value, Group) and any(k[0] == "group" for k in kind[1]):

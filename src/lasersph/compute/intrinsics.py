@@ -4,72 +4,33 @@ from __future__ import annotations
 
 import math
 import types
-from typing import Any as AnyObject
+from typing import Any
 
 import numpy as np
 
 from lasersph.compute import algebra, vectors
 from lasersph.compute.tensors import HELPERS
-from lasersph.compute.values import Any, Number, Value, is_integer, real_parts, scalar, shape_of
+from lasersph.compute.values import Number, Term, Value, is_integer, real_parts, scalar, shape_of
 
-_MATH = {
-    math.sqrt: "sqrt",
-    math.exp: "exp",
-    math.expm1: "expm1",
-    math.log: "log",
-    math.log1p: "log1p",
-    math.log10: "log10",
-    math.sin: "sin",
-    math.cos: "cos",
-    math.tan: "tan",
-    math.asin: "asin",
-    math.acos: "acos",
-    math.atan: "atan",
-    math.sinh: "sinh",
-    math.cosh: "cosh",
-    math.tanh: "tanh",
-    math.erf: "erf",
-    math.erfc: "erfc",
-}
-_MATH |= {
-    np.sqrt: "sqrt",
-    np.exp: "exp",
-    np.expm1: "expm1",
-    np.log: "log",
-    np.log1p: "log1p",
-    np.log10: "log10",
-    np.sin: "sin",
-    np.cos: "cos",
-    np.tan: "tan",
-    np.arcsin: "asin",
-    np.arccos: "acos",
-    np.arctan: "atan",
-    np.sinh: "sinh",
-    np.cosh: "cosh",
-    np.tanh: "tanh",
-    np.floor: "floor",
-    math.floor: "floor",
-    np.ceil: "ceil",
-    math.ceil: "ceil",
-}
+_SAME_NAME = "sqrt exp expm1 log log1p log10 sin cos tan sinh cosh tanh floor ceil"
+_ARCS = {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan}
+_MATH = {getattr(module, name): name for module in (math, np) for name in _SAME_NAME.split()}
+_MATH |= {getattr(math, name): name for name in (*_ARCS, "erf", "erfc")}
+_MATH |= {function: name for name, function in _ARCS.items()}
 _EXTREME = {min: "min", max: "max", np.minimum: "min", np.maximum: "max"}
-_TWO = {
-    math.atan2: "atan2",
-    np.arctan2: "atan2",
-    math.copysign: "copysign",
-    np.copysign: "copysign",
-}
+_TWO = dict.fromkeys((math.atan2, np.arctan2), "atan2")
+_TWO |= dict.fromkeys((math.copysign, np.copysign), "copysign")
 _POWER = (pow, math.pow, np.power)
 _ABSOLUTE = (abs, math.fabs, np.abs, np.fabs)
 
 
-def is_helper(target: AnyObject) -> bool:
+def is_helper(target: Any) -> bool:
     """Whether this is a helper of `compute.vectors` that is written out component by component."""
     name = getattr(target, "__name__", "")
     return name in HELPERS and getattr(vectors, name) is target
 
 
-def intrinsic(lines: algebra.Lines, target: AnyObject, values: list[Any]) -> Any | None:
+def intrinsic(lines: algebra.Lines, target: Any, values: list[Term]) -> Term | None:
     """Value of a call of a built-in or mathematical function; None where it is not understood."""
     count = len(values)
     if not isinstance(target, types.BuiltinFunctionType | type | np.ufunc):

@@ -1,4 +1,4 @@
-"""Cell sort and neighbor list: all pairs with r_ij < mean(l_i, l_j), j != i.
+"""Neighbor list: all pairs with r_ij < mean(l_i, l_j), j != i.
 
 Particles are binned into levels by their support l, the finest and then powers of two, each level
 with its own bounding box and cells, so that a set whose supports span any ratio costs in proportion
@@ -87,40 +87,6 @@ class _Cells(NamedTuple):
     inverse: np.ndarray
     shape: np.ndarray
     largest: np.ndarray
-
-
-def cell_order(
-    backend: Backend,
-    position: Array,
-    cell_size: float,
-    lower: Sequence[float] | None = None,
-    upper: Sequence[float] | None = None,
-) -> Rows:
-    """Order of the particles by cells of a grid, first axis fastest, for locality in memory.
-
-    Args:
-        position: [m], shape (dim, N). cell_size: edge of a cell [m], enlarged where there would be
-            more than four cells per particle. lower, upper: box [m], as in `neighbor_list`.
-
-    Returns:
-        Particle numbers in their new order, kind "index"; stable within a cell.
-
-    Raises:
-        EscapedParticle: a position is not finite or outside the box.
-    """
-    if not cell_size > 0.0:
-        raise ValueError(f"cell_size must be positive, not {cell_size}")
-    if backend.search is not None:
-        return backend.search.cell_order(position, cell_size, lower, upper)
-    host = backend.unwrap(position)
-    refuse_escape(host, lower, upper)
-    count = host.shape[1]
-    order = np.arange(count, dtype=np.uint32)
-    if count:
-        sort = cache.load(sort_text(backend.precision, host.shape[0])).sort
-        low, high = host.min(axis=1), host.max(axis=1)
-        _sorted(sort, host, order.copy(), low, high, cell_size, order)
-    return backend.wrap(order)
 
 
 def neighbor_list(

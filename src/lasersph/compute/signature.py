@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from lasersph.compute.arguments import pair_roles, parameter_names
-from lasersph.compute.array_types import Array, Outputs, PairList, Rows
+from lasersph.compute.array_types import Array, Combine, Outputs, PairList, Rows
 
 NEEDS = ("row", "neighbor", "pair")
 """Roles of an array: with an entry for each row, each particle, each pair."""
@@ -27,9 +27,9 @@ class Call(NamedTuple):
     out: Outputs
     rows: Rows | None
     finish: Callable | None
-    reduce: Any
+    reduce: Combine
     constants: dict[str, Any]
-    combine: Any = None
+    combine: Combine = None
 
 
 class Signature:

@@ -15,7 +15,7 @@ import linecache
 import textwrap
 import types
 from functools import cache
-from typing import Any as AnyObject
+from typing import Any
 
 from lasersph.compute.translate import FunctionWriter
 from lasersph.compute.values import LoopSourceError
@@ -26,12 +26,12 @@ class SourceUnit:
 
     def __init__(self) -> None:
         self.texts: list[str] = []
-        self._names: dict[AnyObject, tuple[str, AnyObject]] = {}
-        self._open: set[AnyObject] = set()
+        self._names: dict[Any, tuple[str, Any]] = {}
+        self._open: set[Any] = set()
         self._used: set[str] = set()
-        self._watched: dict[tuple[int, str], tuple[AnyObject, str, AnyObject]] = {}
+        self._watched: dict[tuple[int, str], tuple[Any, str, Any]] = {}
 
-    def add(self, function: types.FunctionType, kinds: tuple) -> tuple[str, AnyObject]:
+    def add(self, function: types.FunctionType, kinds: tuple) -> tuple[str, Any]:
         """Name in the generated file and kind of the result, for these kinds of arguments.
 
         Raises:
@@ -58,7 +58,7 @@ class SourceUnit:
         self._names[key] = (name, result)
         return self._names[key]
 
-    def look_up(self, function: types.FunctionType, name: str) -> AnyObject:
+    def look_up(self, function: types.FunctionType, name: str) -> Any:
         """Object that a global name means inside `function`."""
         for space in (function.__globals__, _builtins_of(function)):
             if name in space:
@@ -66,7 +66,7 @@ class SourceUnit:
                 return space[name]
         raise LoopSourceError(f"name {name} is not defined")
 
-    def attribute(self, owner: AnyObject, name: str) -> AnyObject:
+    def attribute(self, owner: Any, name: str) -> Any:
         """Attribute of a module or of a constant object."""
         if not hasattr(owner, name):
             raise LoopSourceError(f"{owner!r} has no attribute {name}")
@@ -75,17 +75,17 @@ class SourceUnit:
             self._watched[(id(owner.__dict__), name)] = (owner.__dict__, name, value)
         return value
 
-    def watched(self) -> tuple[tuple[AnyObject, str, AnyObject], ...]:
+    def watched(self) -> tuple[tuple[Any, str, Any], ...]:
         """Global names read so far: (namespace, name, object)."""
         return tuple(self._watched.values())
 
 
-def is_current(watched: tuple[tuple[AnyObject, str, AnyObject], ...]) -> bool:
+def is_current(watched: tuple[tuple[Any, str, Any], ...]) -> bool:
     """Whether every watched name still means the same object."""
     return not [name for space, name, value in watched if space.get(name) is not value]
 
 
-def parsed(function: AnyObject) -> tuple[ast.FunctionDef, str, int]:
+def parsed(function: Any) -> tuple[ast.FunctionDef, str, int]:
     """Syntax tree, file and first line of a plain function.
 
     Raises:

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from lasersph.compute.algebra import Lines
 from lasersph.compute.values import (
-    Any,
     LoopSourceError,
     Number,
+    Term,
     Value,
     is_integer,
     real_parts,
@@ -19,11 +19,11 @@ from lasersph.compute.values import (
 )
 
 
-def _atoms(lines: Lines, value: Any) -> list[str]:
+def _atoms(lines: Lines, value: Term) -> list[str]:
     return [lines.atom(part) for part in real_parts(value)]
 
 
-def _rows(lines: Lines, value: Any, name: str) -> list[list[str]]:
+def _rows(lines: Lines, value: Term, name: str) -> list[list[str]]:
     shape = shape_of(value)
     if len(shape) != 2:
         raise LoopSourceError(f"{name}() takes a tensor, not shape {shape}")
@@ -31,7 +31,7 @@ def _rows(lines: Lines, value: Any, name: str) -> list[list[str]]:
     return [parts[k * shape[1] : (k + 1) * shape[1]] for k in range(shape[0])]
 
 
-def _vector(lines: Lines, value: Any, name: str) -> list[str]:
+def _vector(lines: Lines, value: Term, name: str) -> list[str]:
     if len(shape_of(value)) != 1:
         raise LoopSourceError(f"{name}() takes a vector, not shape {shape_of(value)}")
     return _atoms(lines, value)
@@ -47,29 +47,29 @@ def _sum_of_products(first: list[str], second: list[str]) -> str:
     return "(" + " + ".join(f"{a} * {b}" for a, b in zip(first, second, strict=True)) + ")"
 
 
-def vector(lines: Lines, *components: Any) -> Value:
+def vector(lines: Lines, *components: Term) -> Value:
     parts = tuple(real_parts(value)[0] for value in components if shape_of(value) == ())
     if len(parts) != len(components):
         raise LoopSourceError("vector() takes scalars")
     return Value("real", (len(parts),), parts)
 
 
-def identity(lines: Lines, dimension: Any) -> Value:
+def identity(lines: Lines, dimension: Term) -> Value:
     if not (isinstance(dimension, Number) and is_integer(dimension)):
         raise LoopSourceError("identity() takes a literal or len(vector)")
     size = int(dimension.value)
     return _tensor([[f"real({float(k == m)})" for m in range(size)] for k in range(size)])
 
 
-def dot(lines: Lines, a: Any, b: Any) -> Value:
+def dot(lines: Lines, a: Term, b: Term) -> Value:
     return scalar(_sum_of_products(_vector(lines, a, "dot"), _vector(lines, b, "dot")))
 
 
-def norm(lines: Lines, a: Any) -> Value:
+def norm(lines: Lines, a: Term) -> Value:
     return scalar(f"math.sqrt{dot(lines, a, a).text}")
 
 
-def cross(lines: Lines, a: Any, b: Any) -> Value:
+def cross(lines: Lines, a: Term, b: Term) -> Value:
     u, v = _vector(lines, a, "cross"), _vector(lines, b, "cross")
     if len(u) != 3 or len(v) != 3:
         raise LoopSourceError("cross() takes vectors of length 3")
@@ -77,33 +77,33 @@ def cross(lines: Lines, a: Any, b: Any) -> Value:
     return Value("real", (3,), tuple(f"({u[k]} * {v[m]} - {u[m]} * {v[k]})" for k, m in pairs))
 
 
-def outer(lines: Lines, a: Any, b: Any) -> Value:
+def outer(lines: Lines, a: Term, b: Term) -> Value:
     u, v = _vector(lines, a, "outer"), _vector(lines, b, "outer")
     return _tensor([[f"({x} * {y})" for y in v] for x in u])
 
 
-def matvec(lines: Lines, M: Any, a: Any) -> Value:
+def matvec(lines: Lines, M: Term, a: Term) -> Value:
     rows, v = _rows(lines, M, "matvec"), _vector(lines, a, "matvec")
     return Value("real", (len(rows),), tuple(_sum_of_products(row, v) for row in rows))
 
 
-def matmul(lines: Lines, A: Any, B: Any) -> Value:
+def matmul(lines: Lines, A: Term, B: Term) -> Value:
     rows, columns = _rows(lines, A, "matmul"), list(zip(*_rows(lines, B, "matmul"), strict=True))
     return _tensor([[_sum_of_products(row, list(column)) for column in columns] for row in rows])
 
 
-def transpose(lines: Lines, M: Any) -> Value:
+def transpose(lines: Lines, M: Term) -> Value:
     return _tensor([list(column) for column in zip(*_rows(lines, M, "transpose"), strict=True)])
 
 
-def _square(lines: Lines, M: Any, name: str) -> list[list[str]]:
+def _square(lines: Lines, M: Term, name: str) -> list[list[str]]:
     rows = _rows(lines, M, name)
     if len(rows) != len(rows[0]) or len(rows) > 3:
         raise LoopSourceError(f"{name}() takes a square tensor up to 3 x 3")
     return rows
 
 
-def trace(lines: Lines, M: Any) -> Value:
+def trace(lines: Lines, M: Term) -> Value:
     rows = _square(lines, M, "trace")
     return scalar("(" + " + ".join(row[k] for k, row in enumerate(rows)) + ")")
 
@@ -126,12 +126,12 @@ def _cofactors(lines: Lines, m: list[list[str]]) -> list[list[str]]:
     return [[lines.atom(text) for text in row] for row in texts]
 
 
-def determinant(lines: Lines, M: Any) -> Value:
+def determinant(lines: Lines, M: Term) -> Value:
     m = _square(lines, M, "determinant")
     return scalar(_sum_of_products(m[0], _cofactors(lines, m)[0]))
 
 
-def inverse(lines: Lines, M: Any) -> Value:
+def inverse(lines: Lines, M: Term) -> Value:
     m = _square(lines, M, "inverse")
     c = _cofactors(lines, m)
     factor = lines.atom(f"real(1.0) / {_sum_of_products(m[0], c[0])}")
@@ -139,20 +139,5 @@ def inverse(lines: Lines, M: Any) -> Value:
     return _tensor([[f"({c[k][row]} * {factor})" for k in size] for row in size])
 
 
-HELPERS = {
-    function.__name__: function
-    for function in (
-        vector,
-        identity,
-        dot,
-        norm,
-        cross,
-        outer,
-        matvec,
-        matmul,
-        transpose,
-        trace,
-        determinant,
-        inverse,
-    )
-}
+_HELPERS = "vector identity dot norm cross outer matvec matmul transpose trace determinant inverse"
+HELPERS = {name: globals()[name] for name in _HELPERS.split()}

@@ -8,15 +8,15 @@ arithmetic, comparisons, calls of plain functions, helpers of `compute.vectors` 
 from __future__ import annotations
 
 import ast
-from typing import Any as AnyObject
+from typing import Any
 
 from lasersph.compute import algebra
 from lasersph.compute.expressions import ExpressionWriter
 from lasersph.compute.values import (
-    Any,
     Group,
     LoopSourceError,
     Number,
+    Term,
     Value,
     boolean_text,
     flat_parts,
@@ -36,7 +36,7 @@ RESERVED = {"np", "math", "real", "njit", "dispatch_blocks", "min", "max", "abs"
 class FunctionWriter(ExpressionWriter):
     """Writes one function, specialized for the kinds of its arguments."""
 
-    def written(self, name: str, kinds: tuple) -> tuple[str, AnyObject]:
+    def written(self, name: str, kinds: tuple) -> tuple[str, Any]:
         """Text of the whole function and kind of its result."""
         arguments = [a.arg for a in self.tree.args.args]
         reserved = RESERVED & {*arguments, *self.function.__code__.co_varnames}
@@ -69,10 +69,10 @@ class FunctionWriter(ExpressionWriter):
         line = self.first_line + self.line - 1
         return f"{self.function.__qualname__}() at {self.file}:{line}"
 
-    def _parts(self, name: str, kind: AnyObject) -> tuple[str, ...]:
+    def _parts(self, name: str, kind: Any) -> tuple[str, ...]:
         return flat_parts(named(kind, name), kind)
 
-    def _returned(self, value: Any, kind: AnyObject) -> str:
+    def _returned(self, value: Term, kind: Any) -> str:
         return "return " + ", ".join(flat_parts(value, kind))
 
     def block(self, statements: list[ast.stmt]) -> bool:
@@ -155,7 +155,7 @@ class FunctionWriter(ExpressionWriter):
         self.put(f"for {node.target.id} in range({bounds}):")
         self.indented(node.body)
 
-    def assign(self, target: ast.expr, value: Any) -> None:
+    def assign(self, target: ast.expr, value: Term) -> None:
         """Store a value in a local name or in a tuple of names."""
         if isinstance(target, ast.Tuple):
             items = self._items(value)
@@ -186,7 +186,7 @@ class FunctionWriter(ExpressionWriter):
         for left, right in zip(names, parts, strict=True):
             self.put(f"{left} = {right}")
 
-    def copied(self, value: Any) -> Any:
+    def copied(self, value: Term) -> Term:
         """The same value in fresh locals (so that `a, b = b, a` works)."""
         if isinstance(value, Number):
             return value
@@ -198,7 +198,7 @@ class FunctionWriter(ExpressionWriter):
             self.put(f"{left} = {right}")
         return copy
 
-    def _items(self, value: Any) -> tuple[Any, ...]:
+    def _items(self, value: Term) -> tuple[Term, ...]:
         if isinstance(value, Group):
             return value.items
         if isinstance(value, Value) and len(shape_of(value)) >= 1:
@@ -206,6 +206,6 @@ class FunctionWriter(ExpressionWriter):
         raise LoopSourceError("a scalar cannot be unpacked")
 
 
-def _is_flag(value: Any, kind: AnyObject) -> bool:
+def _is_flag(value: Term, kind: Any) -> bool:
     """Whether a literal integer can be returned beside integer results."""
     return is_integer(value) and isinstance(value, Number) and kind == ("int", ())

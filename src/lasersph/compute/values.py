@@ -55,7 +55,7 @@ class Group:
     items: tuple[Number | Value | Group, ...]
 
 
-Any = Number | Value | Group
+Term = Number | Value | Group
 
 
 def constant(value: object) -> Number | Group | None:
@@ -89,14 +89,14 @@ def is_atom(text: str) -> bool:
     return bool(_NAME.match(text) or _LITERAL.match(text))
 
 
-def is_integer(value: Any) -> bool:
+def is_integer(value: Term) -> bool:
     """Whether the value is an integer scalar or integer literal."""
     if isinstance(value, Number):
         return isinstance(value.value, int) and not isinstance(value.value, bool)
     return isinstance(value, Value) and value.kind == "int" and value.shape == ()
 
 
-def shape_of(value: Any) -> tuple[int, ...]:
+def shape_of(value: Term) -> tuple[int, ...]:
     """Shape of a value in an expression: () for numbers; a group of scalars counts as a vector."""
     if isinstance(value, Number):
         return ()
@@ -109,7 +109,7 @@ def shape_of(value: Any) -> tuple[int, ...]:
     return value.shape
 
 
-def real_parts(value: Any) -> tuple[str, ...]:
+def real_parts(value: Term) -> tuple[str, ...]:
     """Component texts in the working precision."""
     if isinstance(value, Number):
         return (number_text(value.value),)
@@ -122,7 +122,7 @@ def real_parts(value: Any) -> tuple[str, ...]:
     return tuple(f"real({part})" for part in value.parts)
 
 
-def integer_text(value: Any) -> str:
+def integer_text(value: Term) -> str:
     """Code of an integer scalar, literals unwrapped."""
     if isinstance(value, Number):
         return str(int(value.value))
@@ -131,7 +131,7 @@ def integer_text(value: Any) -> str:
     return value.text  # type: ignore[union-attr]
 
 
-def kind_of(value: Any):
+def kind_of(value: Term):
     """Hashable description of a value's kind and shape, without its code; numbers become real."""
     if isinstance(value, Group):
         return ("group", tuple(kind_of(item) for item in value.items))
@@ -140,7 +140,7 @@ def kind_of(value: Any):
     return (value.kind, value.shape)
 
 
-def named(kind, name: str) -> Any:
+def named(kind, name: str) -> Term:
     """Value of a kind whose parts are `name` or `name__0`, `name__1`, ... (row-major)."""
     if kind[0] == "group":
         return Group(tuple(named(item, f"{name}__{k}") for k, item in enumerate(kind[1])))
@@ -151,7 +151,7 @@ def named(kind, name: str) -> Any:
     return Value(kind[0], kind[1], parts)
 
 
-def flat_parts(value: Any, kind) -> tuple[str, ...]:
+def flat_parts(value: Term, kind) -> tuple[str, ...]:
     """All component texts of a value, converted to `kind`."""
     if kind[0] == "group":
         if not isinstance(value, Group) or len(value.items) != len(kind[1]):
@@ -171,7 +171,7 @@ def flat_parts(value: Any, kind) -> tuple[str, ...]:
     return real_parts(value)
 
 
-def boolean_text(value: Any) -> str:
+def boolean_text(value: Term) -> str:
     """Code of a condition: a bool, or a number compared with zero."""
     if isinstance(value, Number):
         return str(bool(value.value))

@@ -2,8 +2,8 @@
 
 Outside a loop these are plain NumPy, so that a unit test evaluates a pair function on two particles
 by hand. Inside a loop the source compiler (`compute.source`) replaces them by scalar code written
-out for the dimension: nothing here is called then, except `interpolate` and `interpolation_slope`,
-which are scalar code already.
+out for the dimension: nothing here is called then but the last three functions, which are
+scalar code already.
 
 Only 1-, 2- and 3-dimensional square tensors have an inverse; complex numbers are left out.
 """
@@ -71,13 +71,10 @@ def inverse(M):
     return np.linalg.inv(M)
 
 
-def interpolate(x, nodes, values):
-    """Piecewise linear value at x; beyond the first and last node the end segments are extended.
-
-    Args:
-        x: scalar. nodes: strictly increasing table, shape [m], m >= 2. values: table, shape [m].
-    """
-    low = 0
+def segment(x, nodes):
+    """Number of the node before x in a strictly increasing table of two or more; the first and the
+    last segment go on beyond the ends."""
+    low = 0 * len(nodes)  # a whole number
     high = len(nodes) - 1
     while high - low > 1:
         middle = (low + high) // 2
@@ -85,18 +82,17 @@ def interpolate(x, nodes, values):
             high = middle
         else:
             low = middle
+    return low
+
+
+def interpolate(x, nodes, values):
+    """Piecewise linear value at scalar x; `nodes` and `values` are tables, see `segment`."""
+    low = segment(x, nodes)
     slope = (values[low + 1] - values[low]) / (nodes[low + 1] - nodes[low])
     return values[low] + slope * (x - nodes[low])
 
 
 def interpolation_slope(x, nodes, values):
     """Slope of the segment that `interpolate` uses at x; at a node, of the one to its right."""
-    low = 0
-    high = len(nodes) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if x < nodes[middle]:
-            high = middle
-        else:
-            low = middle
+    low = segment(x, nodes)
     return (values[low + 1] - values[low]) / (nodes[low + 1] - nodes[low])

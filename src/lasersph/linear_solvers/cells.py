@@ -1,4 +1,4 @@
-"""Square cells around a set of particles, and the members of numbered bins such as cells.
+"""Square cells around a set of particles, which follow these.
 
 The smallest box of cells around the particles with mask 1, made anew from their positions, so that
 nothing of it needs to survive a step. On a periodic axis whole cells fill the period.
@@ -15,6 +15,7 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.particles.cell_grid import cell_along, place_along
 
 FAR = 1e30
 
@@ -59,19 +60,13 @@ def box(x, mask):
     return FAR, -FAR, FAR, -FAR
 
 
-def placed(x, mask, lower, inverse, cells, cell_lines, x_wraps, z_wraps):
+def place(x, mask, lower, inverse, cells, cell_lines, x_wraps, z_wraps):
     """Place (u, w) in units of the spacing, and number of the cell; the last where mask is 0."""
-    u = (x[0] - lower[0]) * inverse[0]
-    w = (x[1] - lower[1]) * inverse[1]
-    if x_wraps > 0:
-        u = u - cells * floor(u / cells)
-    if z_wraps > 0:
-        w = w - cell_lines * floor(w / cell_lines)
-    c = min(max(int(u), 0), cells - 1)
-    m = min(max(int(w), 0), cell_lines - 1)
+    u = place_along(x[0], lower[0], inverse[0], cells, x_wraps)
+    w = place_along(x[1], lower[1], inverse[1], cell_lines, z_wraps)
     if mask <= 0.0:
         return u, w, cells * cell_lines
-    return u, w, c * cell_lines + m
+    return u, w, cell_along(u, cells) * cell_lines + cell_along(w, cell_lines)
 
 
 class Cells:
@@ -99,7 +94,7 @@ class Cells:
 
     @property
     def shape(self) -> dict[str, Any]:
-        """Numbers of cells by the names of `placed`."""
+        """Numbers of cells by the names of `place`."""
         x, z = self.x, self.z
         return {
             "cells": x.cells,
@@ -118,7 +113,7 @@ class Cells:
         z_low, self.z = _axis(self.width, self.period[1], *bounds[2:])
         lower, inverse = (x_low, z_low), (1.0 / self.x.spacing, 1.0 / self.z.spacing)
         out = (self.u, self.w, self.number)
-        self.backend.pointwise(placed, fields, out, lower=lower, inverse=inverse, **self.shape)
+        self.backend.pointwise(place, fields, out, lower=lower, inverse=inverse, **self.shape)
 
 
 def _axis(width: float, period: float, low: float, high: float) -> tuple[float, Axis]:
@@ -132,23 +127,3 @@ def _axis(width: float, period: float, low: float, high: float) -> tuple[float, 
         return 0.0, Axis(1, width, False)
     first = floor(low / width)
     return first * width, Axis(floor(high / width) - first + 1, width, False)
-
-
-@dataclass(frozen=True)
-class Bins:
-    """Members of numbered bins, for sums over bins in a fixed order.
-
-    Attributes:
-        order: (n,) members, bin after bin, each in the order of its numbers.
-        start: (bins + 1,) first place of each bin in it.
-    """
-
-    order: Array
-    start: Array
-
-
-def find_bins(backend: Backend, keys: Array, count: int) -> Bins:
-    """Bins of members from the bin of each, `keys` (n,) of kind "index" below `count`."""
-    start = backend.zeros(count + 1, "offset")
-    backend.exclusive_scan(backend.count_by_key(keys, count), start)
-    return Bins(backend.sort_by_key(keys, count), start)

@@ -14,7 +14,8 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.linear_solvers.cells import Cells, find_bins
+from lasersph.linear_solvers.cells import Cells
+from lasersph.particles.neighbor_lists import members_of
 
 CELL = 0.35
 """Width of a cell over the support radius; 1.3 spacings where the support is 3.75."""
@@ -111,7 +112,7 @@ class Components:
         self.count = int(backend.look(before)[-1])
         fields, out = {"part": self.number}, (self.number, self.mask)
         backend.pointwise(component_of, fields, out, members=members, before=before)
-        self._bins = find_bins(backend, self.number, self.count + 1)
+        self._members = members_of(backend, self.number, self.count + 1)
         self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
         self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
         self._sum(share_of, self._share, boundary_coefficient=boundary_coefficient)
@@ -130,5 +131,5 @@ class Components:
         self, function: Callable, out: Array, share: Array | None = None, **arrays: Array
     ) -> None:
         fields = self._places if share is None else self._places | {"share": share}
-        order, start = self._bins.order, self._bins.start
+        order, start = self._members.neighbor, self._members.row_start
         self.backend.pointwise(function, fields, out, order=order, start=start, **arrays)

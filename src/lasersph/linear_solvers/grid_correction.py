@@ -33,7 +33,8 @@ from lasersph.compute.backend import Backend
 from lasersph.compute.dense import invert
 from lasersph.compute.routine import Step
 from lasersph.linear_solvers import grid_nodes, grid_transfer
-from lasersph.linear_solvers.cells import Axis, Bins, Cells, find_bins
+from lasersph.linear_solvers.cells import Axis, Cells
+from lasersph.particles.neighbor_lists import NeighborList, members_of
 
 WIDTH = 2.0 / 3.0
 """Spacing of the finest grid over the support radius."""
@@ -147,11 +148,11 @@ class GridCorrection:
         cells.place(position, mask)
         if not self.levels or (self.levels[0].x, self.levels[0].z) != (cells.x, cells.z):
             self._make_levels(cells.x, cells.z)
-        bins = find_bins(backend, cells.number, cells.count + 1)
-        backend.copy(bins.order, self._bins.order)
-        backend.copy(bins.start, self._bins.start)
-        backend.gather(cells.u, self._bins.order, self._sorted_u)
-        backend.gather(cells.w, self._bins.order, self._sorted_w)
+        members = members_of(backend, cells.number, cells.count)
+        backend.copy(members.row_start, self._members.row_start)
+        backend.copy(members.neighbor, self._order)
+        backend.gather(cells.u, self._order, self._sorted_u)
+        backend.gather(cells.w, self._order, self._sorted_w)
         for values, name in ((volume, "C"), (boundary_coefficient, "a")):
             self._collect(values, (self.levels[0].at[name], None, None))
         for level, above in zip(self.levels, [*self.levels[1:], None], strict=True):
@@ -190,7 +191,7 @@ class GridCorrection:
         backend = self.backend
         cells = x.cells * z.cells
         self._step = None
-        self._bins = Bins(self._order, backend.zeros(cells + 2, "offset"))
+        self._members = NeighborList(backend.zeros(cells + 1, "offset"), self._order)
         self._places = _places(backend, x.cells, z.cells)
         self._sums = [backend.zeros(cells + 1) for _ in range(4)]
         self._sum_heads = tuple(backend.head(array, cells) for array in self._sums)
@@ -208,8 +209,8 @@ class GridCorrection:
             self._places,
             self._sum_heads,
             values=values,
-            order=self._bins.order,
-            start=self._bins.start,
+            order=self._order,
+            start=self._members.row_start,
             u=self._sorted_u,
             w=self._sorted_w,
         )

@@ -8,6 +8,7 @@ cell run in the order of their numbers.
 from __future__ import annotations
 
 from lasersph.linear_solvers.grid_nodes import before, inside, node, started
+from lasersph.particles.cell_grid import cell_along
 
 
 def corner_sums(k, c, m, values, order, start, u, w):
@@ -41,8 +42,8 @@ def from_cells(c, m, v, s, sum_00, sum_01, sum_10, sum_11, cells, cell_lines, x_
 
 def at_particle(u, w, nodes, columns, lines, cells, cell_lines, x_wraps, z_wraps):
     """Bilinear interpolation of the nodes' values at a particle."""
-    c = min(max(int(u), 0), cells - 1)
-    m = min(max(int(w), 0), cell_lines - 1)
+    c = cell_along(u, cells)
+    m = cell_along(w, cell_lines)
     s = u - c
     t = w - m
     c0 = c * lines

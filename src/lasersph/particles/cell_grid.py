@@ -2,63 +2,79 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import floor
 
 import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import dot
 
 
-def cell_along(x, axis, low, inverse, count):
-    """Number of the cell along an axis, that at the end for what is outside.
+def place_along(x, low, inverse, count, wraps):
+    """Place along an axis in cells from the lower end, within the `count` cells where that wraps.
 
     Args:
-        x: position [m]. axis: unit vector. low: of the box [m]. inverse: 1 / width [1/m].
+        x: coordinate [m]. low: of the box [m]. inverse: 1 / width of a cell [1/m].
     """
-    return min(max(floor((dot(x, axis) - low) * inverse), 0.0), count - 1.0)
+    u = (x - low) * inverse
+    return u - count * floor(u / count) if wraps > 0 else u
 
 
-def cell_number(number, place, count):
-    """Number of a cell after one more axis."""
-    return int(number * count + place)
+def cell_along(u, count):
+    """Number of the cell at a place along an axis, that at the end for what is outside."""
+    return min(max(int(u), 0), count - 1)
 
 
-def partial_number(number, place, count):
-    """`cell_number` as a real number, for the axes before the last."""
-    return number * count + place
+def cell_number(x, low, inverse, shape):
+    """Number of the cell at x [m], with the last axis fastest."""
+    number = cell_along((x[0] - low[0]) * inverse[0], int(shape[0]))
+    if len(x) > 1:
+        number = number * int(shape[1])
+        number = number + cell_along((x[1] - low[1]) * inverse[1], int(shape[1]))
+    if len(x) > 2:
+        number = number * int(shape[2])
+        number = number + cell_along((x[2] - low[2]) * inverse[2], int(shape[2]))
+    return number
+
+
+def value_of_cell(cell, values):
+    """Value of a particle's cell."""
+    return values[cell]
 
 
 class CellGrid:
-    """Equal cells of a box, at least as wide as asked for where the box is.
+    """Equal cells of a box.
 
     Args:
-        low: lower corner of the box [m]. extent: along each axis [m]. width: [m].
+        low: lower corner [m]. shape: cells along each axis. inverse: 1 / width of a cell [1/m].
 
     Attributes:
-        shape: cells along each axis; they are numbered with the last axis fastest. count: of all.
-        width: along each axis [m].
+        width: of a cell along each axis [m].
+        count: of all cells, which are numbered with the last axis fastest.
+        constants: of the loops that use `cell_number`.
     """
 
-    def __init__(self, backend: Backend, low: np.ndarray, extent: np.ndarray, width: float) -> None:
-        self.backend = backend
-        self.shape = np.maximum(1, np.floor(extent / width)).astype(np.int64)
-        self.count = int(np.prod(self.shape))
-        self._low, self._inverse = low, self.shape / np.maximum(extent, width)
-        self.width = 1.0 / self._inverse
+    def __init__(
+        self, low: Sequence[float], shape: Sequence[float], inverse: Sequence[float]
+    ) -> None:
+        self.shape = tuple(map(int, shape))
+        self.count, self.width = int(np.prod(self.shape)), tuple(1.0 / float(k) for k in inverse)
+        self.constants = {"low": tuple(map(float, low)), "shape": self.shape}
+        self.constants["inverse"] = tuple(map(float, inverse))
 
-    def find_cells(self, position: Array) -> Array:
+    @classmethod
+    def over(cls, low: np.ndarray, extent: np.ndarray, width: float) -> CellGrid:
+        """Cells that fill a box, at least as wide as asked for [m] where the box is.
+
+        Args:
+            low: lower corner of the box [m]. extent: along each axis [m].
+        """
+        shape = np.maximum(1, np.floor(extent / width))
+        return cls(low, shape, shape / np.maximum(extent, width))
+
+    def find_cells(self, backend: Backend, position: Array) -> Array:
         """Number of the cell of each position (dim, n) [m], (n,) of kind "index"."""
-        backend, last, size = self.backend, len(self.shape) - 1, position.shape[1]
-        place, number = backend.zeros(size), backend.zeros(size)
-        cell = backend.zeros(size, "index")
-        for axis, count in enumerate(self.shape):
-            unit = tuple(float(k == axis) for k in range(last + 1))
-            constants = {"axis": unit, "low": float(self._low[axis]), "count": float(count)}
-            inverse = float(self._inverse[axis])
-            backend.pointwise(cell_along, {"x": position}, place, inverse=inverse, **constants)
-            join, out = (cell_number, cell) if axis == last else (partial_number, number)
-            fields = {"number": number, "place": place}
-            backend.pointwise(join, fields, out, count=float(count))
+        cell = backend.zeros(position.shape[1], "index")
+        backend.pointwise(cell_number, {"x": position}, cell, **self.constants)
         return cell

@@ -88,11 +88,11 @@ class RelativeDisplacement:
         self._members: NeighborList | None = None
         low, high = np.array(box.low), np.array(box.high)
         width = WIDTH * distance
-        self._grid = CellGrid(backend, low, high - low, width)
+        self._grid = CellGrid.over(low, high - low, width)
         while self._grid.count > total:
             width *= WIDER
-            self._grid = CellGrid(backend, low, high - low, width)
-        self.clear = RANGE * float(self._grid.width.min())
+            self._grid = CellGrid.over(low, high - low, width)
+        self.clear = RANGE * min(self._grid.width)
         self._displacement = backend.zeros((dimension, total))
         size = (dimension, self._grid.count)
         self._extremes, *self._around = (
@@ -122,7 +122,7 @@ class RelativeDisplacement:
         """The bound [m] after `step` [s] at the velocities that particles have now."""
         backend = self.backend
         if self._members is None:
-            cell = self._grid.find_cells(self._fields["x_listed"])
+            cell = self._grid.find_cells(backend, self._fields["x_listed"])
             self._members = members_of(backend, cell, self._grid.count)
         backend.pointwise(predicted_displacement, self._fields, self._displacement, dt=step)
         how = ("max", "min")

@@ -7,19 +7,12 @@ pointwise; the node arrays are tables, extended by their end segments.
 
 from __future__ import annotations
 
-from lasersph.compute.vectors import interpolate, interpolation_slope
+from lasersph.compute.vectors import interpolate, interpolation_slope, segment
 
 
 def state(h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes):
     """Temperature [K], heat potential [W/m], melt and vapor fraction at enthalpy h [J/kg]."""
-    low = 0
-    high = len(h_nodes) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if h < h_nodes[middle]:
-            high = middle
-        else:
-            low = middle
+    low = segment(h, h_nodes)
     share = (h - h_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
     return (
         T_nodes[low] + share * (T_nodes[low + 1] - T_nodes[low]),
@@ -71,15 +64,8 @@ def follow_potential(h, dP, dh, h_nodes, P_nodes):
     Args:
         h: enthalpy before. dP: change of the potential. dh: change of h on a plateau.
     """
-    low = 0
-    high = len(h_nodes) - 1
-    last = high - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if h < h_nodes[middle]:
-            high = middle
-        else:
-            low = middle
+    low = segment(h, h_nodes)
+    last = len(h_nodes) - 2
     slope = (P_nodes[low + 1] - P_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
     P = P_nodes[low] + slope * (h - h_nodes[low])
     new = h + dh

@@ -13,7 +13,6 @@ References: [Randles1996], [Bonet1999], [Alshaer2017].
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
@@ -62,28 +61,28 @@ def corrected(total, C):
 
 
 def correction_matrix(
-    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], M: Array
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Array], M: Array
 ) -> None:
     """Write M into `M`, shape (d, d, n); field V, shape (N,)."""
     backend.pair_sum(correction_term, neighbors, fields, M)
 
 
 def inverse_correction(
-    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], C: Array
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Array], C: Array
 ) -> None:
     """Write C = M^-1 into `C`, shape (d, d, n); field V, shape (N,)."""
     backend.pair_sum(correction_term, neighbors, fields, C, finish=inverted)
 
 
 def standard_gradient(
-    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], gradient: Array
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Array], gradient: Array
 ) -> None:
     """Write sum_j V_j (f_j - f_i) grad W_ij into `gradient`, shape (d, n); fields f and V."""
     backend.pair_sum(volume_difference_term, neighbors, fields, gradient)
 
 
 def corrected_gradient(
-    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], gradient: Array
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Array], gradient: Array
 ) -> None:
     """Write the corrected gradient into `gradient`, shape (d, n).
 

@@ -12,7 +12,6 @@ cubic lattice with the cubic spline, h = 1.5 dx, it is 3.030 inside, 2.810 in th
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
@@ -44,7 +43,7 @@ def position_term(V_j, r_ij, dW_ij):
 
 
 def divergence(
-    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], out: Array
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Array], out: Array
 ) -> None:
     """Write D- (47) into `out`, shape (n,); fields v, shape (d, N), m and rho, shape (N,)."""
     backend.pair_sum(difference_term, neighbors, fields, out)

@@ -11,7 +11,6 @@ kernel where the support is cut, see `correction`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
@@ -38,14 +37,14 @@ def symmetric_term(f_i, f_j, m_j, rho_i, rho_j, x_ij, r_ij, dW_ij):
 
 
 def difference_gradient(
-    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], gradient: Array
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Array], gradient: Array
 ) -> None:
     """Write G- (45) into `gradient`, shape (d, n); fields f, m and rho, shape (N,)."""
     backend.pair_sum(difference_term, neighbors, fields, gradient)
 
 
 def symmetric_gradient(
-    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], gradient: Array
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Array], gradient: Array
 ) -> None:
     """Write G+ (46) into `gradient`, shape (d, n); fields f, m and rho, shape (N,)."""
     backend.pair_sum(symmetric_term, neighbors, fields, gradient)

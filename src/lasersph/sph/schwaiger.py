@@ -22,7 +22,6 @@ References: [Schwaiger2008], [Alshaer2017].
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
@@ -101,7 +100,7 @@ def matrix_term(mu_i, mu_j, C_i, N_i, factor_i, V_j, x_ij, r_ij, dW_ij):
 def schwaiger_laplacian(
     backend: Backend,
     neighbors: NeighborList,
-    fields: Mapping[str, Any],
+    fields: Mapping[str, Array],
     out: Array,
     *,
     use_gamma: bool = True,
@@ -124,7 +123,7 @@ def schwaiger_laplacian(
 def schwaiger_matrix(
     backend: Backend,
     neighbors: NeighborList,
-    fields: Mapping[str, Any],
+    fields: Mapping[str, Array],
     out: Array,
     *,
     use_gamma: bool = True,
@@ -141,8 +140,8 @@ def schwaiger_matrix(
 
 
 def _moments(
-    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Any], n: int, use_gamma: bool
-) -> dict[str, Any]:
+    backend: Backend, neighbors: NeighborList, fields: Mapping[str, Array], n: int, use_gamma: bool
+) -> dict[str, Array]:
     """N, shape (d, n), and the factor in front, shape (n,)."""
     assert neighbors.position is not None
     d = neighbors.position.shape[0]

@@ -120,8 +120,6 @@ def test_escape(backend, bad):
     x[1, 17] = bad
     with pytest.raises(search.EscapedParticle, match=r"particle 17 escaped: position \(0\.\d+, "):
         rows_of(backend, x, np.full(50, 0.1), 50, lower=(0.0, 0.0), upper=(1.0, 1.0))
-    with pytest.raises(search.EscapedParticle, match="particle 17"):
-        search.cell_order(backend, backend.asarray(x), 0.1, (0.0, 0.0), (1.0, 1.0))
 
 
 def test_refusals(backend):
@@ -135,16 +133,6 @@ def test_refusals(backend):
         rows_of(backend, x, np.where(np.arange(50) == 3, -1.0, 0.1), 50)
     with pytest.raises(ValueError, match="60 rows, 50 particles"):
         rows_of(backend, x, np.full(50, 0.1), 60)
-
-
-def test_cell_order(backend):
-    """Cells of 1 m, first axis fastest; equal cells keep their order."""
-    x = [[1.6, 0.4, 1.7, 0.3, 0.0], [1.5, 1.2, 0.2, 0.1, 0.0]]
-    order = search.cell_order(backend, backend.asarray(x), 1.0)
-    assert backend.to_host(order).tolist() == [3, 4, 2, 1, 0]
-    assert backend.to_host(search.cell_order(backend, backend.zeros((2, 0)), 1.0)).size == 0
-    fine = search.cell_order(backend, backend.asarray(x), 1e-9)
-    assert sorted(backend.to_host(fine).tolist()) == [0, 1, 2, 3, 4]
 
 
 def test_lists_in_one_room(backend):

@@ -5,7 +5,7 @@ import pytest
 from scattered_pairs import LEFT, TOP, scattered
 
 from lasersph.linear_solvers import grid_nodes
-from lasersph.linear_solvers.cells import Axis, Cells, find_bins
+from lasersph.linear_solvers.cells import Axis, Cells
 from lasersph.linear_solvers.grid_correction import COARSEST, GridCorrection
 
 
@@ -33,13 +33,6 @@ def prepared(
         backend.asarray(boundary_coefficient),
     )
     return correction, mask
-
-
-def test_bins_by_hand(backend):
-    """Members of bins 0, 1 and 2, one of them empty."""
-    bins = find_bins(backend, backend.asarray([2, 0, 2, 0], "index"), 3)
-    assert backend.to_host(bins.order).tolist() == [1, 3, 0, 2]
-    assert backend.to_host(bins.start).tolist() == [0, 2, 2, 4]
 
 
 def test_cells_by_hand(backend):

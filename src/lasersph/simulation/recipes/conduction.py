@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.lasers.pulses import PulseTrain
 from lasersph.observers import Observers, heat_observers
@@ -50,7 +51,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         return Conduction(body, settings, case.time, case.laser)
 
     def heat_view(
-        self, solver: Any, step: int, limit: str, take: Callable[[Any], np.ndarray]
+        self, solver: Any, step: int, limit: str, take: Callable[[Array], np.ndarray]
     ) -> dict[str, Any]:
         """Fields of `View` for a body at rest; `take` fetches an array of the solver."""
         body, particles, count = solver.body, solver.particles, solver.body.count

@@ -24,7 +24,7 @@ import numpy as np
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
-from lasersph.particles.cell_grid import CellGrid
+from lasersph.particles.cell_grid import CellGrid, value_of_cell
 from lasersph.particles.kinds import EJECTED, GONE
 from lasersph.particles.neighbor_lists import Subset
 
@@ -46,11 +46,6 @@ def is_disturbed(h, v, kind, least):
     if kind >= EJECTED and kind <= GONE:
         return 0.0
     return 1.0 if abs(h) > least or dot(v, v) > 0.0 else 0.0
-
-
-def mark_of_cell(cell, marks):
-    """Mark of a particle's cell."""
-    return marks[cell]
 
 
 class ActiveRegion:
@@ -83,9 +78,9 @@ class ActiveRegion:
         host = backend.look(position)
         low, high = host.min(axis=1), host.max(axis=1)
         extent = np.where(np.array(self.period) > 0.0, self.period, high - low)
-        self._grid = CellGrid(backend, low, extent, support)
+        self._grid = CellGrid.over(low, extent, support)
         self._shape = self._grid.shape
-        self.cell = self._grid.find_cells(position)
+        self.cell = self._grid.find_cells(backend, position)
         self._largest = 0.0
         self._mark = backend.zeros(self.count)
         self.fields = {"active": backend.zeros(self._grid.count)}
@@ -167,7 +162,7 @@ class ActiveRegion:
     def _particles_in(self, cells: np.ndarray) -> Rows:
         """Particles that started in these cells, in order; `_mark` is 1 for them."""
         marks = self.backend.asarray(cells.ravel().astype(float))
-        self.backend.pointwise(mark_of_cell, {"cell": self.cell}, self._mark, marks=marks)
+        self.backend.pointwise(value_of_cell, {"cell": self.cell}, self._mark, values=marks)
         return self.backend.rows_where(self._mark, 1.0)
 
     def _cells_of(self, position: Array, rows: Rows) -> np.ndarray:
@@ -175,7 +170,7 @@ class ActiveRegion:
         backend = self.backend
         x = backend.zeros((len(self._shape), rows.shape[0]))
         backend.gather(position, rows, x)
-        counts = backend.count_by_key(self._grid.find_cells(x), self._grid.count)
+        counts = backend.count_by_key(self._grid.find_cells(backend, x), self._grid.count)
         return backend.to_host(counts).reshape(self._shape) > 0
 
     def _around(self, cells: np.ndarray, distance: int) -> np.ndarray:

@@ -12,22 +12,21 @@ import numpy as np
 from lasersph.compute import search
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.particles.cell_grid import CellGrid, cell_number, value_of_cell
 
 AT_ENDS = 5
 """Columns at either end of a period whose marks are shared: two outside, two of ghosts, one."""
 
 
-def cell_of(x, fluid, low, high, corner, inverse, columns, lines):
+def cell_of(x, fluid, least, most, count, low, inverse, shape):
     """Cell of a particle; that of a fluid one, else the number of cells; 1 where it has escaped."""
-    is_across = x[0] >= low[0] and x[0] <= high[0]
-    if not (is_across and x[1] >= low[1] and x[1] <= high[1]):
-        return 0 * columns, columns * lines, 1.0
-    c = int((x[0] - corner[0]) * inverse)
-    m = int((x[1] - corner[1]) * inverse)
-    cell = c * lines + m
+    is_across = x[0] >= least[0] and x[0] <= most[0]
+    if not (is_across and x[1] >= least[1] and x[1] <= most[1]):
+        return 0 * count, count, 1.0
+    cell = cell_number(x, low, inverse, shape)
     if fluid > 0.0:
         return cell, cell, 0.0
-    return cell, columns * lines, 0.0
+    return cell, count, 0.0
 
 
 def near_fluid(k, fluid_count, columns, lines):
@@ -60,11 +59,6 @@ def periodic_mark(k, mark, line_marks, lines, last):
     return mark
 
 
-def mark_of_cell(cell, marks):
-    """Mark of a particle's cell."""
-    return marks[cell]
-
-
 class NearMelt:
     """Cells around the first `count` particles.
 
@@ -90,12 +84,12 @@ class NearMelt:
         width = [int((high - low) / radius) + AT_ENDS for low, high in bounds]
         self._shape = {"columns": width[0], "lines": width[1]}
         corner = tuple(low - 2.0 * radius for low, _ in bounds)
-        self._grid = {"low": self._low, "high": self._high, "corner": corner}
-        self._grid |= {"inverse": 1.0 / radius, **self._shape}
+        self._grid = CellGrid(corner, width, (1.0 / radius, 1.0 / radius))
+        self._bounds = {"least": self._low, "most": self._high, "count": self._grid.count}
         (x0, x1), _ = bounds
         self._last = max(round((x1 - x0) / radius) - 1, 0)
-        self._cells = {"k": backend.asarray(np.arange(width[0] * width[1]), "index")}
-        self._marks = backend.zeros(width[0] * width[1])
+        self._cells = {"k": backend.asarray(np.arange(self._grid.count), "index")}
+        self._marks = backend.zeros(self._grid.count)
         self._line_marks = backend.zeros(width[1])
         self._cell, self._fluid_cell = (backend.zeros(count, "index") for _ in range(2))
 
@@ -112,7 +106,9 @@ class NearMelt:
         place = backend.head(position, self.count)
         fields = {"x": place, "fluid": backend.head(fluid, self.count)}
         out, reduce = (self._cell, self._fluid_cell, None), (None, None, "max")
-        (escaped,) = backend.pointwise(cell_of, fields, out, reduce=reduce, **self._grid)
+        (escaped,) = backend.pointwise(
+            cell_of, fields, out, reduce=reduce, **self._bounds, **self._grid.constants
+        )
         if escaped > 0.0:
             search.refuse_escape(backend.to_host(place), self._low, self._high)
         fluid_count = backend.count_by_key(self._fluid_cell, marks.shape[0] + 1)
@@ -126,5 +122,5 @@ class NearMelt:
             fields = cells | {"mark": marks}
             backend.pointwise(periodic_mark, fields, marks, line_marks=self._line_marks, **lines)
         found = backend.zeros(self.count)
-        backend.pointwise(mark_of_cell, {"cell": self._cell}, found, marks=marks)
+        backend.pointwise(value_of_cell, {"cell": self._cell}, found, values=marks)
         return found

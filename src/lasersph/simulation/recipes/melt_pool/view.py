@@ -6,12 +6,12 @@ The observer of a box looks at some states later than the step after which it is
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case import Case
+from lasersph.compute.array_types import Array
 from lasersph.observers.flow_view import FlowView
 from lasersph.physics.evaporation import (
     STANDARD_ATMOSPHERE,
@@ -24,7 +24,7 @@ from lasersph.solvers.step_control import ROUNDING
 SIDES = ("left", "right", "bottom", "surface")
 
 
-def flow_view(case: Case, solver: MeltPool, take: Callable[[Any], np.ndarray]) -> FlowView:
+def flow_view(case: Case, solver: MeltPool, take: Callable[[Array], np.ndarray]) -> FlowView:
     """The flow for observers; `take` fetches an array of the solver."""
     flow, free, backend = solver.flow, solver.domain.surface, solver.backend
     liquid, material = flow.liquid, case.material
