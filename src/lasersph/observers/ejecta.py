@@ -85,7 +85,7 @@ class Ejecta(Observer):
             for name, unit in RANGES.items()
             for word, text in (("mean", "mean"), ("min", "smallest"), ("max", "largest"))
         ),
-        Quantity("ejecta.vapor_pressure_max_Pa", "Pa", "largest vapor pressure, eq. (5)"),
+        Quantity("ejecta.vapor_pressure_max_Pa", "Pa", "largest vapor pressure at leaving"),
     )
     kept = ("ranges", "vapor_pressure", "times", "seen_until", "counts")
 

@@ -5,9 +5,10 @@ All arguments and results are floats in SI units.
 Phase explosion is taken to set in at 0.9 T_c [Kelly1996], shielding of the light by the vapor at
 T_c, where [Alshaer2017, Section 4.4] lets the vapor break down and absorb. A surface pinned at the
 boiling point never gets there; the temperature to compare is the one at which evaporation alone,
-with the latent heat and the kinetics of `evaporation`, carries the absorbed flux away:
+with the latent heat, the pressure and the kinetics of `evaporation`, carries the absorbed flux
+away, as it does from a front that recedes steadily (Landau):
 
-    0.82 p(T) / sqrt(2 pi R_s T) [c_p (T - T_0) + L_m + L_v] = q
+    0.82 p(T) / sqrt(2 pi R_s T) [c_p (T - T_0) + L_m + L_v(T)] = q
 
 Recoil pressure moves the melt once it exceeds the capillary pressure 2 gamma / r of a pool of
 radius r: 0.54 p(T) = 2 gamma / r.
@@ -19,9 +20,15 @@ Sci. 96-98, 205; [Tam1992] Tam et al., J. Appl. Phys. 71, 3515, as cited by [Als
 
 from __future__ import annotations
 
-from math import exp, log
+from collections.abc import Callable
+from math import exp, inf, log
 
-from lasersph.physics.evaporation import RECOIL_FACTOR, mass_flux, saturation_pressure
+from lasersph.physics.evaporation import (
+    RECOIL_FACTOR,
+    latent_heat,
+    mass_flux,
+    saturation_pressure,
+)
 
 PHASE_EXPLOSION = 0.9
 """Temperature of phase explosion over the critical temperature [Kelly1996]."""
@@ -30,7 +37,9 @@ EJECTION_ACCELERATION = 1e8
 VAPOR_ABSORPTION = 4e-2
 """Absorption coefficient of aluminium vapor below 4000 K [1/m], [Hoffman2002]."""
 HOTTEST = 1e6
-"""Where the search for a temperature ends [K]."""
+"""Where the search for a temperature ends in a metal without critical point [K]."""
+INTERVALS, HALVINGS = 200, 60
+"""A search looks at the ends of so many intervals, then halves one down to rounding."""
 
 
 def light_left(depth: float, absorption_coefficient: float) -> float:
@@ -51,49 +60,69 @@ def absorbed_by_vapor(height: float, absorption_coefficient: float = VAPOR_ABSOR
     return 1.0 - exp(-absorption_coefficient * height)
 
 
-def temperature_at_pressure(p: float, p_b: float, T_b: float, L_v: float, R_s: float) -> float:
-    """Temperature at which eq. (5) of [Alshaer2017] gives a pressure [K]; inf beyond its range.
+def temperature_at_pressure(
+    p: float, *, p_b: float, T_b: float, L_b: float, T_c: float, R_s: float
+) -> float:
+    """Temperature at which the saturation pressure is p [K]; inf where it never gets so high."""
 
-    1/T = 1/T_b - R_s/L_v ln(p/p_b)
-    """
-    inverse = 1.0 / T_b - R_s / L_v * log(p / p_b)
-    return 1.0 / inverse if inverse > 0.0 else float("inf")
+    def pressure(T: float) -> float:
+        return saturation_pressure(T, p_b, T_b, L_b, T_c, R_s)
+
+    return first_crossing(pressure, p, 0.2 * T_b, min(T_c, HOTTEST))
 
 
 def evaporating_temperature(
     flux: float,
     *,
-    p_b: float,
-    T_b: float,
     T_0: float,
     c_p: float,
     L_m: float,
-    L_v: float,
+    p_b: float,
+    T_b: float,
+    L_b: float,
+    T_c: float,
     R_s: float,
 ) -> float:
     """Temperature at which evaporation alone carries a flux [W/m^2] away [K]; see above.
 
-    By bisection; T_b where that much evaporates below the boiling point, `HOTTEST` at most.
+    T_b where that much evaporates below the boiling point; T_c where not even then it does.
     """
 
     def carried_flux(T: float) -> float:
-        pressure = saturation_pressure(T, p_b, T_b, L_v, R_s)
-        return mass_flux(T, pressure, R_s) * (c_p * (T - T_0) + L_m + L_v)
+        pressure = saturation_pressure(T, p_b, T_b, L_b, T_c, R_s)
+        heat = c_p * (T - T_0) + L_m + latent_heat(T, T_b, L_b, T_c)
+        return mass_flux(T, pressure, R_s) * heat
 
-    low, high = T_b, HOTTEST
-    if carried_flux(low) >= flux:
-        return low
-    if carried_flux(high) <= flux:
-        return high
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried_flux(middle) < flux else (low, middle)
-    return 0.5 * (low + high)
+    hottest = min(T_c, HOTTEST)
+    return min(first_crossing(carried_flux, flux, T_b, hottest), hottest)
 
 
-def recoil_moves_melt_at(
-    radius: float, *, surface_tension: float, p_b: float, T_b: float, L_v: float, R_s: float
+def first_crossing(
+    function: Callable[[float], float], wanted: float, low: float, high: float
 ) -> float:
-    """Temperature at which the recoil pressure exceeds the capillary pressure 2 gamma / r [K]."""
+    """Lowest argument at which a function has risen to a value; low or inf where there is none.
+
+    The flux that evaporation carries falls again near T_c, as the latent heat does.
+    """
+    if function(low) >= wanted:
+        return low
+    width = (high - low) / INTERVALS
+    ends = (low + (k + 1) * width for k in range(INTERVALS))
+    upper = next((T for T in ends if function(T) >= wanted), inf)
+    if upper == inf:
+        return inf
+    lower = upper - width
+    for _ in range(HALVINGS):
+        middle = 0.5 * (lower + upper)
+        lower, upper = (middle, upper) if function(middle) < wanted else (lower, middle)
+    return 0.5 * (lower + upper)
+
+
+def recoil_moves_melt_at(radius: float, surface_tension: float, vapor: dict[str, float]) -> float:
+    """Temperature at which the recoil pressure exceeds the capillary pressure 2 gamma / r [K].
+
+    Args:
+        radius: of the pool [m]. surface_tension: [N/m]. vapor: `evaporation.vapor_constants`.
+    """
     pressure = 2.0 * surface_tension / (radius * RECOIL_FACTOR)
-    return temperature_at_pressure(pressure, p_b, T_b, L_v, R_s)
+    return temperature_at_pressure(pressure, **vapor)

@@ -106,19 +106,18 @@ def enthalpy_departure(kind, h, m, light, exposed, T, normal, v, h_v, R_s, is_ef
     return kind, v, h, 0.0
 
 
-def ejected_quantities(kind, left_at, p_v, T, m, h, v, time, p_b, T_b, L_v, R_s):
+def ejected_quantities(kind, left_at, p_v, T, m, h, v, time, p_b, T_b, L_b, T_c, R_s):
     """What a particle that has just left takes along.
 
-    Returns the time of leaving [s], the vapor pressure at it [Pa] (5), and, zero for the others,
+    Returns the time of leaving [s], the saturation pressure [Pa], and, zero for the others,
     1, its mass [kg], enthalpy m h and kinetic energy m v^2 / 2 [J].
 
     Args:
         left_at: 0 as long as it has not been written [s]. m: mass [kg]. h: [J/kg]. v: [m/s].
-            time: end of the step [s]. p_b, T_b: boiling point [Pa, K]. L_v: [J/kg]. R_s:
-            [J/(kg K)].
+            time: end of the step [s]. p_b, T_b, L_b, T_c, R_s: `evaporation.vapor_constants`.
     """
     if kind == EJECTED and left_at == 0.0:
-        p = saturation_pressure(T, p_b, T_b, L_v, R_s)
+        p = saturation_pressure(T, p_b, T_b, L_b, T_c, R_s)
         return time, p, 1.0, m, m * h, 0.5 * m * dot(v, v)
     return left_at, p_v, 0.0, 0.0, 0.0, 0.0
 

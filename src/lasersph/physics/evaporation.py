@@ -1,12 +1,14 @@
 """Evaporation of a liquid metal from its free surface, as pure scalar functions of temperature.
 
-Saturation pressure (Clausius-Clapeyron, ideal vapor), latent heat and Hertz-Knudsen mass flux with
-the back-flow of a Knudsen layer, each with its slope in T, recoil pressure, and vapor velocity:
+One curve of saturation pressure for everything that evaporates, from the same latent heat that the
+vapor takes along (Clausius-Clapeyron, ideal vapor of density rho_v = p / (R_s T)), Hertz-Knudsen
+mass flux with the back-flow of a Knudsen layer, and recoil pressure:
 
-    d(ln p)/dT = L_v(T) / (R_s T^2),    m = 0.82 p / sqrt(2 pi R_s T),    p_recoil = 0.54 p
+    dp/dT = L_v(T) rho_v / T,    m = 0.82 p / sqrt(2 pi R_s T),    p_recoil = 0.54 p
 
-The pressure is that of a constant L_v [Alshaer2017, eq. (5)]; the heat that evaporation takes is
-L_v(T), which vanishes at the critical temperature with Watson's exponent.
+L_v(T) vanishes at the critical temperature with Watson's exponent. A metal without one has a
+constant L_v, and then the pressure is eq. (5) of [Alshaer2017]; so has the published rule of
+ejection, which prints that equation.
 
 Plain functions of floats, so that the loop factory compiles them and a test can call them. Left
 out: a non-ideal vapor, ambient pressure and subsonic outflow (0.82 and 0.54 are the values of a
@@ -17,16 +19,17 @@ where: T temperature [K]; p_b pressure at the boiling point T_b [Pa, K] (1 atm);
 [J/(kg K)].
 
 References: [Alshaer2017] Comput. Mater. Sci. 127, 161; [Anisimov1968] Sov. Phys. JETP 27, 182
-(0.82 = 1 - 0.18 recondensed, 0.54-0.56); [Watson1943] Ind. Eng. Chem. 35, 398 (exponent 0.38).
+(0.82 = 1 - 0.18 recondensed, 0.54-0.56); [Knight1979] AIAA J. 17, 519 (0.816 and 0.550 for the same
+sonic outflow); [Watson1943] Ind. Eng. Chem. 35, 398 (exponent 0.38).
 """
 
 from __future__ import annotations
 
 from math import exp, sqrt
 
+from lasersph.materials.sections import Vaporization
+
 PI = 3.141592653589793
-GAS_CONSTANT = 8.314462618
-"""Molar gas constant [J/(mol K)] (CODATA 2018)."""
 STANDARD_ATMOSPHERE = 101325.0
 """Pressure at the normal boiling point [Pa]."""
 NET_EVAPORATION = 0.82
@@ -34,19 +37,56 @@ NET_EVAPORATION = 0.82
 RECOIL_FACTOR = 0.54
 """Recoil pressure over saturation pressure [Anisimov1968]."""
 WATSON_EXPONENT = 0.38
+"""[Watson1943]."""
+NO_CRITICAL_POINT = 1e12
+"""T_c of a metal that has none in its file: from here on L_v is constant [K]."""
 
 
-def saturation_pressure(T, p_b, T_b, L_v, R_s):
-    """Saturation pressure with constant latent heat [Pa] [Alshaer2017, eq. (5)].
+def vapor_constants(metal: Vaporization) -> dict[str, float]:
+    """p_b, T_b, L_b, T_c and R_s of a metal for the functions below; ValueError without M."""
+    return {
+        "p_b": STANDARD_ATMOSPHERE,
+        "T_b": metal.temperature,
+        "L_b": metal.latent_heat,
+        "T_c": metal.critical_temperature or NO_CRITICAL_POINT,
+        "R_s": metal.specific_gas_constant,
+    }
 
-    p = p_b exp( L_v / R_s (T - T_b) / (T T_b) )
+
+def saturation_pressure(T, p_b, T_b, L_b, T_c, R_s):
+    """Saturation pressure [Pa], consistent with `latent_heat`; from T_c on that at T_c.
+
+        ln(p / p_b) = int L_v / (R_s T^2) dT from T_b to T
+
+    With y = ((T_c - T) / (T_c - T_b))^0.69 the integrand is y / T(y)^2 but for constants, which is
+    smooth up to T_c: ten points of Gauss give its value to 1e-6 from T_c / 10 to 0.97 T_c.
     """
-    return p_b * exp(L_v / R_s * (T - T_b) / (T * T_b))
+    if T_c >= NO_CRITICAL_POINT:
+        return p_b * exp(L_b / R_s * (T - T_b) / (T * T_b))  # [Alshaer2017, eq. (5)]
+    span, power = T_c - T_b, 0.5 * (1.0 + WATSON_EXPONENT)
+    y = (max(T_c - T, 0.0) / span) ** power
+    middle, half = 0.5 * (1.0 + y), 0.5 * (1.0 - y)
+    total = (
+        0.2955242247147529 * gauss_pair(middle, 0.1488743389816312 * half, span, T_c)
+        + 0.2692667193099963 * gauss_pair(middle, 0.4333953941292472 * half, span, T_c)
+        + 0.2190863625159820 * gauss_pair(middle, 0.6794095682990244 * half, span, T_c)
+        + 0.1494513491505806 * gauss_pair(middle, 0.8650633666889845 * half, span, T_c)
+        + 0.0666713443086881 * gauss_pair(middle, 0.9739065285171717 * half, span, T_c)
+    )
+    return p_b * exp(L_b * span / (power * R_s) * half * total)
 
 
-def saturation_pressure_slope(T, p_b, T_b, L_v, R_s):
-    """dp/dT of ``saturation_pressure`` [Pa/K]: p L_v / (R_s T^2)."""
-    return saturation_pressure(T, p_b, T_b, L_v, R_s) * L_v / (R_s * T * T)
+def gauss_pair(middle, offset, span, T_c):
+    """Sum of y / T(y)^2 [1/K^2] at y = middle - offset and middle + offset."""
+    inverse = 2.0 / (1.0 + WATSON_EXPONENT)
+    lower = T_c - span * (middle - offset) ** inverse
+    upper = T_c - span * (middle + offset) ** inverse
+    return (middle - offset) / (lower * lower) + (middle + offset) / (upper * upper)
+
+
+def saturation_pressure_slope(T, p, L_v, R_s):
+    """dp/dT of `saturation_pressure` [Pa/K]: p L_v(T) / (R_s T^2), Clausius-Clapeyron."""
+    return p * L_v / (R_s * T * T)
 
 
 def latent_heat(T, T_b, L_b, T_c):

@@ -29,13 +29,9 @@ def surface_loss(T, T_a, h_c, eps):
 
 
 def evaporation_loss(T, p_b, T_b, L_b, T_c, R_s):
-    """Evaporative heat flux [W/m^2], its slope in T [W/(m^2 K)] and the mass flux [kg/(m^2 s)].
-
-    Clausius-Clapeyron pressure with L_v at the boiling point, Watson's L_v(T) for the heat.
-    """
-    p = saturation_pressure(T, p_b, T_b, L_b, R_s)
-    p_slope = saturation_pressure_slope(T, p_b, T_b, L_b, R_s)
-    L = latent_heat(T, T_b, L_b, T_c)
+    """Evaporative heat flux [W/m^2], its slope in T [W/(m^2 K)] and the mass flux [kg/(m^2 s)]."""
+    p, L = saturation_pressure(T, p_b, T_b, L_b, T_c, R_s), latent_heat(T, T_b, L_b, T_c)
+    p_slope = saturation_pressure_slope(T, p, L, R_s)
     L_slope = latent_heat_slope(T, T_b, L_b, T_c)
     return (
         evaporative_heat_flux(T, p, L, R_s),

@@ -45,7 +45,13 @@ def model_limits(summary: dict[str, Any]) -> list[str]:
         " light that vapor and plasma shield."
     ]
     hot, explodes = found["evaporating_K"], found["phase_explosion_from_K"]
-    if hot is not None:
+    critical = found["shielding_from_K"]
+    if hot is not None and hot == critical:
+        parts.append(
+            "Evaporation alone cannot carry the absorbed flux away below the critical temperature"
+            f" of {quantity(hot, 'K')}."
+        )
+    elif hot is not None:
         parts.append(
             "To carry the absorbed flux away by evaporation alone the surface would have to be at"
             f" {quantity(hot, 'K')}."

@@ -105,7 +105,7 @@ def test_enthalpy_rule():
 
 def test_what_leaves_takes_along():
     """Count, mass, enthalpy and kinetic energy once, with time and vapor pressure."""
-    boiling = {"p_b": 101325.0, "T_b": 2730.0, "L_v": 10.53e6, "R_s": R_S}
+    boiling = {"p_b": 101325.0, "T_b": 2730.0, "L_b": 10.53e6, "T_c": 1e12, "R_s": R_S}
     v = np.array([0.0, 300.0, 400.0])
 
     def account(kind, left_at):

@@ -9,7 +9,7 @@ from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.materials import Material
 from lasersph.physics.ejection import ejected_quantities
-from lasersph.physics.evaporation import STANDARD_ATMOSPHERE
+from lasersph.physics.evaporation import NO_CRITICAL_POINT, vapor_constants
 
 
 class Ejecta(NamedTuple):
@@ -25,9 +25,16 @@ class Ejecta(NamedTuple):
 
 
 class Vapor:
-    """Constants of the vapor and the account of what leaves."""
+    """Constants of the vapor and the account of what leaves.
 
-    def __init__(self, backend: Backend, material: Material, *, is_effusion: bool) -> None:
+    Args:
+        is_effusion: which velocity of the vapor. is_published: whether its pressure is the one
+            that [Alshaer2017, eq. (5)] prints, with a latent heat that does not fall.
+    """
+
+    def __init__(
+        self, backend: Backend, material: Material, *, is_effusion: bool, is_published: bool
+    ) -> None:
         vaporization = material.vaporization
         if vaporization is None:
             raise ValueError(f"material {material.name!r} has no vaporization data")
@@ -35,12 +42,9 @@ class Vapor:
         self.temperature = vaporization.temperature
         self.gas_constant = vaporization.specific_gas_constant
         self.speed = {"R_s": self.gas_constant, "is_effusion": float(is_effusion)}
-        self._boiling = {
-            "p_b": STANDARD_ATMOSPHERE,
-            "T_b": vaporization.temperature,
-            "L_v": vaporization.latent_heat,
-            "R_s": self.gas_constant,
-        }
+        self._constants = vapor_constants(vaporization)
+        if is_published:
+            self._constants["T_c"] = NO_CRITICAL_POINT
 
     def account(self, fields: Mapping[str, Array], rows: Rows | None, time: float) -> Ejecta:
         """Write `left_at` [s] and `p_v` [Pa] of what has just left; returns what it takes along.
@@ -49,7 +53,7 @@ class Vapor:
             fields: by symbol; kind, m, h, v, T, left_at, p_v. time: end of the step [s].
         """
         out = (fields["left_at"], fields["p_v"], None, None, None, None)
-        given = {"reduce": (None, None, *4 * ("sum",)), "time": time, **self._boiling}
+        given = {"reduce": (None, None, *4 * ("sum",)), "time": time, **self._constants}
         number, mass, energy, kinetic = self.backend.pointwise(
             ejected_quantities, fields, out, rows=rows, **given
         )

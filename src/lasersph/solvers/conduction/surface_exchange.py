@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from lasersph.compute.array_types import Array
-from lasersph.physics.evaporation import STANDARD_ATMOSPHERE
+from lasersph.physics.evaporation import vapor_constants
 from lasersph.physics.losses import evaporation_loss, surface_loss
 from lasersph.solvers.conduction.body import Body
-
-NEVER = 1e9
-"""Critical temperature of a metal that has none in its file: L_v stays constant [K]."""
 
 
 def surface_power(T, area, T_a, h_c, eps):
@@ -41,13 +38,7 @@ class SurfaceExchange:
         self.constants: dict[str, float] = dict(body.ambient)
         vapor = body.material.vaporization
         if evaporates and vapor is not None:
-            self.constants |= {
-                "p_b": STANDARD_ATMOSPHERE,
-                "T_b": vapor.temperature,
-                "L_b": vapor.latent_heat,
-                "T_c": vapor.critical_temperature or NEVER,
-                "R_s": vapor.specific_gas_constant,
-            }
+            self.constants |= vapor_constants(vapor)
 
     def evaluate(self, temperature: Array) -> tuple[float, float]:
         """Set power and slope; returns the power lost and the power removed by vapor [W]."""

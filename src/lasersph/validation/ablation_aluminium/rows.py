@@ -12,12 +12,22 @@ from lasersph.physics.ablation_estimates import (
     depth_of_light,
     light_left,
 )
-from lasersph.physics.evaporation import STANDARD_ATMOSPHERE, saturation_pressure
+from lasersph.physics.evaporation import (
+    NO_CRITICAL_POINT,
+    STANDARD_ATMOSPHERE,
+    saturation_pressure,
+)
 from lasersph.validation.ablation_aluminium.figures import draw
 from lasersph.validation.study import Study
 
-GAS = {"p_b": STANDARD_ATMOSPHERE, "T_b": 2730.0, "L_v": 10.53e6, "R_s": 308.17}
-"""Of eq. (5): pressure [Pa] and temperature [K] of boiling, its heat [J/kg], R/M [J/(kg K)]."""
+GAS = {
+    "p_b": STANDARD_ATMOSPHERE,
+    "T_b": 2730.0,
+    "L_b": 10.53e6,
+    "T_c": NO_CRITICAL_POINT,
+    "R_s": 308.17,
+}
+"""Of eq. (5): pressure [Pa] and temperature [K] of boiling, its constant heat [J/kg], R/M."""
 ALPHA = 1.23e8
 """Absorption coefficient of aluminium that eq. (3) takes [1/m]."""
 

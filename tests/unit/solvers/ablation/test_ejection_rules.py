@@ -80,7 +80,7 @@ def sample(backend):
 @pytest.fixture
 def vapor(backend):
     """Vapor of aluminium by effusion."""
-    return Vapor(backend, ALUMINIUM, is_effusion=True)
+    return Vapor(backend, ALUMINIUM, is_effusion=True, is_published=True)
 
 
 def enthalpy_rule(sample, vapor, *, phase_change=True):
@@ -198,7 +198,7 @@ def test_layer_leaves_after_a_distance(sample, vapor, backend):
 
 def test_printed_velocity_is_twice_that_of_effusion(backend):
     """731.7 m/s at 2730 K."""
-    printed = Vapor(backend, ALUMINIUM, is_effusion=False)
+    printed = Vapor(backend, ALUMINIUM, is_effusion=False, is_published=True)
     assert printed.speed["is_effusion"] == 0.0 and printed.temperature == 2730.0
 
 
@@ -206,7 +206,7 @@ def test_vapor_needs_data(backend):
     """A material without a boiling point has no vapor."""
     bare = ALUMINIUM.model_copy(update={"vaporization": None})
     with pytest.raises(ValueError, match="vaporization"):
-        Vapor(backend, bare, is_effusion=True)
+        Vapor(backend, bare, is_effusion=True, is_published=True)
 
 
 def test_presets():

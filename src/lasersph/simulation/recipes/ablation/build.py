@@ -216,9 +216,15 @@ def _ejection(
 ) -> EnthalpyEjection | PublishedEjection:
     """The rule of leaving."""
     rule = ejection_of(case)
-    vapor = Vapor(backend, case.material, is_effusion=rule.velocity == "effusion")
+    is_published = rule.model == "published"
+    vapor = Vapor(
+        backend,
+        case.material,
+        is_effusion=rule.velocity == "effusion",
+        is_published=is_published,
+    )
     spacing = particles.geometry.spacing
-    if rule.model == "enthalpy":
+    if not is_published:
         return EnthalpyEjection(backend, vapor, curve, light, particles.now.capacity, spacing)
     support = float(backend.to_host(particles.now["support"])[0])
     particles.now.add("lift")

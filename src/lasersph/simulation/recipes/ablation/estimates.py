@@ -7,13 +7,12 @@ disc of their radius does.
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 from typing import Any
 
 from lasersph.analytic.half_space import pulse_train_temperature, thermal_penetration
 from lasersph.case import Case
 from lasersph.lasers import GaussianBeam, Laser, SquarePulse, TopHatBeam
-from lasersph.materials import Material
 from lasersph.physics.ablation_estimates import (
     PHASE_EXPLOSION,
     VAPOR_ABSORPTION,
@@ -24,10 +23,9 @@ from lasersph.physics.ablation_estimates import (
     recoil_moves_melt_at,
 )
 from lasersph.physics.evaporation import (
-    GAS_CONSTANT,
-    STANDARD_ATMOSPHERE,
     effusion_velocity,
     mean_normal_velocity,
+    vapor_constants,
 )
 
 NEARLY_ALL = 0.05
@@ -110,7 +108,7 @@ def vapor(case: Case) -> dict[str, float]:
     }
     if boiling is None or boiling.molar_mass is None:
         return found
-    constant = GAS_CONSTANT / boiling.molar_mass
+    constant = boiling.specific_gas_constant
     return found | {
         "effusion_velocity_m_s": effusion_velocity(boiling.temperature, constant),
         "mean_normal_velocity_m_s": mean_normal_velocity(boiling.temperature, constant),
@@ -132,28 +130,19 @@ def left_out(case: Case, laser: Laser, reflectivity: float) -> dict[str, float |
         found["shielding_from_K"] = boiling.critical_temperature
     if boiling.molar_mass is None:
         return found
-    saturation = {
-        "p_b": STANDARD_ATMOSPHERE,
-        "T_b": boiling.temperature,
-        "L_v": boiling.latent_heat,
-        "R_s": GAS_CONSTANT / boiling.molar_mass,
-    }
+    constants = vapor_constants(boiling)
     found["evaporating_K"] = evaporating_temperature(
         (1.0 - reflectivity) * laser.peak_fluence / on_time(laser),
         T_0=case.initial_temperature,
         c_p=float(material.heat_capacity_at(material.reference_temperature)),
         L_m=material.melting.latent_heat if material.melting is not None else 0.0,
-        **saturation,
+        **constants,
     )
     if material.surface_tension is not None and (radius := radius_of(laser)) is not None:
-        found["recoil_from_K"] = recoil_of(material, radius, saturation)
+        tension = float(material.surface_tension_at(boiling.temperature))
+        moves = recoil_moves_melt_at(radius, tension, constants)
+        found["recoil_from_K"] = moves if moves < inf else None
     return found
-
-
-def recoil_of(material: Material, radius: float, saturation: dict[str, float]) -> float:
-    """Temperature from which recoil moves the melt of a pool of a radius [m] [K]."""
-    tension = float(material.surface_tension_at(saturation["T_b"]))
-    return recoil_moves_melt_at(radius, surface_tension=tension, **saturation)
 
 
 def radius_of(laser: Laser) -> float | None:

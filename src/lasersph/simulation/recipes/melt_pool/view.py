@@ -13,11 +13,7 @@ from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case import Case
 from lasersph.compute.array_types import Array
 from lasersph.observers.flow_view import FlowView
-from lasersph.physics.evaporation import (
-    STANDARD_ATMOSPHERE,
-    recoil_pressure,
-    saturation_pressure,
-)
+from lasersph.physics.evaporation import recoil_pressure, saturation_pressure, vapor_constants
 from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.solvers.step_control import ROUNDING
 
@@ -84,10 +80,7 @@ def _recoil(case: Case, temperature: np.ndarray) -> np.ndarray | None:
     vapor = case.material.vaporization
     if vapor is None or vapor.molar_mass is None or temperature.size == 0:
         return None
-    T_b, L_v, R_s = vapor.temperature, vapor.latent_heat, vapor.specific_gas_constant
+    constants = vapor_constants(vapor)
     return np.array(
-        [
-            recoil_pressure(saturation_pressure(float(T), STANDARD_ATMOSPHERE, T_b, L_v, R_s))
-            for T in temperature
-        ]
+        [recoil_pressure(saturation_pressure(float(T), **constants)) for T in temperature]
     )
