@@ -2,11 +2,19 @@
 
     x~ = x + C a R,    v~ = v + grad v . (x~ - x),    h~ = h + grad h . (x~ - x)
 
-Deviations from the paper: no value leaves the range of the neighbors and the particle's own; h is
-taken along only between particles of one phase (both melt, or both on the vaporization plateau),
-since at a front its gradient is the latent heat over a spacing; and the gains and losses of h are
-scaled to the same sum, so that energy is conserved. A shift is at most a tenth of a spacing, and no
-particle comes closer to a face than three tenths.
+Deviations from the paper: no value leaves the range of the neighbors and the particle's own. h is
+exchanged between pairs, d = x~ - x,
+
+    h~_i = h_i + sum_j V_j (h_j - h_i) (d_i - d_j) . grad W_ij
+
+which is grad h . d where the shifts of neighbors differ, conserves heat pair by pair, and is 0
+where they are the same: a common shift moves particles with their heat, as the flow does. (75)
+itself adds the heat -h div d; a scaling of all gains and losses that takes it back carries heat
+across the whole body, 5 % of that through a box at Ra 1e5, 24 particles a side. Pairs exchange
+between particles of one phase (both melt, or both on the vaporization plateau), since at a front
+the gradient is the latent heat over a spacing, and as much as their particles may take and give
+[Zalesak1979]. A shift is at most a tenth of a spacing, and no particle comes closer to a face than
+three tenths.
 """
 
 from __future__ import annotations
@@ -51,29 +59,68 @@ def phase_of(fluid, f_v):
     return 1.0 * fluid
 
 
-def ghost_enthalpy(h, dirichlet, wall_enthalpy):
-    """Enthalpy of a ghost [J/kg]: that of its source, or odd about a Dirichlet face."""
-    return h + 2.0 * dirichlet * (wall_enthalpy - h)
+def mirror_displacement(displacement, sign):
+    """Displacement of a ghost [m]: that of its source, mirrored."""
+    return sign * displacement
 
 
-def enthalpy_terms(h_i, h_j, phase_i, phase_j, V_j, x_ij, r_ij, dW_ij):
-    """Terms of grad h between particles of one phase, and the range of such neighbors [J/kg]."""
+def range_enthalpy(h, dirichlet, wall_enthalpy):
+    """Enthalpy of a ghost [J/kg]: that of its source, or of a Dirichlet face."""
+    return h + dirichlet * (wall_enthalpy - h)
+
+
+def exchange(h_i, h_j, phase_i, phase_j, V_j, dirichlet_j, x_ij, r_ij, dW_ij, shift_i, shift_j):
+    """V_j (h_j - h_i) (shift_i - shift_j) . grad W between particles of one phase [J/kg].
+
+    Nothing beyond a Dirichlet face: no heat crosses a face because particles are shifted.
+    """
+    if phase_i != phase_j or dirichlet_j > 0.0:
+        return 0.0 * V_j
+    return V_j * (h_j - h_i) * dW_ij / r_ij * dot(shift_i - shift_j, x_ij)
+
+
+def exchange_terms(
+    h_i, h_j, phase_i, phase_j, V_j, dirichlet_j, x_ij, r_ij, dW_ij, shift_i, shift_j
+):
+    """Gains and losses of h by exchange, and the range of neighbors of the same phase [J/kg]."""
+    q = exchange(h_i, h_j, phase_i, phase_j, V_j, dirichlet_j, x_ij, r_ij, dW_ij, shift_i, shift_j)
     h = h_j if phase_i == phase_j else h_i
-    return V_j * (h - h_i) * dW_ij / r_ij * x_ij, h, h
+    return max(q, 0.0), max(-q, 0.0), h, h
 
 
-def enthalpy_change(total_0, total_1, total_2, h, m, C, displacement):
-    """grad h . shift within the range of the neighbors [J/kg] (75), gain and loss of heat [J]."""
-    new = clip_to_range(h + dot(matvec(C, total_0), displacement), h, total_1, total_2)
-    change = new - h
-    return change, m * max(change, 0.0), m * max(-change, 0.0)
+def allowed_shares(total_0, total_1, total_2, total_3, h):
+    """Shares of its gains and of its losses that keep h within the neighbors' range."""
+    gain, loss = max(total_3 - h, 0.0), max(h - total_2, 0.0)
+    up = gain / total_0 if total_0 > gain else 1.0
+    down = loss / total_1 if total_1 > loss else 1.0
+    return up, down
 
 
-def balance_change(h, change, up, down):
-    """h after a change whose gains are scaled by `up` and losses by `down` [J/kg]."""
-    if change > 0.0:
-        return h + up * change
-    return h + down * change
+def limited_exchange(
+    h_i,
+    h_j,
+    phase_i,
+    phase_j,
+    V_j,
+    dirichlet_j,
+    x_ij,
+    r_ij,
+    dW_ij,
+    shift_i,
+    shift_j,
+    up_i,
+    up_j,
+    down_i,
+    down_j,
+):
+    """Exchange of a pair, by the smaller of the shares that its two particles allow [J/kg]."""
+    q = exchange(h_i, h_j, phase_i, phase_j, V_j, dirichlet_j, x_ij, r_ij, dW_ij, shift_i, shift_j)
+    return q * (min(up_i, down_j) if q > 0.0 else min(down_i, up_j))
+
+
+def add_exchange(total, h):
+    """h after the exchange [J/kg]."""
+    return h + total
 
 
 def shifted_position(x, displacement, fluid, low, high, width, gap):
@@ -118,7 +165,7 @@ class ParticleShifting:
         self.backend, self.factor, self.spacing = backend, factor, spacing
         self.box, self.periods = box, periods
         self.displacement, self._v = backend.zeros((2, count)), backend.zeros((2, count))
-        self._phase, self._change = backend.zeros(count), backend.zeros(count)
+        self._phase, self._up, self._down = (backend.zeros(count) for _ in range(3))
 
     def shift(
         self, block: Block, kinds: ParticleKinds, at_face: Array, speed: float, step: float
@@ -162,32 +209,29 @@ class ParticleShifting:
         )
         backend.copy(self._v, v)
 
-    def adjust_enthalpy(
-        self, block: Block, kinds: ParticleKinds, h: Array, f_v: Array, m: Array, C: Array
-    ) -> None:
-        """h at the shifted positions (75)."""
+    def adjust_enthalpy(self, block: Block, kinds: ParticleKinds, h: Array, f_v: Array) -> None:
+        """h at the shifted positions (75), by exchange between pairs."""
         if self.factor == 0.0:
             return
-        backend = self.backend
+        backend, pairs, rows = self.backend, block.pairs, kinds.fluid_rows
         backend.pointwise(phase_of, {"fluid": kinds.fluid, "f_v": f_v}, self._phase)
-        heat = block.gather(h)
-        backend.pointwise(ghost_enthalpy, {"h": heat} | block.rules, heat)
-        fields = {"h": heat, "phase": block.gather(self._phase), "V": block.V, "C": C, "m": m}
-        fields["displacement"] = self.displacement
-        backend.fill(self._change, 0.0)
-        gain, loss = backend.pair_sum(
-            enthalpy_terms,
-            block.pairs,
+        shift, heat = block.gather(self.displacement), block.gather(h)
+        fields = {"displacement": shift, "sign": block.ghosts.sign}
+        backend.pointwise(mirror_displacement, fields, shift)
+        backend.pointwise(range_enthalpy, {"h": heat} | block.rules, heat)
+        fields = {"h": heat, "phase": block.gather(self._phase), "V": block.V, "shift": shift}
+        fields["dirichlet"] = block.rules["dirichlet"]
+        backend.pair_sum(
+            exchange_terms,
+            pairs,
             fields,
-            (self._change, None, None),
-            finish=enthalpy_change,
-            rows=kinds.fluid_rows,
-            combine=("sum", "min", "max"),
-            reduce=(None, "sum", "sum"),
+            (self._up, self._down),
+            finish=allowed_shares,
+            rows=rows,
+            combine=("sum", "sum", "min", "max"),
         )
-        least, fields = min(gain, loss), {"h": h, "change": self._change}
-        up, down = (least / part if part else 0.0 for part in (gain, loss))
-        backend.pointwise(balance_change, fields, h, up=up, down=down)
+        fields |= {"up": block.gather(self._up), "down": block.gather(self._down)}
+        backend.pair_sum(limited_exchange, pairs, fields, h, finish=add_exchange, rows=rows)
 
     def move(self, position: Array, kinds: ParticleKinds) -> None:
         """Move the particles to their shifted positions, inside the faces."""

@@ -223,9 +223,8 @@ class MeltPool:
         self.shifting.adjust_velocity(
             block, self.kinds, flow.velocity, flow.ghost_velocity_jump(), C
         )
-        names = ("enthalpy", "vapor_fraction", "mass")
-        h, vapor, m = (particles[name] for name in names)
-        self.shifting.adjust_enthalpy(block, self.kinds, h, vapor, m, C)
+        h, vapor = particles["enthalpy"], particles["vapor_fraction"]
+        self.shifting.adjust_enthalpy(block, self.kinds, h, vapor)
         self.shifting.move(self.position, self.kinds)
         self.body.update_temperature()
 

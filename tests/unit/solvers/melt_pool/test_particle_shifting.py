@@ -9,13 +9,14 @@ from lasersph.solvers.melt_pool.particle_shifting import (
     LARGEST,
     ParticleShifting,
     adjust_velocity,
-    balance_change,
+    allowed_shares,
     clip_to_range,
     confine,
-    enthalpy_change,
-    enthalpy_terms,
-    ghost_enthalpy,
+    exchange,
+    exchange_terms,
+    limited_exchange,
     phase_of,
+    range_enthalpy,
     shifted_position,
     velocity_terms,
 )
@@ -49,31 +50,57 @@ def test_kinds():
     assert (phase_of(0.0, 0.0), phase_of(1.0, 0.0), phase_of(1.0, 0.5)) == (0.0, 1.0, 2.0)
 
 
+PAIR = {"V_j": 2.0, "r_ij": 1.0, "dW_ij": -0.5}
+ALIKE = {"phase_i": 1.0, "phase_j": 1.0, "dirichlet_j": 0.0}
+
+
+def exchange_of(h_i, h_j, shift_i, shift_j, **kinds):
+    """Exchange of two particles a unit apart, i to the left of j: V W' = -1."""
+    fields = {"h_i": h_i, "h_j": h_j, "x_ij": -E_X, "shift_i": shift_i, "shift_j": shift_j}
+    return exchange(**fields, **PAIR, **(ALIKE | kinds))
+
+
+def test_exchange_by_hand():
+    """2 J/kg apart, pushed apart by 0.3: i, the colder one, loses 0.6, and j gains it."""
+    assert exchange_of(1.0, 3.0, -0.1 * E_X, 0.2 * E_X) == pytest.approx(-0.6)
+    assert exchange_of(1.0, 3.0, 0.1 * E_X, -0.2 * E_X) == pytest.approx(0.6)
+    assert exchange_of(1.0, 3.0, 0.1 * E_Z, -0.2 * E_Z) == 0.0
+
+
+def test_a_common_shift_exchanges_nothing():
+    """Particles that are moved together keep their heat."""
+    assert exchange_of(1.0, 3.0, 0.2 * E_X, 0.2 * E_X) == 0.0
+
+
 def test_no_exchange_across_kinds():
-    """A neighbor of another kind counts as one of the same enthalpy: no slope, no range."""
-    x_ij = np.array([-1.0, 0.0])
-    same = enthalpy_terms(1.0, 3.0, 1.0, 1.0, 2.0, x_ij, 1.0, -0.5)
-    assert same[0].tolist() == [2.0, 0.0] and same[1:] == (3.0, 3.0)
-    other = enthalpy_terms(1.0, 3.0, 1.0, 2.0, 2.0, x_ij, 1.0, -0.5)
-    assert other[0].tolist() == [0.0, 0.0] and other[1:] == (1.0, 1.0)
+    """A neighbor of another phase counts as one of the same enthalpy; a wall gives its range."""
+    apart = -0.1 * E_X, 0.2 * E_X
+    assert exchange_of(1.0, 3.0, *apart, phase_j=2.0) == 0.0
+    assert exchange_of(1.0, 3.0, *apart, dirichlet_j=1.0) == 0.0
+    pair = {"h_i": 1.0, "h_j": 3.0, "x_ij": -E_X, "shift_i": apart[0], "shift_j": apart[1]} | PAIR
+    assert exchange_terms(**pair, **ALIKE) == pytest.approx((0.0, 0.6, 3.0, 3.0))
+    assert exchange_terms(**pair, **(ALIKE | {"phase_j": 2.0}))[2:] == (1.0, 1.0)
+    assert exchange_terms(**pair, **(ALIKE | {"dirichlet_j": 1.0})) == (0.0, 0.0, 3.0, 3.0)
 
 
-def test_enthalpy_by_hand():
-    """Change within the range, gain and loss of m = 3."""
-    slope, shifted = np.array([10.0, 0.0]), np.array([0.1, 0.0])
-    assert enthalpy_change(slope, 0.0, 9.0, 5.0, 3.0, ONE, shifted) == (1.0, 3.0, 0.0)
-    assert enthalpy_change(slope, 0.0, 5.5, 5.0, 3.0, ONE, shifted) == (0.5, 1.5, 0.0)
-    assert enthalpy_change(-slope, 0.0, 9.0, 5.0, 3.0, ONE, shifted) == (-1.0, 0.0, 3.0)
+def test_shares_by_hand():
+    """Room of 1 above and 2 below for gains of 4 and losses of 1; none outside of the range."""
+    assert allowed_shares(4.0, 1.0, 3.0, 6.0, 5.0) == (0.25, 1.0)
+    assert allowed_shares(4.0, 1.0, 5.5, 6.0, 5.0) == (0.25, 0.0)
+    assert allowed_shares(0.0, 0.0, 5.5, 4.0, 5.0) == (1.0, 1.0)
 
 
-def test_balanced():
-    """Gains and losses are scaled each by its own factor."""
-    assert (balance_change(5.0, 1.0, 0.5, 1.0), balance_change(5.0, -1.0, 0.5, 1.0)) == (5.5, 4.0)
+def test_limited_by_both_particles():
+    """A gain by the room of i above and of j below, a loss by the others."""
+    pair = {"h_i": 1.0, "x_ij": -E_X, "shift_i": -0.1 * E_X, "shift_j": 0.2 * E_X} | PAIR | ALIKE
+    shares = {"up_i": 0.1, "down_i": 0.2, "up_j": 0.3, "down_j": 0.4}
+    assert limited_exchange(h_j=3.0, **pair, **shares) == pytest.approx(-0.6 * 0.2)
+    assert limited_exchange(h_j=-1.0, **pair, **shares) == pytest.approx(0.6 * 0.1)
 
 
-def test_enthalpy_beyond_a_dirichlet_face():
-    """Odd about the wall's: 2 * 7 - 5; else the source's."""
-    assert (ghost_enthalpy(5.0, 1.0, 7.0), ghost_enthalpy(5.0, 0.0, 7.0)) == (9.0, 5.0)
+def test_range_beyond_a_dirichlet_face():
+    """The wall's enthalpy; else the source's."""
+    assert (range_enthalpy(5.0, 1.0, 7.0), range_enthalpy(5.0, 0.0, 7.0)) == (7.0, 5.0)
 
 
 def test_places():
@@ -146,18 +173,19 @@ def test_energy_of_the_adjustment(periodic):
     assert found.max() <= h.max() and found.min() >= h.min()
 
 
-def test_adjusted_enthalpy_follows_the_field():
-    """h changes by its slope times the shift, but for the extrema, which do not grow."""
-    solver = box(flow=PERIODIC, heat=PERIODIC_HEAT, cells=12)
+@pytest.mark.parametrize("same", [True, False])
+def test_adjusted_enthalpy_follows_the_field(same):
+    """A particle shifted alone takes h at its new place; shifted with all others it keeps its h."""
+    solver = box(flow=PERIODIC, heat=PERIODIC_HEAT, cells=20)
     place = place_of(solver)
-    shift = np.zeros_like(place)
-    shift[0] = 0.005 * np.sin(2.0 * np.pi * place[0])
     h = 10.0 * np.sin(2.0 * np.pi * place[0])
+    alone = int(np.argmin(np.hypot(place[0] - 0.025, place[1] + 0.475)))
+    shift = np.zeros_like(place)
+    shift[0, slice(None) if same else alone] = 0.005
     _, found = shift_particles(solver, place, shift, h=h)
-    slope = 20.0 * np.pi * np.cos(2.0 * np.pi * place[0])
-    top = np.isclose(np.abs(h), np.abs(h).max())
-    assert (found - h)[~top] == pytest.approx((slope * shift[0])[~top], abs=0.02)
-    assert np.abs(found).max() <= np.abs(h).max()
+    slope = 20.0 * np.pi * np.cos(2.0 * np.pi * place[0, alone])
+    expected = 0.0 if same else 0.005 * slope
+    assert found[alone] - h[alone] == pytest.approx(expected, rel=0.05, abs=1e-12)
 
 
 def test_plateau_keeps_its_enthalpies():
@@ -173,10 +201,7 @@ def test_plateau_keeps_its_enthalpies():
     backend.copy(backend.asarray(shift), shifting.displacement)
     for on_plateau, is_kept in ((hot, True), (np.zeros(count), False)):
         enthalpy = backend.asarray(h)
-        shifting.adjust_enthalpy(
-            block, solver.kinds, enthalpy, backend.asarray(0.5 * on_plateau),
-            solver.particles["mass"], solver.flow.correction,
-        )  # fmt: skip
+        shifting.adjust_enthalpy(block, solver.kinds, enthalpy, backend.asarray(0.5 * on_plateau))
         found = backend.to_host(enthalpy)
         assert not np.array_equal(found, h)
         assert (found[~hot].max() <= 1.0 and found[hot].min() >= 99.0) == is_kept
