@@ -15,9 +15,10 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections import Counter
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from lasersph.validation.records import keyed_rows, relative
 
 SHARE = 0.1
 """Part of a validation's tolerance that two backends may differ by."""
@@ -40,27 +41,6 @@ def over_tolerance(first: dict[str, Any], second: dict[str, Any]) -> float:
     return abs(a - b) / (SHARE * tolerance)
 
 
-def relative(first: dict[str, Any], second: dict[str, Any]) -> float:
-    """Difference of two rows over their size; infinite where only one has a number."""
-    a, b = first["computed"], second["computed"]
-    if a == b:
-        return 0.0
-    if not (isinstance(a, int | float) and isinstance(b, int | float)):
-        return float("inf")
-    sizes = (a, b, first["reference"] or 0.0, first["tolerance"] or 0.0)
-    return abs(a - b) / max(abs(size) for size in sizes)
-
-
-def keyed_rows(report: dict[str, Any]) -> dict[tuple[str, int], dict[str, Any]]:
-    """Rows by quantity, and by how many of that name came before."""
-    seen: Counter[str] = Counter()
-    rows = {}
-    for row in report["rows"]:
-        rows[row["quantity"], seen[row["quantity"]]] = row
-        seen[row["quantity"]] += 1
-    return rows
-
-
 def differences(
     first: dict[str, Any], second: dict[str, Any], round_off: float | None = None
 ) -> list[Difference]:
@@ -68,7 +48,8 @@ def differences(
     found = []
     for name in first["validations"] | second["validations"]:
         ours, theirs = (
-            keyed_rows(one["validations"].get(name, {"rows": []})) for one in (first, second)
+            keyed_rows(one["validations"].get(name, {"rows": []})["rows"])
+            for one in (first, second)
         )
         for key in ours | theirs:
             size, agrees = float("inf"), False

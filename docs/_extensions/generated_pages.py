@@ -1,6 +1,5 @@
 """Writes docs/generated/*.md before Sphinx reads the pages that include them."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -27,20 +26,20 @@ def gallery(folder: Path) -> str:
 def write_pages(_app: object) -> None:
     """Make every generated page anew."""
     from lasersph.case import Case
+    from lasersph.validation import names
+    from lasersph.validation.records import state_of
     from lasersph.validation.study import home_of
 
     target = DOCS / "generated"
     target.mkdir(exist_ok=True)
-    results = json.loads((DOCS / "validation_results.json").read_text(encoding="utf-8"))
-    readmes = {
-        name: (home_of(name) / "README.md").read_text("utf-8") for name in results["validations"]
-    }
+    states = [state_of(name, DOCS / "validation") for name in names()]
+    readmes = {name: (home_of(name) / "README.md").read_text("utf-8") for name in names()}
     pages = {
         "case_keys.md": case_keys(Case.model_json_schema()),
         "summary_keys.md": summary_keys(),
         "history_columns.md": history_columns(),
         "examples.md": gallery(ROOT / "examples"),
-        "validation.md": validation_table(results, readmes),
+        "validation.md": validation_table(states, readmes),
     }
     for name, text in pages.items():
         (target / name).write_text(text, encoding="utf-8")

@@ -1,34 +1,34 @@
-"""Markdown tables of published beside computed numbers, from the JSON of `lasersph validate`."""
+"""The page of validations, from their records: every one with its state, none left out."""
 
 import re
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
 
-WORDS = {True: "ok", False: "**FAILED**", None: "shown"}
+NOT_MET = "## Not met"
 HEAD = ("quantity", "published", "reference", "computed", "tolerance", "verdict")
+VERDICTS = {True: "ok", False: "**FAILED**", None: "shown"}
 
 
-def validation_table(results: dict[str, Any], readmes: dict[str, str]) -> str:
-    """An overview, then one section a validation: README, remarks, every number with its verdict.
+class State(Protocol):
+    """What the page needs of `lasersph.validation.records.State`."""
+
+    name: str
+    word: str
+    text: str
+    record: dict[str, Any] | None
+
+
+def validation_table(states: Sequence[State], readmes: Mapping[str, str]) -> str:
+    """An overview, then one section a validation: state, README, remarks, numbers, figures.
 
     readmes: by name of the validation.
     """
-    reports = results["validations"].values()
-    overview = [
-        (f"[](#{_anchor(report)})", report["title"], _count(report), WORDS[report["passed"]])
-        for report in reports
+    rows = [
+        (f"[](#{_anchor(s)})", _title(readmes[s.name]), _count(s.record), _label(s)) for s in states
     ]
-    parts = [
-        f"Computed with lasersph {results['lasersph']}.",
-        _table(("validation", "question", "numbers", "verdict"), overview),
-    ]
-    for report in reports:
-        short = " (shortened)" if report["quick"] else ""
-        parts += [
-            f"({_anchor(report)})=\n## {report['name']}{short}",
-            readme_text(readmes[report["name"]]),
-        ]
-        parts.append("\n".join(f"- {_plain(remark)}" for remark in report["remarks"]))
-        parts.append(_table(HEAD, [_cells(row) for row in report["rows"]]))
+    parts = [_table(("validation", "question", "numbers", "state"), rows)]
+    for state in states:
+        parts += _section(state, readmes[state.name])
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -38,20 +38,82 @@ def readme_text(readme: str) -> str:
     return title.removeprefix("# ") + "\n" + re.sub(r"^## (.+)\n", r"**\1.** ", text, flags=re.M)
 
 
-def _anchor(report: dict[str, Any]) -> str:
-    return f"validation-{report['name']}"
+def _section(state: State, readme: str) -> list[str]:
+    record = state.record
+    head = f"({_anchor(state)})=\n## {state.name}"
+    said = ": ".join(text for text in (_label(state), _plain(state.text)) if text)
+    parts = [head, said + ".", readme_text(readme)]
+    if state.word == "failed" and NOT_MET not in readme:
+        parts.append("Why it fails is not explained yet.")
+    if record is None:
+        return parts
+    made, notes = record["computed"], _notes(record["rows"])
+    version = f"lasersph {made['lasersph']}" + (f", {made['commit']}" if made["commit"] else "")
+    threads = f"{made['threads']} threads" if made["threads"] else "all threads"
+    parts.append(
+        f"*{_duration(record['seconds'])} on {made['machine']}, {threads}; {version}, "
+        f"{made['date']}.*"
+    )
+    parts.append("\n".join(f"- {_plain(remark)}" for remark in record["remarks"]))
+    if record["rows"]:
+        parts.append(_table(HEAD, [_cells(row, notes) for row in record["rows"]]))
+    parts.append("\n".join(f"- ({k}) {_plain(text)}" for text, k in notes.items()))
+    parts += [f"![{state.name}](validation/{state.name}/{file})" for file in record["figures"]]
+    return parts
 
 
-def _count(report: dict[str, Any]) -> str:
-    judged = sum(row["verdict"] is not None for row in report["rows"])
-    return f"{judged} judged, {len(report['rows']) - judged} shown"
+def _anchor(state: State) -> str:
+    return f"validation-{state.name}"
 
 
-def _cells(row: dict[str, Any]) -> tuple[str, ...]:
+def _title(readme: str) -> str:
+    return _plain(readme.partition("\n")[0].removeprefix("# "))
+
+
+def _label(state: State) -> str:
+    """The state, with its date; what is not as it should be stands out."""
+    made = state.record or {}
+    if state.word == "confirmed":
+        return f"confirmed on {made['confirmed']['date']}"
+    if state.word == "stale":
+        return f"**stale: of {made['computed']['date']}**"
+    return state.word if state.word == "current" else f"**{state.word}**"
+
+
+def _count(record: dict[str, Any] | None) -> str:
+    """How many numbers are judged and met, and how many are not judged."""
+    verdicts = [row["verdict"] for row in record["rows"]] if record else []
+    judged = len(verdicts) - verdicts.count(None)
+    return f"{verdicts.count(True)} of {judged} met, {verdicts.count(None)} shown"
+
+
+def _duration(seconds: float | None) -> str:
+    if seconds is None:
+        return "In a time that was not noted"
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+
+
+def _note(row: dict[str, Any]) -> str:
+    """Why the band of a row is so wide, and what it was before."""
+    changed = f"Changed: {row['changed']}" if row["changed"] else ""
+    return " ".join(text for text in (row["reason"], changed) if text)
+
+
+def _notes(rows: list[dict[str, Any]]) -> dict[str, int]:
+    """Numbers of the notes to the rows."""
+    texts = dict.fromkeys(note for row in rows if (note := _note(row)))
+    return {text: k for k, text in enumerate(texts, start=1)}
+
+
+def _cells(row: dict[str, Any], notes: dict[str, int]) -> tuple[str, ...]:
     unit = f" [{row['unit']}]" if row["unit"] not in ("", "1") else ""
     tolerance = "" if row["tolerance"] is None else f"{row['tolerance']:.3g}"
+    note = f"({notes[_note(row)]})" if _note(row) else ""
     numbers = (_number(row[key]) for key in ("published", "reference", "computed"))
-    return _plain(row["quantity"] + unit), *numbers, tolerance, WORDS[row["verdict"]]
+    verdict = "own" if row["own"] else VERDICTS[row["verdict"]]
+    return _plain(row["quantity"] + unit), *numbers, f"{tolerance} {note}".strip(), verdict
 
 
 def _number(value: float | str | None) -> str:

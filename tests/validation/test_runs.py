@@ -89,7 +89,7 @@ def test_runs_of_other_sources_or_cases_are_computed_anew(tmp_path, monkeypatch,
     case = load_case("stefan", ["particles.spacing=2 um", "time.end=4 ns"])
     if why == "other sources":
         case = SHORT
-        monkeypatch.setattr(runs, "_sources", lambda: "edited")
+        monkeypatch.setattr(runs.sources, "hashes", lambda _: {"a module": "edited"})
     second = runs.run_case(case, tmp_path / "short")
     assert second.path == first.path
     assert not (first.path / "old.txt").exists()

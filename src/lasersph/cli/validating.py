@@ -2,32 +2,53 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from lasersph.cli.arguments import Backend, Out, Threads, refuse_backend
-from lasersph.cli.failures import FAILED
+from lasersph.cli.failures import FAILED, WrongCommand
 
 SCHEMA_VERSION = 1
 RUNS = Path("runs") / "validation"
+RECORDS = Path("docs") / "validation"
 Names = Annotated[
     list[str] | None, typer.Argument(metavar="NAME", help="Default: all of them, in order.")
 ]
+All = Annotated[bool, typer.Option("--all", help="All of them, as without a name.")]
 Json = Annotated[
     Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers as JSON as well.")
 ]
 Short = Annotated[bool, typer.Option("--quick", help="Shortened runs; still judged.")]
 OnlyList = Annotated[bool, typer.Option("--list", help="List the validations and run none.")]
+Record = Annotated[
+    Path | None,
+    typer.Option(
+        "--record", metavar="DIR", help="Compute what is out of date in a folder of records."
+    ),
+]
+Status = Annotated[
+    bool,
+    typer.Option("--status", help=f"Say which records are current (of --record, {RECORDS})."),
+]
+Confirm = Annotated[
+    bool,
+    typer.Option("--confirm", help="Confirm stale records by their shortened form (as --status)."),
+]
 
 
 def validate(
     names: Names = None,
+    every: All = False,
     json_file: Json = None,
     out: Out = None,
     quick: Short = False,
     only_list: OnlyList = False,
+    record: Record = None,
+    status: Status = False,
+    confirm: Confirm = False,
     threads: Threads = None,
     backend: Backend = "cpu",
 ) -> None:
@@ -41,13 +62,40 @@ def validate(
     if only_list:
         print(aligned(validation.titles().items()))
         return
-    wanted = dict.fromkeys(map(validation.known_name, names or validation.names()))
+    if every and names:
+        raise WrongCommand("--all is for no NAME")
+    of_records = record is not None or status or confirm
+    if of_records and (quick or json_file is not None or (status and confirm)):
+        raise WrongCommand("--record, --status and --confirm go without --quick and --json")
+    wanted = list(dict.fromkeys(map(validation.known_name, names or validation.names())))
     refuse_backend(backend, threads)
+    folder, out = record or RECORDS, out or RUNS
+    if status:
+        _say_states(wanted, folder)
+    elif confirm:
+        _confirm(wanted, folder, out, threads)
+    elif record is not None:
+        _record(wanted, folder, out, threads, backend)
+    else:
+        _compute(wanted, out, quick, json_file, threads, backend)
+
+
+def _compute(
+    names: list[str],
+    out: Path,
+    quick: bool,
+    json_file: Path | None,
+    threads: int | None,
+    backend: str,
+) -> None:
+    """Print a table of each, and a verdict of all; exit code 1 where one did not pass."""
+    from lasersph import validation
+
     if json_file is not None:
         _write(json_file, backend, {})
     reports: dict[str, dict[str, Any]] = {}
-    for name in wanted:
-        folder = (out or RUNS) / name
+    for name in names:
+        folder = out / "short" / name if quick else out / name
         report = validation.validate(name, folder, quick=quick, threads=threads, backend=backend)
         print(report.table(), end="\n\n", flush=True)
         reports[name] = report.as_dict()
@@ -58,6 +106,43 @@ def validate(
     if failed:
         print(f"not passed: {', '.join(failed)}")
         raise typer.Exit(FAILED)
+
+
+def _say_states(names: Iterable[str], folder: Path) -> None:
+    """Print a line of each record; exit code 1 where one is failed, stale or missing."""
+    from lasersph.cli.tables import aligned
+    from lasersph.validation.records import state_of
+
+    states = [state_of(name, folder) for name in names]
+    print(aligned((state.name, state.word, state.text) for state in states))
+    if any(state.word not in ("current", "confirmed") for state in states):
+        raise typer.Exit(FAILED)
+
+
+def _record(
+    names: Iterable[str], folder: Path, out: Path, threads: int | None, backend: str
+) -> None:
+    """Compute what is out of date, one after the other, each stored when it is finished."""
+    from lasersph.validation.records import make_record, state_of
+
+    for name in names:
+        if state_of(name, folder).is_out_of_date:
+            print(f"{name}: computing", flush=True)
+            make_record(name, folder, out, threads=threads, backend=backend)
+    _say_states(names, folder)
+
+
+def _confirm(names: Iterable[str], folder: Path, out: Path, threads: int | None) -> None:
+    """Compute the shortened form of what is stale; say what stands against confirming it."""
+    from lasersph.validation.records import confirm, state_of
+
+    for name in names:
+        state = state_of(name, folder)
+        if state.record is not None and state.changes:
+            print(f"{name}: computing its shortened form", flush=True)
+            for text in confirm(state, folder, out, threads=threads)[:4]:
+                print(f"{name}: not confirmed: {text}")
+    _say_states(names, folder)
 
 
 def _write(file: Path, backend: str, reports: dict[str, dict[str, Any]]) -> None:

@@ -13,6 +13,13 @@
     claim = "..."               in place of `quantity`: a statement that holds or does not
     path = "melt.depth_max_m"   where a number of a run's summary is compared, and by what `factor`
     factor = 1e9                it is multiplied; rows of one `group` are added together
+    reason = "..."              why the band is so wide: the reference's own uncertainty, the error
+                                of discretization by a study, the reading error of a figure
+    own = true                  the reference is another result of ours: shown, never judged
+    changed = "..."             "was 1 % until 2026-11-20, because ...": of a band or a parameter of
+                                the case that was changed after a first run
+
+`source`, `reason` and `changed` above all tables hold for every row that names no other.
 """
 
 from __future__ import annotations
@@ -20,13 +27,14 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
 Published = float | str | None
 Words = dict[str, Any]
 """Values of the names in braces of a text."""
+OF_ALL = ("source", "reason", "changed")
+"""Keys that may stand above all tables."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +47,9 @@ class Row:
         reference: what decides: an exact solution, a derivation or an independent program.
         computed: ours; for a claim whether it holds. tolerance: largest |computed - reference|.
         verdict: True or False; None where the number is shown and not judged.
-        source: of the published number and the reference.
+        source: of the published number and the reference. kind: its table in `rows.toml`.
+        reason: why the tolerance is so wide. changed: what it was before, and why it was changed.
+        own: whether the reference is another result of ours, by which nothing is judged.
     """
 
     quantity: str
@@ -50,6 +60,15 @@ class Row:
     tolerance: float | None
     verdict: bool | None
     source: str
+    kind: str = ""
+    reason: str = ""
+    changed: str = ""
+    own: bool = False
+
+    @property
+    def judgement(self) -> str:
+        """The verdict as a word."""
+        return "own" if self.own else {True: "ok", False: "FAILED", None: "shown"}[self.verdict]
 
 
 @dataclass(frozen=True)
@@ -67,6 +86,15 @@ class Comparison:
     path: str = ""
     factor: float = 1.0
     group: str = ""
+    reason: str = ""
+    changed: str = ""
+    own: bool = False
+    name: str = ""
+
+    @property
+    def is_judged(self) -> bool:
+        """Whether its rows can fail."""
+        return self.band is not None and not self.own
 
     def row(
         self,
@@ -90,7 +118,8 @@ class Comparison:
         source = self.source.format(**words)
         if self.claim:
             found = "holds" if computed else "does not hold"
-            return Row(self.claim.format(**words), "", "claimed", None, found, None, None, source)
+            text = self.claim.format(**words)
+            return Row(text, "", "claimed", None, found, None, None, source, self.name)
         reference = self.reference if reference is None else float(reference)
         published = self.published if published is None else published
         band = self.quick if quick and self.quick is not None else self.band
@@ -99,9 +128,22 @@ class Comparison:
         if band is not None and judge:
             reference = 0.0 if reference is None else reference
             tolerance = float(share * width_of(band, reference))
-            verdict = value is not None and isfinite(value) and abs(value - reference) <= tolerance
-        quantity, unit = self.quantity.format(**words), self.unit.format(**words)
-        return Row(quantity, unit, published, reference, value, tolerance, verdict, source)
+            if self.is_judged:
+                verdict = value is not None and abs(value - reference) <= tolerance
+        return Row(
+            quantity=self.quantity.format(**words),
+            unit=self.unit.format(**words),
+            published=published,
+            reference=reference,
+            computed=value,
+            tolerance=tolerance,
+            verdict=verdict,
+            source=source,
+            kind=self.name,
+            reason=self.reason if tolerance is not None else "",
+            changed=self.changed,
+            own=self.own,
+        )
 
 
 def width_of(band: float | str, reference: float) -> float:
@@ -125,14 +167,14 @@ def read_comparisons(files: Iterable[Path]) -> dict[str, Comparison]:
     Raises:
         ValueError: a key that there is not, or a comparison without words.
     """
-    known = {field.name for field in fields(Comparison)}
+    known = {field.name for field in fields(Comparison)} - {"name"}
     found: dict[str, dict[str, Any]] = {}
     for file in files:
         content = tomllib.loads(file.read_text(encoding="utf-8"))
-        source = content.pop("source", "")
+        of_all = {key: content.pop(key) for key in OF_ALL if key in content}
         for name, entry in content.items():
-            found[name] = {"source": source} | found.get(name, {}) | entry
+            found[name] = of_all | found.get(name, {}) | entry
     for name, entry in found.items():
         if not entry.keys() <= known or not ("quantity" in entry) ^ ("claim" in entry):
             raise ValueError(f"[{name}] in rows.toml: wrong keys, or neither quantity nor claim")
-    return {name: Comparison(**entry) for name, entry in found.items()}
+    return {name: Comparison(**entry, name=name) for name, entry in found.items()}

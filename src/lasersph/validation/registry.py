@@ -12,7 +12,7 @@ from pathlib import Path
 
 from lasersph.input import CaseError, nearest
 from lasersph.validation.report import Report
-from lasersph.validation.study import HOME, Study, title_of
+from lasersph.validation.study import HOME, Study, module_of, title_of
 
 
 def names() -> tuple[str, ...]:
@@ -63,7 +63,7 @@ def validate(
     Raises:
         CaseError: no such validation; says the nearest name. NoDevice: no graphics card.
     """
-    module = import_module(f"lasersph.validation.{known_name(name).replace('-', '_')}.rows")
+    module = import_module(module_of(known_name(name)))
     folder = Path(out_dir)
     folder.mkdir(parents=True, exist_ok=True)
     study = Study(name, folder, quick=quick, threads=threads, backend=backend)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
@@ -11,7 +11,6 @@ from typing import Any
 from lasersph.validation.comparison import Row
 
 HEAD = ("quantity", "unit", "published", "reference", "computed", "tolerance", "verdict")
-WORDS = {True: "ok", False: "FAILED", None: "shown"}
 
 
 @dataclass(frozen=True)
@@ -21,7 +20,8 @@ class Report:
     Attributes:
         name: as in `lasersph validate NAME`. title: the question, in one line.
         rows: compared numbers. figures: files drawn. remarks: what the numbers say.
-        quick: whether it ran shortened.
+        quick: whether it ran shortened. seconds: that it took, with those of runs that were kept.
+        cases, solvers: as of `Study`.
     """
 
     name: str
@@ -30,6 +30,9 @@ class Report:
     figures: tuple[Path, ...] = ()
     remarks: tuple[str, ...] = ()
     quick: bool = False
+    seconds: float = 0.0
+    cases: tuple[str, ...] = ()
+    solvers: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -61,11 +64,17 @@ class Report:
         lines = [f"{self.name}: {self.title}" + (" (quick)" if self.quick else ""), ""]
         lines += columns([HEAD, *(_cells(row) for row in self.rows)])
         lines += ["", *(f"- {text}" for text in self.remarks)]
+        lines += [f"- changed: {text}" for text in unique(row.changed for row in self.rows)]
         lines += [f"figure {path}" for path in self.figures]
         judged = sum(row.verdict is not None for row in self.rows)
         verdict = "passed" if self.passed else f"FAILED: {len(self.failures)}"
         lines.append(f"{self.name} {verdict} of {judged} judged, {len(self.rows)} numbers")
         return "\n".join(lines)
+
+
+def unique(texts: Iterable[str]) -> list[str]:
+    """Texts that are not empty, each once."""
+    return [text for text in dict.fromkeys(texts) if text]
 
 
 def columns(rows: Sequence[Sequence[str]]) -> list[str]:
@@ -88,7 +97,7 @@ def _cells(row: Row) -> tuple[str, ...]:
         _text(row.reference),
         _text(row.computed),
         "" if row.tolerance is None else f"{row.tolerance:.3g}",
-        WORDS[row.verdict],
+        row.judgement,
     )
 
 

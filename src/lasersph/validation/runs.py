@@ -1,25 +1,22 @@
 """Runs of shipped cases for validations, each in a folder of its own.
 
 A run is kept: where the same program finds it again it is taken as it is, or continued where it was
-interrupted. A run of another version of the program is computed anew, so that a validation never
-judges what other sources computed.
+interrupted. A run of other sources, of those that it runs through, is computed anew, so that a
+validation never judges what they computed.
 """
 
 from __future__ import annotations
 
-import hashlib
 import shutil
-from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
 from lasersph.case import Case
 from lasersph.input import CaseError
-from lasersph.output import Run, open_run
+from lasersph.output import Run, hash_of_case, open_run
 from lasersph.simulation import run
+from lasersph.validation import sources
 
-LOOK_ONLY = ("cli", "plots", "report", "studies", "validation")
-"""Rooms whose sources no run depends on."""
 NUMERICS = ("numba", "numpy", "scipy")
 
 
@@ -44,19 +41,8 @@ def run_case(case: Case, folder: Path, *, threads: int | None = None, backend: s
 def fingerprint(case: Case, backend: str = "cpu") -> str:
     """What a run depends on: case, sources that compute it, versions below them, where it runs."""
     versions = " ".join(f"{name} {version(name)}" for name in NUMERICS)
-    return f"case {case.hash()}\nsources {_sources()}\n{versions}\nbackend {backend}\n"
-
-
-@cache
-def _sources() -> str:
-    """Hash of all sources and data of the package outside `LOOK_ONLY`."""
-    package = Path(__file__).parents[1]
-    digest = hashlib.sha256()
-    for path in sorted(package.rglob("*")):
-        place = path.relative_to(package)
-        if path.suffix in (".py", ".toml") and place.parts[0] not in LOOK_ONLY:
-            digest.update(str(place).encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()
+    modules = sources.hashes([sources.TIME_LOOP, sources.recipe_module(case.solver.kind)])
+    return f"case {case.hash()}\nsources {hash_of_case(modules)}\n{versions}\nbackend {backend}\n"
 
 
 def _remove(folder: Path) -> None:

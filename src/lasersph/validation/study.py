@@ -5,8 +5,10 @@
 
 from __future__ import annotations
 
+import json
 import tomllib
 from pathlib import Path
+from time import monotonic
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
@@ -38,7 +40,9 @@ class Study:
         name: as in `lasersph validate NAME`. title: its question, in one line. quick: whether it
             runs shortened. plan: the keys of `case.toml`, those of its table `quick` over them
             where it runs shortened. folder: of its runs and figures.
-        rows, figures, remarks: what there is so far.
+        comparisons: kinds of rows by name, as `rows.toml` states them.
+        rows, figures, remarks: what there is so far. cases: what was asked for, as a text that
+            JSON reads as name and settings. solvers: kinds of those that ran.
     """
 
     def __init__(
@@ -52,17 +56,18 @@ class Study:
     ) -> None:
         self.name, self.title, self.folder, self.quick = name, title_of(name), folder, quick
         self.threads, self.device = threads, backend
-        homes = [home_of(name)]
-        while LIKE in (keys := _keys_of(homes[0])):
-            homes.insert(0, home_of(keys[LIKE]))
+        homes = homes_of(name)
         self.plan = SimpleNamespace(**_plan_of(homes, quick=quick))
         self._home = homes[-1]
-        self._comparisons = read_comparisons(
+        self.comparisons = read_comparisons(
             file for home in homes if (file := home / "rows.toml").is_file()
         )
         self.rows: list[Row] = []
         self.figures: list[Path] = []
         self.remarks: list[str] = list(getattr(self.plan, "remarks", ()))
+        self.cases: dict[str, None] = {}
+        self.solvers: set[str] = set()
+        self._started, self._saved = monotonic(), 0.0
 
     @property
     def backend(self) -> Backend:
@@ -71,13 +76,20 @@ class Study:
 
     def case(self, *settings: str) -> Case:
         """The shipped case that `case.toml` names, with settings KEY=VALUE."""
-        return load_case(self.plan.case, settings)
+        return self._load(self.plan.case, settings)
 
     def run(self, label: str, *settings: str, case: str = "") -> Run:
         """A run of that case, or of another shipped one, computed or taken from `runs/label`."""
-        wanted = load_case(case or self.plan.case, settings)
+        wanted, begin = self._load(case or self.plan.case, settings), monotonic()
+        self.solvers.add(wanted.solver.kind)
         folder = self.folder / "runs" / label
-        return run_case(wanted, folder, threads=self.threads, backend=self.device)
+        one = run_case(wanted, folder, threads=self.threads, backend=self.device)
+        self._saved += max(0.0, one.summary["wall_time_s"] - (monotonic() - begin))
+        return one
+
+    def _load(self, name: str, settings: tuple[str, ...]) -> Case:
+        self.cases[json.dumps([name, *settings], ensure_ascii=False)] = None
+        return load_case(name, settings)
 
     def table(self, name: str = "reference.csv") -> dict[str, np.ndarray]:
         """Columns of a table in the folder of the validation by name, (rows,)."""
@@ -95,7 +107,7 @@ class Study:
         **words: Any,
     ) -> None:
         """Add a row of a kind that `rows.toml` states; args as of `Comparison.row`."""
-        row = self._comparisons[comparison].row(
+        row = self.comparisons[comparison].row(
             computed,
             reference,
             published=published,
@@ -108,7 +120,7 @@ class Study:
 
     def add_group(self, group: str, one: Run, **words: Any) -> None:
         """Add all rows of a group, whose numbers are those of a run's summary."""
-        for name, comparison in self._comparisons.items():
+        for name, comparison in self.comparisons.items():
             if comparison.group == group:
                 value = number_at(one.summary, comparison.path, comparison.factor)
                 self.add(name, value, **words)
@@ -124,13 +136,40 @@ class Study:
 
     def report(self) -> Report:
         """All that there is so far."""
-        rows, figures, remarks = tuple(self.rows), tuple(self.figures), tuple(self.remarks)
-        return Report(self.name, self.title, rows, figures, remarks, self.quick)
+        return Report(
+            self.name,
+            self.title,
+            tuple(self.rows),
+            tuple(self.figures),
+            tuple(self.remarks),
+            self.quick,
+            seconds=monotonic() - self._started + self._saved,
+            cases=tuple(self.cases),
+            solvers=tuple(sorted(self.solvers)),
+        )
 
 
 def home_of(name: str) -> Path:
     """Folder of a validation within the package."""
     return HOME / name.replace("-", "_")
+
+
+def homes_of(name: str) -> list[Path]:
+    """Folders whose keys and rows hold for a validation, its own last."""
+    homes = [home_of(name)]
+    while LIKE in (keys := _keys_of(homes[0])):
+        homes.insert(0, home_of(keys[LIKE]))
+    return homes
+
+
+def tables_of(name: str) -> list[Path]:
+    """Tables of reference numbers that a validation may read."""
+    return sorted(file for home in homes_of(name) for file in home.glob("*.csv"))
+
+
+def module_of(name: str) -> str:
+    """Module that compares a validation's numbers."""
+    return f"lasersph.validation.{name.replace('-', '_')}.rows"
 
 
 def title_of(name: str) -> str:

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from reliability_runs import LONGEST_WAIT, wait_until
@@ -240,7 +241,7 @@ def test_validate(monkeypatch, capsys):
     monkeypatch.setattr("lasersph.validation.validate", fake)
     assert said(capsys, "validate", "--list") == "good  A?\nbad   B?\n"
     assert "1 of 1 passed" in said(capsys, "validate", "good", "good", "--quick")
-    assert folders == [("runs/validation/good", True, None, "cpu")]
+    assert folders == [("runs/validation/short/good", True, None, "cpu")]
     text = said(capsys, "validate", "--json", "all.json", "--out", "v", "--threads", "1", code=1)
     assert "table of bad" in text and "not passed: bad" in text
     assert folders[1:] == [("v/good", False, 1, "cpu"), ("v/bad", False, 1, "cpu")]
@@ -252,6 +253,38 @@ def test_validate(monkeypatch, capsys):
     assert 'do you mean "good"' in capsys.readouterr().err
     assert main(["validate", "good", "--json", "none/all.json"]) == 1
     assert "cannot write none/all.json" in capsys.readouterr().err
+
+
+def test_records_of_validations(monkeypatch, capsys):
+    """What is out of date is computed or confirmed, nothing else; exit code 1 while any is."""
+    words = {"kernels": "current", "stefan": "stale", "sound-wave": "missing"}
+    done = []
+
+    def state(name, folder):
+        record = None if words[name] == "missing" else {"passed": True}
+        changes = ("case stefan",) if words[name] == "stale" else ()
+        return SimpleNamespace(
+            name=name, word=words[name], text="", record=record, changes=changes,
+            is_out_of_date=record is None or bool(changes),
+        )  # fmt: skip
+
+    def make(name, folder, out, *, threads, backend):
+        done.append((name, str(folder), str(out)))
+        words[name] = "current"
+
+    monkeypatch.setattr("lasersph.validation.names", lambda: tuple(words))
+    monkeypatch.setattr("lasersph.validation.records.state_of", state)
+    monkeypatch.setattr("lasersph.validation.records.make_record", make)
+    monkeypatch.setattr("lasersph.validation.records.confirm", lambda *_, threads: ["front"])
+    text = said(capsys, "validate", "--status", code=1)
+    assert text.splitlines()[1].split() == ["stefan", "stale"]
+    text = said(capsys, "validate", "--confirm", "--record", "r", code=1)
+    assert "stefan: not confirmed: front" in text and "kernels: " not in text
+    said(capsys, "validate", "--all", "--record", "r")
+    assert done == [(n, "r", "runs/validation") for n in ("stefan", "sound-wave")]
+    assert said(capsys, "validate", "--status")
+    for wrong in (["kernels", "--all"], ["--status", "--quick"], ["--status", "--confirm"]):
+        assert main(["validate", *wrong]) == 2
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,298 @@
+"""Records of validations: what was computed, when, where and from which sources; what is current.
+
+A folder of records holds NAME.json of every validation and its figures in NAME/. A record is out of
+date once a case that it ran, its material, its own tables or a module that it runs through differs
+from then. Where the shortened form still gives its stored numbers, the record is confirmed.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import shutil
+import subprocess
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from lasersph import __version__
+from lasersph.case import load_case
+from lasersph.input import CaseError
+from lasersph.output import OutputError, hash_of_case
+from lasersph.output.atomic import replace_json
+from lasersph.validation import sources
+from lasersph.validation.registry import validate
+from lasersph.validation.report import Report
+from lasersph.validation.study import Study, module_of, tables_of
+
+SCHEMA_VERSION = 2
+ROUND_OFF = 1e-9
+"""Relative difference of numbers that are the same: sums in another order differ by 1e-16 a step,
+over 1e5 steps by less than 1e-11; a formula or a constant that changed is seen far above 1e-9."""
+NOUGHT = 1e-12
+"""In the unit of its row: what should vanish, and is round-off."""
+WORDS = ("reason", "changed", "source")
+"""Keys of `rows.toml` that change no number."""
+Entry = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class State:
+    """How far a validation can be relied on.
+
+    Attributes:
+        name: of the validation. word: "current", "confirmed", "stale", "failed" or "missing".
+        record: what is stored, its reasons as `rows.toml` gives them now. changes: what differs
+            from when it was computed, or confirmed.
+    """
+
+    name: str
+    word: str
+    record: Entry | None = None
+    changes: tuple[str, ...] = ()
+
+    @property
+    def is_out_of_date(self) -> bool:
+        """Whether it has to be computed, or confirmed."""
+        return self.record is None or bool(self.changes)
+
+    @property
+    def text(self) -> str:
+        """Dates, what failed and what changed, as one line."""
+        if self.record is None:
+            return ""
+        parts = [f"computed {self.record['computed']['date']}"]
+        if self.record["confirmed"] and not self.changes:
+            parts.append(f"confirmed {self.record['confirmed']['date']}")
+        if not self.record["passed"]:
+            verdicts = Counter(row["verdict"] for row in self.record["rows"])
+            judged = verdicts[True] + verdicts[False]
+            parts.append(self.record["error"] or f"{verdicts[False]} of {judged} judged not met")
+        if self.changes:
+            more = f" and {len(self.changes) - 4} more" if len(self.changes) > 4 else ""
+            parts.append("changed since: " + ", ".join(self.changes[:4]) + more)
+        return "; ".join(parts)
+
+
+def state_of(name: str, folder: Path) -> State:
+    """State of the record of a validation in a folder of records.
+
+    Raises:
+        ValueError: a record of another version of this file.
+    """
+    file = folder / f"{name}.json"
+    if not file.is_file():
+        return State(name, "missing")
+    record = json.loads(file.read_text(encoding="utf-8"))
+    if record["schema_version"] != SCHEMA_VERSION:
+        raise ValueError(f"{file}: schema_version {record['schema_version']}, not {SCHEMA_VERSION}")
+    kinds = Study(name, Path()).comparisons
+    for row in record["rows"]:
+        if (kind := kinds.get(row["kind"])) is not None:
+            row |= {"reason": kind.reason, "changed": kind.changed}
+    changes, word = changes_since(record["computed"], name), "current"
+    if changes and record["confirmed"]:
+        changes, word = changes_since(record["confirmed"], name), "confirmed"
+    if changes:
+        word = "stale"
+    return State(name, word if record["passed"] else "failed", record, changes)
+
+
+def make_record(
+    name: str, folder: Path, out: Path, *, threads: int | None = None, backend: str = "cpu"
+) -> Entry:
+    """Compute a validation, shortened and in full, and store it with its figures.
+
+    Runs are kept below `out` and taken from there. A validation that breaks off is stored as well.
+
+    Raises:
+        OutputError: the folder cannot be written.
+    """
+    run = partial(validate, name, threads=threads, backend=backend)
+    short, report, error = None, Report(name, "", ()), ""
+    sources.hashes([module_of(name), sources.TIME_LOOP])  # of the files as they are loaded now
+    try:
+        short = run(out / "short" / name, quick=True)
+        report = run(out / name)
+    except (OutputError, MemoryError):
+        raise
+    except Exception as failure:
+        error = f"broke off: {type(failure).__name__}: {' '.join(str(failure).split())}"
+    content = report.as_dict()
+    shutil.rmtree(folder / name, ignore_errors=True)
+    for figure in report.figures:
+        (folder / name).mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(figure, folder / name / figure.name)
+    record = {
+        "schema_version": SCHEMA_VERSION,
+        **{key: content[key] for key in ("name", "passed", "rows", "remarks")},
+        "error": error,
+        "figures": [figure.name for figure in report.figures],
+        "seconds": report.seconds,
+        "short": {"seconds": short.seconds, "rows": short.as_dict()["rows"]} if short else None,
+        "computed": _origin(name, report, short) | {"backend": backend, "threads": threads},
+        "confirmed": None,
+    }
+    folder.mkdir(parents=True, exist_ok=True)
+    replace_json(folder / f"{name}.json", record)
+    return record
+
+
+def confirm(state: State, folder: Path, out: Path, *, threads: int | None = None) -> list[str]:
+    """Confirm a stale record by its shortened form; what stands against it, nothing if confirmed.
+
+    The form has to give every stored number of its own to `ROUND_OFF`. It cannot speak for
+    tables of the validation itself, nor for a key of a case that it overrides.
+    """
+    record, name = state.record, state.name
+    assert record is not None
+    if record["short"] is None:
+        return ["it has no shortened form"]
+    if own := [text for text in state.changes if text.startswith("own ")]:
+        return [f"changed: {text}" for text in own]
+    before = record["computed"]
+    if _changed(before["cases"]) and not _changed(before["short_cases"]):
+        return ["a case differs in what the shortened form overrides"]
+    short = validate(name, out / "short" / name, quick=True, threads=threads)
+    found = differences(record["short"]["rows"], short.as_dict()["rows"])
+    if not found:
+        origin = _origin(name, Report(name, "", ()), short)
+        origin["cases"] = {label: _case(label)[0] for label in before["cases"]}
+        origin["roots"] = sorted({*origin["roots"], *before["roots"]})
+        origin["sources"] = sources.hashes(origin["roots"])
+        replace_json(folder / f"{name}.json", record | {"confirmed": origin})
+    return found
+
+
+def differences(before: list[Entry], after: list[Entry], round_off: float = ROUND_OFF) -> list[str]:
+    """Rows whose numbers or verdicts are not those of before, or that only one of both has."""
+    first, second = keyed_rows(before), keyed_rows(after)
+    return [
+        key[0]
+        for key in first | second
+        if key not in first
+        or key not in second
+        or first[key]["verdict"] != second[key]["verdict"]
+        or any(
+            relative(first[key], second[key], what) > round_off
+            for what in ("computed", "reference", "tolerance")
+        )
+    ]
+
+
+def relative(first: Entry, second: Entry, what: str = "computed") -> float:
+    """Difference of two rows over their size; infinite where only one has a number."""
+    a, b = first[what], second[what]
+    if a == b:
+        return 0.0
+    if not (isinstance(a, int | float) and isinstance(b, int | float)):
+        return float("inf")
+    if abs(a - b) < NOUGHT:
+        return 0.0
+    sizes = (a, b, first["reference"] or 0.0, first["tolerance"] or 0.0)
+    return abs(a - b) / max(abs(size) for size in sizes)
+
+
+def keyed_rows(rows: list[Entry]) -> dict[tuple[str, int], Entry]:
+    """Rows by quantity, and by how many of that name came before."""
+    seen: Counter[str] = Counter()
+    keyed = {}
+    for row in rows:
+        keyed[row["quantity"], seen[row["quantity"]]] = row
+        seen[row["quantity"]] += 1
+    return keyed
+
+
+def changes_since(origin: Entry, name: str) -> tuple[str, ...]:
+    """Tables, cases, materials and modules that differ from those of a computation."""
+    own = {f"own {file}": text for file, text in _own_tables(name).items()}
+    now = sources.hashes(origin["roots"])
+    found = [*_differ(origin["own"], own), *_changed(origin["cases"] | origin["short_cases"])]
+    return tuple(dict.fromkeys([*found, *_differ(origin["sources"], now)]))
+
+
+def _differ(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+    return [key for key in sorted({*before, *now}) if before.get(key) != now.get(key)]
+
+
+def _changed(cases: Mapping[str, list[str]]) -> list[str]:
+    """Names of the cases and the materials that differ from what was run."""
+    found = []
+    for label, before in cases.items():
+        now, names = _case(label)
+        found += [
+            f"{word} {of}"
+            for word, of, a, b in zip(("case", "material"), names, before, now, strict=True)
+            if a != b
+        ]
+    return list(dict.fromkeys(found))
+
+
+def _case(label: str) -> tuple[list[str], tuple[str, str]]:
+    """Hashes, and names, of a case but for its material, and of its material."""
+    name, *settings = json.loads(label)
+    try:
+        case = load_case(name, settings)
+    except CaseError as error:
+        return [str(error), ""], (name, f"of {name}")
+    content = case.resolved()
+    material = content.pop("material")
+    return [hash_of_case(content), hash_of_case(material)], (name, case.material.name)
+
+
+def _own_tables(name: str) -> dict[str, str]:
+    """Hashes of what a validation states itself: what it runs, what it compares, and with what."""
+    studies = [Study(name, Path(), quick=quick) for quick in (False, True)]
+    plans = [vars(study.plan) | {"remarks": (), "order": 0} for study in studies]
+    kinds = {key: asdict(kind) for key, kind in studies[0].comparisons.items()}
+    rows = {key: {k: v for k, v in kind.items() if k not in WORDS} for key, kind in kinds.items()}
+    stated = {"case.toml": {"plans": plans}, "rows.toml": rows}
+    tables = {file.name: {"text": file.read_text("utf-8")} for file in tables_of(name)}
+    return {key: hash_of_case(value) for key, value in (stated | tables).items()}
+
+
+def _origin(name: str, report: Report, short: Report | None) -> Entry:
+    """What a record was computed from, when and where."""
+    kinds = {*report.solvers, *(short.solvers if short else ())}
+    recipes = [sources.recipe_module(kind) for kind in sorted(kinds)]
+    roots = [module_of(name), sources.JUDGE, *recipes, *([sources.TIME_LOOP] if kinds else [])]
+    return {
+        "date": datetime.now(UTC).strftime("%Y-%m-%d"),
+        "lasersph": __version__,
+        "commit": _commit(),
+        "machine": _machine(),
+        "own": {f"own {file}": text for file, text in _own_tables(name).items()},
+        "cases": {label: _case(label)[0] for label in report.cases},
+        "short_cases": {label: _case(label)[0] for label in (short.cases if short else ())},
+        "roots": roots,
+        "sources": sources.hashes(roots),
+    }
+
+
+def _machine() -> str:
+    """Processor, number of processors and system."""
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text().splitlines() if info.is_file() else []
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return (
+        f"{(models or [platform.machine()])[0]}, {os.cpu_count()} processors, {platform.system()}"
+    )
+
+
+def _commit() -> str | None:
+    """Latest commit that changed the package, if it lies in a work tree of git."""
+
+    def git(*words: str) -> str:
+        command = ["git", "-C", str(sources.ROOT), *words, "--", "."]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+    try:
+        found = git("log", "-1", "--format=%h")
+        return f"{found} with changes" if found and git("status", "--porcelain") else found or None
+    except (OSError, subprocess.CalledProcessError):
+        return None
