@@ -4,7 +4,8 @@
     viscosity   0.125 l^2 / nu       heat        0.125 l^2 / a
     capillary   0.25 sqrt(rho l^3 / (2 pi gamma))               [Demuth2020, eqs. (59), (76)]
 
-l is the support radius, v the largest speed, f the largest acceleration. Corrected: advection takes
+l is the support radius, v the largest speed, f the largest acceleration by all forces together:
+pressure, viscosity with the stress of the surface in it, and buoyancy. Corrected: advection takes
 0.06 l / v, 0.23 spacings, since a pressure that acts for a whole step of 0.94 spacings loses 1 % of
 the energy of a vortex within a tenth of its turn; viscosity 0.05 l^2 / nu where it is explicit,
 since forward Euler with the SPH Laplacian diverges beyond 0.0575 l^2 / nu, and 0.2 l^2 / nu where

@@ -111,10 +111,11 @@ def subtract_lowest(p, lowest):
     return p - lowest
 
 
-def correct(total, v, step, density):
-    """v - dt / rho G{p} [m/s] (70), and |dv/dt|^2 of the pressure."""
-    a = total / density
-    return v - step * a, dot(a, a)
+def correct(total, v, v_old, step, density):
+    """v - dt / rho G{p} [m/s] (70), and |dv/dt|^2 of all forces of the step."""
+    new = v - step / density * total
+    a = (new - v_old) / step
+    return new, dot(a, a)
 
 
 def kinetic_energy(v, V, density):
@@ -133,7 +134,7 @@ class Flow:
     Attributes:
         spacing: of the particles that move [m].
         velocity: (2, n) [m/s]. pressure: (n,) [Pa]. largest_speed [m/s].
-            largest_acceleration by the pressure [m/s^2]. iterations: of the last step. divergence:
+            largest_acceleration by all forces [m/s^2]. iterations: of the last step. divergence:
             rms and largest D after the projection [1/s].
     """
 
@@ -275,7 +276,7 @@ class Flow:
         (square,) = backend.pair_sum(
             corrected_symmetric_term,
             block.pairs,
-            {"p": p, "V": block.V, "C": C, "v": self.velocity},
+            {"p": p, "V": block.V, "C": C, "v": self.velocity, "v_old": self.before},
             (self.velocity, None),
             rows=kinds.fluid_rows,
             finish=correct,

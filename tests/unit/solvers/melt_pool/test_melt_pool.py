@@ -4,7 +4,17 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from flow_boxes import box, go, host_fields, matrix_of, pool, pool_case
+from flow_boxes import (
+    PERIODIC,
+    PERIODIC_HEAT,
+    box,
+    go,
+    host_fields,
+    matrix_of,
+    pool,
+    pool_case,
+    start_from,
+)
 
 from lasersph.compute.search import EscapedParticle
 from lasersph.simulation.recipes import recipe_of
@@ -200,6 +210,27 @@ def test_limits_by_name(life):
     assert {"heat", "advection"} <= set(published.time_step_limits())
     solver = restored(life[-1])
     assert not {"advection", "viscosity"} & set(solver.time_step_limits())
+
+
+@pytest.mark.parametrize("viscosity", ["implicit", "explicit"])
+def test_acceleration_is_that_of_all_forces(viscosity):
+    """Without any pressure: buoyancy alone lifts by beta (T - T_l) g, viscosity alone slows a shear
+    wave by nu k^2 U; the limit follows by hand."""
+    lifted = box(flow=PERIODIC, heat=PERIODIC_HEAT, material={"expansion": "0.1 1/K"},
+                 viscosity=viscosity)  # fmt: skip
+    warm = host_fields(lifted)["enthalpy"] + 5.0  # c_p is 1 J/(kg K), T_l the initial temperature
+    start_from(lifted, warm)
+    lifted.step(1e-4)
+    assert lifted.flow.largest_acceleration == pytest.approx(0.1 * 5.0 * 9.81, rel=1e-9)
+
+    slowed = box(flow=PERIODIC, heat=PERIODIC_HEAT, cells=40, viscosity=viscosity)
+    k, (_, z) = 2.0 * np.pi, host_fields(slowed)["position"]
+    slowed.flow.begin(np.stack([0.7 * np.sin(k * z), 0.0 * z]))
+    slowed.step(1e-5)
+    assert slowed.flow.largest_acceleration == pytest.approx(0.01 * k**2 * 0.7, rel=0.01)
+    limit = slowed.time_step_limits()["force"]
+    support = slowed.domain.support
+    assert limit == 0.25 * (support / slowed.flow.largest_acceleration) ** 0.5
 
 
 def test_iterations_and_checkpoint_scalars():
