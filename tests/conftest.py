@@ -6,7 +6,7 @@ import tempfile
 import pytest
 from hypothesis import HealthCheck, settings
 
-SIMULATOR = pytest.StashKey()
+SIMULATOR, SHORT = pytest.StashKey(), pytest.StashKey()
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as on the command line
 os.environ.setdefault(
@@ -20,18 +20,27 @@ settings.load_profile("any-machine")
 
 
 def pytest_collection_finish(session):
-    """Start the simulator's tests where they are asked for."""
+    """Start what runs beside the tests, where they ask for it."""
+    import short_validations
     import simulator_process
 
-    asked = any("simulated" in getattr(item, "fixturenames", ()) for item in session.items)
-    if asked and not session.config.option.collectonly and simulator_process.is_possible():
-        session.config.stash[SIMULATOR] = simulator_process.SimulatorProcess()
+    if session.config.option.collectonly:
+        return
+    stash = session.config.stash
+    asked = {name for item in session.items for name in getattr(item, "fixturenames", ())}
+    if "simulated" in asked and simulator_process.is_possible():
+        stash[SIMULATOR] = simulator_process.SimulatorProcess()
+    if "short_validations" in asked:
+        items = [item for item in session.items if "short_validations" in item.fixturenames]
+        names = [item.callspec.params["name"] for item in items]
+        stash[SHORT] = short_validations.ShortValidations(names)
 
 
 def pytest_unconfigure(config):
     """Leave no process behind."""
-    if SIMULATOR in config.stash:
-        config.stash[SIMULATOR].end()
+    for key in (SIMULATOR, SHORT):
+        if key in config.stash:
+            config.stash[key].end()
 
 
 @pytest.fixture(scope="session")
@@ -40,6 +49,12 @@ def simulated(pytestconfig):
     if SIMULATOR not in pytestconfig.stash:
         pytest.skip("needs numba-cuda (extra gpu), and not to be the simulator already")
     return pytestconfig.stash[SIMULATOR]
+
+
+@pytest.fixture(scope="session")
+def short_validations(pytestconfig):
+    """The shortened validations, which run beside the others."""
+    return pytestconfig.stash[SHORT]
 
 
 def backends():

@@ -5,14 +5,11 @@ It takes several minutes of one processor, and the other tests seldom use two.
 
 import importlib.util
 import json
-import os
-import subprocess
 import sys
-import tempfile
-from functools import cached_property
 from pathlib import Path
 
 from cuda_simulator import KERNELS
+from side_process import SideProcess
 
 from lasersph.compute import cuda_device
 
@@ -31,38 +28,18 @@ def is_possible():
     return importlib.util.find_spec("numba_cuda") is not None and not cuda_device.IS_SIMULATED
 
 
-class SimulatorProcess:
-    """The process from its start; what it leaves is asked for when it is needed."""
+class SimulatorProcess(SideProcess):
+    """The tests in the simulator, and the kernels that ran there."""
 
     def __init__(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self._kernels = Path(self._folder.name) / "kernels.json"
-        self._log = Path(self._folder.name) / "log"
+        super().__init__()
+        self._kernels = self.folder / "kernels.json"
         command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-k", "cuda"]
-        with self._log.open("w") as log:
-            self._process = subprocess.Popen(
-                [*command, *(str(TESTS / name) for name in FILES)], cwd=TESTS.parent,
-                env=os.environ | {"NUMBA_ENABLE_CUDASIM": "1", KERNELS: str(self._kernels)},
-                stdout=log, stderr=subprocess.STDOUT,
-            )  # fmt: skip
-
-    @cached_property
-    def returncode(self):
-        """Its exit status, once it has ended."""
-        return self._process.wait()
-
-    @property
-    def text(self):
-        """What it printed."""
-        return self._log.read_text()
+        files = [str(TESTS / name) for name in FILES]
+        environment = {"NUMBA_ENABLE_CUDASIM": "1", KERNELS: str(self._kernels)}
+        self.start([*command, *files], environment)
 
     @property
     def kernels(self):
         """Every kernel that ran: source file, name, types of the arguments."""
         return json.loads(self._kernels.read_text())
-
-    def end(self):
-        """Stop it where it still runs, and remove its files."""
-        self._process.kill()
-        self._process.wait()
-        self._folder.cleanup()
