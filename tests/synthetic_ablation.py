@@ -14,8 +14,7 @@ import numpy as np
 from lasersph.observers import AblationView, View, ablation_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
-from lasersph.output.schedule import SnapshotSchedule
-from lasersph.output.settings import SnapshotPlan, Trace
+from lasersph.output.settings import SnapshotPlan, SnapshotSchedule, Trace
 
 NS, UM = 1e-9, 1e-6
 DX, WIDTH, DEPTH, HEIGHT = 0.2 * UM, 6 * UM, 3 * UM, 3 * UM

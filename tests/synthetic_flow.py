@@ -20,8 +20,7 @@ from synthetic_run import NM, NS, PERIOD
 from lasersph.observers import FlowView, View, flow_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
-from lasersph.output.schedule import SnapshotSchedule
-from lasersph.output.settings import SnapshotPlan
+from lasersph.output.settings import SnapshotPlan, SnapshotSchedule
 
 LAYER = 120 * NM
 FASTEST = 4.0

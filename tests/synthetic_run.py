@@ -13,8 +13,7 @@ import numpy as np
 from lasersph.observers import View, heat_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
-from lasersph.output.schedule import SnapshotSchedule
-from lasersph.output.settings import Probe, SnapshotPlan
+from lasersph.output.settings import Probe, SnapshotPlan, SnapshotSchedule
 
 NS, NM = 1e-9, 1e-9
 PERIOD, END = 5e-6, 200 * NS

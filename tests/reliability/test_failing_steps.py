@@ -8,7 +8,7 @@ from reliability_runs import assert_same
 from lasersph.cli import main
 from lasersph.output import open_run
 from lasersph.output.checkpoint import candidates, load
-from lasersph.output.events import read_events
+from lasersph.output.history import read_events
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.step_control import NotConverged
 

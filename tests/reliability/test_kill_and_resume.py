@@ -6,7 +6,7 @@ import pytest
 from reliability_runs import assert_same, kill_after, small_case, start_and_pause
 
 from lasersph.output import FolderRefused, OutputError, open_run
-from lasersph.output.events import read_events
+from lasersph.output.history import read_events
 from lasersph.simulation import run
 from lasersph.simulation.time_loop import Stopped
 

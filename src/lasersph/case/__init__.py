@@ -4,8 +4,7 @@ contents         the model of all keys
 case             the same, checked together, as plain data, its hash
 material_choice  a material by name, by path, or changed in the case
 checks           what contradicts between rooms
-active_region    whether only what heat reaches is computed, and how deep that is
-size             how large a case is before anything is allocated
+size             how large a case is before anything is allocated, and how much of it is active
 conversion       keys of older files at their present places
 overrides        --set key=value
 loading          files, shipped cases, new case files

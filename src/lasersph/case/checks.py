@@ -20,7 +20,7 @@ from lasersph.case.size import (
 from lasersph.case.solver_choice import SELECTIVE_KEYS, reader_of
 from lasersph.input import CaseError, format_quantity
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
-from lasersph.output.schedule import SnapshotSchedule
+from lasersph.output.settings import SnapshotSchedule
 
 if TYPE_CHECKING:
     from lasersph.case.contents import CaseContents

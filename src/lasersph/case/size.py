@@ -1,8 +1,10 @@
-"""How large a case is before anything is allocated: a lower estimate to refuse the absurd.
+"""How large a case is before anything is allocated: a lower estimate to refuse the absurd, and
+how much of it is computed where only what heat can reach is.
 
 Layers of thickness d hold width/d columns; graded layers grow by 1/ratio up to the coarsest. The
 exact counts come from the filling itself; this estimate is good to some percent where the fine
-depth is given.
+depth is given. Heat is followed down to 1e-11 of its largest rise: erfc(4.8) of the penetration
+2 sqrt(D t); cells become active ahead of it by some supports.
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lasersph.case.active_region import active_share
+from lasersph.boundaries.initial_motion import Rest
 from lasersph.particles import Domain, Lattice
 
 if TYPE_CHECKING:
@@ -24,6 +26,10 @@ LARGEST_STEPS = 1e9
 BYTES_PER_PARTICLE = 400
 """Fields and what is kept of them for a checkpoint, besides neighbors."""
 ASSUMED_FINE_DEPTH = 2e-7
+PENETRATIONS = 9.6
+"""Depth of the active region over sqrt(D t)."""
+SUPPORTS = 4.0
+"""Supports that become active ahead of the heat."""
 
 
 @dataclass(frozen=True)
@@ -104,3 +110,21 @@ def in_words(count: float) -> str:
             return f"{count:.3g} {unit}"
         count /= 1024.0
     return f"{count:.3g} PiB"
+
+
+def has_active_region(case: CaseContents) -> bool:
+    """Whether only what heat reaches is computed: light on matter at rest, without gravity."""
+    is_at_rest = isinstance(case.motion or Rest(), Rest)
+    return case.laser is not None and is_at_rest and case.solver.leaves_rest_inactive
+
+
+def active_share(case: CaseContents, support: float) -> float:
+    """Estimated largest share of the particles that is active at the end [1].
+
+    Args:
+        support: support radius of the particles [m].
+    """
+    if not has_active_region(case):
+        return 1.0
+    heat = PENETRATIONS * math.sqrt(case.material.diffusivity_reference * case.time.end)
+    return min(1.0, (heat + SUPPORTS * support) / case.domain.depth)

@@ -38,7 +38,7 @@ VERBS = {
             "Write DIR/report.html: figures and numbers on one self-contained page.",
         ),
         "export": (
-            "exporting.export",
+            "results.export",
             "Write the height map of a crater to DIR/crater.FORMAT.",
         ),
     },

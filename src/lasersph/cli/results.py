@@ -1,4 +1,4 @@
-"""`lasersph info`, `plot`, `report`: what a run folder holds."""
+"""`lasersph info`, `plot`, `report`, `export`: what a run folder holds."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from lasersph.cli.arguments import RunFolder
+from lasersph.cli.arguments import RunFolder, read_quantity
 from lasersph.cli.failures import WrongCommand
 from lasersph.cli.tables import aligned
 
@@ -23,6 +23,14 @@ Animate = Annotated[
 Format = Annotated[Literal["gif", "mp4"], typer.Option(help="Of the animation; mp4 needs ffmpeg.")]
 Scene = Annotated[
     bool, typer.Option("--scene", help="Draw a 3-D crater with pyvista instead (extra `view`).")
+]
+ExportFormat = Annotated[
+    Literal["csv", "stl", "ply"],
+    typer.Option(help="csv: x, y, z in m; stl, ply: triangles in um, of 3-D runs."),
+]
+At = Annotated[
+    str | None,
+    typer.Option("--at", metavar="TIME", help="Take the closest snapshot; default: the last."),
 ]
 
 
@@ -95,3 +103,20 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         ("computed in", format_duration(summary["wall_time_s"])),
         *main_numbers(summary),
     ]
+
+
+def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> None:
+    """Write the height map of a crater to DIR/crater.FORMAT."""
+    from lasersph.output import OutputError
+    from lasersph.output.height_map import height_map
+
+    run = opened(folder)
+    if not len(run.snapshots):
+        raise WrongCommand(f"{folder} has no snapshots yet")
+    time = None if at is None else read_quantity("--at", at, "time")
+    step = run.snapshots[-1] if time is None else run.snapshots.nearest(time)
+    try:
+        surface = height_map(step)
+    except OutputError as error:
+        raise WrongCommand(f"{folder}: {error}") from None
+    print(surface.write(Path(folder) / f"crater.{format}"))

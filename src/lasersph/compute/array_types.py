@@ -33,8 +33,8 @@ class Array(Protocol):
 Rows = Array
 """Numbers of particles, kind "index": the rows of a loop."""
 
-Combine = str | None | Sequence[str | None]
-"""How numbers of many particles become one, "sum", "max" or "min", for one result or for each."""
+Constants = dict[str, Any]
+"""Numbers, tuples of numbers and tables that a loop takes by name."""
 Outputs = Array | None | Sequence[Array | None]
 """One array or several that a loop writes; None where a result is not stored."""
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from lasersph.compute import connected, threads
 from lasersph.compute.arguments import components
-from lasersph.compute.array_types import Array, Combine, Outputs, PairList, Rows
+from lasersph.compute.array_types import Array, Outputs, PairList, Rows
 from lasersph.compute.launch import Launch, Launcher
 from lasersph.compute.loops import Loops
 from lasersph.compute.routine import Step, run_routine
@@ -191,8 +191,8 @@ class Backend:
         *,
         rows: Rows | None = None,
         finish: Callable | None = None,
-        reduce: Combine = None,
-        combine: Combine = None,
+        reduce: Any = None,
+        combine: Any = None,
         **constants: Any,
     ) -> tuple[float, ...]:
         """For each row i: out[i] = finish(sum over neighbors j of function(...)).
@@ -242,7 +242,7 @@ class Backend:
         out: Outputs,
         *,
         rows: Rows | None = None,
-        reduce: Combine = None,
+        reduce: Any = None,
         **constants: Any,
     ) -> tuple[float, ...]:
         """out[i] = function(fields at i, constants) for each particle; see `pair_sum`.
@@ -261,7 +261,7 @@ class Backend:
         neighbors: PairList | None = None,
         finish: Callable | None = None,
         rows: Rows | None = None,
-        reduce: Combine = None,
+        reduce: Any = None,
         **constants: Any,
     ) -> Launch:
         """`pair_sum`, or `pointwise` without `neighbors`, bound to these arrays once for all.

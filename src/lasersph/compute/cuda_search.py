@@ -1,7 +1,10 @@
 """Neighbor list and splicing on the graphics card; see `search` and `splice`.
 
 Levels and cells are those of the processor's search. Only what says how large the grid is goes to
-the host: corners, largest supports and numbers of pairs.
+the host: corners, largest supports and numbers of pairs. The walk over levels, periodic images and
+rows of cells is that of `scan`, by a thread per target; it is made twice, first to count a row's
+neighbors, then to store them, so that each row has its place and the order within it is that of the
+processor's lists.
 """
 
 from __future__ import annotations
@@ -15,7 +18,8 @@ from numba import cuda
 from lasersph.compute import cache, cuda_kernels
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import start
-from lasersph.compute.cuda_scan import cuda_scan_text
+from lasersph.compute.cuda_text import HEAD, INNER, supported
+from lasersph.compute.scan import distance, images, indented
 from lasersph.compute.search import (
     FINEST,
     Grid,
@@ -24,7 +28,31 @@ from lasersph.compute.search import (
     refuse_short_period,
     refuse_support,
 )
+from lasersph.compute.source import SourceUnit
 from lasersph.compute.splice import PairRows
+
+_SCAN = '''{mean}
+
+@cuda.jit(cache=True)
+def scan(count, {targets}, support, {sorted_positions}, sorted_support, order, starts, first_cell,
+         low, high, inverse, shape, largest, slack, period, row_start, counts, neighbor, stores):
+    """Count the neighbors of each target, or store them from row_start on."""
+    member = ZERO
+    step = np.uint64(cuda.gridsize(1))
+    i = np.uint64(cuda.grid(1))
+    while i < count:
+        place = row_start[i] if stores else ZERO
+        li = support[i]
+{load_targets}
+        for level in range(largest.size):
+            reach = f__mean_of(li, largest[level]) + slack
+            size = real(1.0) / inverse[level]
+            cells = first_cell[level]
+{images}
+        if not stores:
+            counts[i] = np.uint32(place)
+        i += step
+'''
 
 
 class _Level(NamedTuple):
@@ -297,3 +325,33 @@ def _first_cells(grids: list[Grid]) -> np.ndarray:
     """Number of the first cell of each level."""
     cells = np.cumsum([0, *(one.cells for one in grids)])
     return cells[:-1].astype(np.uint64)
+
+
+def cuda_scan_text(
+    precision: str, dimension: int, mean: Callable, periodic: tuple[bool, ...]
+) -> str:
+    """Text of the module with `scan`."""
+    unit = SourceUnit()
+    name, _ = unit.add(mean, (("real", ()), ("real", ())))
+    loops, depth = images(dimension, periodic)
+    candidates = [f"sorted_{k}[k]" for k in range(dimension)]
+    loops += [
+        "    " * depth + line
+        for line in (
+            "for k in range(first, last):",
+            *("    " + line for line in distance(candidates, periodic)),
+            "    if square < limit * limit and np.uint64(order[k]) != i:",
+            "        if stores:",
+            "            neighbor[place] = order[k]",
+            "        place += ONE",
+        )
+    ]
+    text = (HEAD + _SCAN).format(
+        precision=precision,
+        mean="\n".join(f"{INNER}\n{text}\n" for text in unit.texts),
+        targets=", ".join(f"target_{k}" for k in range(dimension)),
+        sorted_positions=", ".join(f"sorted_{k}" for k in range(dimension)),
+        load_targets=indented(2, [f"x{k} = target_{k}[i]" for k in range(dimension)]),
+        images=indented(3, loops),
+    )
+    return supported(text.replace("f__mean_of(", f"{name}("))

@@ -154,7 +154,11 @@ def neighbor_list(
     cells = _levels(sort, host, reach, mean, lower, upper)
     extent = max(float(np.abs(cells.low).max()), float(np.abs(cells.high).max()), widths.max())
     slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(reach.max())))
-    targets = host if wanted is None else _only(host, backend.unwrap(wanted))
+    targets = host
+    if wanted is not None:  # the others lie where nothing is near
+        rows = backend.unwrap(wanted)
+        targets = np.full_like(host, np.inf)
+        targets[:, rows] = host[:, rows]
     arguments = (np.uint64(count), targets, reach, *cells, slack, widths)
     neighbor = _scanned(module, backend, arguments, count, row_start, room or Room())
     return backend.wrap(row_start), backend.wrap(neighbor)
@@ -196,13 +200,6 @@ def _scanned(
         store(*share, np.uint64(count), bases, scratch, ends, row_start, neighbor)
         begin = end
     return neighbor[:filled]
-
-
-def _only(position: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Positions of the wanted particles; the others lie where nothing is near."""
-    targets = np.full_like(position, np.inf)
-    targets[:, wanted] = position[:, wanted]
-    return targets
 
 
 def _levels(

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from lasersph.compute.arguments import pair_roles, parameter_names
-from lasersph.compute.array_types import Array, Combine, Outputs, PairList, Rows
+from lasersph.compute.array_types import Array, Outputs, PairList, Rows
 
 NEEDS = ("row", "neighbor", "pair")
 """Roles of an array: with an entry for each row, each particle, each pair."""
@@ -27,9 +27,9 @@ class Call(NamedTuple):
     out: Outputs
     rows: Rows | None
     finish: Callable | None
-    reduce: Combine
+    reduce: Any
     constants: dict[str, Any]
-    combine: Combine = None
+    combine: Any = None
 
 
 class Signature:
@@ -113,13 +113,9 @@ def _roles(shape: str, function: Callable) -> tuple:
     if shape in ("pair_sum", "pair_values"):
         return pair_roles(function)
     return tuple(
-        (name, "total" if shape == "finish" and _is_total(name) else "bare", name)
+        (name, "total" if shape == "finish" and name.partition("_")[0] == "total" else "bare", name)
         for name in parameter_names(function)
     )
-
-
-def _is_total(name: str) -> bool:
-    return name.partition("_")[0] == "total"
 
 
 def _bound(call: Call, function: Callable, roles: tuple) -> tuple:

@@ -60,7 +60,7 @@ class SourceUnit:
 
     def look_up(self, function: types.FunctionType, name: str) -> Any:
         """Object that a global name means inside `function`."""
-        for space in (function.__globals__, _builtins_of(function)):
+        for space in (function.__globals__, function.__builtins__):
             if name in space:
                 self._watched[(id(space), name)] = (space, name, space[name])
                 return space[name]
@@ -144,8 +144,3 @@ def _content(code: types.CodeType) -> tuple:
     """What a function does, whatever its line numbers."""
     constants = [repr(value) for value in code.co_consts if not isinstance(value, types.CodeType)]
     return code.co_qualname, code.co_code, code.co_names, code.co_varnames, tuple(constants)
-
-
-def _builtins_of(function: types.FunctionType) -> dict:
-    space = getattr(function, "__builtins__", {})
-    return space if isinstance(space, dict) else space.__dict__

@@ -45,7 +45,9 @@ class FunctionWriter(ExpressionWriter):
         if self.tree.args.vararg or self.tree.args.kwarg or self.tree.args.kwonlyargs:
             raise LoopSourceError(f"{self._place()}: only plain arguments are understood")
         self.locals = {a: named(kind, a) for a, kind in zip(arguments, kinds, strict=True)}
-        heads = [p for a, k in zip(arguments, kinds, strict=True) for p in self._parts(a, k)]
+        heads = [
+            p for a, k in zip(arguments, kinds, strict=True) for p in flat_parts(named(k, a), k)
+        ]
         try:
             returns = self.block(self.tree.body)
         except LoopSourceError as error:
@@ -58,22 +60,19 @@ class FunctionWriter(ExpressionWriter):
         results = [line[0] for _, line in self.lines if isinstance(line, tuple)]
         kind = kind_of(results[0])
         for result in results:
-            kind = joined_kind(kind, kind_of(result) if not _is_flag(result, kind) else kind)
-        body = [
-            "    " * level + (line if isinstance(line, str) else self._returned(line[0], kind))
-            for level, line in self.lines
-        ]
+            is_number = isinstance(result, Number) and is_integer(result)
+            if not (is_number and kind == ("int", ())):  # a literal beside whole numbers is one
+                kind = joined_kind(kind, kind_of(result))
+        body = []
+        for level, line in self.lines:
+            if not isinstance(line, str):
+                line = f"return {', '.join(flat_parts(line[0], kind))}"
+            body.append("    " * level + line)
         return "\n".join([f"def {name}({', '.join(heads)}):", *body]) + "\n", kind
 
     def _place(self) -> str:
         line = self.first_line + self.line - 1
         return f"{self.function.__qualname__}() at {self.file}:{line}"
-
-    def _parts(self, name: str, kind: Any) -> tuple[str, ...]:
-        return flat_parts(named(kind, name), kind)
-
-    def _returned(self, value: Term, kind: Any) -> str:
-        return "return " + ", ".join(flat_parts(value, kind))
 
     def block(self, statements: list[ast.stmt]) -> bool:
         """Translate statements; True where every path through them returns."""
@@ -204,8 +203,3 @@ class FunctionWriter(ExpressionWriter):
         if isinstance(value, Value) and len(shape_of(value)) >= 1:
             return tuple(algebra.component(self, value, [Number(k)]) for k in range(value.shape[0]))
         raise LoopSourceError("a scalar cannot be unpacked")
-
-
-def _is_flag(value: Term, kind: Any) -> bool:
-    """Whether a literal integer can be returned beside integer results."""
-    return is_integer(value) and isinstance(value, Number) and kind == ("int", ())

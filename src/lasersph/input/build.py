@@ -44,10 +44,9 @@ def build(
     """Validate a document as a model, with units required on every quantity.
 
     Args:
-        model: the class to build.
-        document: from `read_toml` or `parse_toml`.
+        model: the class to build. document: from `read_toml` or `parse_toml`.
         context: pydantic's validation context, for validators that look beyond the data.
-        other_words: what other programs call the keys; see `misplaced.Misplaced`.
+        other_words: what other programs call the keys; see `findings.Misplaced`.
 
     Raises:
         CaseError: one problem per mistake, with file, line and key.

@@ -27,8 +27,7 @@ def format_quantity(
 
     Args:
         value: in `unit`; None and what is not finite give "–".
-        unit: "s", "m", "K", "J/m^2", ...; empty for a pure number.
-        digits: significant digits.
+        unit: "s", "m", "K", "J/m^2", ...; empty for a pure number. digits: significant digits.
         typographic: for reports and figures, not for case files.
     """
     if value is None or not math.isfinite(value):

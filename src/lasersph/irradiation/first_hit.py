@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lasersph.boundaries.surface import upward
-from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.columns import (
     NOWHERE,
@@ -158,13 +158,16 @@ class FirstHitLight:
             fields |= {f"column_{name}": column, f"beyond_{name}": beyond}
             if axis < lateral:
                 unit = tuple(float(k == axis) for k in range(self.dimension))
-                place = {"low": float(self._low[axis]), "inverse": 1.0 / float(self.width[axis])}
+                place: Constants = {
+                    "low": float(self._low[axis]),
+                    "inverse": 1.0 / float(self.width[axis]),
+                }
                 backend.pointwise(column_along, {"x": x}, (column, beyond), axis=unit, **place)
         found = []
         for right, back in product(*[(0.0, 1.0)] * lateral, *[(0.0,)] * (2 - lateral)):
             column, cover = backend.zeros(size, "index"), backend.zeros(size)
-            out, where = (column, cover), {"right": right, "back": back, **self._grid}
-            backend.pointwise(column_at_corner, fields, out, **where)
+            where: Constants = {"right": right, "back": back, **self._grid}
+            backend.pointwise(column_at_corner, fields, (column, cover), **where)
             found.append(Corner(column, cover, members_of(backend, column, self.count, x)))
         return found
 

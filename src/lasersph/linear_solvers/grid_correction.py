@@ -24,11 +24,10 @@ different sizes. References: [Xu1996], [Bramble1990] for the additive form.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.compute.dense import invert
 from lasersph.compute.routine import Step
@@ -58,13 +57,13 @@ class Level:
         self.at |= _places(backend, x.nodes, z.nodes)
         across, along = x.spacing**-2, z.spacing**-2
         is_flat = x.nodes == 1 or z.nodes == 1
-        self.shape: dict[str, Any] = {
+        self.shape: Constants = {
             "columns": x.nodes,
             "lines": z.nodes,
             "x_wraps": int(x.wraps),
             "z_wraps": int(z.wraps),
         }
-        self.stencil = self.shape | {
+        self.stencil: Constants = self.shape | {
             "across": across if is_flat else max(0.0, (2.0 * across - along) / 3.0),
             "along": along if is_flat else max(0.0, (2.0 * along - across) / 3.0),
             "aslant": (across + along) / 6.0,
@@ -78,8 +77,8 @@ class Level:
         """Diagonal of K from the volumes C and the boundary coefficients a."""
         run, at = self.backend.pointwise, self.at
         run(grid_nodes.root, at, at["s"])
-        out, given = self.outputs("d", "v"), self.stencil | {"damping": DAMPING}
-        run(grid_nodes.diagonal, at, out, all_s=self.all["s"], **given)
+        given: Constants = self.stencil | {"damping": DAMPING}
+        run(grid_nodes.diagonal, at, self.outputs("d", "v"), all_s=self.all["s"], **given)
 
     def smooth(self, function: Callable, out: Array) -> None:
         """`rest` or `sweep` of the present x and y = s x."""

@@ -1,6 +1,6 @@
 """The run folder: written by a run (`RunFolder`), read back by `open_run`.
 
-settings, schedule   what a case says of its results, and when snapshots are due
+settings             what a case says of its results, and when snapshots are due
 """
 
 from __future__ import annotations

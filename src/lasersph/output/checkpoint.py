@@ -34,8 +34,7 @@ class Checkpoint:
     """State of a run after a step.
 
     Attributes:
-        step, time: number of steps done; seconds.
-        case_hash: says which case the state belongs to.
+        step, time: number of steps done; seconds. case_hash: says which case the state belongs to.
         arrays: arrays by name, in their own types (float64 stays float64).
         scalars: numbers, texts and lists that JSON knows; floats survive exactly.
         meta: whatever the run folder adds (lengths of the history, events and snapshots).

@@ -35,8 +35,7 @@ def clear_errors(action: str, path: Path, kind: type[OutputError] = OutputError)
     """Turn an operating-system error into one line: what was tried, where, and why it failed.
 
     Args:
-        action: what was tried, "write", "read".
-        path: the file or folder concerned.
+        action: what was tried, "write", "read". path: the file or folder concerned.
         kind: class of the error raised.
 
     Raises:

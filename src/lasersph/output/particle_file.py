@@ -58,8 +58,7 @@ class ParticleFile:
         """Add one step.
 
         Args:
-            time: seconds.
-            position: (dim, n) [m].
+            time: seconds. position: (dim, n) [m].
             fields: arrays (n,) or (dim, n) by name, stored in their own type; the names must be
                 the same in every step.
             units: unit of each field, kept as an attribute.

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lasersph.output.errors import OutputError, clear_errors
-from lasersph.output.events import read_events
-from lasersph.output.history import read_history
+from lasersph.output.history import read_events, read_history
 from lasersph.output.particle_file import AXES, open_for_reading
 
 if TYPE_CHECKING:

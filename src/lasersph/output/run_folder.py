@@ -30,8 +30,7 @@ from lasersph.output import checkpoint as checkpoints
 from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_json, replace_text, to_json_values
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
-from lasersph.output.events import Events
-from lasersph.output.history import History
+from lasersph.output.history import Events, History
 from lasersph.output.particle_file import ParticleFile
 from lasersph.output.transaction import rename_damaged
 
@@ -52,8 +51,7 @@ class RunFolder:
     """The open run folder of one run. Make it with `create` or `resume`.
 
     Attributes:
-        path: the folder.
-        case_hash: says which case the folder belongs to.
+        path: the folder. case_hash: says which case the folder belongs to.
         history, events, particles: the files that grow with the run.
     """
 
@@ -78,10 +76,8 @@ class RunFolder:
         """Make a new run folder.
 
         Args:
-            path: a folder that does not exist or is empty.
-            case_text: the case file as given.
-            case: the case with all defaults, SI.
-            versions: versions of the programs that compute.
+            path: a folder that does not exist or is empty. case_text: the case file as given.
+            case: the case with all defaults, SI. versions: versions of the programs that compute.
             case_hash: which case this is; from `case` if not given.
 
         Raises:

@@ -43,6 +43,9 @@ def value_of_cell(cell, values):
     return values[cell]
 
 
+Numbers = Sequence[float] | np.ndarray
+
+
 class CellGrid:
     """Equal cells of a box.
 
@@ -55,9 +58,7 @@ class CellGrid:
         constants: of the loops that use `cell_number`.
     """
 
-    def __init__(
-        self, low: Sequence[float], shape: Sequence[float], inverse: Sequence[float]
-    ) -> None:
+    def __init__(self, low: Numbers, shape: Numbers, inverse: Numbers) -> None:
         self.shape = tuple(map(int, shape))
         self.count, self.width = int(np.prod(self.shape)), tuple(1.0 / float(k) for k in inverse)
         self.constants = {"low": tuple(map(float, low)), "shape": self.shape}

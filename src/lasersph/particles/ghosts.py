@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import vector
 
@@ -161,7 +161,7 @@ class GhostParticles:
     ) -> None:
         self.backend, self.count, self.ghost_types = backend, count, ghost_types
         low_0, high_0, low_1, high_1 = ghost_types.near
-        self._near = {"low_0": low_0, "high_0": high_0, "low_1": low_1, "high_1": high_1}
+        self._near: Constants = {"low_0": low_0, "high_0": high_0, "low_1": low_1, "high_1": high_1}
         self._near["search_radius"] = search_radius
         self._crossed = {
             name: backend.asarray(row, "index")

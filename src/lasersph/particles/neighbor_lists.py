@@ -57,13 +57,14 @@ class NeighborList:
         """
         neighbor = backend.zeros(self.neighbor.shape[0], "index")
         backend.gather(source, self.neighbor, neighbor)
-        count = self.row_start.shape[0] - 1
-        return replace(
-            self,
-            neighbor=neighbor,
-            position=backend.head(self.position, count),
-            support=backend.head(self.support, count),
-        )
+        return self.with_neighbors(backend, neighbor)
+
+    def with_neighbors(self, backend: Backend, neighbor: Rows) -> NeighborList:
+        """The same rows with other neighbors, all among the particles that have rows."""
+        count, position, support = self.row_start.shape[0] - 1, self.position, self.support
+        assert position is not None and support is not None
+        ends = (backend.head(position, count), backend.head(support, count))
+        return replace(self, neighbor=neighbor, position=ends[0], support=ends[1])
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,6 @@
 """Plots: figures from files alone; matplotlib is imported when a figure is drawn."""
 
 from lasersph.plots.animation import animate_run
-from lasersph.plots.arrangement import arrangement
 from lasersph.plots.comparison import (
     melt_pools,
     speed_extrema,
@@ -9,9 +8,8 @@ from lasersph.plots.comparison import (
     surface_temperatures,
 )
 from lasersph.plots.crater_cut import crater_cut, ejecta_vectors
-from lasersph.plots.crater_scene import crater_scene
-from lasersph.plots.crater_view import crater_view
-from lasersph.plots.particle_map import particle_map
+from lasersph.plots.crater_view import crater_scene, crater_view
+from lasersph.plots.particle_map import arrangement, particle_map
 from lasersph.plots.run_figures import draw_run
 from lasersph.plots.surface_profiles import surface_flow_profiles, surface_profiles
 

@@ -23,8 +23,7 @@ class Cut:
     """A snapshot in the plane through the beam's axis.
 
     Attributes:
-        step: the snapshot.
-        body: cells of condensed and leaving particles in the cut.
+        step: the snapshot. body: cells of condensed and leaving particles in the cut.
         ejecta: numbers of the particles in flight in the cut, (e,).
     """
 

@@ -19,7 +19,7 @@ from lasersph.output import OutputError, Run, open_run
 from lasersph.output.errors import clear_errors
 from lasersph.plots import style
 from lasersph.plots.ablation_fields import has_ablation
-from lasersph.plots.crater_frames import crater_frames
+from lasersph.plots.crater_cut import crater_frames
 from lasersph.plots.flow_fields import (
     PlaneFlow,
     body_frame,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,6 +30,7 @@ MOST_ARROWS = 400
 PIXELS = (400, 800)
 TO_SCALE: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "zorder": 3}
 """Arrows as long as their components in units of the axes."""
+DPI = 100
 
 
 def crater_cut(run: Run, time: float | None = None) -> Figure | None:
@@ -37,8 +39,7 @@ def crater_cut(run: Run, time: float | None = None) -> Figure | None:
     In 1-D the temperature against height.
 
     Args:
-        run: the run.
-        time: seconds; if not given, when the crater had its final size.
+        run: the run. time: seconds; if not given, when the crater had its final size.
 
     Returns:
         The figure; None where the run has no ablation.
@@ -191,3 +192,26 @@ def height_profile(cut: Cut, frame: Box, corners: dict[str, Any]) -> Figure:
     style.label(axes, f"z [{unit.name}]", "temperature [K]", title=style.time_text(cut.time))
     style.legend(axes)
     return figure
+
+
+def crater_frames(run: Run, times: Iterable[float]) -> Iterator[Figure]:
+    """One figure again and again, each time with the snapshot closest to another time [s].
+
+    Colors keep their meaning over all frames.
+    """
+    frame, limits = cut_frame(run), temperature_range(run)
+    height = 2.0 * round(0.5 * figure_height(frame) * DPI) / DPI  # even pixels, which mp4 wants
+    figure, (axes,) = style.new_figure(height=height)
+    for k, time in enumerate(times):
+        cut = plane_cut(run, run.snapshots.nearest(float(time)))
+        if k == 0:
+            ejecta = draw_cut(axes, cut, frame, limits)
+            figure.draw_without_rendering()
+            figure.set_layout_engine(None)
+        else:
+            axes.images[0].set_data(body_picture(cut, frame))
+            for drawn in ejecta:
+                drawn.remove()
+            ejecta = draw_ejecta(axes, cut, frame, limits)
+        axes.set_title(style.time_text(cut.time), fontsize=10, loc="left")
+        yield figure

@@ -30,8 +30,7 @@ def draw_columns(
     """Columns of the history over time; the axis says what they are, in a unit that fits them all.
 
     Args:
-        axes: gets one curve a column.
-        run: whose history is drawn.
+        axes: gets one curve a column. run: whose history is drawn.
         names: a column, or the legend of each of several.
         label: name of the axis; if not given, the words of the first column.
         gaps: curves break where a value is 0, since there is nothing then.

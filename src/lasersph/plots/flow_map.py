@@ -45,8 +45,7 @@ def pool_flow_map(run: Run, time: float | None = None) -> Figure | None:
     """Temperature, speed with arrows, and phase with streamlines of the melt pool at one time.
 
     Args:
-        run: the run.
-        time: seconds; if not given, when the surface was fastest.
+        run: the run. time: seconds; if not given, when the surface was fastest.
 
     Returns:
         The figure; None where nothing flowed or the run is a box.
@@ -72,8 +71,7 @@ def box_flow_map(run: Run, time: float | None = None) -> Figure | None:
     """Speed with arrows, and streamlines over the temperature where it varies.
 
     Args:
-        run: the run.
-        time: seconds; the end if not given.
+        run: the run. time: seconds; the end if not given.
 
     Returns:
         The figure; None where the run is no box or nothing moved.

@@ -11,13 +11,12 @@ from lasersph.output.errors import clear_errors
 from lasersph.plots import flow_history, history, style
 from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.ablation_history import crater_history, trace_figure
-from lasersph.plots.arrangement import arrangement
-from lasersph.plots.box_lines import center_line_figure
 from lasersph.plots.crater_cut import crater_cut, ejecta_vectors
 from lasersph.plots.crater_view import crater_view
 from lasersph.plots.flow_fields import is_box
+from lasersph.plots.flow_history import center_line_figure
 from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
-from lasersph.plots.particle_map import particle_map
+from lasersph.plots.particle_map import arrangement, particle_map
 from lasersph.plots.surface_profiles import surface_flow_profiles, surface_profiles
 
 if TYPE_CHECKING:
@@ -187,8 +186,7 @@ def draw_run(folder: str | Path, *, kind: str = "png") -> list[Path]:
     """Draw all figures of a run into its folder `figures`.
 
     Args:
-        folder: the run folder.
-        kind: "png", "svg" or "pdf".
+        folder: the run folder. kind: "png", "svg" or "pdf".
 
     Returns:
         The files written, in reading order.

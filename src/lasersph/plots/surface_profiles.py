@@ -27,8 +27,7 @@ def surface_profiles(run: Run, times: Sequence[float] | None = None) -> Figure |
     """Temperature along the surface at several times; None in 1-D or without snapshots.
 
     Args:
-        run: the run.
-        times: seconds; if not given, times around the hottest one.
+        run: the run. times: seconds; if not given, times around the hottest one.
     """
     if not len(run.snapshots) or run.snapshots.dimension == 1:
         return None

@@ -5,9 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from lasersph.observers.energy_budget import IMBALANCE_ALLOWED, IMBALANCE_ALLOWED_WITH_FLOW
-from lasersph.report.ablation_text import crater, model_limits
-from lasersph.report.flow_text import box_flow, pool_flow
-from lasersph.report.numbers import quantity, shown
+from lasersph.report.tables import quantity, shown
 
 
 def verdict(summary: dict[str, Any]) -> str:
@@ -128,3 +126,134 @@ def note_texts(summary: dict[str, Any]) -> list[str]:
             " half."
         )
     return found
+
+
+def pool_flow(summary: dict[str, Any]) -> list[str]:
+    """How the melt pool flowed; nothing for a run without flow."""
+    flow = summary.get("flow")
+    if flow is None:
+        return []
+    if not flow["speed_max_m_s"]:
+        return ["Nothing flowed."]
+    if "surface_speed_max_m_s" not in flow:
+        fastest = f"The liquid reached at most {quantity(flow['speed_max_m_s'], 'm/s')}"
+        return [f"{fastest}, at {quantity(flow['speed_max_at_s'], 's')}; its surface did not move."]
+    place = quantity(abs(flow["surface_speed_max_x_m"]), "m", 3)
+    first = (
+        f"The liquid flowed along the surface at up to"
+        f" {quantity(flow['surface_speed_max_m_s'], 'm/s', 3)}"
+        f" (at {quantity(flow['surface_speed_max_at_s'], 's')}, {place} from x = 0), in a layer"
+        f" {quantity(flow['layer_thickness_m'], 'm', 3)} thick, and back below it at up to"
+        f" {quantity(flow['return_speed_max_m_s'], 'm/s', 3)}."
+    )
+    return [first, *extrema(flow.get("extrema"))]
+
+
+def extrema(found: dict[str, Any] | None) -> list[str]:
+    """Whether a second extremum of the surface speed appeared."""
+    if found is None:
+        return []
+    if not found["inner_speed_max_m_s"]:
+        return ["The surface speed had one extremum on each side at all times."]
+    inner = (
+        f"From {quantity(found['inner_start_s'], 's')} to {quantity(found['inner_end_s'], 's')} an"
+        f" inner extremum stood beside or instead of the outer one, with up to"
+        f" {quantity(found['inner_speed_max_m_s'], 'm/s', 3)}"
+    )
+    if found["inner_exceeds_lasted_s"]:
+        lasted = quantity(found["inner_exceeds_lasted_s"], "s", 3)
+        return [f"{inner}; it was the faster of both for {lasted}."]
+    return [f"{inner}; it was never the faster of both."]
+
+
+def box_flow(summary: dict[str, Any]) -> list[str]:
+    """How the liquid of a closed box flowed at the end."""
+    box, flow = summary["box"], summary["flow"]
+    size = f"{quantity(box['width_m'], 'm')} wide and {quantity(box['height_m'], 'm')} high"
+    if not flow["speed_max_m_s"]:
+        return [f"The liquid in the box, {size}, stayed at rest."]
+    eddies, center = box["stream_function"], box["center"]
+    strongest = max(("max", "min"), key=lambda name: abs(eddies[f"{name}_m2_s"]))
+    turning = "counterclockwise" if strongest == "max" else "clockwise"
+    x, z = (quantity(eddies[f"{strongest}_{axis}_m"], "m", 3) for axis in "xz")
+    found = [
+        f"The liquid in the box, {size}, reached at most"
+        f" {quantity(flow['speed_max_m_s'], 'm/s')}, at {quantity(flow['speed_max_at_s'], 's')}.",
+        f"At {quantity(box['time_s'], 's')} its strongest eddy turned {turning} around x = {x},"
+        f" z = {z}, with a stream function of"
+        f" {quantity(eddies[f'{strongest}_m2_s'], 'm²/s')}; on the center lines u ran from"
+        f" {quantity(center['u_min_m_s'], 'm/s')} to {quantity(center['u_max_m_s'], 'm/s')} and w"
+        f" from {quantity(center['w_min_m_s'], 'm/s')} to {quantity(center['w_max_m_s'], 'm/s')}.",
+    ]
+    heat = box["heat"]
+    numbers = {key: value for key, value in heat.items() if key.startswith("nusselt_")}
+    if numbers:
+        sides = " and ".join(
+            f"{shown(value)} ({key.removeprefix('nusselt_')})" for key, value in numbers.items()
+        )
+        found.append(f"Nusselt numbers: {sides}.")
+    return found
+
+
+def crater(summary: dict[str, Any]) -> list[str]:
+    """Crater and ejecta; nothing for a run without ablation."""
+    found, ejecta = summary.get("crater"), summary.get("ejecta")
+    if found is None or ejecta is None:
+        return []
+    if not ejecta["count"]:
+        return ["Nothing was ablated."]
+    size = f"{quantity(found['depth_m'], 'm')} deep at the axis"
+    if found["diameter_m"]:
+        size += f" and {quantity(found['diameter_m'], 'm')} wide"
+    share = 100.0 * ejecta["energy_J"] / max(summary["energy"]["absorbed_J"], 1e-300)
+    return [
+        f"The light left a crater {size}.",
+        f"The ejecta left between {quantity(ejecta['start_s'], 's')} and"
+        f" {quantity(ejecta['end_s'], 's')}, at {quantity(ejecta['speed_mean_m_s'], 'm/s', 3)} on"
+        f" average, and carried {shown(share, 3)} % of the absorbed energy away.",
+        *hole(summary["energy"]),
+    ]
+
+
+def hole(energy: dict[str, Any]) -> list[str]:
+    """Light that went through where the metal was gone; nothing where there was none."""
+    if not energy["transmitted_J"]:
+        return []
+    share = 100.0 * energy["transmitted_J"] / energy["incident_J"]
+    return [f"Of the light {shown(share, 3)} % went through a hole burnt into the metal."]
+
+
+def model_limits(summary: dict[str, Any]) -> list[str]:
+    """Effects that the model leaves out, with the temperatures from which it matters."""
+    found = (summary.get("estimates") or {}).get("left_out")
+    if found is None:
+        return []
+    parts = [
+        "The model leaves out melt that the recoil of the vapor drives out, phase explosion, and"
+        " light that vapor and plasma shield."
+    ]
+    hot, explodes = found["evaporating_K"], found["phase_explosion_from_K"]
+    critical = found["shielding_from_K"]
+    if hot is not None and hot == critical:
+        parts.append(
+            "Evaporation alone cannot carry the absorbed flux away below the critical temperature"
+            f" of {quantity(hot, 'K')}."
+        )
+    elif hot is not None:
+        parts.append(
+            "To carry the absorbed flux away by evaporation alone the surface would have to be at"
+            f" {quantity(hot, 'K')}."
+        )
+    if explodes is None:
+        parts.append("The material has no critical temperature to compare with.")
+    elif hot is not None:
+        word = "above" if hot > explodes else "below"
+        parts.append(
+            f"That is {word} the {quantity(explodes, 'K')} from which metal is expected to explode"
+            " into vapor and drops"
+            + (": take the computed depth as an estimate." if hot > explodes else ".")
+        )
+    recoil = found["recoil_from_K"]
+    if recoil is not None:
+        parts.append(f"Recoil moves the melt from about {quantity(recoil, 'K')} on.")
+    return [" ".join(parts)]

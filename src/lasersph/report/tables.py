@@ -6,13 +6,13 @@ added appears here by itself.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from lasersph.input import format_duration, format_number, format_quantity
 from lasersph.observers import EnergyBudget, Observer, Quantity
 from lasersph.observers.observer_list import OBSERVERS
-from lasersph.observers.quantity import unit_in
-from lasersph.report.numbers import MOST_LISTED, entry, quantity, shown
+from lasersph.observers.quantity import suffix, unit_in
 
 Rows = list[tuple[str, ...]]
 ENERGY_HEAD = ("energy", "amount", "of the incident")
@@ -26,6 +26,22 @@ NUMBERS = {
     "Ma": "Marangoni number Ma",
     "Re": "Reynolds number Re",
 }
+quantity = partial(format_quantity, typographic=True)
+shown = partial(format_number, typographic=True)
+MOST_LISTED = 8
+"""Longer lists are not written out."""
+UNITS = ("K/s", "K/m", "m^2/s", "m/s^2", "1/s", "1/m", "W/m^2", "Pa", "m/s", "m^3", "m^2", "m", "s")
+UNITS += ("K", "J", "deg")
+"""Units that keys end in, those with two parts first."""
+ESTIMATE_HEAD = ("estimate", "value", "cited")
+LEFT_OUT_HEAD = ("left out", "matters from", "surface that evaporates only")
+CITED_SPEEDS = (
+    "380-450 m/s [AlShaer 2017]; 167, 640, 1110 m/s at the edge, on average and in the center"
+    " [Hamadi, as cited there]; 750 m/s [Rajendran, as cited there]"
+)
+CITED_ACCELERATIONS = (
+    "1.4·10¹¹ m/s² [AlShaer 2017]; 10⁸ m/s² eject without melting [Tam 1992, as cited there]"
+)
 
 
 def value_at(summary: dict[str, Any], key: str) -> Any:
@@ -40,8 +56,7 @@ def measured(summary: dict[str, Any], kind: type[Observer], name: str = "") -> R
     """Results of an observer: words, value, and when or where.
 
     Args:
-        summary: content of summary.json.
-        kind: class of the observer.
+        summary: content of summary.json. kind: class of the observer.
         name: of one of several probes or traces.
     """
     rows: Rows = []
@@ -62,14 +77,7 @@ def is_shown(one: Quantity, value: object) -> bool:
 
 def text_of(one: Quantity, value: Any, summary: dict[str, Any], *, typographic: bool = True) -> str:
     """A value of a summary with its unit."""
-    if isinstance(value, list):
-        return ", ".join(text_of(one, item, summary, typographic=typographic) for item in value)
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, str):
-        return value
-    unit = unit_in(one.unit, int(summary.get("dimensions", 3)))
-    return format_quantity(float(value), unit, typographic=typographic)
+    return in_words(value, unit_in(one.unit, int(summary.get("dimensions", 3))), typographic)
 
 
 def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -> str:
@@ -160,3 +168,77 @@ def flat(value: Any, name: str = "", unit: str = "J") -> Rows:
             rows += flat(item, f"{name}.{key}" if name else str(key), unit)
         return rows
     return [(name, entry(name, value, unit))]
+
+
+def entry(key: str, value: Any, energy_unit: str = "J") -> str:
+    """A value of summary.json in words, its unit taken from the end of its key."""
+    if isinstance(value, list) and len(value) > MOST_LISTED:
+        return f"{len(value)} numbers"
+    unit = next((unit for unit in UNITS if key.endswith(suffix(unit))), "")
+    return in_words(value, energy_unit if unit == "J" else unit) or "–"
+
+
+def in_words(value: Any, unit: str, typographic: bool = True) -> str:
+    """A truth, a text, a number with its unit, a list of them, or nothing."""
+    if value is None:
+        return "–"
+    if isinstance(value, list):
+        return ", ".join(in_words(item, unit, typographic) for item in value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, str):
+        return value
+    return format_quantity(float(value), unit, typographic=typographic)
+
+
+def estimates(summary: dict[str, Any]) -> Rows:
+    """Estimates with the values that the paper gives or cites."""
+    found = summary.get("estimates")
+    if not found:
+        return []
+    light, heat, vapor = found["absorption"], found["conduction"], found["vapor"]
+    rows: Rows = []
+    if light:
+        share = shown(100.0 * light["left_below_first_layer"], 3)
+        depth = entry("_m", light["depth_95_percent_m"])
+        rows.append(("95 % of the light is absorbed within, eqs. (3), (4)", depth, "24.4 nm"))
+        rows.append(("light left below the first layer", f"{share} %", "–"))
+    names = {
+        "penetration_m": "heat goes in one pulse, eq. (34)",
+        "surface_temperature_K": "surface at its end without phase change, (A.1)",
+        "surface_temperature_last_K": "the same at the end of the last pulse, on the axis, (A.3)",
+        "surface_temperature_disc_K": "the same on the axis of a disc",
+    }
+    for key, words in names.items():
+        if key in heat:
+            text = entry(key, heat[key])
+            if key == "surface_temperature_disc_K":
+                text += f", {shown(100.0 * heat['lateral_loss_relative'], 2)} % less rise"
+            rows.append((words, text, "–"))
+    share = shown(100.0 * vapor["absorbed_over_two_h"], 2)
+    rows.append(("light taken by the vapor over 2 h", f"{share} %", "2.4·10⁻⁶ %"))
+    if "effusion_velocity_m_s" in vapor:
+        both = (vapor["effusion_velocity_m_s"], vapor["mean_normal_velocity_m_s"])
+        text = " and ".join(f"{shown(v)} m/s" for v in both)
+        rows.append(("vapor at the boiling point: effusion, and eq. (6)", text, CITED_SPEEDS))
+    rates = (life["acceleration_m_s2"] for life in summary.get("traces", {}).values())
+    largest = entry("_m_s2", max((rate for rate in rates if rate is not None), default=None))
+    rows.append(("largest acceleration of a traced particle", largest, CITED_ACCELERATIONS))
+    return rows
+
+
+def left_out(summary: dict[str, Any]) -> Rows:
+    """Effects that the model leaves out, and from which temperature of the surface it matters."""
+    found = (summary.get("estimates") or {}).get("left_out")
+    if found is None:
+        return []
+    hot = entry("_K", found["evaporating_K"])
+    names = {
+        "recoil_from_K": "melt driven out by the recoil of the vapor",
+        "phase_explosion_from_K": "phase explosion (0.9 of the critical temperature)",
+        "shielding_from_K": "light shielded by vapor and plasma (critical temperature)",
+    }
+    return [
+        (text, entry("_K", found[key]) if found[key] is not None else "no data", hot)
+        for key, text in names.items()
+    ]

@@ -17,7 +17,7 @@ from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.animation import LEAST_FRAMES, animate_run
 from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.run_figures import DRAWINGS, draw_run
-from lasersph.report import estimate_tables, tables
+from lasersph.report import tables
 from lasersph.report.page import contents, details, figure, heading, listing, page, paragraph, table
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
 
@@ -90,8 +90,8 @@ def results(summary: dict[str, Any]) -> list[str]:
     for kind in OBSERVERS:
         body += measured(summary, kind)
     for rows, head in (
-        (estimate_tables.estimates(summary), estimate_tables.ESTIMATE_HEAD),
-        (estimate_tables.left_out(summary), estimate_tables.LEFT_OUT_HEAD),
+        (tables.estimates(summary), tables.ESTIMATE_HEAD),
+        (tables.left_out(summary), tables.LEFT_OUT_HEAD),
     ):
         if rows:
             body.append(table(rows, head))

@@ -7,9 +7,8 @@ from math import sqrt
 from typing import Any
 
 from lasersph.case import Case
-from lasersph.case.active_region import active_share
 from lasersph.case.quick import what_is_not_shown
-from lasersph.case.size import BYTES_PER_PARTICLE, neighbor_count
+from lasersph.case.size import BYTES_PER_PARTICLE, active_share, neighbor_count
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
 from lasersph.simulation.progress import Span

@@ -23,7 +23,7 @@ from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
-from lasersph.output.schedule import SnapshotSchedule
+from lasersph.output.settings import SnapshotSchedule
 from lasersph.simulation.forecast import spans_of
 from lasersph.simulation.progress import RemainingTime, RunProgress
 from lasersph.simulation.recipes import Recipe, recipe_of

@@ -60,8 +60,7 @@ class SpotThreshold:
 
     Attributes:
         craters: all runs, also those without a crater.
-        threshold: F_th [J/m^2]. radius: w of the fit [m].
-        beam_radius: w of the case [m].
+        threshold: F_th [J/m^2]. radius: w of the fit [m]. beam_radius: w of the case [m].
         scatter: root mean square distance of the squared diameters from the line [m^2].
     """
 
@@ -124,8 +123,7 @@ def spot_threshold(
     """Run a case with a Gaussian spot at each peak fluence [J/m^2] and fit D^2 over ln F.
 
     Args:
-        case: the case; its laser.fluence is replaced.
-        fluences: two or more, in any order.
+        case: the case; its laser.fluence is replaced. fluences: two or more, in any order.
         out: folder that receives one run folder for each fluence.
         run: how a case is run. report: called with one line after each run.
 

@@ -5,8 +5,7 @@ import math
 import pytest
 
 from lasersph.case import load_case
-from lasersph.case.active_region import active_share, has_active_region
-from lasersph.case.size import size_of
+from lasersph.case.size import active_share, has_active_region, size_of
 
 
 @pytest.mark.parametrize(

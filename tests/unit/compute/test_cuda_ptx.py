@@ -82,7 +82,7 @@ def test_pair_sum(precision):
 @pytest.mark.parametrize("precision, dimension", [("float32", 1), ("float64", 2), ("float32", 3)])
 def test_scan(precision, dimension):
     """The neighbor search compiles, with a periodic axis and others."""
-    from lasersph.compute.cuda_scan import cuda_scan_text
+    from lasersph.compute.cuda_search import cuda_scan_text
 
     real = np.dtype(precision)
     field, table, number = np.zeros(2, real), np.zeros((2, dimension), real), np.zeros(2, np.uint32)

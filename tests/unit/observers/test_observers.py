@@ -16,8 +16,7 @@ from lasersph.observers import (
     snapshot_fields,
 )
 from lasersph.observers.peak import Peak
-from lasersph.output.schedule import SnapshotSchedule
-from lasersph.output.settings import Probe, SnapshotPlan
+from lasersph.output.settings import Probe, SnapshotPlan, SnapshotSchedule
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from lasersph.output.errors import OutputError
-from lasersph.output.events import Events, read_events
-from lasersph.output.history import History, read_history
+from lasersph.output.history import Events, History, read_events, read_history
 
 
 def rows(count, start=0):

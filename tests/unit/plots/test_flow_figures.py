@@ -21,8 +21,8 @@ from lasersph.plots import (
     surface_flow_profiles,
     surface_speeds,
 )
-from lasersph.plots.box_lines import center_line_figure, lines_of
 from lasersph.plots.flow_fields import plane_flow, raster
+from lasersph.plots.flow_history import center_line_figure, lines_of
 from lasersph.plots.flow_map import are_beside, box_flow_map, pool_flow_map
 
 

@@ -9,7 +9,7 @@ from lasersph.case import load_case
 from lasersph.observers import Crater, Ejecta, Traces, ablation_observers
 from lasersph.output.settings import Trace
 from lasersph.plots import animation, style
-from lasersph.report import ablation_text, estimate_tables, tables, write_report
+from lasersph.report import summary_text, tables, write_report
 from lasersph.report.summary_text import note_texts, verdict
 from lasersph.simulation.recipes.ablation.estimates import ablation_estimates
 
@@ -37,7 +37,7 @@ def test_words_and_rows_about_a_hole(summary):
     """Light that went through is said, with its share of the light; without a hole nothing is."""
     energy = summary["energy"]
     through = {**energy, "transmitted_J": 0.25 * energy["incident_J"]}
-    assert "25 % went through a hole" in ablation_text.crater({**summary, "energy": through})[-1]
+    assert "25 % went through a hole" in summary_text.crater({**summary, "energy": through})[-1]
     assert ("energy through holes in the metal", "25 %") in [
         (name, share) for name, _, share in tables.energy({"energy": through})
     ]
@@ -48,7 +48,7 @@ def test_words_and_rows_about_a_hole(summary):
 def test_what_is_left_out(summary):
     """The three mechanisms, the temperatures of 0.9 T_c and of a surface that only
     evaporates, which is not below T_c."""
-    (text,) = ablation_text.model_limits(summary)
+    (text,) = summary_text.model_limits(summary)
     words = (
         "recoil",
         "phase explosion",
@@ -61,20 +61,20 @@ def test_what_is_left_out(summary):
     for word in words:
         assert word in text
     assert note_texts(summary)[0] == text
-    assert ablation_text.model_limits({}) == []
+    assert summary_text.model_limits({}) == []
 
 
 def test_below_the_explosion(summary):
     """Where evaporation can carry the flux below 0.9 T_c, the text says so."""
     left_out = {**summary["estimates"]["left_out"], "evaporating_K": 5000.0, "recoil_from_K": 3e3}
-    (text,) = ablation_text.model_limits({"estimates": {"left_out": left_out}})
+    (text,) = summary_text.model_limits({"estimates": {"left_out": left_out}})
     assert "below the 7 200 K" in text and "about 3 000 K on" in text and "estimate" not in text
 
 
 def test_no_crater(summary):
     """Light too weak to ablate."""
     ejecta = {**summary["ejecta"], "count": 0}
-    assert ablation_text.crater({**summary, "ejecta": ejecta}) == ["Nothing was ablated."]
+    assert summary_text.crater({**summary, "ejecta": ejecta}) == ["Nothing was ablated."]
 
 
 def test_tables_with_units(summary):
@@ -91,17 +91,17 @@ def test_tables_with_units(summary):
     traced = {words: value for words, value, _ in tables.measured(summary, Traces, "center")}
     assert traced["acceleration between both"] == "8·10¹¹ m/s²"
     assert traced["vapor pressure when it left"] == "200 kPa"
-    assert any("24.4 nm" in row for row in estimate_tables.estimates(summary))
-    *_, (_, largest, cited) = estimate_tables.estimates(summary)
+    assert any("24.4 nm" in row for row in tables.estimates(summary))
+    *_, (_, largest, cited) = tables.estimates(summary)
     assert largest == traced["acceleration between both"]
     assert "10⁸" in cited and "1.4·10¹¹" in cited
-    assert len(estimate_tables.left_out(summary)) == 3
+    assert len(tables.left_out(summary)) == 3
 
 
 def test_nothing_without_ablation():
     """All tables are empty for another run."""
     assert not any(tables.measured({}, kind) for kind in (Crater, Ejecta, Traces))
-    assert estimate_tables.estimates({}) == estimate_tables.left_out({}) == []
+    assert tables.estimates({}) == tables.left_out({}) == []
 
 
 def test_report_of_a_crater(tmp_path, monkeypatch):

@@ -14,8 +14,8 @@ from lasersph.observers.surface_speed import SurfaceSpeed
 from lasersph.output import open_run
 from lasersph.plots import animation, run_figures
 from lasersph.report import tables, write_report
-from lasersph.report.numbers import entry
 from lasersph.report.summary_text import verdict, warning_texts
+from lasersph.report.tables import entry
 
 ENERGY = {"unit": "J/m", "imbalance_relative": 5e-5} | dict.fromkeys(
     (f"{name}_J" for name in ("incident", "reflected", "absorbed", "stored", "lost", "removed")),

@@ -12,8 +12,8 @@ import synthetic_run
 from lasersph.case import load_case
 from lasersph.output import OutputError, open_run
 from lasersph.report import write_report
-from lasersph.report.numbers import entry
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
+from lasersph.report.tables import entry
 from lasersph.report.write import command_of, report_page
 
 

@@ -258,13 +258,7 @@ class Block:
 
     def without_ghosts(self) -> NeighborList:
         """The pairs with every ghost replaced by its source."""
-        head = self.backend.head
-        return replace(
-            self.pairs,
-            neighbor=self._folded,
-            position=head(self.pairs.position, self.count),
-            support=head(self.support, self.count),
-        )
+        return self.pairs.with_neighbors(self.backend, self._folded)
 
     def extend_velocity(self, v: Array, jump: Array) -> Array:
         """Velocities (2, M) from those of the particles (2, n) [m/s].
@@ -285,8 +279,8 @@ class Block:
         """
         extended = self.gather(v)
         fields = {"v": extended, "factor": self.ghosts.sign, "jump": self.gather(jump)}
-        fields["slope"], directions = self.rules["slope"], {"along": self._tangent}
-        self.backend.pointwise(ghost_velocity, fields, extended, added=(0.0, 0.0), **directions)
+        fields["slope"], along = self.rules["slope"], self._tangent
+        self.backend.pointwise(ghost_velocity, fields, extended, added=(0.0, 0.0), along=along)
         return extended
 
     def extend_tensor(self, M: Array) -> Array:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from lasersph.compute import search
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.particles.cell_grid import CellGrid, cell_number, value_of_cell
 
@@ -82,7 +82,7 @@ class NearMelt:
             for end, outward in ((0, -1.0), (1, 1.0))
         )
         width = [int((high - low) / radius) + AT_ENDS for low, high in bounds]
-        self._shape = {"columns": width[0], "lines": width[1]}
+        self._shape: Constants = {"columns": width[0], "lines": width[1]}
         corner = tuple(low - 2.0 * radius for low, _ in bounds)
         self._grid = CellGrid(corner, width, (1.0 / radius, 1.0 / radius))
         self._bounds = {"least": self._low, "most": self._high, "count": self._grid.count}
@@ -114,7 +114,7 @@ class NearMelt:
         fluid_count = backend.count_by_key(self._fluid_cell, marks.shape[0] + 1)
         backend.pointwise(near_fluid, cells, marks, fluid_count=fluid_count, **self._shape)
         if self.repeats:
-            lines = {"lines": self._shape["lines"], "last": self._last}
+            lines: Constants = {"lines": self._shape["lines"], "last": self._last}
             ends, columns = {"k": backend.head(cells["k"], lines["lines"])}, self._shape["columns"]
             backend.pointwise(
                 at_ends, ends, self._line_marks, marks=marks, columns=columns, **lines

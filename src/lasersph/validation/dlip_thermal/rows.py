@@ -10,7 +10,7 @@ from lasersph.case import load_case
 from lasersph.output import Run
 from lasersph.particles.filling import MIRROR, fill
 from lasersph.plots import melt_pools, surface_temperatures
-from lasersph.plots.arrangement import arrangement
+from lasersph.plots.particle_map import arrangement
 from lasersph.simulation.layers import lay_out
 from lasersph.validation.comparison import Words, number_at
 from lasersph.validation.dlip_thermal.claims import Runs, add_claims_of_both, add_claims_of_metal

@@ -8,7 +8,7 @@ from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.boundaries.initial_motion import Rest
 from lasersph.boundaries.vessel import Vessel
 from lasersph.case import Case
-from lasersph.case.active_region import has_active_region
+from lasersph.case.size import has_active_region
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.first_hit import FirstHitLight
 from lasersph.lasers import Laser

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.compute.array_types import Rows
+from lasersph.compute.array_types import Constants, Rows
 from lasersph.compute.vectors import interpolate
 from lasersph.solvers.conduction.implicit import ImplicitStep
 
@@ -53,7 +53,7 @@ class PublishedStep(ImplicitStep):
         """There is no matrix: A is applied pair by pair, with the steepest dP/dh."""
         curve = self.body.curve
         slope = float(np.max(np.diff(curve.potential) / np.diff(curve.enthalpy)))
-        self.constants = {"s": step, "slope": slope}
+        self.constants: Constants = {"s": step, "slope": slope}
 
     def solve(self, step: float, wanted: float) -> None:
         """Direction z and length alpha of one preconditioned step of steepest descent."""
