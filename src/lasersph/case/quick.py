@@ -19,11 +19,7 @@ def quick_settings(case: Case) -> list[str]:
     At least 10 cells stay along each side of the domain, and a crater that is expected stays deeper
     than a particle.
     """
-    sides = [high - low for low, high in case.domain.lateral(case.solver.dimensions)]
-    largest = min([case.domain.depth, *sides]) / FEWEST_CELLS
-    crater = expected_crater(case)
-    if crater:
-        largest = min(largest, crater / SHOWN)
+    largest = largest_spacing(case)
     spacing = max(case.particles.spacing, min(COARSER * case.particles.spacing, largest))
     settings = [f"particles.spacing={spacing!r} m"]
     if case.particles.coarsest < spacing:
@@ -33,6 +29,14 @@ def quick_settings(case: Case) -> list[str]:
     if case.time.step is not None and not case.solver.is_explicit:
         settings.append(f"time.step={LONGER * case.time.step!r} s")
     return settings
+
+
+def largest_spacing(case: Case) -> float:
+    """Coarsest spacing that still shows what the case is about [m]."""
+    sides = [high - low for low, high in case.domain.lateral(case.solver.dimensions)]
+    largest = min([case.domain.depth, *sides]) / FEWEST_CELLS
+    crater = expected_crater(case)
+    return min(largest, crater / SHOWN) if crater else largest
 
 
 def expected_crater(case: Case) -> float:

@@ -40,7 +40,7 @@ def info(folder: RunFolder) -> None:
 
     found = opened(folder)
     if found.is_complete:
-        print(aligned(summary_rows(found.summary)))
+        print(aligned(summary_rows(found.summary, found.uncertainty)))
         print(f"{folder}: complete")
         return
     times = [float(time) for time in found.history.get("time_s", ())]
@@ -91,8 +91,10 @@ def opened(folder: Path) -> Run:
         raise WrongCommand(str(error)) from None
 
 
-def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
-    """The main numbers of summary.json, with units."""
+def summary_rows(
+    summary: dict[str, Any], uncertainty: dict[str, Any] | None = None
+) -> list[tuple[str, str]]:
+    """The main numbers of summary.json, with units, and with errors where there are any."""
     from lasersph.input import format_duration, format_quantity
     from lasersph.report.tables import main_numbers
 
@@ -101,7 +103,7 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         ("particles", str(summary["particles"])),
         ("time", f"{format_quantity(summary['time_s'], 's')} in {summary['steps']} steps"),
         ("computed in", format_duration(summary["wall_time_s"])),
-        *main_numbers(summary),
+        *main_numbers(summary, uncertainty),
     ]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import signal
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -21,11 +22,12 @@ from lasersph.cli.arguments import (
     refuse_backend,
     say_what_moved,
 )
-from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal
+from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal, WrongCommand
 
 if TYPE_CHECKING:
     from lasersph.case import Case
     from lasersph.simulation import Result
+    from lasersph.studies import Input
 
 RUNS = Path("runs")
 Resume = Annotated[
@@ -33,6 +35,23 @@ Resume = Annotated[
 ]
 Precision = Annotated[
     Literal["float64", "float32"], typer.Option("--precision", help="Of the computation.")
+]
+Uncertainty = Annotated[
+    bool,
+    typer.Option(
+        "--uncertainty",
+        help="Run two coarser companions, and two for each input with an uncertainty: every number "
+        "then has an error.",
+    ),
+]
+Uncertain = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--uncertain",
+        metavar="KEY=U",
+        help="Standard uncertainty of an input, for --uncertainty: laser.fluence=5%, "
+        "material.conductivity=10%.",
+    ),
 ]
 Figures = Annotated[bool, typer.Option(help="Draw the figures and write report.html at the end.")]
 
@@ -77,6 +96,8 @@ def run(
     threads: Threads = None,
     precision: Precision = "float64",
     backend: Backend = "cpu",
+    uncertainty: Uncertainty = False,
+    uncertain: Uncertain = None,
     figures: Figures = True,
 ) -> None:
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
@@ -88,17 +109,49 @@ def run(
     say_what_moved(loaded)
     if not_shown := what_is_not_shown(loaded):
         print(f"warning: {not_shown}", file=sys.stderr)
+    inputs = _uncertain_inputs(loaded, uncertain or (), wanted=uncertainty)
     folder = out or RUNS / loaded.name
     command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
     command += [word for setting in settings or () for word in ("--set", setting)]
     command += ["--quick"] if quick else []
     command += ["--precision", precision] if precision != "float64" else []
     command += ["--backend", backend] if backend != "cpu" else []
-    options = {"resume": resume, "threads": threads, "precision": precision, "backend": backend}
-    result = _compute(loaded, folder, shlex.join(command), options)
-    _tell(result)
+    command += ["--uncertainty"] if uncertainty else []
+    command += [word for given in uncertain or () for word in ("--uncertain", given)]
+    options = {"threads": threads, "precision": precision, "backend": backend}
+
+    def make(case: Case, path: Path) -> Result:
+        again = resume or path != folder  # companions lie in our own folder
+        return _compute(case, path, shlex.join(command), {**options, "resume": again})
+
+    if uncertainty:
+        from lasersph.studies import assess_uncertainty
+
+        assess_uncertainty(loaded, folder, inputs=inputs, run=make, report=_say)
+    else:
+        make(loaded, folder)
+    _tell(folder)
     if figures:
-        _draw(result.folder)
+        _draw(folder)
+
+
+def _say(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
+
+
+def _uncertain_inputs(case: Case, given: Sequence[str], *, wanted: bool) -> list[Input]:
+    """The inputs of --uncertain, refused before anything is written."""
+    if not given:
+        return []
+    from lasersph.input import QuantityError
+    from lasersph.studies import read_input
+
+    if not wanted:
+        raise WrongCommand("--uncertain says how uncertain an input is: add --uncertainty")
+    try:
+        return [read_input(case, text) for text in given]
+    except QuantityError as error:
+        raise WrongCommand(f"--uncertain: {error}") from None
 
 
 def _compute(case: Case, folder: Path, again: str, options: dict[str, Any]) -> Result:
@@ -123,13 +176,15 @@ def _compute(case: Case, folder: Path, again: str, options: dict[str, Any]) -> R
     return result
 
 
-def _tell(result: Result) -> None:
+def _tell(folder: Path) -> None:
     """The main numbers of a finished run."""
     from lasersph.cli.results import summary_rows
     from lasersph.cli.tables import aligned
+    from lasersph.output import open_run
 
-    print(aligned(summary_rows(result.summary)))
-    print(f"{result.folder}: complete")
+    found = open_run(folder)
+    print(aligned(summary_rows(found.summary, found.uncertainty)))
+    print(f"{folder}: complete")
 
 
 def _draw(folder: Path) -> None:

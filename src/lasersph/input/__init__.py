@@ -7,7 +7,12 @@ from lasersph.input.build import build
 from lasersph.input.document import Document, parse_toml, read_toml
 from lasersph.input.errors import CaseError, Problem
 from lasersph.input.findings import dotted
-from lasersph.input.formatting import format_duration, format_number, format_quantity
+from lasersph.input.formatting import (
+    format_duration,
+    format_number,
+    format_quantity,
+    format_with_error,
+)
 from lasersph.input.kinds import KINDS, Kind
 from lasersph.input.model import Model, did_you_mean, nearest, refusal
 from lasersph.input.quantity import QuantityError, parse_quantity
@@ -89,6 +94,7 @@ __all__ = [
     "format_duration",
     "format_number",
     "format_quantity",
+    "format_with_error",
     "nearest",
     "parse_quantity",
     "parse_toml",

@@ -32,20 +32,51 @@ def format_quantity(
     """
     if value is None or not math.isfinite(value):
         return "–"
-    prefix = ""
     if unit in ("m", "s") and abs(value) < SMALLEST:
         value = 0.0
+    name, scale = _fitting_unit(value, unit, digits, typographic=typographic)
+    return f"{format_number(value / scale, digits, typographic=typographic)} {name}".rstrip()
+
+
+def _fitting_unit(value: float, unit: str, digits: int, *, typographic: bool) -> tuple[str, float]:
+    """Unit with the prefix that fits a value, and its size in SI."""
+    prefix, scale = "", 1.0
     if unit in PREFIXED and value:
         step = 1000.0 ** PREFIXED[unit]
         power = math.floor(math.log10(abs(value)) / math.log10(step))
         # 999.96 with four digits is 1000, the next prefix's 1
         power += abs(float(f"{value / step**power:.{digits}g}")) >= step
         power = max(-5, min(power, 0 if unit in WITHOUT_KILO else 4))
-        prefix, value = PREFIXES[power + 5], value / step**power
+        prefix, scale = PREFIXES[power + 5], step**power
     if typographic:
         prefix = prefix.replace("u", "µ")
         unit = "°" if unit == "deg" else unit.replace("^2", "²").replace("^3", "³")
-    return f"{format_number(value, digits, typographic=typographic)} {prefix}{unit}".rstrip()
+    return prefix + unit, scale
+
+
+def format_with_error(
+    value: float, error: float | None, unit: str, *, typographic: bool = False
+) -> str:
+    """A value and its error in one unit: (9.8e-6, 1e-7, "m") gives "9.80 +- 0.10 um".
+
+    The error has two digits and the value as many decimals [GUM2008, 7.2.6]; without an error, or
+    with none at all (0), the value stands alone.
+    """
+    if not error or not math.isfinite(error):
+        return format_quantity(value, unit, typographic=typographic)
+    name, scale = _fitting_unit(value or error, unit, 4, typographic=typographic)
+    value, error = value / scale, error / scale
+    sign = "±" if typographic else "+-"
+    largest = math.floor(math.log10(max(abs(value), error)))
+    power = largest if not -3 <= largest < 6 else 0
+    value, error = value / 10.0**power, error / 10.0**power
+    digits = 1 - math.floor(math.log10(error))
+    numbers = (f"{round(number, digits):,.{max(0, digits)}f}" for number in (value, error))
+    text = f" {sign} ".join(numbers).replace(",", " " if typographic else "")
+    if power:
+        exponent = f"·10{str(power).translate(RAISED)}" if typographic else f"e{power}"
+        text = f"({text}){exponent}"
+    return f"{text} {name}".rstrip()
 
 
 def format_number(value: float, digits: int = 4, *, typographic: bool = False) -> str:

@@ -1,10 +1,10 @@
 """Standard uncertainty of a material's number or law, with the place that states it.
 
 A source gives it in one of three ways: as a standard deviation; as an interval that holds 95 %,
-whose half width is divided by 2 [GUM, 4.3.4]; or as limits +-a without a probability, which are
-divided by sqrt(3) [GUM, 4.3.7]. The material file holds the result, and `source` says how it came.
+whose half width is divided by 2 [GUM2008, 4.3.4]; or as limits +-a without a probability, which are
+divided by sqrt(3) [GUM2008, 4.3.7]. The file holds the result, and `source` says how it came about.
 
-[GUM] JCGM 100:2008, Guide to the expression of uncertainty in measurement.
+[GUM2008] JCGM 100:2008, Guide to the expression of uncertainty in measurement.
 """
 
 from __future__ import annotations

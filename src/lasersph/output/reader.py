@@ -45,6 +45,12 @@ class Run:
         return read_json(self.path / "summary.json")
 
     @cached_property
+    def uncertainty(self) -> dict[str, Any] | None:
+        """Content of uncertainty.json, SI; None where the run was done without companions."""
+        path = self.path / "uncertainty.json"
+        return read_json(path) if path.exists() else None
+
+    @cached_property
     def resolved(self) -> dict[str, Any]:
         """Content of resolved.json: schema_version, case_hash, versions, case."""
         return read_json(self.path / "resolved.json")

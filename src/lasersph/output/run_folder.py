@@ -7,6 +7,7 @@
     history.csv      one row per time step
     summary.json     the results; appears only when the run is complete
     particles.vtkhdf snapshots, for ParaView
+    uncertainty.json errors of the results, from the runs in companions/ (`run --uncertainty`)
     checkpoint/      what a resumed run starts from
     figures/, report.html
 

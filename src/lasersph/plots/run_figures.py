@@ -18,6 +18,7 @@ from lasersph.plots.flow_history import center_line_figure
 from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
 from lasersph.plots.particle_map import arrangement, particle_map
 from lasersph.plots.surface_profiles import surface_flow_profiles, surface_profiles
+from lasersph.plots.uncertainty import tornado_chart
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -173,6 +174,12 @@ DRAWINGS = (
         " the projection leaves, relative to the largest speed over the spacing; smallest distance"
         " of two particles, relative to the first.",
         flow_history.quality_history,
+    ),
+    Drawing(
+        "uncertainty",
+        "What the errors of the main results are made of: the numerical part, and the change with"
+        " each input two standard uncertainties up and down, in percent of the result.",
+        tornado_chart,
     ),
     Drawing(
         "arrangement",

@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from lasersph.input import format_duration, format_number, format_quantity
+from lasersph.input import format_duration, format_number, format_quantity, format_with_error
 from lasersph.observers import EnergyBudget, Observer, Quantity
 from lasersph.observers.observer_list import OBSERVERS
 from lasersph.observers.quantity import suffix, unit_in
@@ -90,16 +90,26 @@ def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -
     return f"{key[-3]} = {format_quantity(value, 'm', typographic=typographic)}"
 
 
-def main_numbers(summary: dict[str, Any]) -> list[tuple[str, str]]:
-    """Main results for `lasersph info`: words and value, as plain text."""
-    rows = []
-    for kind in OBSERVERS:
-        for one in kind.all_results():
-            value = value_at(summary, one.key)
-            if one.is_main and is_shown(one, value):
-                text = text_of(one, value, summary, typographic=False)
-                at = place_text(summary, one.at[0], typographic=False) if one.at else ""
-                rows.append((one.words, f"{text} at {at}" if at else text))
+def main_results(summary: dict[str, Any]) -> list[tuple[Quantity, Any]]:
+    """The quantities that `lasersph info` shows, with their values."""
+    wanted = (one for kind in OBSERVERS for one in kind.all_results() if one.is_main)
+    found = ((one, value_at(summary, one.key)) for one in wanted)
+    return [(one, value) for one, value in found if is_shown(one, value)]
+
+
+def main_numbers(
+    summary: dict[str, Any], uncertainty: dict[str, Any] | None = None
+) -> list[tuple[str, str]]:
+    """Main results for `lasersph info`: words and value, with its error where that is known, as
+    plain text."""
+    rows, errors = [], (uncertainty or {}).get("numbers", {})
+    for one, value in main_results(summary):
+        text = text_of(one, value, summary, typographic=False)
+        error = errors.get(one.key, {}).get("error")
+        if error is not None:
+            text = format_with_error(value, error, unit_in(one.unit, summary["dimensions"]))
+        at = place_text(summary, one.at[0], typographic=False) if one.at else ""
+        rows.append((one.words, f"{text} at {at}" if at else text))
     return rows
 
 
@@ -174,8 +184,13 @@ def entry(key: str, value: Any, energy_unit: str = "J") -> str:
     """A value of summary.json in words, its unit taken from the end of its key."""
     if isinstance(value, list) and len(value) > MOST_LISTED:
         return f"{len(value)} numbers"
-    unit = next((unit for unit in UNITS if key.endswith(suffix(unit))), "")
+    unit = unit_of(key)
     return in_words(value, energy_unit if unit == "J" else unit) or "–"
+
+
+def unit_of(key: str) -> str:
+    """Unit that a key of summary.json ends in; empty for a pure number."""
+    return next((unit for unit in UNITS if key.endswith(suffix(unit))), "")
 
 
 def in_words(value: Any, unit: str, typographic: bool = True) -> str:

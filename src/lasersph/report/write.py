@@ -17,14 +17,15 @@ from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.animation import LEAST_FRAMES, animate_run
 from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.run_figures import DRAWINGS, draw_run
-from lasersph.report import tables
+from lasersph.report import tables, uncertainty_tables
 from lasersph.report.page import contents, details, figure, heading, listing, page, paragraph, table
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
 
 ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
 SET = "# --set "
 """Begins the lines above the text of case.toml that tell its overrides."""
-SECTIONS = ("Results", "Figures", "Energy", "Case", "Computation", "Reproduce")
+GIVEN = "given: "
+"""Begins the source of an uncertainty that the command gave."""
 
 
 def write_report(folder: str | Path) -> Path:
@@ -68,18 +69,20 @@ def report_page(run: Run, images: list[Path]) -> str:
     versions = run.resolved.get("versions", {})
     about = f"lasersph {versions.get('lasersph', '')}, case {summary['case']}, run {run.path.name}"
     body = [f"<h1>{escape(name)}</h1>", paragraph(about, "about")]
-    body += [contents(SECTIONS), paragraph(verdict(summary), "result")]
+    parts = {
+        "Results": results(summary),
+        "How sure": uncertainty_tables.how_sure(summary, run.uncertainty),
+        "Figures": figures(images),
+        "Energy": [table(tables.energy(summary), tables.ENERGY_HEAD), paragraph(EnergyBudget.note)],
+        "Case": case_as_read(run),
+        "Computation": computation(summary),
+        "Reproduce": reproduce(run, versions),
+    }
+    parts = {title: part for title, part in parts.items() if part}
+    body += [contents(parts), paragraph(verdict(summary), "result")]
     body += [paragraph(text, "warning") for text in warning_texts(summary, run.events)]
     body += [paragraph(text, "note") for text in note_texts(summary)]
-    parts = (
-        results(summary),
-        figures(images),
-        [table(tables.energy(summary), tables.ENERGY_HEAD), paragraph(EnergyBudget.note)],
-        case_as_read(run),
-        computation(summary),
-        reproduce(run, versions),
-    )
-    for title, part in zip(SECTIONS, parts, strict=True):
+    for title, part in parts.items():
         body += [heading(title), *part]
     return page(f"{name} – lasersph", body)
 
@@ -161,6 +164,11 @@ def command_of(run: Run) -> str:
         if not line.startswith(SET):
             break
         words += ["--set", line.removeprefix(SET)]
+    if run.uncertainty is not None:
+        words.append("--uncertainty")
+        for key, one in run.uncertainty["inputs"].items():
+            if one["source"].startswith(GIVEN):
+                words += ["--uncertain", f"{key}={one['source'].removeprefix(GIVEN)}"]
     precision = run.summary.get("precision", "float64")
     if precision != "float64":
         words += ["--precision", precision]

@@ -1,25 +1,32 @@
 """Studies: many runs of one case, for an answer that a single run cannot give.
 
+uncertainty          how sure the numbers of one run are: discretization, uncertain inputs
 spacing_study        what the numbers of a case tend to as the particles get finer, and how surely
 fluence_threshold    the fluence at which melting, boiling or ablation begins
 spot_threshold       the same of a Gaussian spot from its craters, and how much they remove
 """
 
+from lasersph.studies.companions import Input, inputs_of, read_input
 from lasersph.studies.fluence_threshold import Threshold, Trial, show_energy, threshold
 from lasersph.studies.spacing_study import SpacingStudy, StudyRow, converge
 from lasersph.studies.spot_threshold import SpotCrater, SpotThreshold, no_spot, spot_threshold
+from lasersph.studies.uncertainty import assess_uncertainty
 from lasersph.studies.variation import changed
 
 __all__ = [
+    "Input",
     "SpacingStudy",
     "SpotCrater",
     "SpotThreshold",
     "StudyRow",
     "Threshold",
     "Trial",
+    "assess_uncertainty",
     "changed",
     "converge",
+    "inputs_of",
     "no_spot",
+    "read_input",
     "show_energy",
     "spot_threshold",
     "threshold",

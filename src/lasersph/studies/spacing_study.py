@@ -4,8 +4,8 @@ For each number: observed order p, Richardson's value at vanishing spacing and t
 index of the finest run (see `analytic.convergence`; Roache). Three spacings are needed; of more,
 the three finest count. What the case sets and what counts the computation's work is left out.
 
-Sizes of a pool are counted in whole cells. Their uncertainty is at least one cell of the finest run
-(two for a width of which half is computed), however well the runs agree.
+Sizes of a pool are counted in whole cells and times in steps. Their uncertainty is at least one
+cell (two for a width of which half is computed) or step of the finest run, however well runs agree.
 """
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ NOT_ANSWERS = re.compile(
 """Numbers of the summary that the case sets or that belong to the computation."""
 WHOLE_CELLS = re.compile(r"(melt|vaporization)\.(depth|width)(_any|_half)?_max_m")
 INTERPOLATED = "melt.width_half_max_m"
+TIMES = re.compile(r".*(?<!_m)(?<!_m2)(?<!_K)_s")
+"""Keys whose unit is s, not m/s, m^2/s or K/s."""
 
 
 @dataclass(frozen=True)
@@ -105,35 +107,60 @@ def converge(
         raise ValueError(
             f"an order needs three different spacings, got {len(wanted)}; give e.g. 32nm,16nm,8nm"
         )
-    used, numbers, cells = [], [], 1
+    used, summaries = [], []
     for number, spacing in enumerate(reversed(wanted), start=1):
         if report:
             report(f"run {number} of {len(wanted)}: spacing {format_quantity(spacing, 'm')}")
         folder = out / f"spacing-{1e9 * spacing:.4g}nm"
         summary = run(changed(case, "particles.spacing", spacing), folder).summary
         used.insert(0, float(summary.get("spacing_m", spacing)))
-        numbers.insert(0, dict(_numbers(summary)))
-        cells = summary.get("surface", {}).get("symmetry_factor", 1)
-    if len(set(used)) < len(used):
+        summaries.insert(0, summary)
+    return assess_summaries(summaries, used)
+
+
+def assess_summaries(summaries: Sequence[dict[str, Any]], spacings: list[float]) -> SpacingStudy:
+    """Every number of runs of one case at several spacings [m], finest first.
+
+    Raises:
+        ValueError: two spacings are the same.
+    """
+    if len(set(spacings)) < len(spacings):
         raise ValueError(
             "two of the spacings were rounded to the same; choose spacings farther apart"
         )
+    numbers = [numbers_of(summary) for summary in summaries]
     names = dict.fromkeys(name for each in numbers for name in each)
-    rows = (
-        _row(name, [each.get(name, math.nan) for each in numbers], used, cells) for name in names
-    )
-    return SpacingStudy(tuple(used), tuple(rows))
+    rows = []
+    for name in names:
+        values = [each.get(name, math.nan) for each in numbers]
+        least = resolution(name, values[0], summaries[0], spacings[0])
+        rows.append(_row(name, values, spacings, least))
+    return SpacingStudy(tuple(spacings), tuple(rows))
 
 
-def _row(name: str, values: list[float], spacings: list[float], cells: int) -> StudyRow:
-    """`cells`: how many cells a width grows by at once."""
+def resolution(name: str, value: float, summary: dict[str, Any], spacing: float) -> float:
+    """What a number of a run jumps by at least: a cell for sizes counted in whole cells (two for a
+    width of which half is computed), the smallest step for a time, 0 for others and for nothing."""
+    if WHOLE_CELLS.fullmatch(name) and name != INTERPOLATED and value > 0.0:
+        cells = summary.get("surface", {}).get("symmetry_factor", 1)
+        return spacing * (cells if "width" in name else 1)
+    if TIMES.fullmatch(name) and 0.0 < value < summary.get("time_s", math.inf):
+        return summary.get("time_step", {}).get("min_s", 0.0)
+    return 0.0
+
+
+def numbers_of(summary: dict[str, Any]) -> dict[str, float]:
+    """The numbers of a summary that answer something, by dotted key."""
+    return dict(_numbers(summary))
+
+
+def _row(name: str, values: list[float], spacings: list[float], least: float) -> StudyRow:
+    """`least`: the uncertainty is never smaller."""
     if any(math.isnan(value) for value in values[:3]):
-        nothing = Convergence("incomplete", math.nan, math.nan, math.nan)
-        return StudyRow(name, tuple(values), nothing)
+        return StudyRow(name, tuple(values), Convergence("incomplete", *[math.nan] * 4))
     found = assess(values, spacings)
-    if WHOLE_CELLS.fullmatch(name) and name != INTERPOLATED and values[0] > 0.0:
-        step = spacings[0] * (cells if "width" in name else 1) / values[0]
-        found = replace(found, gci=step if math.isnan(found.gci) else max(found.gci, step))
+    if found.uncertainty < least:
+        found = replace(found, uncertainty=least, gci=least / abs(values[0]))
     return StudyRow(name, tuple(values), found)
 
 

@@ -21,14 +21,14 @@ class Finished(Protocol):
 
 
 Run = Callable[[Any, Path], Finished]
-"""Runs a case into a folder."""
+"""Makes the run folder of a case exist."""
 
 
 def simulate(case: Any, folder: Path) -> Finished:
-    """Run a case with the simulation of this package."""
+    """Make the run folder of a case exist: find it complete, continue it, or compute it."""
     from lasersph.simulation import run
 
-    return run(case, folder)
+    return run(case, folder, resume=True)
 
 
 def changed(model: M, key: str, value: Any) -> M:

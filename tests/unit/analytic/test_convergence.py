@@ -61,6 +61,34 @@ def test_what_does_not_converge_is_called_so(values, kind):
     assert math.isnan(found.order)
 
 
+@pytest.mark.parametrize(
+    ("values", "uncertainty"),
+    [
+        ((3.05, 3.2, 3.8), 1.25 * 0.15 / 3),  # order 2: 3 + 5 d^2, r^p - 1 = 3
+        ((3.5, 4.0, 5.0), 1.25 * 0.5 / 1),  # order 1: 3 + 5 d
+        ((1.0, 1.1, 0.7), 1.25 * 0.1 / 3),  # oscillating, changes 0.1 and -0.4: order 2
+        ((1.0, 1.1, 2.7), 1.25 * 0.1 / 3),  # order 4, taken as 2
+        ((1.0, 2.0, 2.5), 3.0 * 1.0 / (2**0.5 - 1)),  # diverging
+        ((1.0, 1.2, 1.1), 3.0 * 0.2 / (2**0.5 - 1)),  # oscillating and growing
+        ((1.0, 2.0, 3.01), 3.0 * 1.0 / (2**0.5 - 1)),  # order 0.014, no worse than no order
+        ((1.0, 1.0, 1.3), 0.3),  # stepped: the largest difference
+        ((2.0, 2.0, 2.0), 0.0),
+    ],
+)
+def test_uncertainty_by_hand(values, uncertainty):
+    """Grid convergence index of three results whose spacings double, in their unit."""
+    found = convergence.assess(values, (0.1, 0.2, 0.4))
+    assert found.uncertainty == pytest.approx(uncertainty, rel=1e-9)
+    assert found.gci == pytest.approx(uncertainty / values[0], rel=1e-9)
+
+
+def test_oscillation_at_unequal_ratios():
+    """r21 = 2, r32 = 3 and order 1: the changes are as r21 (r32 + 1)/(r21 + 1) = 8/3."""
+    found = convergence.assess((1.0, 1.3, 0.5), (0.1, 0.2, 0.6))
+    assert found.kind == "oscillating"
+    assert found.uncertainty == pytest.approx(1.25 * 0.3)
+
+
 def test_wrong_input_is_refused():
     """Two values, or equal spacings."""
     with pytest.raises(ValueError, match="three"):

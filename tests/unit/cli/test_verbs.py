@@ -3,6 +3,7 @@
 import importlib
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -20,6 +21,7 @@ from lasersph.compute import cuda_device
 
 VERBS = {name: verb for verbs in HEADINGS.values() for name, verb in verbs.items()}
 PROGRAM = "import sys; from lasersph.cli import main; sys.exit(main())"
+SURE = ["run", "stefan", "--uncertainty", "--uncertain"]
 SMALL = ["--set", "particles.spacing=2um", "--set", "time.end=200ns", "--set", "time.step=5ns"]
 
 
@@ -115,6 +117,9 @@ def test_new_then_check(capsys):
         (["threshold", "dlip-steel", "--of", "melt", "--json", "no/a.json"], "no folder no"),
         (["threshold", "stefan", "--of", "melt"], "stefan has no laser"),
         (["threshold", "dlip-steel", "--of", "boil"], "boil"),
+        (["run", "stefan", "--uncertain", "time.end=2%"], "add --uncertainty"),
+        ([*SURE, "laser.fluence=5%"], '"laser.fluence" is not given in this case'),
+        ([*SURE, "material.conductivity=5 K"], "is a temperature, not a conductivity"),
         (["info", "."], "is not a run folder"),
         (["plot", "none"], "is not a run folder"),
         (["report", "none"], "is not a run folder"),
@@ -146,6 +151,29 @@ def test_run_and_what_follows(capsys):
     assert "--resume" in capsys.readouterr().err
     assert main([*again, "--resume", "--set", "time.end=300ns"]) == 2
     assert "another case" in capsys.readouterr().err
+
+
+def test_run_with_its_uncertainty(capsys):
+    """Errors in the terminal, in info, in a figure and in the report; given once more, nothing is
+    computed again."""
+    command = [*SURE, "material.conductivity=5%", "--out", "out", "--threads", "1", *SMALL]
+    command += ["--set", "particles.spacing=0.5um"]
+    (line,) = (row for row in said(capsys, *command).splitlines() if "largest volume" in row)
+    assert re.search(r"  \d\.\d\d \+- 0\.\d\d um at 200 ns$", line), line
+    assert line in said(capsys, "info", "out")
+    assert Path("out/figures/uncertainty.png").stat().st_size > 0
+    page = Path("out/report.html").read_text(encoding="utf-8")
+    assert 'id="how-sure"' in page and "material.conductivity" in page
+    assert "--uncertainty --uncertain material.conductivity=5%" in page
+    companions = sorted(Path("out/companions").iterdir())
+    assert [folder.name for folder in companions] == [
+        "material.conductivity+5%", "material.conductivity-5%", "spacing-1um", "spacing-2um",
+    ]  # fmt: skip
+    before = [(folder / "summary.json").stat().st_mtime_ns for folder in companions]
+    answer = Path("out/uncertainty.json").read_bytes()
+    said(capsys, *command, "--resume", "--no-figures")
+    assert [(folder / "summary.json").stat().st_mtime_ns for folder in companions] == before
+    assert Path("out/uncertainty.json").read_bytes() == answer
 
 
 def test_default_folder_is_named_after_the_case(capsys):

@@ -7,6 +7,7 @@ from lasersph.input import (
     format_duration,
     format_number,
     format_quantity,
+    format_with_error,
     parse_quantity,
 )
 
@@ -57,3 +58,23 @@ def test_numbers_and_durations():
     assert format_number(1829) == "1829"
     assert format_number(1e-12, typographic=True) == "1·10⁻¹²"
     assert [format_duration(s) for s in (42, 185, 7800)] == ["42 s", "3 min 05 s", "2 h 10 min"]
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "unit", "text"),
+    [
+        (9.8e-6, 1e-7, "m", "9.80 ± 0.10 µm"),
+        (1330.734, 2.8263, "K", "1 330.7 ± 2.8 K"),
+        (288.46e-9, 32e-9, "m", "288 ± 32 nm"),
+        (2.59143e11, 1.3704e10, "K/s", "(2.59 ± 0.14)·10¹¹ K/s"),
+        (-15128.8, 401.0, "J", "-15.13 ± 0.40 kJ"),
+        (1e-9, 1.25e-9, "s", "1.0 ± 1.2 ns"),
+        (0.0, 3e-9, "m", "0.0 ± 3.0 nm"),
+        (2.59785e-13, 3.0956e-14, "m^2", "260 000 ± 31 000 nm²"),
+        (1e-6, 0.0, "s", "1 µs"),
+        (1e-6, None, "s", "1 µs"),
+    ],
+)
+def test_value_and_error_share_unit_and_decimals(value, error, unit, text):
+    """Two digits of the error, as many decimals of the value; a certain value stands alone."""
+    assert format_with_error(value, error, unit, typographic=True) == text

@@ -78,6 +78,7 @@ def test_command_repeats_what_was_set(folder, tmp_path):
     class Found:
         case_text = case.text
         summary: ClassVar = {"precision": "float32"}
+        uncertainty = None
 
     words = shlex.split(command_of(Found()))
     again = [word for flag, word in pairwise(words) if flag == "--set"]

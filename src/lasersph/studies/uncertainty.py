@@ -1,0 +1,194 @@
+"""How sure the numbers of a run are: its discretization error and what uncertain inputs do to it.
+
+Numerical part U_num: two coarser companions and the grid convergence index [Celik2008] of each
+number of the summary (`analytic.convergence`), which is meant to hold the exact solution in 95 of
+100 cases; sizes in whole cells are never surer than a cell.
+
+Inputs: for each input x_i with a standard uncertainty u(x_i) two runs, at x_i +- u(x_i), and
+
+    u_i(y) = [y(x_i + u(x_i)) - y(x_i - u(x_i))] / 2                    [GUM2008, 5.1.3, note 2]
+    u_in(y)^2 = sum of u_i(y)^2                                         [GUM2008, eq. 11a, 5.1.3]
+
+for inputs that do not depend on each other and a y that is linear over +- u(x_i). Where the middle
+of the two runs lies farther from y than half their distance, y is not linear and u_i is the larger
+of both differences; where a run is impossible on one side, u_i is the difference to the other.
+Together, with a coverage of about 95 %,
+
+    U(y)^2 = U_num^2 + (2 u_in)^2                                       [GUM2008, 6.2.1, 6.3.3]
+
+All runs lie in the run folder: `companions/` beside the files of the run itself. Finished ones are
+found again, stopped ones continued.
+
+[Celik2008] Celik et al., J. Fluids Eng. 130 (2008) 078001.
+[GUM2008] JCGM 100:2008, Guide to the expression of uncertainty in measurement.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from lasersph.case import Case
+from lasersph.input import format_quantity
+from lasersph.output.atomic import replace_json
+from lasersph.simulation.layers import expected_melt
+from lasersph.solvers.step_control import StepFailed
+from lasersph.studies.companions import (
+    Input,
+    coarser_cases,
+    inputs_of,
+    shifted,
+    with_fixed_layers,
+)
+from lasersph.studies.spacing_study import StudyRow, assess_summaries, numbers_of
+from lasersph.studies.variation import Run, simulate
+
+FILE = "uncertainty.json"
+SCHEMA = 1
+COVERAGE = 2.0
+"""Standard deviations of a normal distribution that hold about 95 % [GUM2008, 6.3.3]."""
+Numbers = dict[str, float]
+
+
+def assess_uncertainty(
+    case: Case,
+    folder: Path,
+    *,
+    inputs: Sequence[Input] = (),
+    run: Run = simulate,
+    report: Callable[[str], None] | None = None,
+) -> dict[str, Any]:
+    """Run a case and its companions and write what they say to uncertainty.json.
+
+    Args:
+        folder: run folder of the case; its companions go into `companions` inside.
+        inputs: beside those whose uncertainty the material states, or in place of them.
+        run: makes a run folder exist. report: called with one line before each companion.
+
+    Returns:
+        The content of uncertainty.json, see docs/results.md.
+    """
+    main = run(case, folder).summary
+    chosen = list({one.key: one for one in [*inputs_of(case), *inputs]}.values())
+    melt = expected_melt(case)
+    fixed = with_fixed_layers(case, melt)
+    coarser = coarser_cases(fixed, melt)
+    total = 2 * len(chosen) + (0 if isinstance(coarser, str) else len(coarser))
+    study = _Companions(folder / "companions", run, report, total)
+    rows: dict[str, StudyRow] = {}
+    spacings: list[float] = []
+    if isinstance(coarser, str):
+        study.notes.append(f"no numerical part: {coarser}")
+    else:
+        found = [study.make(_name_of_spacing(each), each) for each in coarser]
+        summaries = [main, *(summary for summary in found if summary is not None)]
+        if len(summaries) == 3:
+            spacings = [float(summary["spacing_m"]) for summary in summaries]
+            rows = {row.name: row for row in assess_summaries(summaries, spacings).rows}
+    shifts = {one.key: study.both_sides(fixed, one) for one in chosen}
+    content = {
+        "schema_version": SCHEMA,
+        "case_hash": case.hash(),
+        "coverage": COVERAGE,
+        "spacings_m": spacings,
+        "inputs": {o.key: {"relative": o.relative, "source": o.source} for o in chosen},
+        "notes": study.notes,
+        "oscillating_share": _oscillating_share(rows),
+        "numbers": {
+            name: _assessed(name, value, rows.get(name), shifts)
+            for name, value in numbers_of(main).items()
+        },
+    }
+    replace_json(folder / FILE, content)
+    return content
+
+
+class _Companions:
+    """Makes the companions exist, one after the other, and keeps what went wrong."""
+
+    def __init__(self, folder: Path, run: Run, report: Any, total: int) -> None:
+        self.folder, self.run, self.report = folder, run, report
+        self.count, self.total, self.notes = 0, total, list[str]()
+
+    def make(self, name: str, case: Case) -> dict[str, Any] | None:
+        """Summary of a companion; None, with a note, where its run fails."""
+        self.count += 1
+        if self.report:
+            self.report(f"companion {self.count} of {self.total}: {name}")
+        try:
+            return self.run(case, self.folder / name).summary
+        except StepFailed as error:
+            self.notes.append(f"companion {name} failed: {error}")
+            return None
+
+    def both_sides(self, case: Case, one: Input) -> tuple[Numbers | None, Numbers | None]:
+        """Numbers with an input one standard uncertainty higher, and lower; None for impossible."""
+        found: list[Numbers | None] = []
+        for sign in (1, -1):
+            share = f"{100.0 * sign * one.relative:+.4g}%"
+            other = shifted(case, one, sign)
+            if isinstance(other, str):
+                self.notes.append(f"{one.key} {share}: {other}")
+                found.append(None)
+                continue
+            summary = self.make(f"{one.key}{share}", other)
+            found.append(None if summary is None else numbers_of(summary))
+        return found[0], found[1]
+
+
+def _name_of_spacing(case: Case) -> str:
+    return f"spacing-{format_quantity(case.particles.spacing, 'm').replace(' ', '')}"
+
+
+def _oscillating_share(rows: dict[str, StudyRow]) -> float | None:
+    """Share of the numbers that oscillate, which the procedure asks to report."""
+    kinds = [row.convergence.kind for row in rows.values()]
+    return kinds.count("oscillating") / len(kinds) if kinds else None
+
+
+def _assessed(
+    name: str,
+    value: float,
+    row: StudyRow | None,
+    shifts: dict[str, tuple[Numbers | None, Numbers | None]],
+) -> dict[str, Any]:
+    """One number: value, error that holds about 95 %, and its parts."""
+    parts = {
+        key: part
+        for key, (plus, minus) in shifts.items()
+        if (part := _part(value, (plus or {}).get(name), (minus or {}).get(name))) is not None
+    }
+    inputs = COVERAGE * math.hypot(*(part["standard"] for part in parts.values()))
+    found = None if row is None else row.convergence
+    numerical = math.nan if found is None else found.uncertainty
+    entry: dict[str, Any] = {
+        "value": value,
+        "error": math.hypot(numerical, inputs) if math.isfinite(numerical) else None,
+        "numerical": numerical,
+        "from_inputs": inputs,
+        "inputs": parts,
+    }
+    if row is not None and found is not None:
+        entry |= {
+            "behavior": found.kind,
+            "order": found.order,
+            "extrapolated": found.extrapolated,
+            "values": list(row.values),
+        }
+    return entry
+
+
+def _part(value: float, plus: float | None, minus: float | None) -> dict[str, Any] | None:
+    """What one input does to a number; None where neither side has it."""
+    if plus is None and minus is None:
+        return None
+    up = None if plus is None else plus - value
+    down = None if minus is None else minus - value
+    if up is None or down is None:
+        return {"up": up, "down": down, "standard": abs(up or down or 0.0), "is_linear": None}
+    half, middle = 0.5 * (up - down), 0.5 * (up + down)
+    is_linear = abs(middle) <= abs(half)
+    standard = abs(half) if is_linear else max(abs(up), abs(down))
+    return {"up": up, "down": down, "standard": standard, "is_linear": is_linear}
