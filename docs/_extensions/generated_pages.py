@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from case_keys import case_keys
+from papers_page import papers_page, read_papers
 from result_keys import history_columns, summary_keys
 from validation_table import validation_table
 
@@ -33,6 +34,7 @@ def write_pages(_app: object) -> None:
     target = DOCS / "generated"
     target.mkdir(exist_ok=True)
     states = [state_of(name, DOCS / "validation") for name in names()]
+    by_name = {state.name: state for state in states}
     readmes = {name: (home_of(name) / "README.md").read_text("utf-8") for name in names()}
     pages = {
         "case_keys.md": case_keys(Case.model_json_schema()),
@@ -40,6 +42,7 @@ def write_pages(_app: object) -> None:
         "history_columns.md": history_columns(),
         "examples.md": gallery(ROOT / "examples"),
         "validation.md": validation_table(states, readmes),
+        "papers.md": papers_page(read_papers(DOCS / "papers.toml"), by_name),
     }
     for name, text in pages.items():
         (target / name).write_text(text, encoding="utf-8")

@@ -24,9 +24,9 @@ def validation_table(states: Sequence[State], readmes: Mapping[str, str]) -> str
     readmes: by name of the validation.
     """
     rows = [
-        (f"[](#{_anchor(s)})", _title(readmes[s.name]), _count(s.record), _label(s)) for s in states
+        (f"[](#{_anchor(s)})", _title(readmes[s.name]), _count(s.record), label(s)) for s in states
     ]
-    parts = [_table(("validation", "question", "numbers", "state"), rows)]
+    parts = [table(("validation", "question", "numbers", "state"), rows)]
     for state in states:
         parts += _section(state, readmes[state.name])
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -41,7 +41,7 @@ def readme_text(readme: str) -> str:
 def _section(state: State, readme: str) -> list[str]:
     record = state.record
     head = f"({_anchor(state)})=\n## {state.name}"
-    said = ": ".join(text for text in (_label(state), _plain(state.text)) if text)
+    said = ": ".join(text for text in (label(state), plain(state.text)) if text)
     parts = [head, said + ".", readme_text(readme)]
     if state.word == "failed" and NOT_MET not in readme:
         parts.append("Why it fails is not explained yet.")
@@ -54,10 +54,10 @@ def _section(state: State, readme: str) -> list[str]:
         f"*{_duration(record['seconds'])} on {made['machine']}, {threads}; {version}, "
         f"{made['date']}.*"
     )
-    parts.append("\n".join(f"- {_plain(remark)}" for remark in record["remarks"]))
+    parts.append("\n".join(f"- {plain(remark)}" for remark in record["remarks"]))
     if record["rows"]:
-        parts.append(_table(HEAD, [_cells(row, notes) for row in record["rows"]]))
-    parts.append("\n".join(f"- ({k}) {_plain(text)}" for text, k in notes.items()))
+        parts.append(table(HEAD, [_cells(row, notes) for row in record["rows"]]))
+    parts.append("\n".join(f"- ({k}) {plain(text)}" for text, k in notes.items()))
     parts += [f"![{state.name}](validation/{state.name}/{file})" for file in record["figures"]]
     return parts
 
@@ -67,10 +67,10 @@ def _anchor(state: State) -> str:
 
 
 def _title(readme: str) -> str:
-    return _plain(readme.partition("\n")[0].removeprefix("# "))
+    return plain(readme.partition("\n")[0].removeprefix("# "))
 
 
-def _label(state: State) -> str:
+def label(state: State) -> str:
     """The state, with its date; what is not as it should be stands out."""
     made = state.record or {}
     if state.word == "confirmed":
@@ -111,22 +111,24 @@ def _cells(row: dict[str, Any], notes: dict[str, int]) -> tuple[str, ...]:
     unit = f" [{row['unit']}]" if row["unit"] not in ("", "1") else ""
     tolerance = "" if row["tolerance"] is None else f"{row['tolerance']:.3g}"
     note = f"({notes[_note(row)]})" if _note(row) else ""
-    numbers = (_number(row[key]) for key in ("published", "reference", "computed"))
+    numbers = (number(row[key]) for key in ("published", "reference", "computed"))
     verdict = "own" if row["own"] else VERDICTS[row["verdict"]]
-    return _plain(row["quantity"] + unit), *numbers, f"{tolerance} {note}".strip(), verdict
+    return plain(row["quantity"] + unit), *numbers, f"{tolerance} {note}".strip(), verdict
 
 
-def _number(value: float | str | None) -> str:
+def number(value: float | str | None) -> str:
+    """A number to six digits, a text without meaning to Markdown, nothing for None."""
     if value is None:
         return ""
-    return _plain(value) if isinstance(value, str) else f"{value:.6g}"
+    return plain(value) if isinstance(value, str) else f"{value:.6g}"
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """Text whose characters mean nothing to Markdown."""
     return re.sub(r"([|*<>$\[\]`\\])", r"\\\1", text)
 
 
-def _table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+    """A table of cells that are Markdown."""
     lines = [head, ("---",) * len(head), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)

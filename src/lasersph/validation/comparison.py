@@ -10,7 +10,8 @@
     band = "1 %"                of the reference, or a number in the unit; without it, shown only
     quick = "2 %"               the band of shortened runs, where it is another one
     published, reference        where they are the same in all runs; `band` alone compares with 0
-    claim = "..."               in place of `quantity`: a statement that holds or does not
+    claim = "..."               in place of `quantity`: a statement that holds or does not; with
+                                `band = 0` it is judged
     path = "melt.depth_max_m"   where a number of a run's summary is compared, and by what `factor`
     factor = 1e9                it is multiplied; rows of one `group` are added together
     reason = "..."              why the band is so wide: the reference's own uncertainty, the error
@@ -119,7 +120,9 @@ class Comparison:
         if self.claim:
             found = "holds" if computed else "does not hold"
             text = self.claim.format(**words)
-            return Row(text, "", "claimed", None, found, None, None, source, self.name)
+            verdict = bool(computed) if self.is_judged and judge else None
+            notes = {"reason": self.reason, "changed": self.changed}
+            return Row(text, "", "claimed", None, found, None, verdict, source, self.name, **notes)
         reference = self.reference if reference is None else float(reference)
         published = self.published if published is None else published
         band = self.quick if quick and self.quick is not None else self.band

@@ -8,6 +8,7 @@ from lasersph.output import Run
 from lasersph.output.height_map import height_map
 from lasersph.physics.ablation_estimates import (
     EJECTION_ACCELERATION,
+    VAPOR_ABSORPTION,
     absorbed_by_vapor,
     depth_of_light,
     light_left,
@@ -15,8 +16,11 @@ from lasersph.physics.ablation_estimates import (
 from lasersph.physics.evaporation import (
     NO_CRITICAL_POINT,
     STANDARD_ATMOSPHERE,
+    effusion_velocity,
+    mean_normal_velocity,
     saturation_pressure,
 )
+from lasersph.physics.losses import STEFAN_BOLTZMANN
 from lasersph.validation.ablation_aluminium.figures import draw
 from lasersph.validation.study import Study
 
@@ -38,6 +42,7 @@ def compare(study: Study) -> None:
     column = study.run("column", *plan.column, *rules["published"])
     spots = {name: study.run(f"spot-{name}", *rule, *plan.spot) for name, rule in rules.items()}
     study.add_group("column", column)
+    study.add_group("text", column)
     acceleration = column.summary["traces"]["center"]["acceleration_m_s2"]
     study.add("acceleration_claim", acceleration > EJECTION_ACCELERATION)
     add_estimates(study)
@@ -55,6 +60,13 @@ def add_estimates(study: Study) -> None:
     study.add("light_0", 1e9 * depth_of_light(4e-5, ALPHA))
     study.add("light_250", 100.0 * light_left(250e-9, ALPHA))
     study.add("light_vapor", 100.0 * absorbed_by_vapor(6e-7))
+    study.add("vapor_length", 1.0 / VAPOR_ABSORPTION)
+    for T in (GAS["T_b"], 3744.0, 3807.6):
+        study.add("speed_by_effusion", effusion_velocity(T, GAS["R_s"]), T=T)
+    study.add("speed_by_mean", mean_normal_velocity(GAS["T_b"], GAS["R_s"]))
+    hot, cold = GAS["T_b"], 300.0
+    lost = 20.0 * (hot - cold) + 0.09 * STEFAN_BOLTZMANN * (hot**4 - cold**4)
+    study.add("losses", lost / (0.25 * 1e13))
 
 
 def asymmetry(spot: Run) -> float:

@@ -15,6 +15,8 @@ from lasersph.validation.study import Study
 
 DEPTHS = (0, 2, 5, 7)
 """[um]"""
+POLISHED = 0.95
+"""Reflectivity of Figs. 15 and 16: the text gives heating rates that only this one has."""
 SURFACE = ("time [ns]", "surface temperature [K]")
 
 
@@ -76,8 +78,8 @@ def draw_trains(study: Study, light: Light, runs: Mapping[tuple[int, float], Run
                 curves.append(over_time(runs[dimension, R], f"SPH {dimension}-D", k, k + 1))
         panels.append(Panel(*SURFACE, curves, f"({letter}) R = {R}"))
     study.draw("fig14-three-pulses", *panels)
-    draw_depths(study, light, runs[1, 0.75])
-    draw_rates(study, light, runs[1, 0.75])
+    draw_depths(study, light, runs[1, POLISHED])
+    draw_rates(study, light, runs[1, POLISHED])
 
 
 def draw_depths(study: Study, light: Light, one: Run) -> None:
@@ -85,7 +87,7 @@ def draw_depths(study: Study, light: Light, one: Run) -> None:
     time = one.history["time_s"]
     at_depths, at_times = [], []
     for k, depth in enumerate(DEPTHS):
-        T = light.temperature(1e-6 * depth, time)
+        T = light.temperature(1e-6 * depth, time, reflectivity=POLISHED)
         at_depths.append(exact(1e9 * time, T, "", color="0.8", linewidth=2.5))
         at_depths.append(line(1e9 * time, at_depth(one, depth), f"{depth} µm", k))
     for k, wanted in enumerate((50e-9, 100e-9, 200e-9, 300e-9, 500e-9, 600e-9)):
@@ -108,7 +110,7 @@ def draw_rates(study: Study, light: Light, one: Run) -> None:
     depths: list[Curve] = []
     for k, depth in enumerate(DEPTHS):
         rate = np.diff(at_depth(one, depth)) / np.diff(time)
-        expected = pulse_train_rate(1e-6 * depth, middle, **light.pulses(0.75, 3))
+        expected = pulse_train_rate(1e-6 * depth, middle, **light.pulses(POLISHED, 3))
         (surface if depth == 0 else depths).extend(
             (
                 exact(1e9 * middle, expected, "", color="0.8", linewidth=2.5),
@@ -118,7 +120,7 @@ def draw_rates(study: Study, light: Light, one: Run) -> None:
     rates = ("time [ns]", "dT/dt [K/s]")
     study.draw(
         "fig16-rates",
-        Panel(*rates, surface, "(a) surface", low=-4e11, high=4e11),
+        Panel(*rates, surface, "(a) surface", low=-1e11, high=1e11),
         Panel(*rates, depths, "(b) depths"),
     )
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from lasersph.analytic.convergence import assess, grid_convergence_index, relative_error
-from lasersph.analytic.half_space import thermal_penetration
 from lasersph.output import Run
 from lasersph.solvers.step_control import NotConverged
-from lasersph.validation.pulsed_heating import figures
+from lasersph.validation.pulsed_heating import figures, statements
 from lasersph.validation.pulsed_heating.light import Light
 from lasersph.validation.study import Study
 
@@ -41,8 +40,9 @@ def compare(study: Study) -> None:
     trains = {(n, R): pulse_train(study, n, R) for R in reflectivities for n in plan.trains}
     add_trains(study, light, trains)
     figures.draw_trains(study, light, trains)
-    depth = 1e6 * thermal_penetration(light.diffusivity, 5e-9)
-    study.remarks.append(f"heat travels {depth:.2f} um in 5 ns (eq. 34; printed 0.6 um)")
+    statements.add_errors(study, light, by_spacing)
+    statements.add_rates(study, light, {R: trains[1, R] for R in reflectivities})
+    statements.add_peaks(study, light, trains)
 
 
 def lattice(dimension: int, spacing: float) -> list[str]:

@@ -145,7 +145,8 @@ class PublishedPressure:
         backend.pair_sum(opposite, inner, values, self._d, finish=diagonal, reinforcement=r)
         columns = inner.without_ghosts(backend, self._column)
         self._kind, self._volume = kind, volume
-        self._solver = BiCGStab(backend, PairMatrix(columns, entries, self._d))
+        self.matrix = PairMatrix(columns, entries, self._d)
+        self._solver = BiCGStab(backend, self.matrix)
 
     def solve(self, b: Array, pressure: Array) -> Outcome:
         """Solve for the pressure, from what it holds as the first guess.

@@ -1,0 +1,117 @@
+"""Markdown of docs/papers.md: what both papers print beside what the validations recorded."""
+
+import tomllib
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from validation_table import State, label, number, plain, table
+
+TITLES = {
+    "ablation": "Alshaer, Rogers & Li 2017: pulsed heating and ablation of aluminum",
+    "texturing": "Demuth & Lasagni 2020: interference patterning of steel and aluminum",
+}
+HEAD = ("number", "paper", "ours", "verdict")
+REPRODUCED, DIFFERS, NOT_MET, OWN, MISSING = (
+    "reproduced",
+    "differs",
+    "**not met**",
+    "own",
+    "missing",
+)
+Part = dict[str, Any]
+"""One `[[ablation]]` or `[[texturing]]` of docs/papers.toml."""
+Row = dict[str, Any]
+"""One row of a record."""
+
+
+def read_papers(file: Path) -> dict[str, list[Part]]:
+    """Parts of both papers."""
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def row_named(state: State | None, beginning: str) -> Row | None:
+    """The recorded row of that quantity, else the only one that begins so; None where none does.
+
+    Raises:
+        ValueError: several rows begin so.
+    """
+    rows = state.record["rows"] if state and state.record else []
+    found = [row for row in rows if row["quantity"].startswith(beginning)]
+    found = [row for row in found if row["quantity"] == beginning] or found
+    if len(found) > 1:
+        raise ValueError(f"{len(found)} rows begin with {beginning!r}")
+    return found[0] if found else None
+
+
+def papers_page(papers: Mapping[str, list[Part]], states: Mapping[str, State]) -> str:
+    """One section a paper: how often which verdict, then a head for each figure or table.
+
+    states: of all validations by name.
+    """
+    texts = []
+    for paper, title in TITLES.items():
+        parts = papers[paper]
+        counts = Counter(
+            verdict(entry, states[part["validation"]])[0]
+            for part in parts
+            for entry in part.get("rows", ())
+        )
+        counts["not given"] = sum("missing" in part for part in parts)
+        said = ", ".join(f"{count} {word}" for word, count in counts.items())
+        texts += [f"## {title}", f"Numbers: {said}."]
+        texts += [text for part in parts for text in section(part, states)]
+    return "\n\n".join(texts) + "\n"
+
+
+def section(part: Part, states: Mapping[str, State]) -> list[str]:
+    """Head, command, figure, numbers, and what the paper does not give."""
+    texts = [f"### {plain(part['where'])}", plain(part["what"]) + "."]
+    state = states[part["validation"]] if "validation" in part else None
+    if state is not None:
+        texts[-1] += f" Command: `lasersph validate {state.name}`, record {label(state)}."
+        file = f"{part.get('figure')}.png"
+        if state.record and file in state.record["figures"]:
+            texts.append(f"![{plain(part['where'])}](validation/{state.name}/{file})")
+    if part.get("rows"):
+        texts.append(table(HEAD, [cells(entry, state) for entry in part["rows"]]))
+    if part.get("missing"):
+        texts.append(f"*Not given by the paper*: {plain(part['missing'])}.")
+    return texts
+
+
+def cells(entry: Mapping[str, str], state: State | None) -> tuple[str, ...]:
+    """What it is, the paper's number, ours, the verdict with its reason."""
+    row, words = row_named(state, entry["row"]), ": ".join(filter(None, verdict(entry, state)))
+    if row is None:
+        return plain(entry["row"]), "", "", words
+    unit = f" [{row['unit']}]" if row["unit"] not in ("", "1", "SI") else ""
+    paper = row["reference"] if row["published"] is None else row["published"]
+    return plain(row["quantity"] + unit), number(paper), number(row["computed"]), words
+
+
+def verdict(entry: Mapping[str, str], state: State | None) -> tuple[str, str]:
+    """The verdict on a row, and its reason: its band, or `because` and `by` of docs/papers.toml.
+
+    Raises:
+        ValueError: a row that is not judged, without `because`.
+    """
+    row = row_named(state, entry["row"])
+    if row is None:
+        return MISSING, "not recorded"
+    changed = f"; changed: {row['changed']}" if row["changed"] else ""
+    if row["own"]:
+        return OWN, plain(f"our other result, or fitted{changed}")
+    if "because" in entry and row["verdict"] is not False:
+        other = row_named(state, entry["by"]) if "by" in entry else None
+        shown = f" ({other['quantity']}: {number(other['computed'])})" if other else ""
+        word = REPRODUCED if row["computed"] == "holds" else DIFFERS
+        return word, plain(entry["because"] + shown)
+    if row["verdict"] is None:
+        raise ValueError(f"{row['quantity']!r} is not judged: say why it differs")
+    unit = "" if row["unit"] in ("", "1", "SI") else f" {row['unit']}"
+    band = "" if row["tolerance"] is None else f"within {row['tolerance']:.3g}{unit}: "
+    because = f"; {entry['because']}" if "because" in entry else ""
+    word = REPRODUCED if row["verdict"] else NOT_MET
+    return word, plain(band + row["reason"] + because + changed)

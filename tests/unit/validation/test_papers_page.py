@@ -1,0 +1,103 @@
+"""The page "Both papers, figure by figure": every number comes from a recorded row."""
+
+import re
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from lasersph.validation import names
+from lasersph.validation.records import state_of
+
+DOCS = Path(__file__).resolve().parents[3] / "docs"
+sys.path.insert(0, str(DOCS / "_extensions"))
+from papers_page import (  # noqa: E402  (the folder is no package)
+    MISSING,
+    NOT_MET,
+    papers_page,
+    read_papers,
+    row_named,
+    verdict,
+)
+
+PAPERS = read_papers(DOCS / "papers.toml")
+PARTS = [part for parts in PAPERS.values() for part in parts]
+STATES = {name: state_of(name, DOCS / "validation") for name in names()}
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part["where"])
+def test_every_number_is_recorded(part):
+    """Every row, and every other that shows why ours differs, is in a record that is no older."""
+    assert part.keys() <= {"where", "what", "validation", "figure", "rows", "missing"}
+    assert part.get("rows") or part.get("missing")
+    if "validation" not in part or STATES[part["validation"]].is_out_of_date:
+        return
+    state = STATES[part["validation"]]
+    for entry in part.get("rows", ()):
+        assert entry.keys() <= {"row", "because", "by"}
+        for key in ("row", "by"):
+            if key in entry:
+                assert row_named(state, entry[key]), entry[key]
+        verdict(entry, state)
+    if "figure" in part:
+        assert f"{part['figure']}.png" in state.record["figures"]
+
+
+def test_page_names_every_figure_and_table():
+    """Figs. 1-25 and Tables 1-2 of one paper, Figs. 1-12 and Tables 1-5 of the other."""
+    for paper, figures, tables in (("ablation", 25, 2), ("texturing", 12, 5)):
+        named = numbers_named([part["where"] for part in PAPERS[paper]])
+        wanted = {f"Fig. {k}" for k in range(1, figures + 1)}
+        assert wanted | {f"Table {k}" for k in range(1, tables + 1)} <= named
+
+
+def numbers_named(places):
+    """Figures and tables of some places, "Figs. 3-5" and "Fig. 7b" among them."""
+    named = set()
+    for place in places:
+        for word, first, last in re.findall(r"(Fig|Table)s?\.? (\d+)(?:(?:-| and )(\d+))?", place):
+            between = range(int(first), int(last or first) + 1)
+            chosen = (int(first), int(last)) if " and " in place and last else between
+            named |= {f"{word}. {k}" if word == "Fig" else f"Table {k}" for k in chosen}
+    return named
+
+
+def row(**keys):
+    """A judged row that is met."""
+    usual = {"quantity": "T", "unit": "K", "published": 3.0, "reference": 3.0, "computed": 3.1}
+    more = {"tolerance": 0.5, "verdict": True, "own": False, "reason": "a digit", "changed": ""}
+    return usual | more | keys
+
+
+def state(*rows):
+    """A state whose record has some rows."""
+    made = {"rows": list(rows), "figures": [], "computed": {"date": "2026-11-22"}}
+    return SimpleNamespace(name="stefan", word="current", text="", record=made)
+
+
+def test_verdicts():
+    """Within its band, outside, shown with and without a reason, own, missing."""
+    entry = {"row": "T"}
+    assert verdict(entry, state(row())) == ("reproduced", "within 0.5 K: a digit")
+    assert verdict(entry, state(row(verdict=False)))[0] == NOT_MET
+    assert verdict(entry, state(row(own=True, verdict=None)))[0] == "own"
+    assert verdict({"row": "other"}, state(row()))[0] == MISSING
+    shown = state(row(verdict=None), row(quantity="as measured", computed=5.0))
+    with pytest.raises(ValueError, match="say why"):
+        verdict(entry, shown)
+    explained = entry | {"because": "no heat", "by": "as measured"}
+    assert verdict(explained, shown) == ("differs", "no heat (as measured: 5)")
+    assert verdict(explained, state(row(verdict=False)))[0] == NOT_MET
+    with pytest.raises(ValueError, match="2 rows begin"):
+        verdict({"row": "T"}, state(row(quantity="T1"), row(quantity="T2")))
+
+
+def test_page():
+    """Counts, heads, the table and what is not given."""
+    part = {"where": "Fig. 1", "what": "Heat", "validation": "stefan", "rows": [{"row": "T"}]}
+    papers = {"ablation": [part], "texturing": [{"where": "Fig. 2", "what": "x", "missing": "y"}]}
+    page = papers_page(papers, {"stefan": state(row())})
+    assert "Numbers: 1 reproduced, 0 not given." in page
+    assert "| T \\[K\\] | 3 | 3.1 | reproduced: within 0.5 K: a digit |" in page
+    assert "*Not given by the paper*: y." in page
