@@ -112,7 +112,9 @@ class Loops:
                 period = neighbors.period
                 numbers["period"] = period
                 kinds += (neighbors.kernel, neighbors.mean, period)
-        ones += [id(unwrap(out)) for out in listed(call.out) if out is not None]
+        outs = listed(call.out)
+        kinds += (tuple([out is None for out in outs]),)
+        ones += [id(unwrap(out)) for out in outs if out is not None]
         ones += [id(unwrap(constants[name])) for name in signature.tables]
         found = signature.rebound.get(kinds)
         is_current = found is not None and source.is_current(found.watched)

@@ -56,7 +56,7 @@ _SCAN = '''{mean}
 {outer}
 def scan(begin, end, threads, start, used, count, targets, support, sorted_position,
          sorted_support, order, starts, first_cell, first_member, low, high, inverse, shape,
-         largest, slack, period, scratch, ends):
+         largest, smallest, slack, period, scratch, ends):
     """Neighbors of blocks of targets into their rows of scratch; used[b - start]: number of pairs
     of block b, or the largest integer where scratch is too short."""
     {dispatch}
@@ -195,10 +195,18 @@ def _pieces(dimension: int, periodic: tuple[bool, ...]) -> list[str]:
         "    return",
         "for piece in range(first, last, PIECE):",
         "    length = min(last - piece, PIECE)",
-        "    for q in range(length):",
-        "        k = piece + q",
-        *("        " + line for line in distance(position, periodic)),
-        "        near[q] = ONE if square < limit * limit else ZERO",
+        "    if smallest[level] == largest[level]:",  # the same limit for all: nothing to look up
+        "        bound = f__mean_of(li, largest[level])",
+        "        bound *= bound",
+        "        for q in range(length):",
+        "            k = piece + q",
+        *("            " + line for line in distance(position, periodic)[:-1]),
+        "            near[q] = ONE if square < bound else ZERO",
+        "    else:",
+        "        for q in range(length):",
+        "            k = piece + q",
+        *("            " + line for line in distance(position, periodic)),
+        "            near[q] = ONE if square < limit * limit else ZERO",
         "    for q in range(length):",
         "        j = order[piece + q]",
         "        scratch[slot, place] = j",

@@ -87,6 +87,7 @@ class _Cells(NamedTuple):
     inverse: np.ndarray
     shape: np.ndarray
     largest: np.ndarray
+    smallest: np.ndarray
 
 
 def neighbor_list(
@@ -221,7 +222,7 @@ def _levels(
     order = np.empty(total, dtype=np.uint32)
     real = position.dtype
     low, high = (np.empty((len(groups), dimension), real) for _ in range(2))
-    inverse, largest = (np.empty(len(groups), real) for _ in range(2))
+    inverse, largest, least = (np.empty(len(groups), real) for _ in range(3))
     shape = np.empty((len(groups), dimension), np.int64)
     first_cell, first_member = (np.zeros(len(groups), np.uint64) for _ in range(2))
     starts, cells, members = [], 0, 0
@@ -230,7 +231,8 @@ def _levels(
         part = position if single else np.ascontiguousarray(position[:, group])
         low[k] = part.min(axis=1) if lower is None else lower
         high[k] = part.max(axis=1) if upper is None else upper
-        largest[k] = (support if single else support[group]).max()
+        supports = support if single else support[group]
+        largest[k], least[k] = supports.max(), supports.min()
         size = float(mean(largest[k], largest[k])) / _CELLS_PER_REACH
         place = order[members : members + group.size]
         start, shape[k], inverse[k] = _sorted(sort, position, group, low[k], high[k], size, place)
@@ -249,6 +251,7 @@ def _levels(
         inverse,
         shape,
         largest,
+        least,
     )
 
 

@@ -21,12 +21,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.compute.array_types import Array, Constants
+from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import vector
 
-Table = tuple[Array, ...]
-"""Values of each ghost type on the backend, an array (w,) for each component."""
 MIRROR, PERIODIC, OPEN = "mirror", "periodic", "open"
 LOWER, UPPER = 1, 2
 BOTH = 3
@@ -138,23 +135,18 @@ def scalar_of_type(ghost_type, first):
     return first[ghost_type]
 
 
-def vector_of_type(ghost_type, first, second):
-    """Vector of a type."""
-    return vector(first[ghost_type], second[ghost_type])
-
-
 class GhostParticles:
     """The first `count` particles with their ghosts.
 
     Attributes:
         source, ghost_type: (M,) kind "index", particle behind each and its type; a particle is
-            its own source, of type 0. sign, offset: (2, M) [1], [m]. total: M.
+            its own source, of type 0. total: M. near: numbers of the particles near a face, which
+            may have ghosts as neighbors; is_near: (n,) 1 for them.
     """
 
     source: Array
     ghost_type: Array
-    sign: Array
-    offset: Array
+    near: Rows
 
     def __init__(
         self, backend: Backend, count: int, search_radius: float, ghost_types: GhostTypes
@@ -168,9 +160,8 @@ class GhostParticles:
             for name, row in zip(("crossed_x", "crossed_z"), ghost_types.crossed, strict=True)
         }
         self._faces = tuple(backend.zeros(count, "index") for _ in range(2))
-        self._is_near = backend.zeros(count)
+        self.is_near = backend.zeros(count)
         self._numbers = backend.zeros(0, "index")
-        self._sign, self._offset = self.table(ghost_types.sign), self.table(ghost_types.offset)
         self.total = 0
 
     def find(self, position: Array) -> None:
@@ -178,8 +169,8 @@ class GhostParticles:
         backend, count = self.backend, self.count
         # particles near a face, and the faces that they are near
         fields = {"x": backend.head(position, count)}
-        backend.pointwise(near_faces, fields, (*self._faces, self._is_near), **self._near)
-        near = backend.rows_where(self._is_near, 1.0)
+        backend.pointwise(near_faces, fields, (*self._faces, self.is_near), **self._near)
+        near = self.near = backend.rows_where(self.is_near, 1.0)
         across, along = (self._gather(face, near) for face in self._faces)
         # which pairs of a type and such a particle make a ghost
         size, others = near.shape[0], self.ghost_types.count - 1
@@ -195,22 +186,14 @@ class GhostParticles:
         backend.pointwise(
             origin, fields, out, count=count, size=max(size, 1), near=near, found=found
         )
-        self.sign, self.offset = self.by_type(self._sign), self.by_type(self._offset)
 
-    def table(self, values: NDArray[Any]) -> Table:
-        """Host values (w,) or (2, w) of each type, for `by_type`."""
-        return tuple(self.backend.asarray(row) for row in np.atleast_2d(values))
+    def table(self, values: NDArray[Any]) -> Array:
+        """Host values (w,) of the types, for loops that read them at `ghost_type`."""
+        return self.backend.asarray(values)
 
-    def by_type(self, table: Table) -> Array:
-        """(M,) or (2, M) values by the type of each particle."""
-        backend, fields = self.backend, {"ghost_type": self.ghost_type}
-        if len(table) == 1:
-            out = backend.zeros(self.total)
-            backend.pointwise(scalar_of_type, fields, out, first=table[0])
-        else:
-            out = backend.zeros((2, self.total))
-            backend.pointwise(vector_of_type, fields, out, first=table[0], second=table[1])
-        return out
+    def tables(self, first: str, second: str, values: NDArray[Any]) -> dict[str, Array]:
+        """Tables of both components of host values (2, w) by their names."""
+        return {first: self.table(values[0]), second: self.table(values[1])}
 
     def _gather(self, source: Array, order: Array) -> Array:
         out = self.backend.zeros(order.shape[0], "index")

@@ -91,21 +91,31 @@ def corrected_gradient(
     backend.pair_sum(volume_difference_term, neighbors, fields, gradient, finish=corrected)
 
 
-def corrected_divergence_term(v_i, v_j, V_j, C_i, x_ij, r_ij, dW_ij):
-    """Term of the corrected D- of a vector field: V_j (v_j - v_i) . C_i grad W_ij [unit of v / m].
+def kernel_gradient(V_j, x_ij, r_ij, dW_ij):
+    """G_ij = V_j grad W_ij [1/m], which terms below read per pair; args as of `correction_term`."""
+    return V_j * dW_ij / r_ij * x_ij
+
+
+def moment_term(G_ij, x_ij):
+    """`correction_term` from the stored G_ij [1]."""
+    return -outer(G_ij, x_ij)
+
+
+def corrected_divergence_term(v_i, v_j, C_i, G_ij):
+    """Term of the corrected D- of a vector field: (v_j - v_i) . C_i G_ij [unit of v / m].
 
     Exact on linear fields. Skew-adjoint to `corrected_symmetric_term`:
     sum_i V_i v_i . G_i{p} = - sum_i V_i p_i D_i{v}.
     """
-    return V_j * dW_ij / r_ij * dot(v_j - v_i, matvec(C_i, x_ij))
+    return dot(v_j - v_i, matvec(C_i, G_ij))
 
 
-def corrected_symmetric_term(p_i, p_j, V_j, C_i, C_j, x_ij, r_ij, dW_ij):
-    """Term of the corrected G+: V_j (p_i C_i + p_j C_j) grad W_ij [unit of p / m].
+def corrected_symmetric_term(p_i, p_j, C_i, C_j, G_ij):
+    """Term of the corrected G+: (p_i C_i + p_j C_j) G_ij [unit of p / m].
 
     With C = 1 the symmetric gradient of [Demuth2020, eq. (46)] for equal densities.
     """
-    return V_j * dW_ij / r_ij * (p_i * matvec(C_i, x_ij) + p_j * matvec(C_j, x_ij))
+    return p_i * matvec(C_i, G_ij) + p_j * matvec(C_j, G_ij)
 
 
 def bounded_inverse(total):

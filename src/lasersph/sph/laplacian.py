@@ -65,8 +65,8 @@ def layered_weight(
         layer: number of the layer. normal (N), lateral (a): factors of the layer [1].
         x_ij: x_i - x_j [m]. up: unit vector normal to the layers.
     """
-    along = dot(x_ij, up)
-    share = along * along / (r_ij * r_ij)
+    along = dot(x_ij, up) / r_ij  # every division by r_ij: the compiler takes one reciprocal
+    share = along * along
     steps = layer_i - layer_j
     across = (normal_i - normal_j) / steps if steps != 0.0 else 1.0
     factor = share * across + (1.0 - share) * 0.5 * (lateral_i + lateral_j)

@@ -12,9 +12,13 @@ from __future__ import annotations
 from lasersph.compute.vectors import dot, norm
 
 
-def repulsion_terms(x_ij, r_ij, l_ij):
-    """Terms of R: n_ij / r_ij^2 [1/m^2], the distance [m] and 1; beyond the support nothing."""
-    inside = 1.0 if r_ij < l_ij else 0.0
+def repulsion_terms(x_ij, r_ij, G_ij):
+    """Terms of R: n_ij / r_ij^2 [1/m^2], the distance [m] and 1; nothing beyond the support.
+
+    Args:
+        G_ij: `correction.kernel_gradient`, which is 0 beyond the support alone.
+    """
+    inside = 1.0 if dot(G_ij, G_ij) > 0.0 else 0.0
     return inside / (r_ij * r_ij * r_ij) * x_ij, inside * r_ij, inside
 
 

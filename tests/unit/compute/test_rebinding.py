@@ -34,3 +34,17 @@ def test_same_results_without_the_layout(monkeypatch):
     monkeypatch.setattr(loops, "Rebound", None)
     for one, other in zip(doubles(compute.cpu(threads=1)), expected, strict=True):
         np.testing.assert_array_equal(one, other)
+
+
+def both_halves(a):
+    """Half of a field, and its other half."""
+    return 0.5 * a, 0.25 * a
+
+
+def test_calls_that_store_different_results():
+    """A launch is not taken by a call that stores other ones of the results."""
+    backend = compute.cpu(threads=1)
+    a, first, second = backend.asarray([4.0, 8.0]), backend.zeros(2), backend.zeros(2)
+    backend.pointwise(both_halves, {"a": a}, (first, None))
+    backend.pointwise(both_halves, {"a": a}, (None, second))
+    assert first.tolist() == [2.0, 4.0] and second.tolist() == [1.0, 2.0]

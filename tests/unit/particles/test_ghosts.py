@@ -38,7 +38,8 @@ def ghosts(backend):
         )
         assert found.total == source.size and source[:count].tolist() == list(range(count))
         assert not ghost_type[:count].any() and ghost_type[count:].all()
-        sign, offset = (backend.to_host(part) for part in (found.sign, found.offset))
+        types = found.ghost_types
+        sign, offset = types.sign[:, ghost_type], types.offset[:, ghost_type]
         place = sign * position[:, source] + offset
         assert np.array_equal(place[:, :count], position[:, :count])
         return SimpleNamespace(

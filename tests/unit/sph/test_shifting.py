@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from lattices import lattice, with_neighbors
 
+from lasersph.sph.correction import kernel_gradient
 from lasersph.sph.shifting import repulsion_terms, shift
 
 UP = (0.0, 1.0)
@@ -18,6 +19,9 @@ def shifts(backend, place, *, is_fluid=1.0, at_face=0.0, scale=0.04, limit=1e9, 
         "is_fluid": backend.asarray(np.full(count, is_fluid)),
         "at_face": backend.asarray(np.full(count, at_face)),
     }
+    fields["G_ij"] = backend.zeros((place.shape[0], neighbors.neighbor.shape[0]))
+    volume = {"V": backend.asarray(np.ones(count))}
+    backend.pair_values(kernel_gradient, neighbors, volume, fields["G_ij"])
     out = backend.zeros((place.shape[0], count))
     backend.pair_sum(
         repulsion_terms, neighbors, fields, out, finish=shift, normal=UP, scale=scale, limit=limit
@@ -35,7 +39,7 @@ def test_none_on_a_lattice(backend):
 
 def test_two_particles_by_hand():
     """Neighbor at distance 2 along -x: R = r^2 / r^2 e_x = e_x, whatever the distance."""
-    terms = repulsion_terms(np.array([2.0, 0.0]), 2.0, 3.0)
+    terms = repulsion_terms(np.array([2.0, 0.0]), 2.0, np.array([-1.0, 0.0]))
     assert terms[0].tolist() == [0.25, 0.0]
     assert terms[1:] == (2.0, 1.0)
     assert shift(*terms, **FREE).tolist() == [0.1, 0.0]
@@ -43,7 +47,7 @@ def test_two_particles_by_hand():
 
 def test_beyond_the_support():
     """A pair of the search beyond the support counts nothing."""
-    terms = repulsion_terms(np.array([2.0, 0.0]), 2.0, 1.9)
+    terms = repulsion_terms(np.array([2.0, 0.0]), 2.0, np.zeros(2))
     assert not terms[0].any() and terms[1:] == (0.0, 0.0)
     assert shift(*terms, **FREE).tolist() == [0.0, 0.0]
 

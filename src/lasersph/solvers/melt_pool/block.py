@@ -3,11 +3,10 @@
 The layers from the surface down to some depth below the melt form the block; they have the first
 numbers. Its pairs are searched in every step, those of the particles below stay as they are. A
 margin of resting layers below the moving rows belongs to the block, so that every moving particle
-finds all its neighbors there. Fields of the block with ghosts are gathers of the particles' own:
+finds all its neighbors there. What a ghost carries follows from its source (`ghost_fields`).
 
-    f_extended[k] = f[source[k]]
-
-where a particle of the block is its own source.
+Distances, kernels and weights of the pairs are computed once for each set of positions, and kept:
+root and divisions take most of the time of a sum over pairs.
 """
 
 from __future__ import annotations
@@ -18,37 +17,28 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lasersph.boundaries.surface import Surface
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import dot, outer
+from lasersph.compute.launch import Launch
+from lasersph.compute.vectors import dot
 from lasersph.particles.faces import LEFT
-from lasersph.particles.ghosts import LOWER, UPPER, GhostParticles, ghost_types_of
+from lasersph.particles.ghosts import (
+    LOWER,
+    UPPER,
+    GhostParticles,
+    ghost_types_of,
+    scalar_of_type,
+)
 from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
+from lasersph.particles.support import common
 from lasersph.solvers.conduction.body import Weighing
+from lasersph.solvers.melt_pool import ghost_fields
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.near_melt import NearMelt
+from lasersph.solvers.melt_pool.pair_geometry import PairGeometry, distance_square
 
 SKIN = 1.02
 """Search radius over the support radius: positions change a little within a step."""
-
-
-def ghost_position(x, sign, offset):
-    """Place of a ghost [m]; sign 1 and offset 0 for a particle itself."""
-    return sign * x + offset
-
-
-def ghost_velocity(v, factor, added, slope, jump, along):
-    """Velocity of a ghost [m/s]: S v + c, and the slope of a stressed surface.
-
-    Args:
-        jump: 2 d tau / eta of the source [m/s]. along: tangent of the surface.
-    """
-    return factor * v + added + slope * jump * along
-
-
-def ghost_tensor(M, sign):
-    """Tensor of a ghost, S M S with the signs on the diagonal of S."""
-    return outer(sign, sign) * M
 
 
 def wall_terms(g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j):
@@ -68,14 +58,9 @@ def inner_weight(g_ij, dirichlet_j):
     return g_ij * (1.0 - dirichlet_j)
 
 
-def ghost_layer(value, base, sign):
-    """Number of a layer or its factor as ghosts have it: base + sign * value."""
-    return base + sign * value
-
-
-def distance(r_ij):
-    """Distance of a pair [m]."""
-    return r_ij
+def both(a, b):
+    """1 where both marks are."""
+    return a * b
 
 
 def weight_of(g_ij):
@@ -105,18 +90,24 @@ class Block:
     Args:
         lattice: what stays the same of the particles. conditions: at the faces. surface: None in
             a box without.
+        fine_depth: of the layers of the finest support; what lies below rests [m].
         layers, complete_rows: layers and particles whose pairs are all in the block. count:
             particles with the margin below them. bottom: z of its lowest face [m]. has_bottom:
             whether that is the bottom of the domain.
         potential, enthalpy: heat potential [W/m] and enthalpy [J/kg] of a wall's temperature [K].
 
     Attributes:
-        source: (M,) particle behind each of the block with ghosts. pairs: NeighborList with the
-            rows of the block, among all M. weights: (pairs,) g_ij [1] at the last positions.
+        source: (M,) particle behind each of the block with ghosts. sources: these and the types,
+            the fields of `ghost_fields`; signs: tables of its arguments sign_x and sign_z. rules:
+            (M,) what faces mean to heat, by the names of `ghost_walls`.
+        pairs: NeighborList with the rows of the block, among all M.
+        weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
+            there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1].
         moving_support: of the particles that move, the finest [m]. search_radius: largest of
             the block [m].
-        ghosts: of its particles. rows: numbers of the particles whose pairs were found, has_row:
-            (count,) 1 for them.
+        ghosts: of its particles. rows: numbers of the particles whose pairs were found, None for
+            all of the block; has_row: (count,) 1 for them, or None. rows_near_faces: those, of
+            complete rows, that may have ghosts as neighbors.
     """
 
     def __init__(
@@ -126,6 +117,7 @@ class Block:
         conditions: FaceConditions,
         surface: Surface | None,
         *,
+        fine_depth: float,
         layers: int,
         complete_rows: int,
         count: int,
@@ -143,26 +135,38 @@ class Block:
         support = lattice.support[:count]
         self.moving_support, largest = float(support.min()), float(support.max())
         self.search_radius = SKIN * largest
-        self._own_support = backend.asarray(support), backend.asarray(SKIN * support)
+        self._mean = common if self.moving_support == largest else lattice.weighing.mean
+        self._own = {"V": self.volume, "support": backend.asarray(support)}
+        self._own["radius"] = backend.asarray(SKIN * support)
         (x, z), repeats = conditions.box, conditions.flow_kind(LEFT) == "periodic"
         self._bounds = x, (max(z[0], bottom), z[1])
         near = SKIN * float(lattice.weighing.mean(self.moving_support, largest))
+        self._even_above = near - fine_depth
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
         types = ghost_types_of(conditions.ghost_faces(has_bottom=has_bottom))
         self.ghosts = GhostParticles(backend, count, self.search_radius, types)
         self._set_rules()
         self._set_factors()
+        self._geometry = PairGeometry(backend, lattice.weighing)
 
     def _set_rules(self) -> None:
-        """Tables of what ghosts carry."""
-        ghosts = self.ghosts
-        rules = self.conditions.rules(ghosts.ghost_types, self.surface)
+        """Tables of what ghosts carry, by their type."""
+        ghosts, types = self.ghosts, self.ghosts.ghost_types
+        rules = self.conditions.rules(types, self.surface)
         self.has_walls = bool(rules.dirichlet.any() or rules.flux.any())
-        names = ("factor", "added", "slope", "dirichlet", "flux", "normal", "plane")
-        self._rules = {name: ghosts.table(getattr(rules, name)) for name in names}
-        is_ghost = np.arange(ghosts.ghost_types.count) > 0
+        self.signs = ghosts.tables("sign_x", "sign_z", types.sign)
+        self._offsets = ghosts.tables("offset_x", "offset_z", types.offset)
+        slope = {"slope": ghosts.table(rules.slope), "along": self._tangent}
+        self._factors = ghosts.tables("factor_x", "factor_z", rules.factor)
+        self._velocity = self._factors | ghosts.tables("added_x", "added_z", rules.added) | slope
+        self._mirror = ghosts.tables("factor_x", "factor_z", types.sign) | slope
+        self._mirror |= ghosts.tables("added_x", "added_z", 0.0 * rules.added)
+        self._walls = ghosts.tables("normal_x", "normal_z", rules.normal)
+        for name in ("dirichlet", "flux", "plane"):
+            self._walls[name] = ghosts.table(getattr(rules, name))
+        is_ghost = np.arange(types.count) > 0
         for name, values in self._wall_state(rules.wall_temperature).items():
-            self._rules[name] = ghosts.table(is_ghost * values)
+            self._walls[name] = ghosts.table(is_ghost * values)
         self._varies = ghosts.table(rules.varies) if rules.varies.any() else None
 
     def _wall_state(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
@@ -185,16 +189,15 @@ class Block:
         ends, _ = lattice.weighing.factors(np.array([-1, 0, last, last + 1]))
         crossed = ghosts.ghost_types.crossed[1]
         is_up, is_down = crossed == UPPER, crossed == LOWER
-        sign = ghosts.table(np.where(is_up | is_down, -1.0, 1.0))
-        bases = {
-            "layer": -1.0 * is_up + (2.0 * last + 1.0) * is_down,
-            "normal": ends[:2].sum() * is_up + ends[2:].sum() * is_down,
+        factors = {
+            "layer": layer,
+            "normal": normal,
+            "lateral": lateral,
+            "sign": np.where(is_up | is_down, -1.0, 1.0),
+            "layer_base": -1.0 * is_up + (2.0 * last + 1.0) * is_down,
+            "normal_base": ends[:2].sum() * is_up + ends[2:].sum() * is_down,
         }
-        self._factors = {
-            name: (backend.asarray(values), ghosts.table(bases[name]), sign)
-            for name, values in (("layer", layer), ("normal", normal))
-        }
-        self._lateral = backend.asarray(lateral)
+        self._own |= {name: backend.asarray(values) for name, values in factors.items()}
 
     def gather(self, field: Array) -> Array:
         """The field of all particles on the block with ghosts: (..., n) to (..., M)."""
@@ -202,49 +205,91 @@ class Block:
         self.backend.gather(field, self.source, out)
         return out
 
-    def find_pairs(self, position: Array, has_row: Array) -> None:
+    def extend(self, function: Callable, **tables: Array | tuple[float, ...]) -> Array:
+        """Vectors (2, M) by a function of `ghost_fields`."""
+        out = self.backend.zeros((2, self.total))
+        self.backend.pointwise(function, self.sources, out, **tables)
+        return out
+
+    def find_pairs(
+        self, position: Array, has_row: Array | None, *, has_kernel: bool = False
+    ) -> None:
         """Find ghosts of the particles at `position`, shape (2, n) [m], and pairs of chosen ones.
 
         Args:
-            has_row: (count,) 1 where the pairs of a particle are to be found, else 0.
+            has_row: (count,) 1 where the pairs of a particle are to be found, else 0; None for all.
+            has_kernel: whether `kernel` is set. Heat takes the weights of loops without it, so that
+                they are the same bits when a run is resumed.
 
         Raises:
             EscapedParticle: a position is not finite or beyond the faces.
         """
-        backend, lattice, ghosts = self.backend, self.lattice, self.ghosts
-        self.has_row, self.rows = has_row, backend.rows_where(has_row, 1.0)
+        backend, ghosts = self.backend, self.ghosts
+        self.has_row = has_row
+        self.rows = None if has_row is None else backend.rows_where(has_row, 1.0)
         ghosts.find(position)
         self.total, self.source = ghosts.total, ghosts.source
-        self.rules = {name: ghosts.by_type(table) for name, table in self._rules.items()}
-        self.V = self.gather(self.volume)
-        self.support, radius = (self.gather(own) for own in self._own_support)
-        self._weighing = {"V": self.V, "lateral": self.gather(self._lateral)}
-        for name, (values, base, sign) in self._factors.items():
-            value = self._weighing[name] = self.gather(values)
-            fields = {"value": value, "base": ghosts.by_type(base), "sign": ghosts.by_type(sign)}
-            backend.pointwise(ghost_layer, fields, value)
-        place = self._place(position)
-        self._vary(place)
-        how = {"kernel": lattice.weighing.kernel, "mean": lattice.weighing.mean}
-        how["box"] = Box(self._corner(0), self._corner(1), (0.0, 0.0))
-        self.pairs = find_neighbors(
-            backend, place, self.support, self.count, radius=radius, wanted=self.rows, **how
+        self.sources = {"source": ghosts.source, "ghost_type": ghosts.ghost_type}
+        names = ("V", "support", "radius", "layer", "normal", "lateral")
+        found = dict(zip(names, (backend.zeros(self.total) for _ in names), strict=True))
+        backend.pointwise(
+            ghost_fields.ghost_layers, self.sources, tuple(found.values()), **self._own
         )
-        neighbor = self.pairs.neighbor
+        self.V, self.support, self._layers = found["V"], found["support"], found
+        self._find_rows_near_faces()
+        place = self._place(position)
+        self._find_wall_rules(place)
+        corners = (self._corner(0), self._corner(1), (0.0, 0.0))
+        self.pairs = find_neighbors(
+            backend,
+            place,
+            self.support,
+            self.count,
+            kernel=self.lattice.weighing.kernel,
+            mean=self._mean,
+            box=Box(*corners),
+            radius=found["radius"],
+            wanted=self.rows,
+        )
+        geometry, neighbor = self._geometry, self.pairs.neighbor
+        geometry.begin(self.pairs, has_row, self._even_above)
+        geometry.find(self.pairs, self._layers, has_kernel=has_kernel)
+        self.weights, self.gradient, self.kernel = geometry.arrays
         self._folded = backend.zeros(neighbor.shape[0], "index")
         backend.gather(self.source, neighbor, self._folded)
-        self.weights = backend.zeros(neighbor.shape[0])
-        self._weigh()
 
-    def _vary(self, place: Array) -> None:
-        """State of the ghosts beyond a face whose temperature varies along it.
+    def _find_rows_near_faces(self) -> None:
+        """Numbers of the particles with complete pairs that may have ghosts among them."""
+        backend, ghosts, complete = self.backend, self.ghosts, self.complete_rows
+        if not self.has_walls or self.has_row is None:
+            self.rows_near_faces = ghosts.near
+            return
+        marks = {"a": backend.head(ghosts.is_near, complete)}
+        marks["b"] = backend.head(self.has_row, complete)
+        found = backend.zeros(complete)
+        backend.pointwise(both, marks, found)
+        self.rows_near_faces = backend.rows_where(found, 1.0)
 
-        Found on the host: it is that of few ghosts, and curves of the material.
+    def _find_wall_rules(self, place: Array) -> None:
+        """What `wall_terms` reads of each particle, in a domain with walls that matter to heat.
+
+        The state of ghosts beyond a face whose temperature varies along it is found on the host: it
+        is that of few ghosts, and curves of the material.
         """
+        backend = self.backend
+        self.rules = {"dirichlet": backend.zeros(self.total)}
+        if not self.has_walls:
+            return
+        names = ("dirichlet", "flux", "plane", "T_w", "P_w", "wall_enthalpy")
+        self.rules = {name: backend.zeros(self.total) for name in names}
+        self.rules["normal"] = backend.zeros((2, self.total))
+        fields, out = {"ghost_type": self.ghosts.ghost_type}, tuple(self.rules.values())
+        backend.pointwise(ghost_fields.ghost_walls, fields, out, **self._walls)
         if self._varies is None:
             return
-        backend = self.backend
-        rows = backend.rows_where(self.ghosts.by_type(self._varies), 1.0)
+        varies = backend.zeros(self.total)
+        backend.pointwise(scalar_of_type, fields, varies, first=self._varies)
+        rows = backend.rows_where(varies, 1.0)
         chosen = backend.zeros((2, rows.shape[0]))
         backend.gather(place, rows, chosen)
         T = self.conditions.varying_temperature(backend.to_host(chosen)[0])
@@ -254,7 +299,7 @@ class Block:
     def move(self, position: Array) -> None:
         """The same pairs at other positions."""
         self.pairs = replace(self.pairs, position=self._place(position))
-        self._weigh()
+        self._geometry.find(self.pairs, self._layers)
 
     def without_ghosts(self) -> NeighborList:
         """The pairs with every ghost replaced by its source."""
@@ -266,10 +311,7 @@ class Block:
         Args:
             jump: (n,) 2 d tau / eta [m/s].
         """
-        extended = self.gather(v)
-        fields = {"v": extended, "jump": self.gather(jump)} | self.rules
-        self.backend.pointwise(ghost_velocity, fields, extended, along=self._tangent)
-        return extended
+        return self._extended_velocity(v, jump, self._velocity)
 
     def mirror_velocity(self, v: Array, jump: Array) -> Array:
         """Velocities (2, n) on the block with ghosts as mirrors at the walls show them [m/s].
@@ -277,18 +319,28 @@ class Block:
         Beyond a stressed surface they continue the profile: mirrored, it would bend there, and its
         divergence with it. Args as of `extend_velocity`.
         """
-        extended = self.gather(v)
-        fields = {"v": extended, "factor": self.ghosts.sign, "jump": self.gather(jump)}
-        fields["slope"], along = self.rules["slope"], self._tangent
-        self.backend.pointwise(ghost_velocity, fields, extended, added=(0.0, 0.0), along=along)
-        return extended
+        return self._extended_velocity(v, jump, self._mirror)
+
+    def _extended_velocity(self, v: Array, jump: Array, rules: Constants) -> Array:
+        v_x, v_z = (self.backend.component(v, k) for k in (0, 1))
+        return self.extend(ghost_fields.extended_velocity, v_x=v_x, v_z=v_z, jump=jump, **rules)
+
+    def prepare_velocity_change(self, d: Array, out: Array) -> Launch:
+        """Loop that extends a change (2, n) of velocities, where walls and stress stay the same."""
+        d_x, d_z = (self.backend.component(d, k) for k in (0, 1))
+        return self.backend.prepare(
+            ghost_fields.velocity_change, self.sources, out, d_x=d_x, d_z=d_z, **self._factors
+        )
 
     def extend_tensor(self, M: Array) -> Array:
         """Tensors (2, 2, count) of the block on the block with ghosts."""
-        extended = self.gather(M)
-        fields = {"M": extended, "sign": self.ghosts.sign}
-        self.backend.pointwise(ghost_tensor, fields, extended)
-        return extended
+        backend, rows = self.backend, [self.backend.component(M, k) for k in (0, 1)]
+        names = ("M_xx", "M_xz", "M_zx", "M_zz")
+        parts = (backend.component(row, k) for row in rows for k in (0, 1))
+        tables, out = dict(zip(names, parts, strict=True)), backend.zeros((2, 2, self.total))
+        function = ghost_fields.extended_tensor
+        backend.pointwise(function, self.sources, out, **tables, **self.signs)
+        return out
 
     def find_near_fluid(self, position: Array, fluid: Array) -> Array:
         """(count,) 1 for particles within the support of a fluid one, or nearly; see `near_melt`.
@@ -301,25 +353,17 @@ class Block:
         """
         return self._near_melt.find(position, fluid)
 
-    def smallest_distance(self, position: Array, rows: Array) -> float:
+    def smallest_distance(self, position: Array, rows: Rows) -> float:
         """Smallest distance from one of `rows` to another particle or ghost [m]."""
         pairs = replace(self.pairs, position=self._place(position))
         (least,) = self.backend.pair_sum(
-            distance, pairs, {}, (None,), rows=rows, combine=("min",), reduce=("min",)
+            distance_square, pairs, {}, (None,), rows=rows, combine=("min",), reduce=("min",)
         )
-        return least
+        return least**0.5
 
     def _place(self, position: Array) -> Array:
-        place = self.gather(position)
-        fields = {"x": place, "sign": self.ghosts.sign, "offset": self.ghosts.offset}
-        self.backend.pointwise(ghost_position, fields, place)
-        return place
-
-    def _weigh(self) -> None:
-        weighing = self.lattice.weighing
-        self.backend.pair_values(
-            weighing.function, self.pairs, self._weighing, self.weights, **weighing.constants
-        )
+        x, z = (self.backend.component(position, k) for k in (0, 1))
+        return self.extend(ghost_fields.ghost_position, x=x, z=z, **self.signs, **self._offsets)
 
     def _corner(self, end: int) -> tuple[float, ...]:
         """Box that no particle and no ghost may leave [m]."""

@@ -118,6 +118,7 @@ class PoolDomain:
                 self.lattice,
                 self.conditions,
                 self.surface,
+                fine_depth=self.fine_depth,
                 layers=self.block_layers,
                 complete_rows=int(self._starts[self.block_layers]),
                 count=int(self._starts[last]),

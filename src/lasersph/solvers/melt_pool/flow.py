@@ -35,9 +35,9 @@ from lasersph.sph.correction import (
     bounded_inverse,
     corrected_divergence_term,
     corrected_symmetric_term,
-    correction_term,
+    moment_term,
 )
-from lasersph.sph.density_drift import density_drift_source, kernel_sum_term
+from lasersph.sph.density_drift import density_drift_source
 from lasersph.sph.lattice_sums import kernel_sum
 
 ACCEPTED = 10.0
@@ -76,17 +76,14 @@ def stop_solid(v, fluid):
     return flowing, dot(flowing, flowing)
 
 
-def divergence_terms(v_i, v_j, V_j, C_i, x_ij, r_ij, dW_ij, W_ij):
-    """Terms of D [1/s] and of the kernel sum S [1]."""
-    return (
-        corrected_divergence_term(v_i, v_j, V_j, C_i, x_ij, r_ij, dW_ij),
-        kernel_sum_term(V_j, W_ij),
-    )
+def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
+    """Terms of D [1/s] and of the kernel sum S [1], V_j W_ij."""
+    return corrected_divergence_term(v_i, v_j, C_i, G_ij), VW_ij
 
 
 def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):
-    """rho / dt V (D - d) [Pa m^(d-2)], and D [1/s]."""
-    return fraction * V * (total_0 - density_drift_source(total_1, lattice_sum, rate)), total_0
+    """rho / dt V (D - d) [Pa m^(d-2)]."""
+    return fraction * V * (total_0 - density_drift_source(total_1, lattice_sum, rate))
 
 
 def edge_pressure_terms(p_j, unknown_j, W_ij):
@@ -106,9 +103,9 @@ def pressure_of(p):
     return 1.0 * p
 
 
-def subtract_lowest(p, lowest):
-    """Pressure over the lowest one [Pa]."""
-    return p - lowest
+def pressure_over_lowest(source, p, lowest):
+    """Pressure of a particle or ghost over the lowest one [Pa]."""
+    return p[source] - lowest
 
 
 def correct(total, v, v_old, step, density):
@@ -123,9 +120,9 @@ def kinetic_energy(v, V, density):
     return 0.5 * density * V * dot(v, v)
 
 
-def divergence_sizes(D, fluid):
-    """Square and size of the divergence of what flows."""
-    return fluid * D * D, fluid * abs(D)
+def divergence_sizes(total):
+    """Square and size of the divergence."""
+    return total * total, abs(total)
 
 
 class Flow:
@@ -171,7 +168,7 @@ class Flow:
         self._block, backend, count = block, self.backend, block.count
         self._C = backend.zeros((2, 2, count))
         self._rhs, self._mask, self._p = (backend.zeros(count) for _ in range(3))
-        self._D, self._V = backend.zeros(count), block.volume
+        self._V = block.volume
         weighing = block.lattice.weighing
         self._lattice_sum = kernel_sum(weighing.kernel, weighing.ratio)
         tolerance = self.settings.pressure_tolerance
@@ -205,10 +202,8 @@ class Flow:
     def correct_kernel(self, rows: Rows) -> None:
         """Correction matrices of some rows at the present positions."""
         block = self.block
-        fields, finish = {"V": block.V}, bounded_inverse
-        self.backend.pair_sum(
-            correction_term, block.pairs, fields, self._C, finish=finish, rows=rows
-        )
+        fields, finish = {"G_ij": block.gradient}, bounded_inverse
+        self.backend.pair_sum(moment_term, block.pairs, fields, self._C, finish=finish, rows=rows)
 
     def predict(self, T: Array, kinds: ParticleKinds, step: float) -> None:
         """Velocity after viscous and body forces (68)."""
@@ -237,7 +232,17 @@ class Flow:
         backend, block = self.backend, self.block
         speed = max(self.largest_speed, block.conditions.largest_wall_speed())
         rate = DRIFT_RATE * speed / self.spacing
-        self._find_divergence(kinds.unknown_rows, self.liquid.density / step, rate)
+        backend.pair_sum(
+            divergence_terms,
+            block.pairs,
+            self._divergence_fields() | {"VW_ij": block.kernel, "V": self._V},
+            self._rhs,
+            finish=divergence_load,
+            rows=kinds.unknown_rows,
+            fraction=self.liquid.density / step,
+            lattice_sum=self._lattice_sum,
+            rate=rate,
+        )
         head, count = backend.head, block.count
         backend.copy(head(self.pressure, count), self._p)
         mask = head(kinds.unknown, count)
@@ -270,13 +275,13 @@ class Flow:
         (lowest,) = backend.pointwise(
             pressure_of, {"p": self.pressure}, (None,), rows=kinds.unknown_rows, reduce=("min",)
         )
-        p = block.gather(self.pressure)
-        backend.pointwise(subtract_lowest, {"p": p}, p, lowest=lowest)
-        C = block.extend_tensor(self._C)
+        p, C = backend.zeros(block.total), block.extend_tensor(self._C)
+        ghosts = {"source": block.source}
+        backend.pointwise(pressure_over_lowest, ghosts, p, p=self.pressure, lowest=lowest)
         (square,) = backend.pair_sum(
             corrected_symmetric_term,
             block.pairs,
-            {"p": p, "V": block.V, "C": C, "v": self.velocity, "v_old": self.before},
+            {"p": p, "G_ij": block.gradient, "C": C, "v": self.velocity, "v_old": self.before},
             (self.velocity, None),
             rows=kinds.fluid_rows,
             finish=correct,
@@ -291,10 +296,14 @@ class Flow:
 
     def measure_divergence(self, kinds: ParticleKinds, count: float) -> None:
         """Divergence that the projection left, for observers."""
-        self._find_divergence(kinds.fluid_rows, 1.0, 0.0)
-        fields = {"D": self._D, "fluid": self.backend.head(kinds.fluid, self.block.count)}
-        square, largest = self.backend.pointwise(
-            divergence_sizes, fields, (None, None), rows=kinds.fluid_rows, reduce=("sum", "max")
+        square, largest = self.backend.pair_sum(
+            corrected_divergence_term,
+            self.block.pairs,
+            self._divergence_fields(),
+            (None, None),
+            finish=divergence_sizes,
+            rows=kinds.fluid_rows,
+            reduce=("sum", "max"),
         )
         self.divergence = ((square / max(count, 1.0)) ** 0.5, largest)
 
@@ -315,25 +324,17 @@ class Flow:
         self.divergence = (0.0, 0.0)
         self.iterations = {"pressure": 0, "viscosity": 0}
 
-    def _find_divergence(self, rows: Rows, fraction: float, rate: float) -> None:
+    def _divergence_fields(self) -> dict[str, Array]:
         block = self.block
         v = block.mirror_velocity(self.velocity, self.ghost_velocity_jump())
-        self.backend.pair_sum(
-            divergence_terms,
-            block.pairs,
-            {"v": v, "V": block.V, "C": self._C},
-            (self._rhs, self._D),
-            finish=divergence_load,
-            rows=rows,
-            fraction=fraction,
-            lattice_sum=self._lattice_sum,
-            rate=rate,
-        )
+        return {"v": v, "C": self._C, "G_ij": block.gradient}
 
     def _set_dummy_pressure(self, kinds: ParticleKinds) -> None:
         """Give dummies the pressure of the edge."""
         backend, block, head = self.backend, self.block, self.backend.head
         backend.copy(self._p, head(self.pressure, block.count))
+        if kinds.dummy_rows.shape[0] == 0:
+            return
         fields = {"p": block.gather(self.pressure), "unknown": block.gather(kinds.unknown)}
         fields["dummy"], rows = kinds.dummy, kinds.dummy_rows
         terms, finish = edge_pressure_terms, dummy_pressure

@@ -14,6 +14,11 @@ def wall_sums(total_0, total_1, total_2, total_3):
     return total_0, total_1 + total_3, total_2
 
 
+def no_walls(A):
+    """`wall_sums` of a row far from all faces."""
+    return 0.0 * A, 0.0 * A, 0.0 * A
+
+
 def one(mark):
     """1 for every row."""
     return 1.0 + 0.0 * mark
@@ -29,23 +34,32 @@ class HeatPairs:
     def renew(self, block: Block) -> None:
         """Take the rows that the block has found, with the weights of its present positions.
 
-        Rows of the margin below the block lack neighbors; nothing within their support moves.
+        Rows of the margin below the block lack neighbors; nothing within their support moves. Where
+        all rows are found, as in a box, the list of the block is that of the body. Weights of the
+        block become those between particles: 0 toward ghosts beyond a Dirichlet face.
         """
         backend, body, pairs = self.backend, self.body, self.body.pairs
-        rows = backend.rows_where(backend.head(block.has_row, block.complete_rows), 1.0)
-        weights = block.weights
+        rows = None
+        if block.has_row is not None:
+            rows = backend.rows_where(backend.head(block.has_row, block.complete_rows), 1.0)
         fields = {"g_ij": block.weights} | block.rules
         if block.has_walls:
             out = (pairs.boundary_coefficient, body.wall_flow, body.wall_heat)
-            backend.pair_sum(wall_terms, block.pairs, fields, out, rows=rows, finish=wall_sums)
-            weights = backend.zeros(block.weights.shape[0])
-            backend.pair_values(inner_weight, block.pairs, fields, weights)
-        backend.pair_sum(weight_of, block.pairs, {"g_ij": weights}, pairs.total, rows=rows)
+            near = block.rows_near_faces
+            backend.pointwise(no_walls, {"A": out[0]}, out, rows=rows)
+            backend.pair_sum(wall_terms, block.pairs, fields, out, rows=near, finish=wall_sums)
+            backend.pair_values(inner_weight, block.pairs, fields, block.weights, rows=near)
+        backend.pair_sum(weight_of, block.pairs, {"g_ij": block.weights}, pairs.total, rows=rows)
         backend.pointwise(one, {"mark": self._renewed}, self._renewed, rows=rows)
+        row_start, neighbor = block.pairs.row_start, block.without_ghosts().neighbor
+        if rows is None:
+            pairs.neighbors = replace(pairs.neighbors, row_start=row_start, neighbor=neighbor)
+            pairs.weights = block.weights
+            return
         chosen, ones = backend.zeros(body.count, "flag"), backend.zeros(rows.shape[0], "flag")
         backend.fill(ones, 1)
         backend.scatter(ones, rows, chosen)
-        first = PairRows(block.pairs.row_start, block.without_ghosts().neighbor, weights)
+        first = PairRows(row_start, neighbor, block.weights)
         rest = PairRows(pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights)
         joined = splice(backend, first, chosen, rest)
         pairs.neighbors = replace(

@@ -8,12 +8,10 @@ step.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from lasersph.compute.array_types import Array, Rows
 from lasersph.particles.kinds import DUMMY, EDGE, FLUID, INTERIOR
-from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.particles.particles import Particles
+from lasersph.solvers.melt_pool.block import Block
 
 MOLTEN = 1.0 - 1e-9
 """Melt fraction from which a particle is fluid: 1 but for rounding."""
@@ -22,17 +20,16 @@ EDGE_RATIO = 1.5
 """
 
 
-def is_fluid(f_m, is_box):
+def is_fluid(f_m):
     """1 where a particle flows, else 0."""
-    if is_box > 0.0 or f_m >= MOLTEN:
-        return 1.0
-    return 0.0
+    return 1.0 if f_m >= MOLTEN else 0.0
 
 
-def fluid_neighbors(fluid_j, r_ij, l_ij, edge_distance):
-    """Fluid neighbors within the support, and within the distance of the edge."""
+def fluid_neighbors(fluid_j, g_ij, r_ij, edge_distance):
+    """Fluid neighbors within the support, where weights are positive, and within the distance of
+    the edge."""
     return (
-        fluid_j if r_ij < l_ij else 0.0 * fluid_j,
+        fluid_j if g_ij > 0.0 else 0.0 * fluid_j,
         fluid_j if r_ij < edge_distance else 0.0 * fluid_j,
     )
 
@@ -67,33 +64,59 @@ class ParticleKinds:
         particles.add("kind", "was_fluid")
         backend, count = particles.backend, particles.count
         self.backend, self.edge_distance = backend, EDGE_RATIO * spacing
-        self.is_box = float(is_box)
+        self.is_box = is_box
         self.kind, self.before = particles["kind"], particles["was_fluid"]
         self.fluid, self.unknown = backend.zeros(count), backend.zeros(count)
         self.dummy, self.active = backend.zeros(count), backend.zeros(count)
+        self._is_marked = False
 
     def find_fluid(self, melt_fraction: Array) -> float:
-        """Mark what flows; returns how many particles do."""
+        """Mark what flows, all of a box; returns how many particles do."""
+        if self.is_box:
+            self._mark_all()
+            return float(self.fluid.shape[0])
         (count,) = self.backend.pointwise(
-            is_fluid, {"f_m": melt_fraction}, (self.fluid,), reduce=("sum",), is_box=self.is_box
+            is_fluid, {"f_m": melt_fraction}, (self.fluid,), reduce=("sum",)
         )
         return count
+
+    def _mark_all(self) -> None:
+        """Mark all as fluid, once for all."""
+        if self._is_marked:
+            return
+        self.backend.fill(self.kind, FLUID)
+        for mark in (self.fluid, self.unknown, self.active):
+            self.backend.fill(mark, 1.0)
+        self._find_rows()
+        self._is_marked = True
 
     def remember(self) -> None:
         """Keep what flows now as what flowed before."""
         self.backend.copy(self.fluid, self.before)
 
-    def find_walls(
-        self, pairs: NeighborList, gather: Callable[[Array], Array], count: int, rows: Rows
-    ) -> None:
-        """Mark edge and dummies among the first `count` particles; `pairs` has these rows."""
-        backend = self.backend
+    def find_walls(self, block: Block) -> None:
+        """Mark edge and dummies among the particles of a block; a box has none."""
+        if self.is_box:
+            return
+        backend, count = self.backend, block.count
         marks = (self.kind, self.unknown, self.dummy, self.active)
         for mark in marks:
             backend.fill(mark, 0)
-        out, fields = tuple(backend.head(m, count) for m in marks), {"fluid": gather(self.fluid)}
-        near = {"edge_distance": self.edge_distance}
-        backend.pair_sum(fluid_neighbors, pairs, fields, out, finish=kind_of, rows=rows, **near)
+        out, near = tuple(backend.head(m, count) for m in marks), self.edge_distance
+        fields = {"fluid": block.gather(self.fluid), "g_ij": block.weights}
+        backend.pair_sum(
+            fluid_neighbors,
+            block.pairs,
+            fields,
+            out,
+            finish=kind_of,
+            rows=block.rows,
+            edge_distance=near,
+        )
+        self._find_rows()
+
+    def _find_rows(self) -> None:
+        backend = self.backend
         self.fluid_rows = backend.rows_where(self.fluid, 1.0)
         self.unknown_rows = backend.rows_where(self.unknown, 1.0)
         self.dummy_rows = backend.rows_where(self.dummy, 1.0)

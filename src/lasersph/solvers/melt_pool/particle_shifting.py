@@ -33,9 +33,9 @@ CLOSEST = 0.3
 """Least distance from a face over the spacing."""
 
 
-def velocity_terms(v_i, v_j, V_j, x_ij, r_ij, dW_ij):
+def velocity_terms(v_i, v_j, G_ij):
     """Terms of grad v, and the neighbors' velocity for its range."""
-    return V_j * dW_ij / r_ij * outer(v_j - v_i, x_ij), 1.0 * v_j, 1.0 * v_j
+    return outer(v_j - v_i, G_ij), 1.0 * v_j, 1.0 * v_j
 
 
 def adjust_velocity(total_0, total_1, total_2, v, C, displacement):
@@ -59,31 +59,35 @@ def phase_of(fluid, f_v):
     return 1.0 * fluid
 
 
-def mirror_displacement(displacement, sign):
-    """Displacement of a ghost [m]: that of its source, mirrored."""
-    return sign * displacement
-
-
 def range_enthalpy(h, dirichlet, wall_enthalpy):
     """Enthalpy of a ghost [J/kg]: that of its source, or of a Dirichlet face."""
     return h + dirichlet * (wall_enthalpy - h)
 
 
-def exchange(h_i, h_j, phase_i, phase_j, V_j, dirichlet_j, x_ij, r_ij, dW_ij, shift_i, shift_j):
+def what_is_exchanged(source, ghost_type, h, fluid, f_v, shift_x, shift_z, sign_x, sign_z):
+    """Enthalpy [J/kg], phase and mirrored displacement [m] of a ghost; see `ghost_fields`."""
+    across, along = sign_x[ghost_type] * shift_x[source], sign_z[ghost_type] * shift_z[source]
+    return h[source], phase_of(fluid[source], f_v[source]), vector(across, along)
+
+
+def shares_of(source, up, down):
+    """Shares of the source."""
+    return up[source], down[source]
+
+
+def exchange(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j):
     """V_j (h_j - h_i) (shift_i - shift_j) . grad W between particles of one phase [J/kg].
 
     Nothing beyond a Dirichlet face: no heat crosses a face because particles are shifted.
     """
     if phase_i != phase_j or dirichlet_j > 0.0:
-        return 0.0 * V_j
-    return V_j * (h_j - h_i) * dW_ij / r_ij * dot(shift_i - shift_j, x_ij)
+        return 0.0 * h_i
+    return (h_j - h_i) * dot(shift_i - shift_j, G_ij)
 
 
-def exchange_terms(
-    h_i, h_j, phase_i, phase_j, V_j, dirichlet_j, x_ij, r_ij, dW_ij, shift_i, shift_j
-):
+def exchange_terms(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j):
     """Gains and losses of h by exchange, and the range of neighbors of the same phase [J/kg]."""
-    q = exchange(h_i, h_j, phase_i, phase_j, V_j, dirichlet_j, x_ij, r_ij, dW_ij, shift_i, shift_j)
+    q = exchange(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j)
     h = h_j if phase_i == phase_j else h_i
     return max(q, 0.0), max(-q, 0.0), h, h
 
@@ -101,11 +105,8 @@ def limited_exchange(
     h_j,
     phase_i,
     phase_j,
-    V_j,
     dirichlet_j,
-    x_ij,
-    r_ij,
-    dW_ij,
+    G_ij,
     shift_i,
     shift_j,
     up_i,
@@ -114,7 +115,7 @@ def limited_exchange(
     down_j,
 ):
     """Exchange of a pair, by the smaller of the shares that its two particles allow [J/kg]."""
-    q = exchange(h_i, h_j, phase_i, phase_j, V_j, dirichlet_j, x_ij, r_ij, dW_ij, shift_i, shift_j)
+    q = exchange(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j)
     return q * (min(up_i, down_j) if q > 0.0 else min(down_i, up_j))
 
 
@@ -165,7 +166,7 @@ class ParticleShifting:
         self.backend, self.factor, self.spacing = backend, factor, spacing
         self.box, self.periods = box, periods
         self.displacement, self._v = backend.zeros((2, count)), backend.zeros((2, count))
-        self._phase, self._up, self._down = (backend.zeros(count) for _ in range(3))
+        self._up, self._down = backend.zeros(count), backend.zeros(count)
 
     def shift(
         self, block: Block, kinds: ParticleKinds, at_face: Array, speed: float, step: float
@@ -175,7 +176,7 @@ class ParticleShifting:
         backend.fill(self.displacement, 0.0)
         if self.factor == 0.0:
             return
-        fields = {"is_fluid": kinds.fluid, "at_face": at_face}
+        fields = {"is_fluid": kinds.fluid, "at_face": at_face, "G_ij": block.gradient}
         backend.pair_sum(
             repulsion_terms,
             block.pairs,
@@ -196,7 +197,7 @@ class ParticleShifting:
             return
         backend = self.backend
         backend.copy(v, self._v)
-        fields = {"v": block.extend_velocity(v, jump), "V": block.V, "C": C}
+        fields = {"v": block.extend_velocity(v, jump), "G_ij": block.gradient, "C": C}
         fields["displacement"] = self.displacement
         backend.pair_sum(
             velocity_terms,
@@ -214,12 +215,16 @@ class ParticleShifting:
         if self.factor == 0.0:
             return
         backend, pairs, rows = self.backend, block.pairs, kinds.fluid_rows
-        backend.pointwise(phase_of, {"fluid": kinds.fluid, "f_v": f_v}, self._phase)
-        shift, heat = block.gather(self.displacement), block.gather(h)
-        fields = {"displacement": shift, "sign": block.ghosts.sign}
-        backend.pointwise(mirror_displacement, fields, shift)
-        backend.pointwise(range_enthalpy, {"h": heat} | block.rules, heat)
-        fields = {"h": heat, "phase": block.gather(self._phase), "V": block.V, "shift": shift}
+        heat, phase, up, down = (backend.zeros(block.total) for _ in range(4))
+        shift = backend.zeros((2, block.total))
+        tables = {"h": h, "fluid": kinds.fluid, "f_v": f_v} | block.signs
+        tables["shift_x"], tables["shift_z"] = (
+            backend.component(self.displacement, k) for k in (0, 1)
+        )
+        backend.pointwise(what_is_exchanged, block.sources, (heat, phase, shift), **tables)
+        if block.has_walls:
+            backend.pointwise(range_enthalpy, {"h": heat} | block.rules, heat)
+        fields = {"h": heat, "phase": phase, "shift": shift, "G_ij": block.gradient}
         fields["dirichlet"] = block.rules["dirichlet"]
         backend.pair_sum(
             exchange_terms,
@@ -230,7 +235,9 @@ class ParticleShifting:
             rows=rows,
             combine=("sum", "sum", "min", "max"),
         )
-        fields |= {"up": block.gather(self._up), "down": block.gather(self._down)}
+        shares = {"up": self._up, "down": self._down}
+        backend.pointwise(shares_of, block.sources, (up, down), **shares)
+        fields |= {"up": up, "down": down}
         backend.pair_sum(limited_exchange, pairs, fields, h, finish=add_exchange, rows=rows)
 
     def move(self, position: Array, kinds: ParticleKinds) -> None:

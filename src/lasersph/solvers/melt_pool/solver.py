@@ -112,10 +112,10 @@ class MeltPool:
         self.heat.restore(arrays, numbers)
         self._restore_numbers(numbers)
         if backend.rows_where(self.particles["has_moving_pairs"], 1.0).shape[0]:
-            block = self.domain.block_for(self.position, self.kinds)
-            block.find_pairs(
-                self.position, backend.head(self.particles["has_moving_pairs"], block.count)
-            )
+            block, has_row = self.domain.block_for(self.position, self.kinds), None
+            if not self.kinds.is_box:
+                has_row = backend.head(self.particles["has_moving_pairs"], block.count)
+            block.find_pairs(self.position, has_row)
             self.pairs.renew(block)
 
     def time_step_limits(self) -> dict[str, float]:
@@ -180,8 +180,9 @@ class MeltPool:
         block = domain.block_for(self.position, self.kinds)
         if block is not flow.current_block:
             flow.enter(block, domain.periods)
-        block.find_pairs(self._advected, self._rows_to_find(block, self._advected))
-        self.kinds.find_walls(block.pairs, block.gather, block.count, block.rows)
+        has_row = self._rows_to_find(block, self._advected)
+        block.find_pairs(self._advected, has_row, has_kernel=True)
+        self.kinds.find_walls(block)
         if domain.surface is not None:
             domain.surface.find(self._advected)
             temperature, active = self.particles["temperature"], self.kinds.active
@@ -245,8 +246,10 @@ class MeltPool:
         self.kinds.remember()
         self._has_moved = False
 
-    def _rows_to_find(self, block: Block, position: Array) -> Array:
-        """(count,) 1 for rows whose neighbors move now, or have just come to rest."""
+    def _rows_to_find(self, block: Block, position: Array) -> Array | None:
+        """(count,) 1 for rows whose neighbors move now, or have just come to rest; None for all."""
+        if self.kinds.is_box:
+            return None
         now = block.find_near_fluid(position, self.kinds.fluid)
         fields = {"a": now, "b": block.find_near_fluid(self.position, self.kinds.before)}
         self.backend.pointwise(larger, fields, now)

@@ -11,7 +11,6 @@ from __future__ import annotations
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.routine import Step
-from lasersph.compute.vectors import vector
 from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.physics.viscosity import (
     advance,
@@ -29,11 +28,6 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 TOLERANCE = 1e-8
 """Residual over that of the first guess, in 2-norms."""
 MOST = 200
-
-
-def ghost_velocity_change(source, factor, d_x, d_z):
-    """S d of the source: what remains of its velocity where walls rest and no stress acts [m/s]."""
-    return vector(factor[0] * d_x[source], factor[1] * d_z[source])
 
 
 class ViscousStep:
@@ -80,13 +74,7 @@ class ViscousStep:
         points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
         extended = backend.zeros((2, block.total))
         turned = backend.prepare(turn, points, d, rows=rows, beta=0.0)
-        ghosts = backend.prepare(
-            ghost_velocity_change,
-            {"source": block.source, "factor": block.rules["factor"]},
-            extended,
-            d_x=backend.component(d, 0),
-            d_z=backend.component(d, 1),
-        )
+        ghosts = block.prepare_velocity_change(d, extended)
         multiplied = backend.prepare(
             momentum,
             {"v": extended, "d": d, "g_ij": block.weights, "V": block.V},

@@ -13,12 +13,8 @@ from flow_boxes import (
 )
 
 from lasersph.compute.search import EscapedParticle
-from lasersph.solvers.melt_pool.block import (
-    ghost_tensor,
-    ghost_velocity,
-    inner_weight,
-    wall_terms,
-)
+from lasersph.solvers.melt_pool.block import inner_weight, wall_terms
+from lasersph.solvers.melt_pool.ghost_fields import ghost_tensor, ghost_velocity
 
 CHANNEL = {"left": "periodic", "right": "periodic", "bottom": "no-slip",
            "surface": {"kind": "moving-wall", "velocity": 1.0}}  # fmt: skip
@@ -32,9 +28,10 @@ BOXES = {
 
 def ghosts_of(block):
     """Positions, sources, signs and offsets of the ghosts on the host."""
-    host = block.backend.to_host
-    parts = block.pairs.position, block.source, block.ghosts.sign, block.ghosts.offset
-    return tuple(host(part)[..., block.count :] for part in parts)
+    host, ghosts = block.backend.to_host, block.ghosts
+    types, of_type = ghosts.ghost_types, host(ghosts.ghost_type).astype(int)
+    parts = host(block.pairs.position), host(block.source), types.sign[:, of_type]
+    return tuple(part[..., block.count :] for part in (*parts, types.offset[:, of_type]))
 
 
 def test_ghosts_follow_their_sources():

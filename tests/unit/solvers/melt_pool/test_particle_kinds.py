@@ -16,16 +16,15 @@ from lasersph.solvers.melt_pool.particle_kinds import (
 
 def test_what_flows():
     """Only what is molten completely; mush is wall; in a box everything."""
-    for f_m, is_box, expected in ((1.0, 0, 1), (0.999, 0, 0), (0.0, 0, 0), (0.0, 1, 1)):
-        assert is_fluid(f_m, float(is_box)) == expected
+    assert [is_fluid(f_m) for f_m in (1.0, 0.999, 0.0)] == [1.0, 0.0, 0.0]
 
 
 def test_fluid_neighbors_by_hand():
     """A fluid neighbor at 2 spacings: within the support of 3.75, not within 1.5 of the edge."""
-    assert fluid_neighbors(1.0, 2.0, 3.75, 1.5) == (1.0, 0.0)
-    assert fluid_neighbors(1.0, 1.4, 3.75, 1.5) == (1.0, 1.0)
-    assert fluid_neighbors(1.0, 3.8, 3.75, 1.5) == (0.0, 0.0)
-    assert fluid_neighbors(0.0, 1.0, 3.75, 1.5) == (0.0, 0.0)
+    assert fluid_neighbors(1.0, 0.1, 2.0, 1.5) == (1.0, 0.0)
+    assert fluid_neighbors(1.0, 0.1, 1.4, 1.5) == (1.0, 1.0)
+    assert fluid_neighbors(1.0, 0.0, 3.8, 1.5) == (0.0, 0.0)
+    assert fluid_neighbors(0.0, 0.1, 1.0, 1.5) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize(

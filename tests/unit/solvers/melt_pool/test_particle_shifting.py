@@ -40,7 +40,7 @@ def test_velocity_by_hand():
     low, high = np.array([0.0, -0.2]), np.array([3.0, 0.2])
     found = adjust_velocity(gradient, low, high, v, ONE, shifted)
     assert found == pytest.approx([1.2, 0.2])
-    terms = velocity_terms(v, high, 2.0, np.array([-1.0, 0.0]), 1.0, -0.5)
+    terms = velocity_terms(v, high, E_X)
     assert terms[0].tolist() == [[2.0, 0.0], [0.2, 0.0]]
     assert terms[1].tolist() == terms[2].tolist() == high.tolist()
 
@@ -50,13 +50,13 @@ def test_kinds():
     assert (phase_of(0.0, 0.0), phase_of(1.0, 0.0), phase_of(1.0, 0.5)) == (0.0, 1.0, 2.0)
 
 
-PAIR = {"V_j": 2.0, "r_ij": 1.0, "dW_ij": -0.5}
+PAIR = {"G_ij": E_X}
 ALIKE = {"phase_i": 1.0, "phase_j": 1.0, "dirichlet_j": 0.0}
 
 
 def exchange_of(h_i, h_j, shift_i, shift_j, **kinds):
-    """Exchange of two particles a unit apart, i to the left of j: V W' = -1."""
-    fields = {"h_i": h_i, "h_j": h_j, "x_ij": -E_X, "shift_i": shift_i, "shift_j": shift_j}
+    """Exchange of two particles a unit apart, i to the left of j: V grad W = 1."""
+    fields = {"h_i": h_i, "h_j": h_j, "shift_i": shift_i, "shift_j": shift_j}
     return exchange(**fields, **PAIR, **(ALIKE | kinds))
 
 
@@ -77,7 +77,7 @@ def test_no_exchange_across_kinds():
     apart = -0.1 * E_X, 0.2 * E_X
     assert exchange_of(1.0, 3.0, *apart, phase_j=2.0) == 0.0
     assert exchange_of(1.0, 3.0, *apart, dirichlet_j=1.0) == 0.0
-    pair = {"h_i": 1.0, "h_j": 3.0, "x_ij": -E_X, "shift_i": apart[0], "shift_j": apart[1]} | PAIR
+    pair = {"h_i": 1.0, "h_j": 3.0, "shift_i": apart[0], "shift_j": apart[1]} | PAIR
     assert exchange_terms(**pair, **ALIKE) == pytest.approx((0.0, 0.6, 3.0, 3.0))
     assert exchange_terms(**pair, **(ALIKE | {"phase_j": 2.0}))[2:] == (1.0, 1.0)
     assert exchange_terms(**pair, **(ALIKE | {"dirichlet_j": 1.0})) == (0.0, 0.0, 3.0, 3.0)
@@ -92,7 +92,7 @@ def test_shares_by_hand():
 
 def test_limited_by_both_particles():
     """A gain by the room of i above and of j below, a loss by the others."""
-    pair = {"h_i": 1.0, "x_ij": -E_X, "shift_i": -0.1 * E_X, "shift_j": 0.2 * E_X} | PAIR | ALIKE
+    pair = {"h_i": 1.0, "shift_i": -0.1 * E_X, "shift_j": 0.2 * E_X} | PAIR | ALIKE
     shares = {"up_i": 0.1, "down_i": 0.2, "up_j": 0.3, "down_j": 0.4}
     assert limited_exchange(h_j=3.0, **pair, **shares) == pytest.approx(-0.6 * 0.2)
     assert limited_exchange(h_j=-1.0, **pair, **shares) == pytest.approx(0.6 * 0.1)
