@@ -87,7 +87,8 @@ def assess_uncertainty(
         if len(summaries) == 3:
             spacings = [float(summary["spacing_m"]) for summary in summaries]
             rows = {row.name: row for row in assess_summaries(summaries, spacings).rows}
-    shifts = {one.key: study.both_sides(fixed, one) for one in chosen}
+    numbers = numbers_of(main)
+    shifts = {one.key: study.both_sides(fixed, one, numbers) for one in chosen}
     content = {
         "schema_version": SCHEMA,
         "case_hash": case.hash(),
@@ -97,8 +98,7 @@ def assess_uncertainty(
         "notes": study.notes,
         "oscillating_share": _oscillating_share(rows),
         "numbers": {
-            name: _assessed(name, value, rows.get(name), shifts)
-            for name, value in numbers_of(main).items()
+            name: _assessed(name, value, rows.get(name), shifts) for name, value in numbers.items()
         },
     }
     replace_json(folder / FILE, content)
@@ -123,10 +123,18 @@ class _Companions:
             self.notes.append(f"companion {name} failed: {error}")
             return None
 
-    def both_sides(self, case: Case, one: Input) -> tuple[Numbers | None, Numbers | None]:
-        """Numbers with an input one standard uncertainty higher, and lower; None for impossible."""
+    def both_sides(
+        self, case: Case, one: Input, numbers: Numbers
+    ) -> tuple[Numbers | None, Numbers | None]:
+        """Numbers with an input one standard uncertainty higher, and lower; None for impossible.
+
+        An input that changes none of the case's `numbers` when it is higher is not made lower.
+        """
         found: list[Numbers | None] = []
         for sign in (1, -1):
+            if found == [numbers]:
+                self.count += 1
+                return numbers, numbers
             share = f"{100.0 * sign * one.relative:+.4g}%"
             other = shifted(case, one, sign)
             if isinstance(other, str):

@@ -87,6 +87,23 @@ def test_side_that_the_case_refuses_is_left_out(tmp_path):
     assert (part["up"], part["down"], part["is_linear"]) == (None, 0.0, None)
 
 
+def test_input_without_effect_takes_one_run(tmp_path):
+    """A latent heat that this case does not read: no second run, and no part."""
+    names = []
+
+    def run(case, folder):
+        names.append(folder.name)
+        return formula(case, folder)
+
+    inputs = [Input("material.vaporization.latent_heat", 0.05, "x"), *INPUTS[:1]]
+    found = assess_uncertainty(heating(), tmp_path, inputs=inputs, run=run)
+    assert names[3:] == [
+        "material.vaporization.latent_heat+5%", "laser.fluence+4%", "laser.fluence-4%",
+    ]  # fmt: skip
+    part = found["numbers"]["temperature_max_K"]["inputs"]["material.vaporization.latent_heat"]
+    assert part == {"up": 0.0, "down": 0.0, "standard": 0.0, "is_linear": True}
+
+
 def test_case_that_cannot_be_coarser(tmp_path):
     """15 um in 200 um: no numerical part, one line that says why; inputs are still assessed."""
     case = heating("particles.spacing=15 um")
