@@ -28,6 +28,7 @@ def large_pool():
         position=np.array([x, z]),
         width=np.full((2, flat.size), CELL),
         volume=np.full(flat.size, CELL**2),
+        mass=np.full(flat.size, CELL**2),
         temperature=300.0 + 1000.0 * flat,
         enthalpy=flat,
         melt_fraction=flat,

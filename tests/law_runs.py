@@ -4,6 +4,7 @@ import numpy as np
 
 from lasersph import compute
 from lasersph.case import load_case
+from lasersph.observers import EnergyBudget
 from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import binding_limit
 
@@ -28,6 +29,16 @@ def go(solver, end):
 def host(solver, name):
     """Field of the particles as an array."""
     return solver.body.backend.to_host(solver.particles[name])
+
+
+def budget(case, solver):
+    """Energy budget of a run that began without heat, as its observer sums it, by column."""
+    return EnergyBudget(case.solver.dimensions).observe(recipe_of(case).view(solver, 1, ""))
+
+
+def imbalance(case, solver):
+    """Relative imbalance of the energy."""
+    return budget(case, solver)["energy_imbalance_relative"]
 
 
 def start_from(solver, enthalpy):

@@ -112,7 +112,6 @@ def view_at(time, step, dimension, kind="top-hat"):
     energy = dict.fromkeys(("lost", "discarded", "transmitted"), 0.0)
     energy |= {"incident": incident, "reflected": 0.75 * incident, "absorbed": 0.25 * incident}
     energy["removed"] = seen.ejected_energy
-    energy["stored"] = energy["absorbed"] - energy["removed"]
     return View(
         time=time,
         step=step,
@@ -120,6 +119,7 @@ def view_at(time, step, dimension, kind="top-hat"):
         position=position,
         width=np.full_like(start, DX),
         volume=np.full(z.size, DX**dimension),
+        mass=np.full(z.size, mass),
         temperature=temperature,
         enthalpy=np.where(left, full, 896.0 * (temperature - T0)),
         melt_fraction=(temperature >= MELTING).astype(float),

@@ -125,6 +125,7 @@ def box_view(time=0.0, step=0, *, count=40, size=1e-3, speed=1.0, wall=(310.0, 2
         position=np.array([x, z]),
         width=np.full((2, x.size), spacing),
         volume=np.full(x.size, spacing**2),
+        mass=np.full(x.size, spacing**2),
         temperature=temperature,
         enthalpy=temperature - 300.0,
         melt_fraction=none + 1.0,

@@ -131,8 +131,10 @@ def mark_hit(hit, share):
 
 
 def absorbed_light(light, T, R_T, R_R):
-    """What a particle absorbs of the light on it [J]: 1 - R(T); R_T, R_R: table of R(T)."""
-    return (1.0 - interpolate(T, R_T, R_R)) * light
+    """What a particle absorbs of the light on it and what it reflects [J]: shares 1 - R(T) and
+    R(T); R_T, R_R: table of R(T)."""
+    R = interpolate(T, R_T, R_R)
+    return (1.0 - R) * light, R * light
 
 
 def excess_for_column(excess_j, cover_j, whole_j):

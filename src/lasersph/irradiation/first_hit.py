@@ -82,7 +82,7 @@ class FirstHitLight:
     ) -> None:
         self.backend, self.laser, self.spacing = backend, laser, spacing
         self.dimension, self.deposit = len(bounds) + 1, deposit
-        self.incident = self.transmitted = self.rescaled = 0.0
+        self.incident = self.transmitted = self.reflected = 0.0
         low, high = np.array(bounds, dtype=float).reshape(-1, 2).T
         counts = [max(1, round(extent / spacing)) for extent in high - low]
         shape, wraps = (*counts, 1, 1), (*(float(one) for one in periodic), 0.0, 0.0)
@@ -227,14 +227,16 @@ class FirstHitLight:
             backend.pointwise(add_light, fields, self._light, energy=energy)
 
     def absorb(self, temperature: Array) -> float:
-        """Set `deposit` from the temperatures (N,) of the particles [K]; returns its sum [J]."""
-        backend, out = self.backend, self._absorbed
+        """Set `deposit` and `reflected` from the temperatures (N,) [K]; returns what is absorbed
+        [J]."""
+        backend, taken = self.backend, self._absorbed
         backend.gather(temperature, self.rows, self._temperature)
         fields = {"light": self._light, "T": self._temperature}
-        (absorbed,) = backend.pointwise(
-            absorbed_light, fields, out, reduce=("sum",), R_T=self._R_T, R_R=self._R_R
+        out, table = (taken, None), {"R_T": self._R_T, "R_R": self._R_R}
+        absorbed, self.reflected = backend.pointwise(
+            absorbed_light, fields, out, reduce=("sum", "sum"), **table
         )
-        backend.scatter(out, self.rows, self.deposit)
+        backend.scatter(taken, self.rows, self.deposit)
         return absorbed
 
     def pass_excess_down(

@@ -3,40 +3,55 @@
     E_i = (1 - R(T_s)) F A_i s_i
 
 F is the energy per area that falls in the step on the column of the particle (exact in time, exact
-cell means over the column), A_i its lateral cross-section, s_i the exact share of the absorbed
-light that stays in its depth cell [Demuth2020, eq. (8)], T_s the temperature of the surface over
-it at the new time [Demuth2020, eq. (78)].
+cell means over the column), A_i its lateral cross-section, s_i the exact share of the light that
+stays in its depth cell [Demuth2020, eq. (8)], T_s the temperature of the surface over it at the new
+time [Demuth2020, eq. (78)].
 
-Particles that moved (2-D) stand in the column and at the depth where they are now. Their shares no
-longer add up to 1 exactly: all are scaled to what the same particles took on the lattice, and
-`rescaled` is the energy that this has added.
+Particles that moved (2-D) take the light by what lies above them now, see `absorbing_cells`; T_s is
+that of the particles at the surface now.
 """
 
 from __future__ import annotations
 
+from itertools import product
 from math import exp
 
 import numpy as np
 
+from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import interpolate
+from lasersph.irradiation.absorbing_cells import (
+    add,
+    cell_at_corner,
+    column_share,
+    light_per_cover,
+    optical_thickness,
+    running_sum,
+)
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import Laser
 from lasersph.materials import Material
 from lasersph.particles.filling import Filling
+from lasersph.particles.neighbor_lists import members_of
 
 SMALLEST_SHARE = 1e-30
 """Share of the light below which a particle is dark; products with smaller ones are not normal."""
+OPAQUE = 37.0
+"""Optical thickness below which rows of cells are dark: exp(-37) is the rounding of 1."""
 
 
-def enter_column(F, T_s, R_T, R_R):
-    """Light that enters the column below a surface particle [J/m^(d-1)]: (1 - R(T_s)) F.
+def enter_column(F, T_s, area, R_T, R_R, beyond):
+    """Light that enters the column below a cell of the surface [J/m^(d-1)], (1 - R(T_s)) F, what
+    the cell reflects and what passes through the bottom of the column [J].
 
     Args:
-        T_s: surface temperature [K]. R_T, R_R: table of R(T).
+        T_s: surface temperature [K]. area: of the cell [m^(d-1)]. R_T, R_R: table of R(T).
+            beyond: share of the light that is left at the bottom.
     """
-    return (1.0 - interpolate(T_s, R_T, R_R)) * F
+    R = interpolate(T_s, R_T, R_R)
+    return (1.0 - R) * F, R * F * area, (1.0 - R) * F * area * beyond
 
 
 def absorb_light(share, column, columns):
@@ -44,38 +59,17 @@ def absorb_light(share, column, columns):
     return share * columns[column]
 
 
-def absorb_moving(share, column, moved, columns):
-    """The same of a particle that moved, else 0 [J]."""
-    return moved * (share * columns[column])
-
-
-def locate(x, depth, moved, above, share, low, width, columns, half, alpha):
-    """Column of a particle and its cross-section times its share of the light [m].
-
-    Args:
-        x: position [m]. depth: below the surface [m]. moved: 1 where it counts. above, share: as
-            they were on the lattice. low, width, columns: place and width of the columns [m],
-            their number. half: half a cell [m].
-    """
-    if moved <= 0.0:
-        return above, share
-    place = int(max((x[0] - low) / width, 0.0))
-    top = max(depth - half, 0.0)
-    left = exp(-alpha * top) - exp(-alpha * max(depth + half, 0.0))
-    return min(place, columns - 1), width * left
-
-
-def rescale(share, moved, factor):
-    """Share of a particle that moved, scaled."""
-    return share * factor if moved > 0.0 else share
+def absorb_from_two(share, column, share_right, column_right, columns):
+    """The same of a particle that stands in two columns [J]."""
+    return share * columns[column] + share_right * columns[column_right]
 
 
 class LayeredLight:
     """The laser on the particles of a filling, see `Light`.
 
     Attributes:
-        deposit: (n,) absorbed in the step [J]. incident: what falls on the surface [J];
-            transmitted: none, since the body is thick. rescaled: what the scaling has added [J].
+        deposit: (n,) absorbed in the step [J]. incident: what falls on the surface, reflected: what
+            it throws back, transmitted: what passes through the bottom [J].
     """
 
     def __init__(
@@ -84,7 +78,7 @@ class LayeredLight:
         self.backend, self.laser = backend, laser
         count = filling.count
         self.deposit = backend.zeros(count)
-        self.incident = self.transmitted = self.rescaled = 0.0
+        self.incident = self.reflected = self.transmitted = 0.0
         if laser is None:
             return
         width, surface = filling.width[:, :count], filling.surface
@@ -98,76 +92,127 @@ class LayeredLight:
         )
         area = np.prod(width[:-1], axis=0)
         share = np.where(share > SMALLEST_SHARE, area * share, 0.0)
-        self._lattice, self._now = (
-            {"column": backend.asarray(filling.above, "index"), "share": backend.asarray(share)}
-            for _ in range(2)
-        )
+        self._lattice = {
+            "column": backend.asarray(filling.above, "index"),
+            "share": backend.asarray(share),
+        }
         # columns below the surface particles, and the light that enters them
         position, size = filling.position[:-1, surface], width[:-1, surface]
         self.lower, self.upper = position - 0.5 * size, position + 0.5 * size
         self.surface_area = area[surface]
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
-        self._reflectivity = dict(zip(("R_T", "R_R"), map(backend.asarray, table), strict=True))
+        self._varies = bool(np.ptp(table[1]) > 0.0)
+        self._entering = dict(zip(("R_T", "R_R"), map(backend.asarray, table), strict=True))
+        bottom = float(np.max(depth + half))
+        self._entering["beyond"] = 0.0 if self.alpha is None else exp(-self.alpha * bottom)
+        self._area = backend.asarray(self.surface_area)
         self.fluence, self.columns = backend.zeros(surface.size), backend.zeros(surface.size)
-        self._place = {"columns": surface.size, "half": 0.5 * float(width[-1, surface[0]])}
-        if len(self.lower):
-            self._place |= {"low": float(self.lower[0, 0]), "width": float(self.surface_area[0])}
+        self._surface: SurfaceColumns | None = None
+        self._moving: dict[str, Array] = {}
+        if filling.position.shape[0] == 2 and self.alpha is not None:
+            self._lay_cells(width, half, self.alpha)
+
+    def _lay_cells(self, width: np.ndarray, half: np.ndarray, alpha: float) -> None:
+        """Cells for particles as large as those of the surface, which come first."""
+        backend, columns = self.backend, self.surface_area.size
+        is_fine = np.all(np.isclose(width, width[:, :1], rtol=1e-9), axis=0)
+        self._fine = is_fine.size if is_fine.all() else int(np.argmin(is_fine))
+        size_x, size_z = float(width[0, 0]), 2.0 * float(half[0])
+        levels = min(self._fine // columns, int(np.ceil(OPAQUE / (alpha * size_z))))
+        self._grid = {"columns": float(columns), "levels": float(levels), "low": self.lower[0, 0]}
+        self._grid |= {"inverse_x": 1.0 / size_x, "inverse_z": 1.0 / size_z}
+        self._levels, self._cells, self._tau_one = levels, columns * levels, alpha * size_z
+        self._size_x = size_x
+        self._numbers = backend.asarray(np.arange(self._cells), "index")
 
     def shine(self, start: float, end: float) -> None:
         """Fix the light of the step from `start` to `end` [s]; `incident` is its energy [J]."""
-        self.incident = self.rescaled = 0.0
+        self.incident = self.reflected = self.transmitted = 0.0
         if self.laser is None:
             return
         density = self.laser.energy_density(self.lower, self.upper, start, end)
         self.incident = float(np.sum(density * self.surface_area))
         self.backend.copy(self.backend.asarray(density), self.fluence)
 
-    def follow(self, position: Array, depth: Array, moved: Array, temperature: Array) -> None:
+    def rest(self) -> None:
+        """Let the light meet particles on their lattice, as at the start."""
+        self._surface = None
+
+    def follow(self, position: Array, depth: Array, surface: SurfaceColumns) -> None:
         """Let the light that `shine` fixed meet particles where they are now (2-D).
 
-        Light absorbed at the surface itself stays as it is.
-
         Args:
-            position: (2, n) [m]. depth: (n,) below the surface [m]. moved: (n,) 1 where it counts.
-            temperature: (n,) [K].
+            position: (2, n) [m]. depth: (n,) below the surface [m]. surface: the particles at it.
         """
+        self._surface = surface
         if self.incident == 0.0 or self.alpha is None:
             return
-        backend = self.backend
-        self._enter(temperature)
-        lattice, now, where = self._lattice, self._now, {"moved": moved}
-        fields = {"x": position, "depth": depth, "above": lattice["column"], **where}
-        fields["share"] = lattice["share"]
-        out = (now["column"], now["share"])
-        backend.pointwise(locate, fields, out, alpha=self.alpha, **self._place)
-        # scale to what the particles that moved took on the lattice
-        wanted, found = (
-            backend.pointwise(
-                absorb_moving, shares | where, (None,), reduce=("sum",), columns=self.columns
-            )[0]
-            for shares in (lattice, now)
+        backend, fine, cells = self.backend, self._fine, self._cells
+        # c_ik: cells of each particle, and how much of it lies in them
+        fields = {"x": backend.head(position, fine), "depth": backend.head(depth, fine)}
+        corners, tau, part = [], backend.zeros(cells + 1), backend.zeros(cells)
+        inner = backend.head(tau, cells)
+        for right, lower in product((0.0, 1.0), repeat=2):
+            cell, column = backend.zeros(fine, "index"), backend.zeros(fine, "index")
+            cover = backend.zeros(fine)
+            out, corner = (cell, column, cover), {"right": right, "lower": lower}
+            backend.pointwise(cell_at_corner, fields, out, **corner, **self._grid)
+            # tau_k of the cells
+            members = members_of(backend, cell, cells)
+            thickness = {"tau_one": self._tau_one}
+            backend.pair_sum(optical_thickness, members, {"cover": cover}, part, **thickness)
+            backend.pointwise(add, {"a": inner, "b": part}, inner)
+            corners.append((cell, column, cover))
+        # s_k over the cover of the cells
+        light = backend.zeros(cells + 1)
+        fields = {"tau": inner, "total": self._sums_from_above(inner)}
+        backend.pointwise(
+            light_per_cover, fields, backend.head(light, cells), tau_one=self._tau_one
         )
-        if found > 0.0:
-            factor = wanted / found
-            backend.pointwise(rescale, now | where, now["share"], factor=factor)
-            self.rescaled = wanted - found
+        # shares of the particles in their left and right columns
+        if not self._moving:
+            for name, values in self._lattice.items():
+                for side in ("", "_right"):
+                    kind = "index" if name == "column" else "real"
+                    self._moving[name + side] = backend.zeros(values.shape[0], kind)
+                backend.copy(values, self._moving[name])
+        for side, (upper, lower) in zip(("", "_right"), (corners[:2], corners[2:]), strict=True):
+            fields = {"upper": upper[0], "cover_upper": upper[2]}
+            fields |= {"lower": lower[0], "cover_lower": lower[2]}
+            out = backend.head(self._moving[f"share{side}"], fine)
+            backend.pointwise(column_share, fields, out, width=self._size_x, light=light)
+            backend.copy(upper[1], backend.head(self._moving[f"column{side}"], fine))
+
+    def _sums_from_above(self, tau: Array) -> Array:
+        """For each cell the tau of it and all above it in its column [1]."""
+        backend, distance = self.backend, 1
+        total, other = backend.zeros(self._cells), backend.zeros(self._cells)
+        backend.copy(tau, total)
+        while distance < self._levels:
+            fields, how = {"k": self._numbers, "total": total}, {"levels": self._levels}
+            backend.pointwise(running_sum, fields, other, totals=total, distance=distance, **how)
+            total, other, distance = other, total, 2 * distance
+        return total
 
     def absorb(self, temperature: Array) -> float:
-        """Set `deposit` [J] from the temperatures of the surface [K]; returns their sum [J].
-
-        Args:
-            temperature: (n,); the first ones are those of the surface, the others are not read.
-        """
+        """Set `deposit`, `reflected` and `transmitted` [J] from the temperatures (n,) [K] of the
+        particles at the surface; returns the sum of the deposits [J]."""
         if self.incident == 0.0:
             self.backend.fill(self.deposit, 0.0)
             return 0.0
-        self._enter(temperature)
-        return self.backend.pointwise(
-            absorb_light, self._now, self.deposit, reduce=("sum",), columns=self.columns
-        )[0]
-
-    def _enter(self, temperature: Array) -> None:
-        """Light that enters each column, at the temperatures of the surface."""
         T_s = self.backend.head(temperature, self.columns.shape[0])
-        fields = {"F": self.fluence, "T_s": T_s}
-        self.backend.pointwise(enter_column, fields, self.columns, **self._reflectivity)
+        if self._varies and self._surface is not None:
+            T_s = self._surface.mean(temperature)
+        self.reflected, self.transmitted = self.backend.pointwise(
+            enter_column,
+            {"F": self.fluence, "T_s": T_s, "area": self._area},
+            (self.columns, None, None),
+            reduce=(None, "sum", "sum"),
+            **self._entering,
+        )
+        take, shares = absorb_light, self._lattice
+        if self._surface is not None and self._moving:
+            take, shares = absorb_from_two, self._moving
+        return self.backend.pointwise(
+            take, shares, self.deposit, reduce=("sum",), columns=self.columns
+        )[0]

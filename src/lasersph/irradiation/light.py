@@ -22,33 +22,30 @@ class Light(Protocol):
 
     Attributes:
         deposit: (n,) absorbed by each particle in the step [J]. incident: what falls in the step.
-            transmitted: what of it meets no particle [J]. rescaled: what was added to the deposits
-            of the step so that they sum up [J].
+            reflected: what of it the surface throws back, at the temperatures of the last
+            `absorb`. transmitted: what meets no particle, or passes through all of them [J].
     """
 
     deposit: Array
     incident: float
+    reflected: float
     transmitted: float
-    rescaled: float
 
     def shine(self, start: float, end: float) -> None:
-        """Fix the light from `start` to `end` [s]; sets `incident` and `transmitted`."""
+        """Fix the light from `start` to `end` [s]; sets `incident`."""
         ...
 
     def absorb(self, temperature: Array) -> float:
-        """Set `deposit` from temperatures (n,) [K]; returns its sum [J]."""
+        """Set `deposit`, `reflected` and `transmitted` from temperatures (n,) [K]; returns the sum
+        of the deposits [J]."""
         ...
 
 
 def energies(light: Light, absorbed: float) -> dict[str, float]:
-    """Where the light of a step goes [J], when `absorbed` is absorbed: nothing is left over.
+    """Where the light of a step goes [J], when `absorbed` is absorbed.
 
-    `rescaled` is a part of what is absorbed.
+    Each is a sum of its own; `unassigned` is what they leave of the incident light.
     """
-    return {
-        "incident": light.incident,
-        "absorbed": absorbed,
-        "transmitted": light.transmitted,
-        "reflected": light.incident - absorbed - light.transmitted,
-        "rescaled": light.rescaled,
-    }
+    known = {"absorbed": absorbed, "reflected": light.reflected, "transmitted": light.transmitted}
+    unassigned = light.incident - sum(known.values())
+    return {"incident": light.incident, "unassigned": unassigned, **known}

@@ -4,8 +4,8 @@
     beer-lambert   exp(-alpha z_top) - exp(-alpha z_bottom), the exact integral of
                    alpha exp(-alpha z) over the cell [Demuth2020, eq. 8; Alshaer2017, eq. 3]
 
-The last cell of a column keeps the rest, so that the shares of a column add up to 1. A point value
-on a row at the surface would deposit 20 to 33 % too much at the published spacing of Demuth.
+What reaches deeper than the last cell has passed through the metal. A point value on a row at the
+surface would deposit 20 to 33 % too much at the published spacing of Demuth.
 """
 
 from __future__ import annotations
@@ -70,15 +70,11 @@ class BeerLambertAbsorption(Model):
 
         Args:
             depth_top, depth_bottom: faces of the cells, counted downward from the surface [m].
-                The cells that reach deepest keep what goes deeper.
             absorption_coefficient: the material's alpha [1/m].
         """
         alpha = self.coefficient(absorption_coefficient)
         top, bottom = np.asarray(depth_top, float), np.asarray(depth_bottom, float)
-        share = np.exp(-alpha * top) * -np.expm1(-alpha * (bottom - top))
-        deepest = bottom.max(initial=0.0)
-        is_last = bottom >= deepest - 1e-6 * (bottom - top)
-        return np.where(is_last, np.exp(-alpha * top), share)
+        return np.exp(-alpha * top) * -np.expm1(-alpha * (bottom - top))
 
 
 Absorption = Annotated[SurfaceAbsorption | BeerLambertAbsorption, Field(discriminator="kind")]

@@ -30,6 +30,7 @@ class CaloricCurve:
     goes on). ``solidus``, ``liquidus``, ``vaporization`` [K] are None where there is no such
     change in this curve. ``temperature_error`` [K] bounds the distance between the polyline and
     the integral of c_p(T), for T and (as the distance in T that it is worth) for the potential.
+    ``latent_heats`` of melting and of the vaporization plateau [J/kg], 0 where there is none.
     """
 
     enthalpy: Array
@@ -45,6 +46,7 @@ class CaloricCurve:
     enthalpy_vaporizing: float | None
     enthalpy_vaporized: float | None
     temperature_error: float
+    latent_heats: tuple[float, float]
 
     def __post_init__(self) -> None:
         """Check that the nodes are usable and make them read-only."""

@@ -144,7 +144,7 @@ class CurveBuilder:
         flow_off = np.abs(first_heat / heat * flow - first_flow) / piece.conductivity(middle)
         self.error = max(self.error, float(off.max()), float(flow_off.max()))
 
-    def curve(self, **facts: float | str | None) -> CaloricCurve:
+    def curve(self, **facts: float | str | tuple[float, float] | None) -> CaloricCurve:
         """The curve of all nodes; facts are the remaining fields of CaloricCurve."""
         h, T, P, melt, vapor = np.ascontiguousarray(np.concatenate(self.rows).T)
         return CaloricCurve(
@@ -205,6 +205,10 @@ def build_curve(
         vaporization=vaporization.temperature if vaporization else None,
         enthalpy_vaporizing=start,
         enthalpy_vaporized=start + vaporization.latent_heat if start and vaporization else None,
+        latent_heats=(
+            melting.latent_heat if melting else 0.0,
+            vaporization.latent_heat if held and vaporization else 0.0,
+        ),
     )
 
 

@@ -72,8 +72,7 @@ class FlowSpeed(Observer):
     def observe(self, view: View) -> Row:
         """Largest speed [m/s], kinetic energy, divergence [1/s], smallest distance [m]."""
         flow = flow_of(view)
-        square = np.sum(flow.velocity * flow.velocity, axis=0)
-        fastest = float(np.sqrt(np.max(square)))
+        fastest = float(np.sqrt(np.max(np.sum(flow.velocity * flow.velocity, axis=0))))
         count = int(np.count_nonzero(flow.flows))
         largest = fastest / float(np.min(view.width))
         self.span.update(count > 0, view.time)
@@ -84,7 +83,7 @@ class FlowSpeed(Observer):
             self.spacing_min = now if least is None else min(least, now)
         values = (
             fastest,
-            0.5 * flow.density * float(np.sum(view.volume * square)),
+            kinetic_energy(view),
             float(flow.divergence_rms),
             float(flow.divergence_max),
             float(flow.divergence_rms) / largest if largest > 0.0 else 0.0,
@@ -101,6 +100,13 @@ class FlowSpeed(Observer):
             "flow.spacing_min_m": self.spacing_min,
             "flow.kinetic_energy_unit": self.unit,
         }
+
+
+def kinetic_energy(view: View) -> float:
+    """1/2 rho sum_i V_i |v_i|^2 of a flow [J], as `View.energy`."""
+    flow = flow_of(view)
+    square = np.sum(flow.velocity * flow.velocity, axis=0)
+    return 0.5 * flow.density * float(np.sum(view.volume * square))
 
 
 def flow_of(view: View) -> FlowView:

@@ -8,7 +8,7 @@ from lasersph.observers.view import View
 from lasersph.particles.fields import FIELDS
 
 NAMES = (
-    *("temperature", "enthalpy", "melt_fraction", "vapor_fraction", "width", "surface"),
+    *("temperature", "mass", "enthalpy", "melt_fraction", "vapor_fraction", "width", "surface"),
     *("velocity", "speed", "pressure", "flows", "surface_temperature", "surface_gradient"),
     *("surface_velocity", "lid_pressure", "density", "vapor_pressure", "normal", "stage"),
 )
@@ -18,9 +18,10 @@ UNITS = {name: FIELDS[name].unit for name in NAMES}
 
 
 def snapshot_fields(view: View) -> dict[str, np.ndarray]:
-    """Fields of a snapshot beside the positions, in single precision: see `UNITS`.
+    """Fields of a snapshot beside the positions: see `UNITS`.
 
-    The history and the checkpoints keep double precision. With flow the fields of the surface
+    Mass and enthalpy have the precision of the run, so that a reader finds the stored heat of the
+    summary again; the others are in single precision. With flow the fields of the surface
     above the particles (`surface_temperature`, ...) are 0 for particles that do not lie at it. With
     ablation `stage` tells ejecta from the body, see `AblationView`.
     """
@@ -29,7 +30,6 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
     surface[view.surface] = 1
     fields = {
         "temperature": view.temperature,
-        "enthalpy": view.enthalpy,
         "melt_fraction": view.melt_fraction,
         "vapor_fraction": view.vapor_fraction,
         "width": view.width,
@@ -57,4 +57,5 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
         fields["density"], fields["vapor_pressure"] = seen.density, seen.vapor_pressure
         fields["normal"] = seen.normal
         marks["stage"] = seen.stage.astype(np.uint8)
-    return {**{name: a.astype(np.float32) for name, a in fields.items()}, **marks}
+    exact = {"mass": np.array(view.mass), "enthalpy": np.array(view.enthalpy)}
+    return {**{name: a.astype(np.float32) for name, a in fields.items()}, **exact, **marks}

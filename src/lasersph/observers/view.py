@@ -18,7 +18,7 @@ class View:
         time, step, time_step: seconds; steps done; seconds.
         position: (dim, n) [m]; the last axis is z, the original surface lies at z = 0.
         width: (dim, n) cell widths [m].
-        volume: (n,) [m^dim].
+        volume: (n,) [m^dim]. mass: (n,) [kg per (3 - dim) lengths].
         temperature, enthalpy: (n,) [K], [J/kg].
         melt_fraction, vapor_fraction: (n,) [1].
         surface: indices of the particles of the surface layer; where particles move, of those
@@ -26,9 +26,9 @@ class View:
         symmetry_factor: 2 where half a period is computed, else 1; multiplies widths.
         halves_spot: whether the axis of a resting spot lies on the lower or the upper end of x, so
             that its other half is not computed.
-        energy: incident, absorbed, reflected, transmitted, stored, lost, removed, discarded,
-            rescaled since the start, per unit area in 1-D, per unit length in 2-D; lost and
-            removed leave, stored stays.
+        energy: what the solver has booked since the start, by `energy_budget.BOOKED` [J], per unit
+            area in 1-D, per unit length in 2-D.
+        latent_heats: of melting and of vaporization that the enthalpy holds [J/kg].
         iterations: iterations of this step, by solver part.
         limit: name of the limit that bound the time step.
         solidus, liquidus, vaporization: corner temperatures of the material [K], None where it
@@ -45,6 +45,7 @@ class View:
     position: np.ndarray
     width: np.ndarray
     volume: np.ndarray
+    mass: np.ndarray
     temperature: np.ndarray
     enthalpy: np.ndarray
     melt_fraction: np.ndarray
@@ -53,6 +54,7 @@ class View:
     symmetry_factor: int = 1
     halves_spot: tuple[bool, bool] = (False, False)
     energy: dict[str, float] = field(default_factory=dict)
+    latent_heats: tuple[float, float] = (0.0, 0.0)
     iterations: dict[str, int] = field(default_factory=dict)
     limit: str = ""
     solidus: float | None = None

@@ -94,6 +94,7 @@ def enthalpy_departure(kind, h, m, light, exposed, T, normal, v, h_v, R_s, is_ef
 
     A particle that lies at the surface, or in the light, leaves when its enthalpy has reached h_v.
     What a step has brought beyond that, m (h - h_v), is the excess: it belongs to what lies below.
+    It takes h_v along, v^2 / 2 of it as kinetic energy.
 
     Args:
         h: specific enthalpy [J/kg]. m: mass [kg]. light: that it absorbed in the step [J]. h_v:
@@ -102,7 +103,8 @@ def enthalpy_departure(kind, h, m, light, exposed, T, normal, v, h_v, R_s, is_ef
     """
     if kind == INTERIOR and h >= h_v and (exposed > 0.0 or light > 0.0):
         direction = normal if dot(normal, normal) > 0.0 else up + 0.0 * normal
-        return EJECTED, vapor_speed(T, R_s, is_effusion) * direction, h_v, m * (h - h_v)
+        velocity = vapor_speed(T, R_s, is_effusion) * direction
+        return EJECTED, velocity, h_v - 0.5 * dot(velocity, velocity), m * (h - h_v)
     return kind, v, h, 0.0
 
 

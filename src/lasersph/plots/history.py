@@ -89,7 +89,7 @@ def energy_history(run: Run) -> Figure:
     below.axhline(allowed, color=style.COLORS[1], linewidth=0.8, linestyle="--", label=text)
     top = max(10.0 * allowed, 3.0 * float(np.max(shown)))
     below.set_ylim(max(1e-17, 0.3 * float(np.min(shown))), top)
-    style.label(below, time_label, "imbalance / absorbed [1]")
+    style.label(below, time_label, "relative imbalance [1]")
     style.legend(below)
     below.set_xlim(time[0], time[-1])
     return figure

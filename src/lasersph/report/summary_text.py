@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from lasersph.observers.energy_budget import IMBALANCE_ALLOWED, IMBALANCE_ALLOWED_WITH_FLOW
+from lasersph.observers.energy_budget import (
+    IMBALANCE_ALLOWED,
+    IMBALANCE_ALLOWED_WITH_FLOW,
+    NUMERICAL,
+    NUMERICAL_ALLOWED,
+    TERMS,
+)
 from lasersph.report.tables import quantity, shown
 
 
@@ -76,15 +82,20 @@ def boiling(vapor: dict[str, Any]) -> str:
 def balance(summary: dict[str, Any]) -> list[str]:
     """How well the energy budget closes; nothing where no energy went anywhere."""
     energy = summary["energy"]
-    if not any(energy[f"{name}_J"] for name in ("absorbed", "stored", "lost")):
+    if not exchanged(energy):
         return []
     error = energy["imbalance_relative"]
     if error < 1e-14:
-        return ["The energy balance closes to rounding."]
-    text = f"The energy balance closes to {shown(error, 2)} of the absorbed energy"
+        return ["The energy balance closes to rounding at all times."]
+    text = f"The energy balance closes to {shown(error, 2)} of the energy moved, at all times"
     if error <= allowed_imbalance(summary):
         return [f"{text}."]
     return [f"{text}, which is too much: do not trust this run."]
+
+
+def exchanged(energy: dict[str, Any]) -> float:
+    """Largest of the energies absorbed, stored and lost [J]."""
+    return max(abs(energy[f"{name}_J"]) for name in ("absorbed", "stored", "lost"))
 
 
 def allowed_imbalance(summary: dict[str, Any]) -> float:
@@ -98,12 +109,13 @@ def warning_texts(summary: dict[str, Any], events: list[dict[str, Any]]) -> list
     allowed = allowed_imbalance(summary)
     if summary["energy"]["imbalance_relative"] > allowed:
         share = "a ten-thousandth" if "flow" in summary else "a millionth"
-        found.append(f"The energy balance does not close within {share} of the absorbed energy.")
-    if summary["energy"].get("discarded_J"):
-        share = summary["energy"]["discarded_J"] / max(summary["energy"]["absorbed_J"], 1e-300)
-        found.append(
-            f"The plateau rule `clip` discarded {shown(100.0 * share, 3)} % of the absorbed energy."
-        )
+        found.append(f"The energy balance does not close within {share} of the energy moved.")
+    whole = exchanged(summary["energy"])
+    for name in NUMERICAL:
+        share = abs(summary["energy"].get(f"{name}_J", 0.0)) / max(whole, 1e-300)
+        if share > NUMERICAL_ALLOWED:
+            percent = shown(100.0 * share, 3)
+            found.append(f"The {TERMS[name]} is {percent} % of the energy moved.")
     return list(dict.fromkeys(found))
 
 

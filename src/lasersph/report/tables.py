@@ -140,13 +140,18 @@ def computation(summary: dict[str, Any]) -> Rows:
     return rows
 
 
+ALWAYS_SHOWN = tuple(f"energy.{name}_J" for name in ("absorbed", "stored", "lost", "removed"))
+"""Terms of the energy budget that a reader looks for, be they 0."""
+
+
 def energy(summary: dict[str, Any]) -> Rows:
     """The energy budget, absolute and relative to the incident energy."""
     incident = summary["energy"]["incident_J"]
     rows: Rows = []
     for one in EnergyBudget.all_results():
         value = value_at(summary, one.key)
-        if not is_shown(one, value) or (one.key == "energy.transmitted_J" and not value):
+        is_nothing = one.key.endswith("_J") and not value and one.key not in ALWAYS_SHOWN
+        if not is_shown(one, value) or is_nothing:
             continue
         is_amount = one.unit == "J" and incident > 0.0
         share = f"{shown(100.0 * value / incident)} %" if is_amount else ""

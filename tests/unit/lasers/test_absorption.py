@@ -7,17 +7,18 @@ from lasersph.lasers import BeerLambertAbsorption, ReflectivityTable, SurfaceAbs
 
 
 def test_beer_lambert_cells_by_hand():
-    """alpha = 1: 1 - 1/e in the first meter, 1/e - 1/e^2 in the second, the rest in the last."""
+    """alpha = 1: 1 - 1/e in the first meter, 1/e - 1/e^2 in the second, and so on."""
     share = BeerLambertAbsorption().deposited([0.0, 1.0, 2.0], [1.0, 2.0, 3.0], 1.0)
     e = np.exp(-1.0)
-    assert share == pytest.approx([1 - e, e - e**2, e**2], rel=1e-15)
+    assert share == pytest.approx([1 - e, e - e**2, e**2 - e**3], rel=1e-15)
 
 
-def test_shares_of_every_column_add_up_to_one():
-    """Several columns of graded cells at once; each has a cell that reaches deepest."""
+def test_what_no_cell_keeps_has_passed():
+    """Several columns of graded cells at once: what is missing in each is exp(-alpha depth)."""
     faces = np.concatenate([[0.0], np.cumsum(4e-9 * 1.2 ** np.arange(40))])
-    share = BeerLambertAbsorption().deposited(np.tile(faces[:-1], 3), np.tile(faces[1:], 3), 9.56e7)
-    assert share.reshape(3, -1).sum(axis=1) == pytest.approx([1.0] * 3, rel=1e-15)
+    share = BeerLambertAbsorption().deposited(np.tile(faces[:-1], 3), np.tile(faces[1:], 3), 9.56e5)
+    passed = 1.0 - share.reshape(3, -1).sum(axis=1)
+    assert passed == pytest.approx([np.exp(-9.56e5 * faces[-1])] * 3, rel=1e-12)
 
 
 def test_case_overrides_the_materials_coefficient():

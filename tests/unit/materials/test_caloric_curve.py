@@ -195,4 +195,5 @@ def test_nodes_are_read_only_and_must_rise() -> None:
             None,
             None,
             0.0,
+            (0.0, 0.0),
         )

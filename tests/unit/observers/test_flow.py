@@ -34,6 +34,7 @@ def rows(*heights, spacing=5 * NM):
         position=grid,
         width=np.full((2, n), spacing),
         volume=np.full(n, spacing**2),
+        mass=np.full(n, spacing**2),
         temperature=temperature,
         enthalpy=temperature,
         melt_fraction=np.ones(n),

@@ -29,6 +29,7 @@ def view_of(fraction, *, cell=10e-9, time=0.0, symmetry=2, dimension=2):
         position=position,
         width=np.full(position.shape, cell),
         volume=np.full(flat.size, cell**2),
+        mass=np.full(flat.size, cell**2),
         temperature=300.0 + 1000.0 * flat,
         enthalpy=flat + np.where(flat >= 1.0, np.linspace(0.5, 0.0, flat.size), 0.0),
         melt_fraction=flat,

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import synthetic_flow
 import synthetic_run
 
 from lasersph.observers import (
@@ -53,26 +54,63 @@ def test_rates_and_corner_temperatures(views):
     assert summary["material"]["vaporization_K"] == synthetic_run.BOILING
 
 
+BOOKED = {"incident": 10.0, "reflected": 4.0, "transmitted": 2.0, "absorbed": 4.0}
+BOOKED |= {"lost": 0.5, "removed": 0.4, "discarded": 0.1, "newton_residual": 7.0}
+
+
+def seen(view, energy, stored):
+    """A later view whose particles hold `stored` [J/m]."""
+    count = view.enthalpy.size
+    mass, h = np.full(count, 2.0), np.full(count, 0.5 * stored / count)
+    return replace(view, step=1, energy=energy, mass=mass, enthalpy=h)
+
+
 def test_energy_budget_by_hand(views):
-    """10 in, 4 reflected, 2 transmitted, 3 stored, 0.5 lost, 0.4 removed, 0.1 discarded closes; one
-    less does not."""
-    terms = {"incident": 10.0, "reflected": 4.0, "transmitted": 2.0, "absorbed": 4.0}
-    terms |= {"stored": 3.0, "lost": 0.5, "removed": 0.4, "discarded": 0.1}
+    """10 in, 4 reflected, 2 transmitted, 3 stored, 0.5 lost, 0.4 removed, 0.1 discarded closes; 2
+    stored does not, and the summary keeps that. Latent heat is a part of the stored."""
     budget = EnergyBudget(2)
-    row = budget.observe(replace(views[0], energy=terms))
+    row = budget.observe(seen(views[0], BOOKED, 3.0))
+    assert row["energy_stored_J"] == pytest.approx(3.0)
     assert row["energy_imbalance_relative"] == pytest.approx(0.0, abs=1e-15)
-    budget.observe(replace(views[0], energy=terms | {"stored": 2.0}))
+    budget.observe(seen(views[0], BOOKED, 2.0))
+    last = replace(seen(views[0], BOOKED, 3.0), latent_heats=(0.1, 0.0))
+    last = replace(last, melt_fraction=np.ones(last.mass.size))
+    assert budget.observe(last)["energy_latent_J"] == pytest.approx(0.1 * last.mass.sum())
     energy = budget.summary()["energy"]
     assert energy["unit"] == "J/m"
     assert energy["imbalance_relative"] == pytest.approx(0.25)
     assert EnergyBudget(1).summary()["energy"]["unit"] == "J/m^2"
 
 
+@pytest.mark.parametrize(("name", "sign"), [("shifting", 1.0), ("ejection_work", 1.0)])
+def test_numerics_have_numbers_of_their_own(views, name, sign):
+    """What the numerics are booked to have added explains what is stored beyond the rest."""
+    row = EnergyBudget(2).observe(seen(views[0], BOOKED | {name: 0.3}, 3.0 + sign * 0.3))
+    assert row["energy_imbalance_relative"] == pytest.approx(0.0, abs=1e-15)
+    assert row[f"energy_{name}_J"] == 0.3
+
+
 def test_energy_budget_without_light(views):
-    """Heat that enters through a boundary is the scale where there is no light."""
+    """Heat that enters through a boundary is the scale where there is no light; what the particles
+    held at the start does not count as stored."""
     budget = EnergyBudget(1)
-    row = budget.observe(replace(views[0], energy={"stored": 8.0, "lost": -10.0}))
+    row = budget.observe(seen(views[0], {"lost": -10.0}, 8.0))
     assert row["energy_imbalance_relative"] == pytest.approx(0.2)
+    budget = EnergyBudget(1)
+    budget.observe(replace(seen(views[0], {}, 100.0), step=0))
+    row = budget.observe(seen(views[0], {"lost": -10.0}, 110.0))
+    assert row["energy_stored_J"] == pytest.approx(10.0)
+    assert row["energy_imbalance_relative"] == pytest.approx(0.0, abs=1e-14)
+
+
+def test_kinetic_energy_counts_under_light(views):
+    """What moves under light has taken its energy from there; a box has it from its walls."""
+    view = synthetic_flow.box_view(speed=3.0)
+    for light, counts in (({"incident": 1.0, "absorbed": 1.0}, 1.0), ({"lost": -1.0}, 0.0)):
+        row = EnergyBudget(2).observe(seen(view, light, 1.0))
+        assert row["energy_kinetic_J"] > 0.0
+        expected = counts * row["energy_kinetic_J"]
+        assert row["energy_imbalance_relative"] == pytest.approx(expected, abs=1e-15)
 
 
 def test_steps_count_limits_and_iterations(views):

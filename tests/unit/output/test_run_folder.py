@@ -268,7 +268,7 @@ def test_checkpoint_of_an_earlier_version(tmp_path, monkeypatch):
     for case_hash in (None, "another"):
         with pytest.raises(FolderRefused) as told:
             RunFolder.resume(folder, **CASE, case_hash=case_hash)
-        assert "of another version of lasersph: its format is 3, this version reads 4; " in str(
+        assert "of another version of lasersph: its format is 3, this version reads 5; " in str(
             told.value
         )
     assert before == {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}

@@ -64,7 +64,7 @@ def test_flow_may_close_less_well(pool):
     assert not warning_texts(flowing, [])
     still = {key: value for key, value in flowing.items() if key != "flow"}
     assert warning_texts(still, []) == [
-        "The energy balance does not close within a millionth of the absorbed energy."
+        "The energy balance does not close within a millionth of the energy moved."
     ]
 
 

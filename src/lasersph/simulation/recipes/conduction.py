@@ -60,6 +60,8 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             "position": shown(body.filling.position[:, :count]),
             "width": shown(body.filling.width[:, :count]),
             "volume": shown(body.filling.volume[:count]),
+            "mass": body.backend.look(particles["mass"]),
+            "latent_heats": body.curve.latent_heats,
             "temperature": take(particles["temperature"]),
             "enthalpy": take(particles["enthalpy"]),
             "melt_fraction": take(particles["melt_fraction"]),

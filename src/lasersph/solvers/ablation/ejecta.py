@@ -13,15 +13,22 @@ from lasersph.physics.evaporation import NO_CRITICAL_POINT, vapor_constants
 
 
 class Ejecta(NamedTuple):
-    """Particles that left: how many, mass [kg], enthalpy and kinetic energy [J].
+    """Particles that left: how many, and what they took along.
 
-    Per area in 1-D, per length in 2-D. Enthalpy counts from the initial temperature.
+    Per area in 1-D, per length in 2-D.
+
+    Attributes:
+        mass: [kg]. energy: enthalpy, from the initial temperature on, and kinetic energy [J].
+            kinetic: that part of it [J]. discarded: heat beyond the full enthalpy of the vapor that
+            found nothing to go to [J]. work: kinetic energy that no heat has paid for [J].
     """
 
     number: int = 0
     mass: float = 0.0
     energy: float = 0.0
     kinetic: float = 0.0
+    discarded: float = 0.0
+    work: float = 0.0
 
 
 class Vapor:
@@ -57,4 +64,4 @@ class Vapor:
         number, mass, energy, kinetic = self.backend.pointwise(
             ejected_quantities, fields, out, rows=rows, **given
         )
-        return Ejecta(int(number), mass, energy, kinetic)
+        return Ejecta(int(number), mass, energy + kinetic, kinetic)

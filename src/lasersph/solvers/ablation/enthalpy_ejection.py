@@ -20,7 +20,9 @@ one and their times are known to a tenth of that between two."""
 class EnthalpyEjection:
     """Particles leave when  h >= h_v = c_p (T_v - T_0) + L_m + L_v  and take exactly h_v along.
 
-    What the last step brought beyond h_v goes down the columns of the light to what they uncover.
+    The kinetic energy of the vapor is a part of h_v: as it expands from the surface it pays for its
+    motion with its heat. What the last step brought beyond h_v goes down the columns of the light
+    to what they uncover, and is discarded where they uncover nothing.
 
     Args:
         curve: caloric curve with a plateau at the vaporization temperature.
@@ -73,6 +75,5 @@ class EnthalpyEjection:
         ejecta = self.vapor.account(fields, rows, time)
         if excess == 0.0:
             return ejecta
-        # where nothing is uncovered the excess leaves with the ejecta, so that the balance closes
         given = self.light.pass_excess_down(self._excess, fields["x"], kind, h, fields["m"])
-        return ejecta._replace(energy=ejecta.energy + excess - given)
+        return ejecta._replace(discarded=excess - given)

@@ -121,30 +121,29 @@ class Rates:
         (lost,) = pair_sum(term, pairs, fields, (self._dh, None), rows=rows, **how)
         return lost
 
-    def energy_of_step(self, step: float, rows: Rows | None) -> float:
-        """Energy that the step brings [J].
+    def check_stability(self, step: float, rows: Rows | None) -> None:
+        """Look ahead at what the step brings.
 
         Raises:
-            NotConverged: it is not finite, or matter would be torn apart.
+            NotConverged: its heat or its force is not finite, or matter would be torn apart.
         """
         particles, pointwise = self.particles, self.particles.backend.pointwise
         fields = {"m": particles.now["mass"], "dh": self._dh}
         if self.moving is not Moving.ALL:
-            (stored,) = pointwise(energy_gain, fields, (None,), rows=rows, reduce=("sum",), dt=step)
-            is_stable = isfinite(stored)
+            (gain,) = pointwise(energy_gain, fields, (None,), rows=rows, reduce=("sum",), dt=step)
+            is_stable = isfinite(gain)
         else:
             fields |= {"rho": particles.now["density"], "a": self._a, "drho": self._drho}
             reduce = ("sum", "min", "sum")
-            stored, thinnest, force = pointwise(
+            gain, thinnest, force = pointwise(
                 trial_step, fields, (None, None, None), rows=rows, reduce=reduce, dt=step
             )
             least = LEAST_DENSITY * particles.material.density_reference
-            is_stable = isfinite(stored) and isfinite(force) and thinnest > least
+            is_stable = isfinite(gain) and isfinite(force) and thinnest > least
         if not is_stable:
             raise NotConverged(
                 f"a step of {format_quantity(step, 's')} is unstable; take shorter ones"
             )
-        return stored
 
     def advance(self, target: Particles, source: Particles, step: float, rows: Rows | None) -> None:
         """Write the start of the step advanced by `step` [s] into a level.

@@ -182,10 +182,10 @@ class Ablation:
         body.refresh(half, rows)
         # whole step: rates in the middle, y + dt f(y'), unless that would be unstable       (30)
         lost = rates.evaluate(half, step, rows)
-        stored = rates.energy_of_step(step, rows)
+        rates.check_stability(step, rows)
         rates.advance(now, half, step, rows)
         body.refresh(now, rows)
-        state.add(light | {"stored": stored, "lost": lost * step})
+        state.add(light | {"lost": lost * step})
         state.time, state.time_step = state.time + step, step
         self._is_surface_current &= rates.moving is Moving.NOTHING
         # ejection: what has taken up enough heat leaves the surface; what has left flies on

@@ -56,12 +56,6 @@ class AblationState:
 
     def count_ejecta(self, ejecta: Ejecta) -> None:
         """Count what left in a step."""
-        was = self.ejecta
-        self.ejecta = Ejecta(
-            was.number + ejecta.number,
-            was.mass + ejecta.mass,
-            was.energy + ejecta.energy,
-            was.kinetic + ejecta.kinetic,
-        )
-        self.energy["removed"] += ejecta.energy
-        self.energy["stored"] -= ejecta.energy
+        self.ejecta = Ejecta(*(was + now for was, now in zip(self.ejecta, ejecta, strict=True)))
+        self.add({"removed": ejecta.energy, "discarded": ejecta.discarded})
+        self.add({"ejection_work": ejecta.work})

@@ -24,9 +24,9 @@ def properties(h, h_nodes, T_nodes, P_nodes, k_T, k_nodes):
     return T, interpolate(T, k_T, k_nodes)
 
 
-def step_from(h0, rate, dt, m):
-    """Enthalpy after dt at a constant rate, and the energy stored by the particle [J]."""
-    return h0 + dt * rate, m * dt * rate
+def step_from(h0, rate, dt):
+    """Enthalpy after dt at a constant rate [J/kg]."""
+    return h0 + dt * rate
 
 
 def relaxation_rate(S, a, m, heaviest):
@@ -72,11 +72,11 @@ class ExplicitStep:
         h, h_0 = particles["enthalpy"], particles["enthalpy_before"]
         backend.copy(h, h_0)
         self._evaluate(h, step)
-        fields = {"h0": h_0, "rate": self.rate, "m": particles["mass"]}
-        backend.pointwise(step_from, fields, (self.h, None), dt=0.5 * step)
+        fields = {"h0": h_0, "rate": self.rate}
+        backend.pointwise(step_from, fields, self.h, dt=0.5 * step)
         energy = self._evaluate(self.h, step)
-        (stored,) = backend.pointwise(step_from, fields, (h, None), reduce=(None, "sum"), dt=step)
-        return energy | {"stored": stored}
+        backend.pointwise(step_from, fields, h, dt=step)
+        return energy
 
     def _evaluate(self, enthalpy: Array, step: float) -> dict[str, float]:
         """Rate of heating at given enthalpies; returns the energies of a whole step at it [J]."""

@@ -15,8 +15,8 @@ this one. A step is
                as latent heat; those on a plateau are balanced, their neighbors fixed (65), which
                lets them leave it; dP is halved until the sum of |r| falls
 
-the last three again until sum |r| <= tolerance times the absorbed energy. Whatever is left of r is
-added to the enthalpies, so that energy balances to rounding.
+the last three again until sum |r| <= tolerance times the absorbed energy. What is left of r is
+added to the enthalpies, so that no energy is lost with it, and its sum is booked.
 """
 
 from __future__ import annotations
@@ -102,10 +102,10 @@ def same(new):
 
 
 def close_balance(h, r, m, h0, excess, previous):
-    """Enthalpy with the last residual added, what was added, the enthalpies of one and two steps
-    ago without that, and the energy stored by the particle [J]."""
+    """Enthalpy with the last residual added, what was added, and the enthalpies of one and two
+    steps ago without that."""
     more = r / m
-    return h + more, more, h0 - excess, previous, m * (h + more - h0)
+    return h + more, more, h0 - excess, previous
 
 
 class ImplicitStep:
@@ -160,7 +160,8 @@ class ImplicitStep:
             found, energy = self.correct(step, error, plateau)
             self.forcing = min(max(found / error, FORCING[0]), FORCING[1])
             self.newton, error = self.newton + 1, found
-        return energy | {"stored": self.accept()}
+        self.accept()
+        return energy | {"newton_residual": error}
 
     def predict(self, state: HeatState, step: float) -> None:
         """Set the first guess of enthalpy and potential, from those of the last steps."""
@@ -206,14 +207,12 @@ class ImplicitStep:
             damping *= 0.5
         return found, energy
 
-    def accept(self) -> float:
-        """Take the enthalpies with what is left of r; returns the energy stored [J]."""
+    def accept(self) -> None:
+        """Take the enthalpies with what is left of r."""
         h_0, excess, h_old, h_older = self.history.values()
         fields = {"h": self.h, "r": self.r, "m": self.mass, "h0": h_0}
         fields |= {"excess": excess, "previous": h_old}
-        out, reduce = (h_0, excess, h_old, h_older, None), (None,) * 4 + ("sum",)
-        (stored,) = self.body.backend.pointwise(close_balance, fields, out, reduce=reduce)
-        return stored
+        self.body.backend.pointwise(close_balance, fields, (h_0, excess, h_old, h_older))
 
     def find_residual(self, step: float) -> tuple[float, dict[str, float]]:
         """Residual into `r`; returns the sum of |r| and the energies of the step [J]."""

@@ -206,10 +206,10 @@ class Conduction:
         total = self.state.energy
         for name, value in energies(self.body.light, energy["absorbed"]).items():
             total[name] += value
-        total["stored"] += energy["stored"] - discarded
         total["lost"] += energy["lost"] - energy["walls"]
         total["removed"] += energy["removed"]
         total["discarded"] += discarded
+        total["newton_residual"] += energy.get("newton_residual", 0.0)
 
 
 def next_light(pulse: PulseTrain, time: float, longest: float) -> float:

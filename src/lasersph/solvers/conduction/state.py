@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 ENERGIES = (
-    *("incident", "absorbed", "reflected", "transmitted"),
-    *("stored", "lost", "removed", "discarded", "rescaled"),
+    *("incident", "absorbed", "reflected", "transmitted", "unassigned"),
+    *("lost", "removed", "discarded", "shifting", "ejection_work", "newton_residual"),
 )
+"""What steps exchange; what the particles store is summed from their fields by observers."""
 
 
 @dataclass

@@ -119,9 +119,10 @@ def limited_exchange(
     return q * (min(up_i, down_j) if q > 0.0 else min(down_i, up_j))
 
 
-def add_exchange(total, h):
-    """h after the exchange [J/kg]."""
-    return h + total
+def add_exchange(total, h, m):
+    """h after the exchange [J/kg], and the heat that the particle has gained by it [J]."""
+    new = h + total
+    return new, m * (new - h)
 
 
 def shifted_position(x, displacement, fluid, low, high, width, gap):
@@ -210,10 +211,12 @@ class ParticleShifting:
         )
         backend.copy(self._v, v)
 
-    def adjust_enthalpy(self, block: Block, kinds: ParticleKinds, h: Array, f_v: Array) -> None:
-        """h at the shifted positions (75), by exchange between pairs."""
+    def adjust_enthalpy(
+        self, block: Block, kinds: ParticleKinds, h: Array, f_v: Array, m: Array
+    ) -> float:
+        """h at the shifted positions (75), by exchange between pairs; the heat added by it [J]."""
         if self.factor == 0.0:
-            return
+            return 0.0
         backend, pairs, rows = self.backend, block.pairs, kinds.fluid_rows
         heat, phase, up, down = (backend.zeros(block.total) for _ in range(4))
         shift = backend.zeros((2, block.total))
@@ -237,8 +240,10 @@ class ParticleShifting:
         )
         shares = {"up": self._up, "down": self._down}
         backend.pointwise(shares_of, block.sources, (up, down), **shares)
-        fields |= {"up": up, "down": down}
-        backend.pair_sum(limited_exchange, pairs, fields, h, finish=add_exchange, rows=rows)
+        fields |= {"up": up, "down": down, "m": m}
+        how = {"finish": add_exchange, "reduce": (None, "sum"), "rows": rows}
+        (added,) = backend.pair_sum(limited_exchange, pairs, fields, (h, None), **how)
+        return added
 
     def move(self, position: Array, kinds: ParticleKinds) -> None:
         """Move the particles to their shifted positions, inside the faces."""

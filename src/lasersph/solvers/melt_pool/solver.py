@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.solvers.conduction.solver import Conduction
@@ -33,6 +34,11 @@ takes less its speeds have grown without bound."""
 def larger(a, b):
     """1 where one of two marks is 1."""
     return max(a, b)
+
+
+def lies_at_surface(depth, spacing):
+    """1 for a particle of the uppermost row, else 0."""
+    return 1.0 if depth < spacing else 0.0
 
 
 class MeltPool:
@@ -61,6 +67,10 @@ class MeltPool:
         )
         self.pairs = HeatPairs(heat.body)
         self.steadiness = Steadiness(settings.steady, domain.width)
+        columns = heat.body.filling.surface.size
+        self.surface_columns = SurfaceColumns(
+            backend, count, domain.box[0][0], domain.width / columns, columns
+        )
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
@@ -202,13 +212,22 @@ class MeltPool:
         self.pairs.renew(block)
 
     def illuminate(self, step: float) -> None:
-        """Light of the step on the particles where they are now."""
-        light, state, particles = self.body.light, self.state, self.particles
-        light.shine(state.time, state.time + step)
-        if light.incident > 0.0 and self.domain.block_layers:
-            self.domain.find_depth(self.position, self._depth)
-            moved, T = particles["has_moving_pairs"], particles["temperature"]
-            light.follow(self.position, self._depth, moved, T)
+        """Light and losses of the step on the particles where they are now."""
+        light, exchange, backend = self.body.light, self.heat.exchange, self.backend
+        light.shine(self.state.time, self.state.time + step)
+        if light.incident == 0.0 and exchange.is_idle:
+            return
+        if not self.domain.block_layers:  # nothing has moved
+            light.rest()
+            exchange.rest()
+            return
+        self.domain.find_depth(self.position, self._depth)
+        mark, columns = backend.zeros(self.body.count), self.surface_columns
+        fields = {"depth": self._depth}
+        backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
+        columns.find(self.position, backend.rows_where(mark, 1.0))
+        exchange.follow(columns.rows, columns.area)
+        light.follow(self.position, self._depth, columns)
 
     def shift(self, step: float) -> None:
         """Displacements that keep the density of particles even (73)."""
@@ -224,8 +243,10 @@ class MeltPool:
         self.shifting.adjust_velocity(
             block, self.kinds, flow.velocity, flow.ghost_velocity_jump(), C
         )
-        h, vapor = particles["enthalpy"], particles["vapor_fraction"]
-        self.shifting.adjust_enthalpy(block, self.kinds, h, vapor)
+        h, vapor, m = (particles[name] for name in ("enthalpy", "vapor_fraction", "mass"))
+        self.state.energy["shifting"] += self.shifting.adjust_enthalpy(
+            block, self.kinds, h, vapor, m
+        )
         self.shifting.move(self.position, self.kinds)
         self.body.update_temperature()
 

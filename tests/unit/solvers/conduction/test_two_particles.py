@@ -38,14 +38,13 @@ def test_weight_by_hand():
 @pytest.mark.parametrize("iteration", ["newton", "published"])
 def test_implicit(iteration):
     """The difference shrinks by 1 / (1 + 2 dt lambda), the mean stays."""
-    solver, mass, capacity, rate = heated("implicit", iteration=iteration)
+    solver, _, capacity, rate = heated("implicit", iteration=iteration)
     assert temperature_of(solver) == pytest.approx([HOT, COLD])
     assert solver.step(STEP) == STEP
     half = 0.5 * (HOT - COLD) / (1.0 + 2.0 * STEP * rate)
     mean = 0.5 * (HOT + COLD)
     assert temperature_of(solver) == pytest.approx([mean + half, mean - half], abs=1e-5)
     assert enthalpy_of(solver).sum() == pytest.approx(capacity * (HOT - COLD), rel=1e-12)
-    assert solver.state.energy["stored"] == pytest.approx(0.0, abs=1e-12 * mass * capacity * HOT)
     assert solver.state.time == solver.state.time_step == STEP
 
 

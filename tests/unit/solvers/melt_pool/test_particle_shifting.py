@@ -201,9 +201,12 @@ def test_plateau_keeps_its_enthalpies():
     backend.copy(backend.asarray(shift), shifting.displacement)
     for on_plateau, is_kept in ((hot, True), (np.zeros(count), False)):
         enthalpy = backend.asarray(h)
-        shifting.adjust_enthalpy(block, solver.kinds, enthalpy, backend.asarray(0.5 * on_plateau))
+        m = solver.particles["mass"]
+        plateau = backend.asarray(0.5 * on_plateau)
+        added = shifting.adjust_enthalpy(block, solver.kinds, enthalpy, plateau, m)
         found = backend.to_host(enthalpy)
         assert not np.array_equal(found, h)
+        assert added == pytest.approx(0.0, abs=1e-12)
         assert (found[~hot].max() <= 1.0 and found[hot].min() >= 99.0) == is_kept
 
 

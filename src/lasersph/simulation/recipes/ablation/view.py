@@ -27,6 +27,8 @@ def ablation_fields(case: Case, solver: Ablation, step: int) -> dict[str, Any]:
         "position": position,
         "width": np.broadcast_to(np.array(geometry.cell)[:, None], position.shape),
         "volume": np.broadcast_to(np.array(geometry.volume), (count,)),
+        "mass": backend.look(particles["mass"])[:count],
+        "latent_heats": curve.latent_heats,
         "surface": _surface(solver, count),
         "solidus": curve.solidus,
         "liquidus": curve.liquidus,

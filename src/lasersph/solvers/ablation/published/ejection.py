@@ -1,7 +1,8 @@
 """Ejection as published: from the boiling temperature on with the velocity of the vapor.
 
 A particle that leaves keeps absorbing until it has left [Alshaer2017, Sections 3.3 and 4.4]. There
-are no latent heats, and the depth depends on when a particle counts as left.
+are no latent heats, and the depth depends on when a particle counts as left. No heat pays for the
+motion of what leaves: its kinetic energy is booked as work of the rule.
 """
 
 from __future__ import annotations
@@ -64,4 +65,5 @@ class PublishedEjection:
         backend.pair_sum(covers_neighbor, pairs, fields, covered, rows=leaving, **self._layer)
         out = (kind, fields["v"])
         backend.pointwise(published_departure, fields, out, rows=rows, **self._rule)
-        return self.vapor.account(fields, rows, time)
+        ejecta = self.vapor.account(fields, rows, time)
+        return ejecta._replace(work=ejecta.kinetic)

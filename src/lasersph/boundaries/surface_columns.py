@@ -1,0 +1,114 @@
+"""`SurfaceColumns`: which part of a flat surface each particle at it stands for now (2-D).
+
+The surface is cut into columns of one spacing. A particle at it covers up to two of them, by the
+shares c_ic of its width; of a column it stands for c_ic / sum_j c_jc. So the particles at the
+surface share its whole area, however many there are, and a column has the mean of their values.
+"""
+
+from __future__ import annotations
+
+from math import floor
+
+import numpy as np
+
+from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.backend import Backend
+from lasersph.particles.neighbor_lists import NeighborList, members_of
+
+
+def column_at_end(x, low, inverse, right, columns):
+    """Column at an end of a particle's width, and the share c of the width in it.
+
+    What reaches beyond an end of the surface counts for the column there.
+
+    Args:
+        x: position [m]. low: left end [m]. inverse: 1 / width of a column [1/m]. right: 1 for the
+            right end. columns: their number.
+    """
+    place = (x[0] - low) * inverse - 0.5
+    column = floor(place)
+    beyond = place - column
+    number = int(min(max(column + right, 0.0), columns - 1.0))
+    return number, (beyond if right > 0.0 else 1.0 - beyond)
+
+
+def covered(cover_j, f_j):
+    """Cover of a column, and that times a value of the particle."""
+    return cover_j, cover_j * f_j
+
+
+def mean_of_ends(cover, weighted, cover_right, weighted_right):
+    """Mean value of a column, 0 where no particle covers it, and the sum of their covers."""
+    whole = cover + cover_right
+    return (weighted + weighted_right) / max(whole, 1.0e-300), whole
+
+
+def shared_area(left, cover_left, right, cover_right, covers, width):
+    """Area that a particle stands for [m]: its shares of two columns.
+
+    Args:
+        left, right: numbers of the columns. covers: table of the sums over their particles.
+    """
+    return width * (
+        cover_left / max(covers[left], 1.0e-300) + cover_right / max(covers[right], 1.0e-300)
+    )
+
+
+class SurfaceColumns:
+    """Columns below a surface from `low` on [m], of one width [m].
+
+    Attributes:
+        rows: numbers of the particles at the surface. area: (n,) of the surface that each of them
+            stands for [m], 0 of all others.
+    """
+
+    def __init__(
+        self, backend: Backend, count: int, low: float, width: float, columns: int
+    ) -> None:
+        self.backend, self.count, self._width = backend, columns, width
+        self.rows: Rows = backend.asarray(np.zeros(0), "index")
+        self.area = backend.zeros(count)
+        self._grid = {"low": low, "inverse": 1.0 / width, "columns": float(columns)}
+        self._mean, self._covers = backend.zeros(columns), backend.zeros(columns)
+        self._sums = {side: tuple(backend.zeros(columns) for _ in "12") for side in ("", "_right")}
+        self._ends: list[tuple[Array, Array, NeighborList]] = []
+
+    def find(self, position: Array, rows: Rows) -> None:
+        """Let the particles `rows` at their positions (2, n) [m] share the surface."""
+        backend, size = self.backend, rows.shape[0]
+        backend.scatter(backend.zeros(self.rows.shape[0]), self.rows, self.area)
+        self.rows = rows
+        # loops over columns ask for fields at least as long
+        length = max(size, self.count)
+        x = backend.zeros((2, size))
+        backend.gather(position, rows, x)
+        self._ends, self._values = [], backend.zeros(length)
+        for right in (0.0, 1.0):
+            column, cover = backend.zeros(length, "index"), backend.zeros(length)
+            backend.fill(column, self.count)
+            out = (backend.head(column, size), backend.head(cover, size))
+            backend.pointwise(column_at_end, {"x": x}, out, right=right, **self._grid)
+            self._ends.append((column, cover, members_of(backend, column, self.count)))
+        self._average()
+        fields = {}
+        for (column, cover, _), side in zip(self._ends, ("left", "right"), strict=True):
+            fields |= {side: backend.head(column, size)}
+            fields |= {f"cover_{side}": backend.head(cover, size)}
+        area = backend.zeros(size)
+        backend.pointwise(shared_area, fields, area, covers=self._covers, width=self._width)
+        backend.scatter(area, rows, self.area)
+
+    def mean(self, values: Array) -> Array:
+        """(columns,) mean of a field (n,) over the particles at each column."""
+        inner = self.backend.head(self._values, self.rows.shape[0])
+        self.backend.gather(values, self.rows, inner)
+        self._average()
+        return self._mean
+
+    def _average(self) -> None:
+        """Mean of `_values` in each column, and the sum of the covers."""
+        fields = {}
+        for (_, cover, members), side in zip(self._ends, ("", "_right"), strict=True):
+            sums = fields[f"cover{side}"], fields[f"weighted{side}"] = self._sums[side]
+            self.backend.pair_sum(covered, members, {"cover": cover, "f": self._values}, sums)
+        self.backend.pointwise(mean_of_ends, fields, (self._mean, self._covers))

@@ -1,0 +1,83 @@
+"""Beer and Lambert through particles that have moved, as pure functions of a grid of cells.
+
+Columns and rows of cells of one spacing lie below a flat surface. A particle is as large as a cell
+and covers up to four of them, by the shares c_ik of its area (sum over k: 1). A cell is as opaque
+as what lies in it, and takes of the light that enters its column
+
+    tau_k = alpha w sum_i c_ik,    s_k = exp(-sum of tau above) (1 - exp(-tau_k))
+
+which its particles share by their c_ik. So a column takes 1 - exp(-sum tau) of its light wherever
+its particles lie, and no sum is scaled. On the lattice each cell holds one particle, whose share is
+the exact one of its depth [Demuth2020, eq. (8)].
+"""
+
+from __future__ import annotations
+
+from math import exp, floor
+
+THIN = 1e-6
+"""Optical thickness below which 1 - exp(-tau) is taken as tau - tau^2 / 2, exact to 1e-12."""
+
+
+def cell_at_corner(x, depth, low, inverse_x, inverse_z, right, lower, columns, levels):
+    """Cell at a corner of a particle's square, its column, and the share c of the square in it.
+
+    Squares that reach beyond an end or the surface count for the cells next to it. The number
+    behind the last one stands for what lies below all rows.
+
+    Args:
+        x: position [m]. depth: below the surface [m]. low: left end [m]. inverse_x, inverse_z:
+            1 / width and 1 / height of a cell [1/m]. right, lower: 1 for the right column, the
+            lower row. columns, levels: numbers of columns and rows.
+    """
+    place, level = (x[0] - low) * inverse_x - 0.5, depth * inverse_z - 0.5
+    column, row = floor(place), floor(level)
+    beyond_x, beyond_z = place - column, level - row
+    share_x = beyond_x if right > 0.0 else 1.0 - beyond_x
+    share_z = beyond_z if lower > 0.0 else 1.0 - beyond_z
+    c = int(min(max(column + right, 0.0), columns - 1.0))
+    r = int(min(max(row + lower, 0.0), levels))
+    if r >= levels:
+        return int(columns * levels), c, 0.0 * share_z
+    return int(c * levels + r), c, share_x * share_z
+
+
+def optical_thickness(cover_j, tau_one):
+    """Part of a cell's tau [1]; tau_one: of a cell that one particle fills."""
+    return tau_one * cover_j
+
+
+def add(a, b):
+    """Sum of two numbers."""
+    return a + b
+
+
+def running_sum(k, total, totals, distance, levels):
+    """Sum with that of the cell `distance` rows above [1]; doubled distances give the sum of all.
+
+    Args:
+        k: number of the cell. total: sum so far. totals: that of all cells.
+            distance, levels: rows, and rows in a column.
+    """
+    if k % levels < distance:
+        return 1.0 * total
+    return total + totals[k - distance]
+
+
+def light_per_cover(tau, total, tau_one):
+    """Share s_k of a cell over the sum of the c_ik in it [1].
+
+    Args:
+        tau: of the cell. total: of it and all above [1].
+    """
+    taken = 1.0 - 0.5 * tau if tau < THIN else (1.0 - exp(-tau)) / tau
+    return exp(tau - total) * taken * tau_one
+
+
+def column_share(upper, cover_upper, lower, cover_lower, width, light):
+    """Share of a column's light that a particle takes, times the width of the column [m].
+
+    Args:
+        upper, lower: its two cells in the column. light: table of `light_per_cover`.
+    """
+    return width * (cover_upper * light[upper] + cover_lower * light[lower])
