@@ -49,7 +49,7 @@ def _section(state: State, readme: str) -> list[str]:
         return parts
     made, notes = record["computed"], _notes(record["rows"])
     version = f"lasersph {made['lasersph']}" + (f", {made['commit']}" if made["commit"] else "")
-    threads = f"{made['threads']} threads" if made["threads"] else "all threads"
+    threads = f"threads: {made['threads'] or 'all'}"
     parts.append(
         f"*{_duration(record['seconds'])} on {made['machine']}, {threads}; {version}, "
         f"{made['date']}.*"
@@ -82,7 +82,9 @@ def label(state: State) -> str:
 
 def _count(record: dict[str, Any] | None) -> str:
     """How many numbers are judged and met, and how many are not judged."""
-    verdicts = [row["verdict"] for row in record["rows"]] if record else []
+    if record is None:
+        return ""
+    verdicts = [row["verdict"] for row in record["rows"]]
     judged = len(verdicts) - verdicts.count(None)
     return f"{verdicts.count(True)} of {judged} met, {verdicts.count(None)} shown"
 

@@ -89,6 +89,6 @@ def test_runs_of_backends_are_told_apart():
 @pytest.mark.validate
 @pytest.mark.parametrize("name", names())
 def test_in_full(tmp_path, name):
-    """Every validation as `lasersph validate` runs it; hours for dlip-thermal."""
+    """Every validation as `lasersph validate` runs it; the melt pools take an hour each."""
     report = validate(name, tmp_path)
     assert report.passed, report.table()

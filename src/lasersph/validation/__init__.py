@@ -1,4 +1,4 @@
-"""Validation: published and reference numbers beside ours, with tolerances stated beforehand.
+"""Validation: published and reference numbers beside ours, and records of when they were computed.
 
 report = validate("kernel-correction", "validation/kernel-correction")
 print(report.table()); report.passed; report.as_dict()

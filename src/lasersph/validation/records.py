@@ -111,7 +111,7 @@ def make_record(
     Runs are kept below `out` and taken from there. A validation that breaks off is stored as well.
 
     Raises:
-        OutputError: the folder cannot be written.
+        OutputError, OSError: the folder cannot be written, or a run in it not be read.
     """
     run = partial(validate, name, threads=threads, backend=backend)
     short, report, error = None, Report(name, "", ()), ""
@@ -119,7 +119,7 @@ def make_record(
     try:
         short = run(out / "short" / name, quick=True)
         report = run(out / name)
-    except (OutputError, MemoryError):
+    except (OutputError, OSError, MemoryError):  # of the machine, not of the validation
         raise
     except Exception as failure:
         error = f"broke off: {type(failure).__name__}: {' '.join(str(failure).split())}"

@@ -12,6 +12,7 @@ from lasersph.validation import sources
 SHORT = {
     "stefan": ["particles.spacing=2 um", "time.end=4 ns", "time.step=2 ns"],
     "natural-convection": ["particles.spacing=0.125 m", "time.end=20 ms"],
+    "dam-break": ["particles.spacing=9.525 mm", "time.end=1 ms"],
 }
 
 

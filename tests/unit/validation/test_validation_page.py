@@ -80,7 +80,7 @@ def test_rows_figures_and_origin():
     assert "| T \\[K\\] |  | 300 | 300.1 | 0.5 (1) | ok |" in text
     assert "| T\\|2 \\[K\\] |  | 1 | 9 | 0.5 (2) | own |" in text
     assert "- (1) read from a figure" in text and "- (2) Changed: was 1 K until May" in text
-    assert "2 min on a machine, 1 threads; lasersph 0.1.0, abc, 2026-11-20" in text
+    assert "2 min on a machine, threads: 1; lasersph 0.1.0, abc, 2026-11-20" in text
     assert "![good](validation/good/f.png)" in text
 
 
