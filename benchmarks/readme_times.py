@@ -1,0 +1,121 @@
+"""The times of the README: runs that anyone can repeat, recorded with date, commit and machine.
+
+    python benchmarks/readme_times.py [ROW ...] [--list]
+
+It runs the named rows (all without names) from the command to the end, figures and report included,
+one after another, and writes what they took into docs/times.json and the table of README.md, which
+is made from that file alone. A row that is not run keeps what it had, with its date and commit.
+Loops are compiled before by a short copy of each run. Nothing else should run on the machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from datetime import date
+from pathlib import Path
+from time import perf_counter
+
+ROOT = Path(__file__).resolve().parent.parent
+RECORD, README = ROOT / "docs" / "times.json", ROOT / "README.md"
+MOST_SETTINGS = 3
+"""A row with more settings than these does not print them; they stand in the record."""
+BEGIN, END = "<!-- times: begin -->\n", "<!-- times: end -->\n"
+
+
+def lasersph(arguments: list[str]) -> tuple[float, int]:
+    """Time [s] and largest memory [bytes] of a command of this tree."""
+    variables = os.environ | {"PYTHONPATH": str(ROOT / "src"), "MPLBACKEND": "Agg"}
+    begin = perf_counter()
+    program = "from lasersph.cli import main; main()"
+    process = subprocess.Popen([sys.executable, "-c", program, *arguments], env=variables)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        raise SystemExit(f"lasersph {' '.join(arguments)} ended with {process.returncode}")
+    return perf_counter() - begin, 1024 * usage.ru_maxrss
+
+
+def measure(row: dict) -> dict:
+    """The row with what its run took, when, at which commit and on which machine."""
+    command = ["run", row["case"]] + [part for s in row["set"] for part in ("--set", s)]
+    with tempfile.TemporaryDirectory() as folder:
+        lasersph([*command, "--quick", "--out", f"{folder}/quick"])
+        seconds, memory = lasersph([*command, "--out", f"{folder}/run"])
+        summary = json.loads(Path(folder, "run", "summary.json").read_text(encoding="utf-8"))
+    return row | {
+        "particles": summary["particles"],
+        "seconds": round(seconds, 1),
+        "memory_bytes": memory,
+        "date": date.today().isoformat(),
+        "commit": commit(),
+        "machine": f"{os.cpu_count()} cores, {platform.machine()}",
+        "note": "",
+    }
+
+
+def commit() -> str:
+    """Short hash of the tree, with a + where files differ from it."""
+    say = {"capture_output": True, "text": True, "check": True, "cwd": ROOT}
+    found = subprocess.run(["git", "rev-parse", "--short", "HEAD"], **say).stdout.strip()
+    changed = subprocess.run(["git", "status", "--porcelain", "src"], **say).stdout.strip()
+    return found + ("+" if changed else "")
+
+
+def words_of_time(seconds: float) -> str:
+    """Minutes and seconds."""
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
+
+
+def table(rows: list[dict]) -> str:
+    """The table of the README."""
+    lines = ["| `lasersph run` | particles | time | memory | measured |", "|---|---|---|---|---|"]
+    for row in rows:
+        command = " ".join([row["case"], *(f'--set "{s}"' for s in row["set"])])
+        if len(row["set"]) > MOST_SETTINGS:
+            command = f"{row['case']} --set ..."
+        particles = f"{row['particles']:,}".replace(",", " ")
+        when = f"{row['date']}, {row['commit']}" + (f", {row['note']}" if row["note"] else "")
+        memory = f"{row['memory_bytes'] / 2**30:.2g} GiB"
+        time = words_of_time(row["seconds"])
+        lines.append(f"| `{command}`: {row['what']} | {particles} | {time} | {memory} | {when} |")
+    return "\n".join(lines) + "\n"
+
+
+def with_table(text: str, rows: list[dict]) -> str:
+    """The text with the table between its two marks made anew."""
+    before, rest = text.split(BEGIN)
+    return before + BEGIN + table(rows) + END + rest.split(END)[1]
+
+
+def main() -> None:
+    rows = json.loads(RECORD.read_text(encoding="utf-8"))
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("rows", nargs="*", metavar="ROW", help="default: all")
+    parser.add_argument("--list", action="store_true", help="say which rows there are")
+    chosen = parser.parse_args()
+    unknown = set(chosen.rows) - {row["name"] for row in rows}
+    if unknown:
+        parser.error(f"no row {', '.join(sorted(unknown))}; --list names them")
+    if chosen.list:
+        print("\n".join(f"{row['name']:24} {row['what']}" for row in rows))
+        return
+    for number, row in enumerate(rows):
+        if not chosen.rows or row["name"] in chosen.rows:
+            rows[number] = measure(row)
+            RECORD.write_text(
+                json.dumps(rows, indent=2, ensure_ascii=False) + "\n", encoding="utf-8"
+            )
+            text = README.read_text(encoding="utf-8")
+            README.write_text(with_table(text, rows), encoding="utf-8")
+    print(table(rows))
+
+
+if __name__ == "__main__":
+    main()
