@@ -1,14 +1,7 @@
-"""A closed box of liquid: center lines, stream function, heat through the walls.
+"""A closed box of liquid: center lines and stream function.
 
-Heat flows into the box through a side at -k <dT/dn>, n into the box, and
-
-    Nu = |<dT/dn>| L / |T_side - T_opposite|
-
-with the distance L and the mean temperatures of the two opposite sides that drive the flow: those
-that both have a given temperature, else those that heat crosses both; of two such pairs, those
-that differ most. Without such sides there is no Nusselt number. Interpolating from particles
-takes about as long as a step, so it is done in every `EVERY`-th step and at the end; between,
-the history repeats the last value.
+Interpolating from particles takes about as long as a step, so it is done in every `EVERY`-th step
+and at the end; between, the history repeats the last value.
 """
 
 from __future__ import annotations
@@ -23,13 +16,11 @@ from lasersph.observers.box_sections import (
     center_lines,
     extremum,
     stream_function,
-    wall_temperature,
 )
 from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.quantity import Quantity, suffix
 from lasersph.observers.view import View
-from lasersph.particles.faces import LATERAL, PLANE, face_pairs
 
 EVERY = 50
 LINE = 129
@@ -38,8 +29,6 @@ KEPT = 4
 """Every fourth of them goes to the summary."""
 NODES = 41
 """Nodes of the stream function's grid along each side."""
-SMALLEST_DIFFERENCE = 1e-9
-"""Part of the temperature below which differences between sides are rounding."""
 CENTER = {
     "u_max": "largest u at half the width",
     "u_min": "smallest u at half the width",
@@ -50,7 +39,7 @@ EDDIES = {"max": "largest stream function", "min": "smallest stream function"}
 
 
 class BoxFlow(Observer):
-    """Observes center lines, stream function and Nusselt numbers of a box."""
+    """Observes center lines and stream function of a box."""
 
     title = "box, at the end"
     note = "u = dpsi/dz, w = -dpsi/dx, psi = 0 at the bottom; evaluated in every 50th step."
@@ -60,7 +49,6 @@ class BoxFlow(Observer):
             Quantity(f"box_stream_function_{name}_m2_s", "m^2/s", words)
             for name, words in EDDIES.items()
         ),
-        *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in PLANE),
     )
     results = (
         Quantity("box.time_s", "s", "time of these values"),
@@ -88,19 +76,6 @@ class BoxFlow(Observer):
             )
             for name, words in EDDIES.items()
         ),
-        *(
-            one
-            for side in PLANE
-            for one in (
-                Quantity(f"box.heat.temperature_{side}_K", "K", f"mean temperature, {side}"),
-                Quantity(
-                    f"box.heat.flux_{side}_W_m2", "W/m^2", f"mean heat flux into the box, {side}"
-                ),
-                Quantity(f"box.heat.nusselt_{side}", "", f"Nusselt number, {side}"),
-            )
-        ),
-        Quantity("box.heat.between", "", "sides that drive the flow"),
-        Quantity("box.heat.difference_K", "K", "difference of their temperatures"),
     )
     kept = ("edges", "found")
 
@@ -111,10 +86,7 @@ class BoxFlow(Observer):
         self.unseen: View | None = None
 
     def observe(self, view: View) -> Row:
-        """Extrema on the center lines [m/s] and of the stream function [m^2/s], Nusselt numbers.
-
-        Nusselt numbers are 0 where there is no temperature difference.
-        """
+        """Extrema on the center lines [m/s] and of the stream function [m^2/s]."""
         if not self.edges:
             box = Box.around(view.position, view.width)
             self.edges = [box.left, box.right, box.bottom, box.top]
@@ -126,7 +98,6 @@ class BoxFlow(Observer):
         values = (
             *(center[f"{name}_m_s"] for name in CENTER),
             *(eddies[f"{name}_m2_s"] for name in EDDIES),
-            *(self.found["heat"].get(f"nusselt_{side}") or 0.0 for side in PLANE),
         )
         return self.record(view.time, values)
 
@@ -142,11 +113,10 @@ class BoxFlow(Observer):
             "height_m": box.height,
             **lines_of(view, box),
             "stream_function": eddies_of(view, box),
-            "heat": heat_of(view, box),
         }
 
     def summary(self) -> dict[str, Any]:
-        """`box`: size, center lines and their extrema, stream function, heat; at the end."""
+        """`box`: size, center lines and their extrema, stream function; at the end."""
         self._measure()
         return {"box": self.found} if self.found else {}
 
@@ -187,44 +157,3 @@ def eddies_of(view: View, box: Box) -> dict[str, float]:
         found[f"{name}_m2_s"] = float(psi[row, column])
         found[f"{name}_x_m"], found[f"{name}_z_m"] = float(x[column]), float(z[row])
     return found
-
-
-def heat_of(view: View, box: Box) -> dict[str, Any]:
-    """Temperature of and heat flux into the box through each side, Nusselt numbers.
-
-    Empty where the temperature is the same everywhere; no Nusselt number without two opposite sides
-    that heat crosses.
-    """
-    flow, difference = flow_of(view), float(np.ptp(view.temperature))
-    if difference <= SMALLEST_DIFFERENCE * float(np.max(view.temperature)):
-        return {}
-    wall = {
-        side: wall_temperature(
-            view.position,
-            view.temperature,
-            box,
-            side,
-            count=NODES,
-            given=flow.wall_temperature.get(side),
-        )
-        for side in PLANE
-    }
-    heat: dict[str, Any] = {}
-    for side, (temperature, slope) in wall.items():
-        heat[f"temperature_{side}_K"] = temperature
-        heat[f"flux_{side}_W_m2"] = -flow.conductivity * slope
-    given, crossed = (
-        [pair for pair in face_pairs(2) if all(side in sides for side in pair)]
-        for sides in (flow.wall_temperature, flow.conducting_sides)
-    )
-    differences = {pair: abs(wall[pair[0]][0] - wall[pair[1]][0]) for pair in given or crossed}
-    if not differences:
-        return heat
-    pair = max(differences, key=lambda one: differences[one])
-    heat |= {"between": " and ".join(pair), "difference_K": differences[pair]}
-    length = box.width if pair == LATERAL[0] else box.height
-    for side in pair:
-        temperature, slope = wall[side]
-        if differences[pair] > SMALLEST_DIFFERENCE * temperature:
-            heat[f"nusselt_{side}"] = abs(slope) * length / differences[pair]
-    return heat

@@ -1,4 +1,4 @@
-"""Sections through a closed box of liquid: center lines, stream function, slopes at the walls.
+"""Sections through a closed box of liquid: center lines, stream function, sides.
 
 Everything is interpolated from particles by moving least squares. The stream function counts from
 the bottom,
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lasersph.observers.interpolation import interpolate, local_fit
+from lasersph.observers.interpolation import interpolate
 
 FINER = 3
 
@@ -114,33 +114,15 @@ def stream_function(
 
 
 def wall_temperature(
-    position: np.ndarray,
-    temperature: np.ndarray,
-    box: Box,
-    side: str,
-    *,
-    count: int,
-    given: float | None = None,
-) -> tuple[float, float]:
-    """Mean temperature of a side [K], and mean of its slope along the inward normal [K/m].
+    position: np.ndarray, temperature: np.ndarray, box: Box, side: str, count: int
+) -> float:
+    """Mean temperature of a side [K], extrapolated from particles.
 
     Args:
-        position: (2, n) [m]. temperature: (n,) [K].
-        count: points along the side.
-        given: temperature that the side has [K], where it has a given one: the fit then goes
-            through it.
+        position: (2, n) [m]. temperature: (n,) [K]. count: points along the side.
     """
     points = box.along(side, (np.arange(count) + 0.5) / count)
-    if given is not None:
-        length = box.height if side in ("left", "right") else box.width
-        spacing = np.sqrt(box.width * box.height / position.shape[1])
-        rows = max(round(length / spacing), 1)
-        foot = box.along(side, (np.arange(rows) + 0.5) / rows)
-        position = np.concatenate([position, foot], axis=1)
-        temperature = np.concatenate([temperature, np.full(rows, given)])
-    value, along_x, along_z = local_fit(position, temperature, points, degree=2)
-    inward = {"left": along_x, "right": -along_x, "bottom": along_z, "surface": -along_z}[side]
-    return float(np.mean(value)), float(np.mean(inward))
+    return float(np.mean(interpolate(position, temperature, points, degree=2)))
 
 
 def extremum(places: np.ndarray, values: np.ndarray, sign: float) -> tuple[float, float]:

@@ -40,6 +40,9 @@ class FlowView:
             left, right, bottom, surface.
         conducting_sides: names of the sides of a box that heat crosses: those with a given
             temperature or flux.
+        wall_heat, wall_impulse: of each side of a box, since the start: heat that has entered [J/m]
+            and momentum that it has given to the liquid along itself [N s/m], as the steps
+            exchanged them.
         is_shortened: whether the step was cut to end at a given time.
     """
 
@@ -62,4 +65,6 @@ class FlowView:
     conductivity: float = 0.0
     wall_temperature: Mapping[str, float] = field(default_factory=dict)
     conducting_sides: tuple[str, ...] = ()
+    wall_heat: Mapping[str, float] = field(default_factory=dict)
+    wall_impulse: Mapping[str, float] = field(default_factory=dict)
     is_shortened: bool = False

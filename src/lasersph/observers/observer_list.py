@@ -22,6 +22,7 @@ from lasersph.observers.surface_temperature import SurfaceTemperature
 from lasersph.observers.traces import Traces
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import View
+from lasersph.observers.wall_exchange import WallExchange
 from lasersph.output.settings import Probe, Trace
 
 OBSERVERS: tuple[type[Observer], ...] = (
@@ -38,6 +39,7 @@ OBSERVERS: tuple[type[Observer], ...] = (
     FlowExtrema,
     SurfacePressure,
     BoxFlow,
+    WallExchange,
     EnergyBudget,
     Probes,
 )
@@ -128,7 +130,7 @@ def flow_observers(
     flow = (FlowSpeed(dimension), SurfaceSpeed(), SurfacePressure())
     if box:
         here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
-        return Observers([*here, *flow, BoxFlow()])
+        return Observers([*here, *flow, BoxFlow(), WallExchange()])
     return Observers([*heat, *flow, FlowExtrema()])
 
 

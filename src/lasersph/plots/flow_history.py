@@ -127,10 +127,12 @@ def quality_history(run: Run) -> Figure | None:
 
 
 def nusselt_history(run: Run) -> Figure | None:
-    """Nusselt numbers of the sides over time; None where no side differs from its opposite."""
+    """Nusselt numbers of the sides and of the whole box over time; None where there are none."""
     names = [name for name in run.history if name.startswith("box_nusselt_")]
+    words = {"surface": "surface", "bottom": "bottom", "mean": "domain-averaged"}
+    keys = {name: name.removeprefix("box_nusselt_") for name in names}
     lines = {
-        name: f"{name.removeprefix('box_nusselt_')} side".replace("surface side", "surface")
+        name: words.get(keys[name], f"{keys[name]} side")
         for name in names
         if np.any(run.history[name])
     }

@@ -154,7 +154,7 @@ DRAWINGS = (
     ),
     Drawing(
         "nusselt",
-        "Nusselt numbers of the sides of the box over time.",
+        "Nusselt numbers of the sides of the box, in each step, and of the whole box.",
         flow_history.nusselt_history,
     ),
     Drawing(

@@ -197,13 +197,12 @@ def box_flow(summary: dict[str, Any]) -> list[str]:
         f" {quantity(center['u_min_m_s'], 'm/s')} to {quantity(center['u_max_m_s'], 'm/s')} and w"
         f" from {quantity(center['w_min_m_s'], 'm/s')} to {quantity(center['w_max_m_s'], 'm/s')}.",
     ]
-    heat = box["heat"]
+    heat = box.get("heat", {})
     numbers = {key: value for key, value in heat.items() if key.startswith("nusselt_")}
     if numbers:
-        sides = " and ".join(
-            f"{shown(value)} ({key.removeprefix('nusselt_')})" for key, value in numbers.items()
-        )
-        found.append(f"Nusselt numbers: {sides}.")
+        names = {key: key.removeprefix("nusselt_") for key in numbers} | {"nusselt_mean": "carried"}
+        sides = ", ".join(f"{shown(value)} ({names[key]})" for key, value in numbers.items())
+        found.append(f"Nusselt numbers over the last quarter of the time: {sides}.")
     return found
 
 

@@ -1,4 +1,4 @@
-"""A closed box of liquid: center lines, stream function and Nusselt numbers of known fields."""
+"""A closed box of liquid: center lines and stream function of known fields."""
 
 import json
 from dataclasses import replace
@@ -9,7 +9,7 @@ from synthetic_flow import box_view
 
 from lasersph.observers import flow_observers
 from lasersph.observers.box_flow import EVERY, BoxFlow
-from lasersph.observers.box_sections import Box, center_lines, extremum, wall_temperature
+from lasersph.observers.box_sections import Box, center_lines, extremum
 
 SIZE, SPEED = 1e-3, 1.0
 
@@ -57,60 +57,6 @@ def test_stream_function_of_a_clockwise_eddy():
     assert psi["min_m2_s"] == pytest.approx(-SPEED * SIZE, rel=5e-3)
     assert (psi["min_x_m"], psi["min_z_m"]) == pytest.approx((0.5 * SIZE, -0.5 * SIZE))
     assert psi["max_m2_s"] == pytest.approx(0.0, abs=5e-3 * SPEED * SIZE)
-
-
-def test_conduction_has_the_nusselt_number_one():
-    """A linear temperature between two given sides: Nu = 1, flux k dT / L, in and out."""
-    observer = BoxFlow()
-    for view in (box_view(), displace(replace(box_view(), step=EVERY))):
-        row = observer.observe(view)
-        assert row["box_nusselt_left"] == pytest.approx(1.0, rel=1e-6)
-        heat = observer.summary()["box"]["heat"]
-        assert heat["between"] == "left and right"
-        assert heat["flux_left_W_m2"] == pytest.approx(2.0 * 20.0 / SIZE, rel=1e-6)
-        assert heat["flux_right_W_m2"] == pytest.approx(-2.0 * 20.0 / SIZE, rel=1e-6)
-        assert heat["flux_bottom_W_m2"] == pytest.approx(0.0, abs=1.0)
-        assert "nusselt_bottom" not in heat
-
-
-def test_nusselt_number_only_where_heat_crosses():
-    """Of sides with a flux as well, but not of adiabatic ones, however much they differ."""
-    view = box_view()
-    for crossed, names in (
-        (("left", "right"), {"nusselt_left", "nusselt_right"}),
-        (("left", "surface"), set()),
-        ((), set()),
-    ):
-        observer = BoxFlow()
-        observer.observe(
-            replace(view, flow=replace(view.flow, wall_temperature={}, conducting_sides=crossed))
-        )
-        heat = observer.summary()["box"]["heat"]
-        assert {key for key in heat if key.startswith("nusselt")} == names
-        assert ("between" in heat) == bool(names)
-        assert heat["temperature_left_K"] == pytest.approx(310.0)
-
-
-def test_slope_at_a_dirichlet_wall_of_a_boundary_layer():
-    """exp(-x/d) with five particles in d: within 2 %, better than without the wall's value."""
-    view = box_view(count=50)
-    box = Box.around(view.position, view.width)
-    layer = 0.1 * SIZE
-    temperature = 300.0 + 10.0 * np.exp(-view.position[0] / layer)
-    known = wall_temperature(view.position, temperature, box, "left", count=20, given=310.0)
-    guessed = wall_temperature(view.position, temperature, box, "left", count=20)
-    slope = -10.0 / layer
-    assert known[0] == pytest.approx(310.0, abs=0.05)
-    assert known[1] == pytest.approx(slope, rel=0.02)
-    assert abs(known[1] - slope) < abs(guessed[1] - slope)
-
-
-def test_without_temperature_difference_there_is_no_heat():
-    """An isothermal box: no Nusselt numbers, zeros in the history."""
-    view = replace(box_view(), temperature=np.full(1600, 300.0))
-    observer = BoxFlow()
-    assert observer.observe(view)["box_nusselt_left"] == 0.0
-    assert observer.summary()["box"]["heat"] == {}
 
 
 def test_lines_at_given_shares():

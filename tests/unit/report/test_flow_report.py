@@ -11,6 +11,7 @@ from lasersph.observers.flow_extrema import FlowExtrema
 from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.surface_pressure import SurfacePressure
 from lasersph.observers.surface_speed import SurfaceSpeed
+from lasersph.observers.wall_exchange import EVERY, WallExchange
 from lasersph.output import open_run
 from lasersph.plots import animation, run_figures
 from lasersph.report import tables, write_report
@@ -36,7 +37,8 @@ def pool():
 def box():
     """Summary of a made-up box, held at two temperatures."""
     observers = flow_observers(2, box=True)
-    observers.observe(synthetic_flow.box_view())
+    for step in (0, EVERY):
+        observers.observe(synthetic_flow.box_view(time=2e-7 * step, step=step))
     return observers.summary()
 
 
@@ -54,7 +56,7 @@ def test_words_about_a_box(box):
     text = verdict(box)
     assert "1 mm wide and 1 mm high" in text
     assert "turned clockwise around x = 500 µm, z = -500 µm" in text
-    assert "Nusselt numbers: 1 (left) and 1 (right)." in text
+    assert re.search(r"of the time: 1 \(left\), 1 \(right\), [\d.]+ \(carried\)\.", text)
     assert "balance" not in text
 
 
@@ -70,7 +72,7 @@ def test_flow_may_close_less_well(pool):
 
 def test_tables_have_units(pool, box):
     """Every number in every table of the flow carries its unit, but for numbers without one."""
-    kinds = (FlowSpeed, SurfaceSpeed, FlowExtrema, SurfacePressure, BoxFlow)
+    kinds = (FlowSpeed, SurfaceSpeed, FlowExtrema, SurfacePressure, BoxFlow, WallExchange)
     rows = [row for one in (pool, box) for kind in kinds for row in tables.measured(one, kind)]
     bare = {words for words, value, _ in rows if re.fullmatch(r"-?[\d .]+", value)}
     assert len(rows) > 50
@@ -80,6 +82,7 @@ def test_tables_have_units(pool, box):
         "surface speed over the estimate",
         "Nusselt number, left",
         "Nusselt number, right",
+        "domain-averaged Nusselt number",
     }
 
 

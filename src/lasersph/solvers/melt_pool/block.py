@@ -99,7 +99,8 @@ class Block:
     Attributes:
         source: (M,) particle behind each of the block with ghosts. sources: these and the types,
             the fields of `ghost_fields`; signs: tables of its arguments sign_x and sign_z. rules:
-            (M,) what faces mean to heat, by the names of `ghost_walls`.
+            (M,) what faces mean to heat, by the names of `ghost_walls`. heat_face, wall: tables
+            of these by type, see `GhostRules`.
         pairs: NeighborList with the rows of the block, among all M.
         weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
             there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1].
@@ -168,6 +169,7 @@ class Block:
         for name, values in self._wall_state(rules.wall_temperature).items():
             self._walls[name] = ghosts.table(is_ghost * values)
         self._varies = ghosts.table(rules.varies) if rules.varies.any() else None
+        self.heat_face, self.wall = ghosts.table(rules.heat_face), ghosts.table(rules.wall)
 
     def _wall_state(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
         """Temperature, heat potential and enthalpy of walls."""
@@ -203,6 +205,12 @@ class Block:
         """The field of all particles on the block with ghosts: (..., n) to (..., M)."""
         out = self.backend.zeros((*field.shape[:-1], self.total))
         self.backend.gather(field, self.source, out)
+        return out
+
+    def of_type(self, table: Array) -> Array:
+        """(M,) values by the type of each particle."""
+        out, fields = self.backend.zeros(self.total), {"ghost_type": self.ghosts.ghost_type}
+        self.backend.pointwise(scalar_of_type, fields, out, first=table)
         return out
 
     def extend(self, function: Callable, **tables: Array | tuple[float, ...]) -> Array:
@@ -287,9 +295,7 @@ class Block:
         backend.pointwise(ghost_fields.ghost_walls, fields, out, **self._walls)
         if self._varies is None:
             return
-        varies = backend.zeros(self.total)
-        backend.pointwise(scalar_of_type, fields, varies, first=self._varies)
-        rows = backend.rows_where(varies, 1.0)
+        rows = backend.rows_where(self.of_type(self._varies), 1.0)
         chosen = backend.zeros((2, rows.shape[0]))
         backend.gather(place, rows, chosen)
         T = self.conditions.varying_temperature(backend.to_host(chosen)[0])

@@ -24,7 +24,7 @@ from lasersph.boundaries import Boundaries
 from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.boundaries.surface import Surface
-from lasersph.particles.faces import BOTTOM, SURFACE, face_pairs
+from lasersph.particles.faces import BOTTOM, PLANE, SURFACE, face_pairs
 from lasersph.particles.ghosts import LOWER, MIRROR, OPEN, PERIODIC, UPPER, FacePair, GhostTypes
 
 Array = NDArray[np.float64]
@@ -41,7 +41,9 @@ class GhostRules:
             tangential velocity, -1, 0 or 1.
         dirichlet: (w,) 1 beyond a Dirichlet face. wall_temperature: (w,) [K], its mean where it
             varies along the face, as `varies` (w,) says. flux: (w,) into the body [W/m^2]. normal:
-            (2, w) outward, plane: (w,) place of the face along it [m].
+            (2, w) outward, plane: (w,) place of the face along it [m]. heat_face, wall: (w,) number
+            of the face, from 1 in the order of `PLANE`, whose heat condition holds, and of the one
+            face that lies between for the flow; else 0.
     """
 
     factor: Array
@@ -53,6 +55,8 @@ class GhostRules:
     flux: Array
     normal: Array
     plane: Array
+    heat_face: Array
+    wall: Array
 
 
 class FaceConditions:
@@ -106,25 +110,44 @@ class FaceConditions:
         count = ghost_types.count
         slope, dirichlet, temperature = np.zeros(count), np.zeros(count), np.zeros(count)
         flux, normal, plane = np.zeros(count), np.zeros((2, count)), np.zeros(count)
-        varies = np.zeros(count, bool)
+        heat_face, wall, varies = np.zeros(count), np.zeros(count), np.zeros(count, bool)
         for axis, face, chosen, at, outward in self._crossings(ghost_types):
+            kind = self.boundaries.kind_of(face)
+            wall[chosen] = np.where(wall[chosen] == 0.0, 1.0 + PLANE.index(face), np.nan)
+            # the first Dirichlet face in a corner, else the first Neumann face
+            mine = chosen & (heat_face == 0.0)
             if surface is not None and self.flow_kind(face) == "free-surface":
                 slope[chosen] = ghost_types.sign[1 - axis, chosen]
-                flux[chosen] = surface.heat_flux
-            kind, free = self.boundaries.kind_of(face), chosen & (dirichlet == 0.0)
+                flux[mine] = surface.heat_flux
             if kind in DIRICHLET:
-                dirichlet[free] = 1.0
-                temperature[free] = self.boundaries.temperature_of(face, self.initial_temperature)
-                varies[free] = (
+                mine = chosen & (dirichlet == 0.0)
+                dirichlet[mine] = 1.0
+                temperature[mine] = self.boundaries.temperature_of(face, self.initial_temperature)
+                varies[mine] = (
                     face == SURFACE and self.boundaries.surface_temperature_wave is not None
                 )
             elif kind == NEUMANN:
-                flux[free] = self.boundaries.flux_of(face)
-            mine = chosen & ((np.abs(normal).sum(axis=0) == 0.0) | self._carries_heat(face))
+                flux[mine] = self.boundaries.flux_of(face)
+            elif not flux[mine].any():
+                continue
             normal[:, mine] = 0.0
             normal[axis, mine], plane[mine] = outward, outward * at
+            heat_face[mine] = 1.0 + PLANE.index(face)
+        wall = np.nan_to_num(wall)
         factor, added = self._velocities(ghost_types, surface)
-        return GhostRules(factor, added, slope, dirichlet, temperature, varies, flux, normal, plane)
+        return GhostRules(
+            factor,
+            added,
+            slope,
+            dirichlet,
+            temperature,
+            varies,
+            flux,
+            normal,
+            plane,
+            heat_face,
+            wall,
+        )
 
     def varying_temperature(self, x: Array) -> Array:
         """Temperature of a face that varies along it, at places x [m], [K]."""
@@ -160,7 +183,3 @@ class FaceConditions:
             if surface is not None and self.flow_kind(face) == "free-surface":
                 added[axis, chosen] = 2.0 * surface.normal_velocity
         return factor, added
-
-    def _carries_heat(self, face: str) -> bool:
-        kind = self.boundaries.kind_of(face)
-        return kind in DIRICHLET or kind == NEUMANN

@@ -18,6 +18,7 @@ from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.face_exchange import FaceExchange
 from lasersph.solvers.melt_pool.flow import Flow, advect, move
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
@@ -48,6 +49,7 @@ class MeltPool:
         heat: the solver of enthalpies. flow: velocity and pressure. domain: faces, surface, blocks.
         position: (2, n) of all particles [m]. kinds: of the particles. fluid_count: how many do.
         spacing_min: smallest distance of two particles of the block [m].
+        exchange: of a box with its faces.
     """
 
     def __init__(
@@ -65,7 +67,7 @@ class MeltPool:
         self.shifting = ParticleShifting(
             backend, count, settings.shifting, domain.spacing, domain.box, domain.periods
         )
-        self.pairs = HeatPairs(heat.body)
+        self.pairs, self.exchange = HeatPairs(heat.body), FaceExchange(backend, count)
         self.steadiness = Steadiness(settings.steady, domain.width)
         columns = heat.body.filling.surface.size
         self.surface_columns = SurfaceColumns(
@@ -106,6 +108,7 @@ class MeltPool:
         surface = self.domain.surface
         numbers = self.heat.checkpoint_scalars() | self.steadiness.checkpoint_scalars()
         numbers |= {} if surface is None else surface.checkpoint_scalars()
+        numbers |= self.exchange.checkpoint_scalars()
         return numbers | {
             "largest_speed": self.flow.largest_speed,
             "largest_acceleration": self.flow.largest_acceleration,
@@ -172,11 +175,15 @@ class MeltPool:
         self.flow.stop(self.kinds)  # what has frozen since the last step
         self.advect(step)
         self.flow.predict(self.particles["temperature"], self.kinds, step)
+        if self.domain.is_box:
+            self.exchange.book_drag(self.flow.block, self.flow, step)
         self.flow.project(self.kinds, step)
         self.flow.correct(self.kinds, step)
         self.update_positions(step)
         self.illuminate(step)
         self.heat.conduct(step, unclipped_step)
+        if self.domain.is_box:
+            self.exchange.book_heat(self.flow.block, self.heat.scheme.P, step)
         self.shift(step)
         self.adjust()
         self._measure()
@@ -209,6 +216,8 @@ class MeltPool:
             self.domain.surface.move(step, self.flow.velocity, mass)
         block.move(self.position)
         self.flow.correct_kernel(self.kinds.fluid_rows)
+        if self.domain.is_box:
+            self.exchange.find_walls(block)
         self.pairs.renew(block)
 
     def illuminate(self, step: float) -> None:
@@ -311,6 +320,7 @@ class MeltPool:
         self._has_moved = bool(numbers["has_moved"])
         self.spacing_min = numbers["spacing_min"]
         self.steadiness.restore(numbers)
+        self.exchange.restore(numbers)
         if self.domain.surface is not None:
             self.domain.surface.restore(numbers)
         self._find_surface()

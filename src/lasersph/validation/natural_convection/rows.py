@@ -4,31 +4,39 @@ from __future__ import annotations
 
 import numpy as np
 
+from lasersph.observers.box_sections import Box, CenterLines, center_lines, extremum
+from lasersph.observers.wall_exchange import LAST
 from lasersph.output import Run
 from lasersph.validation.drawing import Curve, Panel, line
 from lasersph.validation.study import Study
 
-COMPARED = ("Nu_0", "u_max", "w_max", "psi", "z", "x")
+JUDGED = ("Nu", "u_max", "w_max", "psi")
+SHOWN = ("Nu_0", "z", "x")
+POINTS = 201
+"""Of a center line; the boundary layer at Ra 1e5 is a twentieth of the width thick."""
 
 
 def compare(study: Study) -> None:
     """Judge the finest run of every Rayleigh number."""
     runs: dict[tuple[float, int], Run] = {}
-    for rayleigh, counts in zip(study.plan.rayleigh, study.plan.particles, strict=True):
+    plan = study.plan
+    for rayleigh, counts, end in zip(plan.rayleigh, plan.particles, plan.ends, strict=True):
         for count in counts:
-            runs[rayleigh, count] = one = box(study, rayleigh, count)
+            runs[rayleigh, count] = one = box(study, rayleigh, count, end)
             add_rows(study, rayleigh, count, one, judge=count == counts[-1])
     draw(study, runs)
 
 
-def box(study: Study, rayleigh: float, count: int) -> Run:
-    """Steady run at a Rayleigh number with `count` particles a side."""
+def box(study: Study, rayleigh: float, count: int, end: float) -> Run:
+    """Run to a steady state at a Rayleigh number with `count` particles a side; end [s]."""
     width, prandtl = study.case().domain.width or 1.0, study.plan.prandtl
     return study.run(
         f"ra{rayleigh:.0e}-{count}",
         f"particles.spacing={width / count!r} m",
         f"material.kinematic_viscosity={np.sqrt(prandtl / rayleigh):.8g} m^2/s",
         f"material.conductivity={diffusivity(rayleigh, prandtl):.8g} W/(m K)",
+        f"time.end={end!r} s",
+        f"output.snapshots.interval={study.plan.interval!r} s",
     )
 
 
@@ -46,31 +54,46 @@ def add_rows(study: Study, rayleigh: float, count: int, one: Run, *, judge: bool
     published["psi"] = largest if np.isfinite(largest) else published["psi_mid"]
     found = numbers(one, diffusivity(rayleigh, study.plan.prandtl))
     label = f"Ra {rayleigh:.0e}, {count} a side"
-    for name in COMPARED:
+    for name in (*JUDGED, *SHOWN):
         value = published[name]
-        reference = value if judge and name in COMPARED[:4] else None
+        reference = value if judge and name in JUDGED else None
         study.add(name, found[name], reference, published=value, judge=judge, label=label)
     if judge:
         study.add("balance", abs(found["Nu_1"] / found["Nu_0"] - 1.0), label=label)
+        study.add("carried", abs(found["Nu"] / found["Nu_0"] - 1.0), label=label)
 
 
 def numbers(one: Run, a: float) -> dict[str, float]:
-    """Nusselt numbers of the walls, velocities over a / width, and where they are largest.
+    """Nusselt numbers of walls and box, and what the mean center lines show, over a / width.
 
     a: thermal diffusivity [m^2/s].
     """
     found, domain = one.summary["box"], one.case["domain"]
-    width, heat, center = found["width_m"], found["heat"], found["center"]
-    psi = found["stream_function"]
+    width, heat, psi = found["width_m"], found["heat"], found["stream_function"]
+    lines = mean_lines(one)
+    z, u_max = extremum(lines.z, lines.u, 1.0)
+    x, w_max = extremum(lines.x, lines.w, 1.0)
     return {
+        "Nu": heat["nusselt_mean"],
         "Nu_0": heat["nusselt_left"],
         "Nu_1": heat["nusselt_right"],
-        "u_max": center["u_max_m_s"] * width / a,
-        "z": (center["u_max_at_z_m"] + domain["depth"]) / width,
-        "w_max": center["w_max_m_s"] * width / a,
-        "x": (center["w_max_at_x_m"] + 0.5 * domain["width"]) / width,
+        "u_max": u_max * width / a,
+        "z": (z + domain["depth"]) / width,
+        "w_max": w_max * width / a,
+        "x": (x + 0.5 * domain["width"]) / width,
         "psi": max(abs(psi["max_m2_s"]), abs(psi["min_m2_s"])) / a,
     }
+
+
+def mean_lines(one: Run) -> CenterLines:
+    """Mean of the center lines over the snapshots of the last quarter of the time."""
+    first, end = one.snapshots[0], one.summary["time_s"]
+    box = Box.around(first["position"], first["width"])
+    shares = np.linspace(0.0, 1.0, POINTS)
+    chosen = (shot for shot in one.snapshots if shot["time"] >= (1.0 - LAST) * end)
+    lines = [center_lines(shot["position"], shot["velocity"], box, shares) for shot in chosen]
+    u, w = (np.mean([getattr(line, name) for line in lines], axis=0) for name in "uw")
+    return CenterLines(lines[0].z, u, lines[0].x, w)
 
 
 def draw(study: Study, runs: dict[tuple[float, int], Run]) -> None:
@@ -78,12 +101,11 @@ def draw(study: Study, runs: dict[tuple[float, int], Run]) -> None:
     on_vertical: list[Curve] = []
     on_horizontal: list[Curve] = []
     for k, ((rayleigh, count), one) in enumerate(runs.items()):
-        found = one.summary["box"]
-        lines, width = {name: np.array(x) for name, x in found["lines"].items()}, found["width_m"]
+        lines, width = mean_lines(one), one.summary["box"]["width_m"]
         unit = diffusivity(rayleigh, study.plan.prandtl) / width
         label = f"Ra {rayleigh:.0e}, {count} a side"
-        on_vertical.append(line(lines["u_m_s"] / unit, lines["z_m"] / width, label, k))
-        on_horizontal.append(line(lines["x_m"] / width, lines["w_m_s"] / unit, k=k))
+        on_vertical.append(line(lines.u / unit, lines.z / width, label, k))
+        on_horizontal.append(line(lines.x / width, lines.w / unit, k=k))
     study.draw(
         "natural-convection",
         Panel("u width / a [1]", "z / width [1]", on_vertical, "(a)"),

@@ -71,6 +71,8 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Array], np.ndarray])
         conducting_sides=tuple(
             s for s, kind in kinds.items() if is_box and kind in (*DIRICHLET, NEUMANN)
         ),
+        wall_heat=dict(solver.exchange.heat),
+        wall_impulse=dict(solver.exchange.impulse),
         is_shortened=solver.state.time_step < (1.0 - ROUNDING) * solver.state.unclipped_step,
     )
 

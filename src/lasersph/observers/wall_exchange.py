@@ -1,0 +1,201 @@
+"""What the walls of a closed box exchange with its liquid, as the steps book it.
+
+With the heat Q that has entered through a side since the start, its area A per length, and the
+distance L and the temperatures of the two opposite sides that drive the flow,
+
+    Nu = |dQ/dt| / A  L / (k |T_side - T_opposite|)
+
+and the domain-averaged Nusselt number is the mean over the volume of conduction and convection from
+the warm side to the cold one, n their direction,
+
+    Nu = 1 + rho <u_n (h - <h>)> L / (k |T_side - T_opposite|)
+
+At a steady state all three are equal. The sides that drive the flow are those that both have a
+given temperature, else those that heat crosses both; of two such pairs, those that differ most.
+Without such sides there is no Nusselt number. The history has the means of each step, the summary
+those of the last quarter of the time, so that no single particle moves them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from lasersph.observers.box_sections import Box, wall_temperature
+from lasersph.observers.flow_speed import flow_of
+from lasersph.observers.observer import Observer, Row
+from lasersph.observers.quantity import Quantity
+from lasersph.observers.view import View
+from lasersph.particles.faces import LATERAL, PLANE, face_pairs
+
+EVERY = 50
+"""Steps between two looks at temperatures of sides that are not given, and two marks."""
+NODES = 41
+"""Places along a side at which its temperature is extrapolated."""
+SMALLEST_DIFFERENCE = 1e-9
+"""Part of the temperature below which differences between sides are rounding."""
+LAST = 0.25
+"""Share of the time over which the summary takes means."""
+MEAN = "mean"
+
+
+class WallExchange(Observer):
+    """Observes heat through the walls of a box, its Nusselt numbers, and the drag of the walls."""
+
+    title = "walls of the box, mean over the last quarter of the time"
+    note = (
+        "Heat and force as the implicit steps exchange them with each side; the domain-averaged"
+        " Nusselt number is the volume mean of conduction and convection, 1 + <u T>."
+    )
+    columns = (
+        *(Quantity(f"box_heat_{side}_J", "J", f"heat that has entered, {side}") for side in PLANE),
+        *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in PLANE),
+        Quantity(f"box_nusselt_{MEAN}", "", "domain-averaged Nusselt number"),
+        *(
+            Quantity(f"box_drag_{side}_N_m", "N/m", f"drag of the wall on the liquid, {side}")
+            for side in PLANE
+        ),
+    )
+    results = (
+        *(
+            one
+            for side in PLANE
+            for one in (
+                Quantity(f"box.heat.temperature_{side}_K", "K", f"mean temperature, {side}"),
+                Quantity(
+                    f"box.heat.flux_{side}_W_m2", "W/m^2", f"mean heat flux into the box, {side}"
+                ),
+                Quantity(f"box.heat.nusselt_{side}", "", f"Nusselt number, {side}"),
+                Quantity(
+                    f"box.walls.drag_{side}_N_m", "N/m", f"drag of the wall on the liquid, {side}"
+                ),
+            )
+        ),
+        Quantity(f"box.heat.nusselt_{MEAN}", "", "domain-averaged Nusselt number"),
+        Quantity("box.heat.between", "", "sides that drive the flow"),
+        Quantity("box.heat.difference_K", "K", "difference of their temperatures"),
+        Quantity("box.walls.from_s", "s", "begin of the time over which these are means"),
+    )
+    kept = ("size", "conductivity", "temperature", "between", "sums", "marks")
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.size = [0.0, 0.0]
+        self.conductivity = 0.0
+        self.temperature: dict[str, float] = {}
+        self.between: list[str] = []
+        self.sums = {"time": 0.0, MEAN: 0.0} | {
+            f"{kind}_{side}": 0.0 for kind in ("heat", "drag") for side in PLANE
+        }
+        self.marks: list[dict[str, float]] = []
+
+    def observe(self, view: View) -> Row:
+        """Heat [J], Nusselt numbers and drag [N/m] of the step; 0 where there are none."""
+        flow, before = flow_of(view), self.sums
+        if view.step % EVERY == 0:
+            self._look_at_sides(view)
+        mean = self._averaged(view)
+        self.sums = {"time": view.time, MEAN: before[MEAN] + view.time_step * mean}
+        self.sums |= {f"heat_{side}": flow.wall_heat.get(side, 0.0) for side in PLANE}
+        self.sums |= {f"drag_{side}": flow.wall_impulse.get(side, 0.0) for side in PLANE}
+        if view.step % EVERY == 0:
+            self.marks.append(self.sums)
+        rate = rates(before, self.sums)
+        numbers = self._nusselt(rate)
+        values = (
+            *(self.sums[f"heat_{side}"] for side in PLANE),
+            *(numbers.get(side, 0.0) for side in PLANE),
+            mean,
+            *(rate[f"drag_{side}"] for side in PLANE),
+        )
+        return self.record(view.time, values)
+
+    def values(self) -> dict[str, object]:
+        """Means over the last quarter of the time."""
+        start = max(
+            (one for one in self.marks if one["time"] <= (1.0 - LAST) * self.sums["time"]),
+            key=lambda one: one["time"],
+            default=self.sums,
+        )
+        rate = rates(start, self.sums)
+        found: dict[str, object] = {"box.walls.from_s": start["time"]}
+        found |= {f"box.walls.drag_{side}_N_m": rate[f"drag_{side}"] for side in PLANE}
+        for side, temperature in self.temperature.items():
+            found[f"box.heat.temperature_{side}_K"] = temperature
+            found[f"box.heat.flux_{side}_W_m2"] = rate[f"heat_{side}"] / self._area(side)
+        if self.between:
+            found["box.heat.between"] = " and ".join(self.between)
+            found["box.heat.difference_K"] = self._difference(*self.between)
+            numbers = self._nusselt(rate)
+            if numbers and self.sums["time"] > start["time"]:
+                numbers |= {MEAN: rate[MEAN]}
+                found |= {f"box.heat.nusselt_{name}": number for name, number in numbers.items()}
+        return found
+
+    def _look_at_sides(self, view: View) -> None:
+        """Size of the box, temperatures of its sides, and which two of them drive the flow."""
+        flow = flow_of(view)
+        self.conductivity = flow.conductivity
+        if not any(self.size):
+            box = Box.around(view.position, view.width)
+            self.size = [box.left, box.right, box.bottom, box.top]
+        box = Box(*self.size)
+        known = np.append(view.temperature, list(flow.wall_temperature.values()))
+        if float(np.ptp(known)) <= SMALLEST_DIFFERENCE * float(np.max(known)):
+            self.temperature, self.between = {}, []
+            return
+        self.temperature = {
+            side: flow.wall_temperature[side]
+            if side in flow.wall_temperature
+            else wall_temperature(view.position, view.temperature, box, side, NODES)
+            for side in PLANE
+        }
+        given, crossed = (
+            [pair for pair in face_pairs(2) if all(side in sides for side in pair)]
+            for sides in (flow.wall_temperature, flow.conducting_sides)
+        )
+        differences = {pair: self._difference(*pair) for pair in given or crossed}
+        self.between = list(max(differences, key=lambda one: differences[one], default=()))
+
+    def _difference(self, one: str, other: str) -> float:
+        """Difference of the temperatures of two sides [K], 0 where it is rounding."""
+        T = self.temperature[one], self.temperature[other]
+        return abs(T[0] - T[1]) if abs(T[0] - T[1]) > SMALLEST_DIFFERENCE * max(T) else 0.0
+
+    def _conduction(self) -> float:
+        """k |T_side - T_opposite| / L between the sides that drive the flow [W/m^2], or 0."""
+        if not self.between:
+            return 0.0
+        box = Box(*self.size)
+        length = box.width if tuple(self.between) == LATERAL[0] else box.height
+        return self.conductivity * self._difference(*self.between) / length
+
+    def _nusselt(self, rate: Mapping[str, float]) -> dict[str, float]:
+        """Nusselt numbers of these sides from the heat that enters through them [W/m]."""
+        conduction = self._conduction()
+        sides = self.between if conduction > 0.0 else ()
+        return {s: abs(rate[f"heat_{s}"]) / self._area(s) / conduction for s in sides}
+
+    def _averaged(self, view: View) -> float:
+        """Domain-averaged Nusselt number of a state; 0 where nothing drives the flow."""
+        flow, conduction = flow_of(view), self._conduction()
+        if conduction == 0.0:
+            return 0.0
+        axis = 0 if tuple(self.between) == LATERAL[0] else 1
+        lower, upper = (self.temperature[side] for side in self.between)
+        weight = view.volume / np.sum(view.volume)
+        h = view.enthalpy - weight @ view.enthalpy
+        convection = flow.density * float(weight @ (flow.velocity[axis] * h))
+        return 1.0 + (convection if lower > upper else -convection) / conduction
+
+    def _area(self, side: str) -> float:
+        """Length of a side [m]."""
+        box = Box(*self.size)
+        return box.height if side in LATERAL[0] else box.width
+
+
+def rates(start: Mapping[str, float], end: Mapping[str, float]) -> dict[str, float]:
+    """Mean rates of sums between two times; 0 between equal ones."""
+    time = end["time"] - start["time"]
+    return {name: (end[name] - start[name]) / time if time > 0.0 else 0.0 for name in end}

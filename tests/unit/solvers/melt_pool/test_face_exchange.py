@@ -1,0 +1,118 @@
+"""Heat and momentum that faces exchange: three particles by hand, slabs, and what must balance."""
+
+import numpy as np
+import pytest
+from flow_boxes import block_of, box, go, jittered, start_from
+
+from lasersph.solvers.melt_pool.face_exchange import (
+    FaceExchange,
+    drag_terms,
+    heat_of_row,
+    heat_terms,
+    of_face,
+)
+
+E_X = np.array([1.0, 0.0])
+WARM = {"left": "fixed-temperature", "left_temperature": 310.0}
+COLD = {"right": "fixed-temperature", "right_temperature": 290.0}
+CONDUCTIVITY, SPACING = 0.01, 0.1
+
+
+def test_sums_go_to_the_face_beyond_which_the_ghost_lies():
+    """1 left, 2 right, 3 bottom, 4 surface; 0 is no face."""
+    assert [of_face(5.0, float(k)) for k in range(5)] == [
+        (0.0, 0.0, 0.0, 0.0),
+        (5.0, 0.0, 0.0, 0.0),
+        (0.0, 5.0, 0.0, 0.0),
+        (0.0, 0.0, 5.0, 0.0),
+        (0.0, 0.0, 0.0, 5.0),
+    ]
+
+
+def test_heat_of_three_particles_by_hand():
+    """A particle 1 before a face at x = 0 and its ghosts 1 and 3 beyond it, P_w - P_i = 7:
+    g (n_i + n_j) / n_i (P_w - P_i) = 0.5 * 2 * 7 + 0.25 * 4 * 7; with a flux 2 q g n_j."""
+    face = {"P_w_j": 10.0, "T_w_j": 0.0, "normal_j": E_X, "plane_j": 0.0, "x_i": -E_X}
+    ghosts = [{"g_ij": 0.5, "x_j": 1.0 * E_X}, {"g_ij": 0.25, "x_j": 3.0 * E_X}]
+    for kinds, expected in (
+        ({"dirichlet_j": 1.0, "flux_j": 0.0, "heat_face_j": 2.0}, 14.0),
+        ({"dirichlet_j": 0.0, "flux_j": 4.0, "heat_face_j": 2.0}, 10.0),
+    ):
+        sums = np.sum([heat_terms(**face, **kinds, **ghost) for ghost in ghosts], axis=0)
+        assert heat_of_row(3.0, *sums) == (0.0, expected, 0.0, 0.0)
+
+
+def test_drag_by_hand():
+    """g (v_j - v_i) along z at a side, along x at bottom and surface."""
+    v = {"g_ij": 0.5, "v_i": np.array([1.0, 2.0]), "v_j": np.array([5.0, 8.0])}
+    assert drag_terms(**v, wall_j=1.0) == (3.0, 0.0, 0.0, 0.0)
+    assert drag_terms(**v, wall_j=4.0) == (0.0, 0.0, 0.0, 2.0)
+    assert drag_terms(**v, wall_j=0.0) == (0.0, 0.0, 0.0, 0.0)
+
+
+def linear(solver, place):
+    """Let the solver have the linear temperature between the two walls; heat capacity is 1."""
+    start_from(solver, -20.0 * place[0])
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2])
+def test_slab_between_two_dirichlet_faces(share):
+    """k dT / L times the height enters at the left and leaves at the right, nothing elsewhere."""
+    solver = box(flow={}, heat=WARM | COLD)
+    place = jittered(solver, share)
+    block = block_of(solver, place)
+    linear(solver, place)
+    exchange = FaceExchange(solver.backend, solver.body.count)
+    exchange.find_walls(block)
+    exchange.book_heat(block, solver.particles["potential"], 2.0)
+    expected = 2.0 * CONDUCTIVITY * 20.0
+    # the weights of disordered particles conduct with an error that vanishes on the lattice
+    assert exchange.heat["left"] == pytest.approx(expected, rel=1e-9 + 0.3 * share)
+    assert exchange.heat["right"] == pytest.approx(-expected, rel=1e-9 + 0.3 * share)
+    assert exchange.heat["bottom"] == exchange.heat["surface"] == 0.0
+
+
+def test_prescribed_flux_enters():
+    """q times the length of the face."""
+    solver = box(flow={}, heat={"bottom": "prescribed-flux", "bottom_flux": 7.0})
+    exchange, block = FaceExchange(solver.backend, solver.body.count), block_of(solver)
+    exchange.find_walls(block)
+    exchange.book_heat(block, solver.particles["potential"], 2.0)
+    assert exchange.heat["bottom"] == pytest.approx(14.0)
+    assert exchange.heat["left"] == exchange.heat["surface"] == 0.0
+
+
+def test_shear_between_two_walls():
+    """Couette's flow: eta U / H on the lid, as much against it at the bottom, none at sides."""
+    sides = {side: "periodic" for side in ("left", "right")}
+    solver = box(
+        flow={**sides, "surface": {"kind": "moving-wall", "velocity": 1.0}},
+        heat={"sides": "periodic"},
+    )
+    block = block_of(solver)
+    place = solver.backend.to_host(solver.position)
+    v = np.array([1.0 + place[1], 0.0 * place[1]])
+    solver.backend.copy(solver.backend.asarray(v), solver.flow.velocity)
+    exchange = FaceExchange(solver.backend, solver.body.count)
+    exchange.book_drag(block, solver.flow, 2.0)
+    expected = 2.0 * 0.01
+    assert exchange.impulse["surface"] == pytest.approx(expected)
+    assert exchange.impulse["bottom"] == pytest.approx(-expected)
+    assert exchange.impulse["left"] == exchange.impulse["right"] == 0.0
+
+
+def test_booked_heat_is_what_the_body_gains():
+    """Of all steps of a flow the heat over the faces sums up to the heat that is stored."""
+    solver = box(flow={}, heat=WARM | COLD, material={"expansion": 0.01}, end=100.0)
+    go(solver, 30)
+    stored = solver.state.energy["stored"]
+    heat = solver.exchange.heat
+    assert solver.flow.largest_speed > 0.01
+    assert sum(heat.values()) == pytest.approx(stored, abs=1e-9 * heat["left"])
+    # were the ghosts of one face left out, it would not
+    assert sum(heat.values()) - heat["right"] != pytest.approx(stored, rel=0.01)
+    assert heat["bottom"] == heat["surface"] == 0.0
+    numbers = solver.checkpoint_scalars()
+    solver.exchange.restore(dict.fromkeys(numbers, 0.0))
+    solver.exchange.restore(numbers)
+    assert solver.exchange.heat == heat
