@@ -15,11 +15,11 @@ eq. (3), asks for
 
 s = -1 is its oscillating convergence, which gets the same index. Two deviations, for numbers that
 the procedure leaves open: p is taken as 2 where it comes out larger, since no operator here is of a
-higher order; and where the changes grow (the procedure takes |log|, so that a diverging number
-passes for a converging one) the index is that of p = 1/2 with the factor F_s = 3 that [Roache1994]
-asks for where the order is not to be trusted, which is also the largest for any smaller p. Where
-one change vanishes the procedure does not work: the uncertainty is then the largest difference
-between the three.
+higher order; and where the changes grow (the procedure takes the absolute value of the logarithm,
+so that a diverging number passes for a converging one) the index is that of p = 1/2 with the factor
+F_s = 3 that [Roache1994] asks for where the order is not to be trusted. No number gets a larger
+one. Where one change vanishes the procedure does not work: the uncertainty is then the largest
+difference between the three.
 
 [Roache1994] Roache, J. Fluids Eng. 116 (1994) 405; Roache, Annu. Rev. Fluid Mech. 29 (1997) 123;
 [Celik2008] Celik et al., J. Fluids Eng. 130 (2008) 078001;

@@ -25,6 +25,9 @@ Settings = Annotated[
     ),
 ]
 Out = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder to write into.")]
+Resume = Annotated[
+    bool, typer.Option("--resume", help="Continue what DIR holds, or start where it holds nothing.")
+]
 Quick = Annotated[
     bool, typer.Option("--quick", help="Up to four times coarser, to see that it works.")
 ]

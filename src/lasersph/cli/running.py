@@ -17,6 +17,7 @@ from lasersph.cli.arguments import (
     CaseName,
     Out,
     Quick,
+    Resume,
     Settings,
     Threads,
     refuse_backend,
@@ -30,9 +31,6 @@ if TYPE_CHECKING:
     from lasersph.studies import Input
 
 RUNS = Path("runs")
-Resume = Annotated[
-    bool, typer.Option("--resume", help="Continue the run in DIR, or start it where there is none.")
-]
 Precision = Annotated[
     Literal["float64", "float32"], typer.Option("--precision", help="Of the computation.")
 ]

@@ -13,6 +13,7 @@ from lasersph.cli.arguments import (
     CaseName,
     Out,
     Quick,
+    Resume,
     Settings,
     Threads,
     read_quantities,
@@ -52,6 +53,7 @@ def converge(
     spacing: Spacings,
     out: Out = None,
     settings: Settings = None,
+    resume: Resume = False,
     threads: Threads = None,
     backend: Backend = "cpu",
     json_file: Json = None,
@@ -66,7 +68,7 @@ def converge(
         raise WrongCommand("--spacing: an order needs three different spacings, e.g. 32nm,16nm,8nm")
     loaded = load_case(case, settings or ())
     _refuse_missing_folder(json_file)
-    folder = _new_folder(out or Path("runs") / f"{loaded.name}-converge")
+    folder = _folder(out or Path("runs") / f"{loaded.name}-converge", resume)
     found = studies.converge(loaded, wanted, folder, run=_runner(threads, backend), report=_report)
     print(aligned(found.table(), header=True))
     _write(json_file, found.as_dict())
@@ -77,6 +79,7 @@ def threshold(
     of: Of,
     out: Out = None,
     settings: Settings = None,
+    resume: Resume = False,
     quick: Quick = False,
     threads: Threads = None,
     backend: Backend = "cpu",
@@ -99,7 +102,7 @@ def threshold(
     if section is None or not (loaded.solver.phase_change or of == "ablate"):
         raise WrongCommand(f"{loaded.name} computes no phase change to {of}, so no threshold")
     _refuse_missing_folder(json_file)
-    folder = _new_folder(out or Path("runs") / f"{loaded.name}-threshold")
+    folder = _folder(out or Path("runs") / f"{loaded.name}-threshold", resume)
     found = studies.threshold(
         loaded, of, folder, tolerance=tolerance, run=_runner(threads, backend), report=_report
     )
@@ -112,6 +115,7 @@ def spot(
     fluence: Fluences,
     out: Out = None,
     settings: Settings = None,
+    resume: Resume = False,
     quick: Quick = False,
     threads: Threads = None,
     backend: Backend = "cpu",
@@ -128,7 +132,7 @@ def spot(
     loaded = load_case(case, settings or (), quick=quick)
     if reason := studies.no_spot(loaded, wanted):
         raise WrongCommand(f"{loaded.name}: {reason}")
-    folder = _new_folder(out or Path("runs") / f"{loaded.name}-spot")
+    folder = _folder(out or Path("runs") / f"{loaded.name}-spot", resume)
     found = studies.spot_threshold(
         loaded, wanted, folder, run=_runner(threads, backend), report=_report
     )
@@ -148,10 +152,12 @@ def _answer(found: Any) -> str:
     )
 
 
-def _new_folder(folder: Path) -> Path:
-    """Refuse a folder that holds files, as a run does."""
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise WrongCommand(f"{folder} is not empty: choose another folder with --out")
+def _folder(folder: Path, resume: bool) -> Path:
+    """Refuse a folder that holds files, as a run does, unless its study goes on."""
+    if folder.exists() and (not folder.is_dir() or (not resume and any(folder.iterdir()))):
+        raise WrongCommand(
+            f"{folder} is not empty: choose another folder with --out, or go on with --resume"
+        )
     return folder
 
 
@@ -164,7 +170,7 @@ def _refuse_missing_folder(file: Path | None) -> None:
 def _runner(threads: int | None, backend: str) -> Any:
     from lasersph.simulation import run
 
-    return lambda case, folder: run(case, folder, threads=threads, backend=backend)
+    return lambda case, folder: run(case, folder, resume=True, threads=threads, backend=backend)
 
 
 def _report(line: str) -> None:

@@ -70,18 +70,18 @@ def assess_uncertainty(
     Returns:
         The content of uncertainty.json, see docs/results.md.
     """
-    main = run(case, folder).summary
     chosen = list({one.key: one for one in [*inputs_of(case), *inputs]}.values())
     melt = expected_melt(case)
     fixed = with_fixed_layers(case, melt)
     coarser = coarser_cases(fixed, melt)
     total = 2 * len(chosen) + (0 if isinstance(coarser, str) else len(coarser))
     study = _Companions(folder / "companions", run, report, total)
+    if isinstance(coarser, str):  # said before hours of runs, not after
+        study.note(f"no numerical part: {coarser}")
+    main = run(case, folder).summary
     rows: dict[str, StudyRow] = {}
     spacings: list[float] = []
-    if isinstance(coarser, str):
-        study.notes.append(f"no numerical part: {coarser}")
-    else:
+    if not isinstance(coarser, str):
         found = [study.make(_name_of_spacing(each), each) for each in coarser]
         summaries = [main, *(summary for summary in found if summary is not None)]
         if len(summaries) == 3:
@@ -112,6 +112,12 @@ class _Companions:
         self.folder, self.run, self.report = folder, run, report
         self.count, self.total, self.notes = 0, total, list[str]()
 
+    def note(self, text: str) -> None:
+        """Keep what a reader has to know, and say it at once."""
+        self.notes.append(text)
+        if self.report:
+            self.report(text)
+
     def make(self, name: str, case: Case) -> dict[str, Any] | None:
         """Summary of a companion; None, with a note, where its run fails."""
         self.count += 1
@@ -120,7 +126,7 @@ class _Companions:
         try:
             return self.run(case, self.folder / name).summary
         except StepFailed as error:
-            self.notes.append(f"companion {name} failed: {error}")
+            self.note(f"companion {name} failed: {error}")
             return None
 
     def both_sides(
@@ -138,7 +144,7 @@ class _Companions:
             share = f"{100.0 * sign * one.relative:+.4g}%"
             other = shifted(case, one, sign)
             if isinstance(other, str):
-                self.notes.append(f"{one.key} {share}: {other}")
+                self.note(f"{one.key} {share}: {other}")
                 found.append(None)
                 continue
             summary = self.make(f"{one.key}{share}", other)

@@ -190,7 +190,16 @@ def test_converge(capsys):
     )  # fmt: skip
     assert "temperature_max_K" in text and "GCI" in text
     assert len(json.loads(Path("answer.json").read_text())["spacings_m"]) == 3
-    assert main(["converge", "stefan", "--spacing", "1um,2um,4um"]) == 2
+    again = ["converge", "stefan", "--spacing", "1um,2um,4um", "--threads", "1"]
+    again += ["--set", "time.end=200ns", "--set", "time.step=5ns"]
+    assert main(again) == 2
+    assert "go on with --resume" in capsys.readouterr().err
+    finished = Path("runs/stefan-converge/spacing-1000nm/summary.json")
+    before = finished.stat().st_mtime_ns
+    assert said(capsys, *again, "--resume") == text
+    assert finished.stat().st_mtime_ns == before
+    assert main([*again, "--resume", "--set", "time.end=300ns"]) == 2
+    assert "another case" in capsys.readouterr().err
 
 
 def test_cache(capsys):

@@ -13,6 +13,7 @@ from lasersph.input import QuantityError
 from lasersph.output import open_run
 from lasersph.studies import Input, assess_uncertainty, inputs_of, read_input
 from lasersph.studies.companions import coarser_cases, shifted, with_fixed_layers
+from lasersph.validation.stefan.rows import exact_solution
 
 HEATING = ("particles.spacing=2 um", "time.end=50 ns", "output.snapshots.interval=50 ns")
 
@@ -107,8 +108,10 @@ def test_input_without_effect_takes_one_run(tmp_path):
 def test_case_that_cannot_be_coarser(tmp_path):
     """15 um in 200 um: no numerical part, one line that says why; inputs are still assessed."""
     case = heating("particles.spacing=15 um")
-    found = assess_uncertainty(case, tmp_path, inputs=INPUTS[:1], run=formula)
+    lines = []
+    found = assess_uncertainty(case, tmp_path, inputs=INPUTS[:1], run=formula, report=lines.append)
     (note,) = found["notes"]
+    assert lines[0] == note  # before the first run
     assert note.startswith("no numerical part: a spacing of 15 um cannot be made coarser twice")
     assert "above 20 um" in note
     entry = found["numbers"]["temperature_max_K"]
@@ -205,3 +208,14 @@ def test_heated_half_space(tmp_path):
     assert part["is_linear"]
     assert part["standard"] == pytest.approx(change, rel=0.05)
     assert abs(rise - exact(1.0)) < entry["numerical"]
+
+
+def test_melting_front_lies_inside_its_error(tmp_path):
+    """Neumann's front after 1 us and the temperature of the surface, from 50, 25 and 13
+    particles."""
+    case = load_case("stefan", quick=True)
+    found = assess_uncertainty(case, tmp_path)["numbers"]
+    front, hottest = found["melt.volume_max_m3"], found["temperature_max_K"]
+    assert abs(front["value"] - float(exact_solution(case).front(1e-6))) < front["error"]
+    assert front["error"] < 0.02 * front["value"]
+    assert abs(hottest["value"] - 1333.0) < hottest["error"] < 0.03 * 1333.0
