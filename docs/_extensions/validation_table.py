@@ -24,9 +24,16 @@ def validation_table(states: Sequence[State], readmes: Mapping[str, str]) -> str
     readmes: by name of the validation.
     """
     rows = [
-        (f"[](#{_anchor(s)})", _title(readmes[s.name]), _count(s.record), label(s)) for s in states
+        (
+            f"[](#{_anchor(state)})",
+            _title(readmes[state.name]),
+            _count(state.record),
+            state.record["computed"]["date"] if state.record else "",
+            label(state),
+        )
+        for state in states
     ]
-    parts = [table(("validation", "question", "numbers", "state"), rows)]
+    parts = [table(("validation", "question", "numbers", "computed", "state"), rows)]
     for state in states:
         parts += _section(state, readmes[state.name])
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -71,12 +78,9 @@ def _title(readme: str) -> str:
 
 
 def label(state: State) -> str:
-    """The state, with its date; what is not as it should be stands out."""
-    made = state.record or {}
-    if state.word == "confirmed":
-        return f"confirmed on {made['confirmed']['date']}"
-    if state.word == "stale":
-        return f"**stale: of {made['computed']['date']}**"
+    """The state; what is not as it should be stands out."""
+    if state.word == "confirmed" and state.record is not None:
+        return f"confirmed on {state.record['confirmed']['date']}"
     return state.word if state.word == "current" else f"**{state.word}**"
 
 

@@ -94,7 +94,8 @@ def state_of(name: str, folder: Path) -> State:
     kinds = Study(name, Path()).comparisons
     for row in record["rows"]:
         if (kind := kinds.get(row["kind"])) is not None:
-            row |= {"reason": kind.reason, "changed": kind.changed}
+            is_judged = row["tolerance"] is not None or row["verdict"] is not None
+            row |= {"reason": kind.reason if is_judged else "", "changed": kind.changed}
     changes, word = changes_since(record["computed"], name), "current"
     if changes and record["confirmed"]:
         changes, word = changes_since(record["confirmed"], name), "confirmed"
@@ -210,10 +211,9 @@ def keyed_rows(rows: list[Entry]) -> dict[tuple[str, int], Entry]:
 
 def changes_since(origin: Entry, name: str) -> tuple[str, ...]:
     """Tables, cases, materials and modules that differ from those of a computation."""
-    own = {f"own {file}": text for file, text in _own_tables(name).items()}
-    now = sources.hashes(origin["roots"])
-    found = [*_differ(origin["own"], own), *_changed(origin["cases"] | origin["short_cases"])]
-    return tuple(dict.fromkeys([*found, *_differ(origin["sources"], now)]))
+    cases = origin["cases"] | origin["short_cases"]
+    found = [*_differ(origin["own"], _own_tables(name)), *_changed(cases)]
+    return (*found, *_differ(origin["sources"], sources.hashes(origin["roots"])))
 
 
 def _differ(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
@@ -253,7 +253,7 @@ def _own_tables(name: str) -> dict[str, str]:
     rows = {key: {k: v for k, v in kind.items() if k not in WORDS} for key, kind in kinds.items()}
     stated = {"case.toml": {"plans": plans}, "rows.toml": rows}
     tables = {file.name: {"text": file.read_text("utf-8")} for file in tables_of(name)}
-    return {key: hash_of_case(value) for key, value in (stated | tables).items()}
+    return {f"own {key}": hash_of_case(value) for key, value in (stated | tables).items()}
 
 
 def _origin(name: str, report: Report, short: Report | None) -> Entry:
@@ -266,7 +266,7 @@ def _origin(name: str, report: Report, short: Report | None) -> Entry:
         "lasersph": __version__,
         "commit": _commit(),
         "machine": _machine(),
-        "own": {f"own {file}": text for file, text in _own_tables(name).items()},
+        "own": _own_tables(name),
         "cases": {label: _case(label)[0] for label in report.cases},
         "short_cases": {label: _case(label)[0] for label in (short.cases if short else ())},
         "roots": roots,
