@@ -101,6 +101,7 @@ class Launch:
 
     Attributes:
         address: of its frame, see `run_text`. reductions: "sum", "max" or "min" for each result.
+        rebound: what binds it to other arrays, where it was prepared again.
         results: what the last run has reduced. numbers: the constants as `places` counts them.
     """
 
@@ -112,6 +113,7 @@ class Launch:
         "address",
         "numbers",
         "places",
+        "rebound",
         "reductions",
         "results",
     )
@@ -152,7 +154,8 @@ class Launch:
             words.append(words[6])
         self._frame = array("Q", words)
         self.address = _address(self._frame)
-        self._bound = bound if holds else None
+        self._bound: Any = bound if holds else None
+        self.rebound: Any = None
         self._start = start_function(compiled.real.name)
         self.set(constants)
 
@@ -170,6 +173,10 @@ class Launch:
     def results_address(self) -> int:
         """Where the reductions of a run go."""
         return self._frame[7]
+
+    def holds(self, arrays: Any) -> None:
+        """Keep what holds the arrays, as long as it is bound to them."""
+        self._bound = arrays
 
     def number_places(self, name: str) -> list[int]:
         """Addresses of a constant, none where the loop does not have it."""

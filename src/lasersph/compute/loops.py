@@ -74,9 +74,20 @@ class Loops:
             return self._run_rebound(call)
         return self.launcher.launch(self._bound(self.given(call)))()
 
-    def prepared(self, call: Call) -> Launch:
-        """The loop of a call, bound to its arrays."""
-        return self.launcher.launch(self._bound(self.given(call)))
+    def prepared(self, call: Call, again: Launch | None = None) -> Launch:
+        """The loop of a call, bound to its arrays; `again` itself where it can take them."""
+        if again is None or not self._rebinds:
+            return self.launcher.launch(self._bound(self.given(call)))
+        signature, kinds, ones, numbers = self._addresses(call)
+        key, found = (signature, kinds), again.rebound
+        is_same = found is not None and found.key == key and source.is_current(found.watched)
+        if is_same and found.run(ones, numbers):
+            again.holds(call)
+            return again
+        found = Rebound(self._bound(self.given(call)), signature, self.launcher.threads, call)
+        found.only_binds(key)
+        found.launch.holds(call)
+        return found.launch
 
     def recorded(self, run: Callable[[], None]) -> list[Launch]:
         """Run `run`; returns what it has launched."""
@@ -91,6 +102,17 @@ class Loops:
 
     def _run_rebound(self, call: Call) -> tuple[float, ...]:
         """Run a call by the launch of an earlier one with arrays of the same kinds, if any."""
+        signature, kinds, ones, numbers = self._addresses(call)
+        found = signature.rebound.get(kinds)
+        is_current = found is not None and source.is_current(found.watched)
+        if found is not None and is_current and found.run(ones, numbers):
+            return tuple(found.launch.results)
+        bound, threads = self._bound(self.given(call)), self.launcher.threads
+        found = signature.rebound[kinds] = Rebound(bound, signature, threads, call)
+        return found.launch()
+
+    def _addresses(self, call: Call) -> tuple[Signature, tuple, array, dict[str, Any]]:
+        """Signature, kinds beside those of arrays, addresses for `Rebound`, and numbers."""
         signature, constants, neighbors = self._signature(call), call.constants, call.neighbors
         numbers = {name: constants[name] for name in signature.numbers}
         unwrap, fields, rows = self.unwrap, call.fields, call.rows
@@ -116,14 +138,7 @@ class Loops:
         kinds += (tuple([out is None for out in outs]),)
         ones += [id(unwrap(out)) for out in outs if out is not None]
         ones += [id(unwrap(constants[name])) for name in signature.tables]
-        found = signature.rebound.get(kinds)
-        is_current = found is not None and source.is_current(found.watched)
-        if found is not None and is_current and found.run(array("Q", ones), numbers):
-            return tuple(found.launch.results)
-        bound, threads = self._bound(self.given(call)), self.launcher.threads
-        is_values = call.shape == "pair_values"
-        found = signature.rebound[kinds] = Rebound(bound, signature, threads, is_values)
-        return found.launch()
+        return signature, kinds, array("Q", ones), numbers
 
     def _bound(self, given: Given) -> Bound:
         """The loop of a call with its arguments, all checked."""

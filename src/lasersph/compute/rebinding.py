@@ -25,10 +25,12 @@ from lasersph.compute import cache as folder
 from lasersph.compute.generate import NATIVE
 from lasersph.compute.launch import SHARED, Bound, Launch
 from lasersph.compute.run_text import HEAD_WORDS, RUN
-from lasersph.compute.signature import Signature
+from lasersph.compute.signature import Call, Signature
 
 HEAD, ENTRY = 8, 8
 """Words of the head of a plan, and of its entry for each field, output and table."""
+ONLY_BINDS = 7
+"""Place in the head of what tells that a launch is not run when it is bound."""
 _INDEX, _OFFSET = np.dtype(np.uint32), np.dtype(np.uint64)
 _MANY = 2**62
 ANY, ROW, TOTAL, PAIR, OUT, TABLE = range(6)
@@ -157,7 +159,8 @@ def loop(plan_address, ones_address, frame_address):
         if entry[6]:
             put(word(fields + k * np.uint64(8)), entry, frame)
     ones[0] = ONE
-    run(frame_address)
+    if plan[{ONLY_BINDS}] == ZERO:
+        run(frame_address)
 '''
 
 
@@ -170,10 +173,15 @@ class Rebound:
     """A launch that takes other arrays at each call.
 
     Args:
-        bound: a call of the same kinds. signature: of all such calls.
+        bound: a call of the same kinds. signature: of all such calls. call: the same call.
+
+    Attributes:
+        key: signature and kinds of a launch that is bound again, see `only_binds`.
     """
 
-    def __init__(self, bound: Bound, signature: Signature, threads: int, is_values: bool) -> None:
+    key: tuple | None = None
+
+    def __init__(self, bound: Bound, signature: Signature, threads: int, call: Call) -> None:
         compiled = bound.compiled
         self.launch = Launch(bound, threads, holds=False)
         self.watched = compiled.watched
@@ -197,10 +205,15 @@ class Rebound:
             words += _entry(by_name[name], TABLE, place)
             place += 2
         capacity = -(-bound.rows // compiled.block) if compiled.reductions else _MANY
+        is_values = call.shape == "pair_values"
         head = [len(words) // ENTRY, compiled.block, threads, capacity, is_values]
         self._plan = array("Q", [*head, id(_OFFSET), id(_INDEX), 0, *words])
         self._call = rebinding_function(compiled.real.name)
         self._places = self._plan.buffer_info()[0], self.launch.address
+
+    def only_binds(self, key: tuple) -> None:
+        """Bind without running from now on, for a launch of its own that is run later."""
+        self.key, self._plan[ONLY_BINDS], self.launch.rebound = key, 1, self
 
     def run(self, ones: array, numbers: dict[str, Any]) -> bool:
         """Run with the arrays at some addresses, 0 first; False where they are of other kinds."""

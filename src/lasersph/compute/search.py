@@ -10,6 +10,7 @@ not depend on the number of threads. On a periodic axis the nearest image counts
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -143,18 +144,20 @@ def neighbor_list(
             wanted=None if wanted is None else backend.unwrap(wanted),
         )
     refuse_escape(host, lower, upper)
-    if total and not (np.isfinite(reach).all() and reach.min() > 0.0):
+    smallest, largest = (reach.min(), reach.max()) if total else (1.0, 1.0)
+    if not (smallest > 0.0 and np.isfinite(largest)):  # not a number is neither
         refuse_support(reach)
     row_start = np.zeros(count + 1, dtype=np.uint64)
     if count == 0:
         return backend.wrap(row_start), backend.wrap(np.zeros(0, dtype=np.uint32))
-    refuse_short_period(np.ptp(host, axis=1), widths, float(mean(reach.max(), reach.max())))
+    if widths.any():
+        refuse_short_period(np.ptp(host, axis=1), widths, float(mean(largest, largest)))
     periodic = tuple(bool(width) for width in widths)
-    module = cache.load(_scan(backend.precision, dimension, mean, periodic).text)
-    sort = cache.load(sort_text(backend.precision, dimension)).sort
+    module = _module(_scan(backend.precision, dimension, mean, periodic).text)
+    sort = _module(sort_text(backend.precision, dimension)).sort
     cells = _levels(sort, host, reach, mean, lower, upper)
     extent = max(float(np.abs(cells.low).max()), float(np.abs(cells.high).max()), widths.max())
-    slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(reach.max())))
+    slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(largest)))
     targets = host
     if wanted is not None:  # the others lie where nothing is near
         rows = backend.unwrap(wanted)
@@ -163,6 +166,10 @@ def neighbor_list(
     arguments = (np.uint64(count), targets, reach, *cells, slack, widths)
     neighbor = _scanned(module, backend, arguments, count, row_start, room or Room())
     return backend.wrap(row_start), backend.wrap(neighbor)
+
+
+_module = lru_cache(maxsize=32)(cache.load)
+"""Loaded module of a text, which takes a tenth of a millisecond to look up by its content."""
 
 
 def _scan(precision: str, dimension: int, mean: Callable, periodic: tuple[bool, ...]) -> ScanText:
@@ -177,7 +184,7 @@ def _scanned(
     module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray, room: Room
 ) -> np.ndarray:
     """Scan groups of blocks into scratch, growing it where it is too short, and join them."""
-    store = cache.load(store_text()).store
+    store = _module(store_text()).store
     threads = np.uint64(backend.threads)
     blocks, group = -(-count // BLOCK), 32 * backend.threads
     scratch = room.for_group(min(group, blocks), _PLACES_PER_ROW * min(BLOCK, count))

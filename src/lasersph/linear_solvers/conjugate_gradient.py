@@ -21,6 +21,7 @@ from dataclasses import dataclass, replace
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.compute.launch import Launch
 from lasersph.compute.routine import Step
 from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.incomplete_factors import IncompleteFactors
@@ -97,7 +98,8 @@ class ConjugateGradient:
             used until it is given others.
 
     Attributes:
-        solution: (n,) x after `solve`. factors: incomplete factors, where a solve has used them.
+        solution: (n,) x after `solve`. residual: the sum of |r_i| then. factors: incomplete
+            factors, where a solve has used them.
     """
 
     def __init__(
@@ -113,10 +115,11 @@ class ConjugateGradient:
         self._first, self._used = replace(operator), replace(operator, weights=None)
         self._bound: tuple = ()
         self._v = {name: backend.zeros(count) for name in VECTORS}
-        self.solution = self._v["x"]
+        self.solution, self.residual = self._v["x"], 0.0
         v = self._v
         out, reduce = (v["x"], v["r"], v["z"], None, None), (None, None, None, "sum", "sum")
         self._advance = backend.prepare(advance, v, out, reduce=reduce, alpha=0.0)
+        self._turn: Launch | None = None
         self._multigrid: Multigrid | None = None
         self._is_set_up = False
         self._given: tuple = (operator.neighbors, operator.weights) if rests else ()
@@ -154,7 +157,7 @@ class ConjugateGradient:
         rz, error, stiffest = self.backend.pointwise(start, fields, out, reduce=reduce, s=s)
         factors = self._factored() if stiffest <= FACTORED and error > residual else None
         if factors:
-            return factors.solve(
+            iterations, self.residual = factors.solve(
                 C,
                 operator.boundary_coefficient,
                 mask,
@@ -162,22 +165,23 @@ class ConjugateGradient:
                 residual=residual,
                 max_iterations=max_iterations,
             )
-        self._bind()
+            return iterations
+        turned = self._bind()
         multigrid = self._prepared(C, mask, s) if stiffest > STIFF else None
         precondition = Step([])
         if multigrid:
             precondition = multigrid.correction(v["r"], v["z"], mask)
             (rz,) = precondition()
-        self._turn.set({"s": s})
-        iterations, *_ = self.backend.routine(
+        turned.set({"s": s})
+        iterations, _, self.residual = self.backend.routine(
             conjugate_gradients,
-            (Step([self._turn], "beta"), Step([self._advance], "alpha"), precondition),
+            (Step([turned], "beta"), Step([self._advance], "alpha"), precondition),
             float(bool(multigrid)),
             rz,
             error,
             residual,
             max_iterations,
-        )
+        )[:3]
         return int(iterations)
 
     def _factored(self) -> IncompleteFactors | None:
@@ -201,12 +205,13 @@ class ConjugateGradient:
         weights = self.operator.weights
         return self.backend.single(weights) if self.rounds else weights
 
-    def _bind(self) -> None:
-        """Take the pairs and weights that the operator has now."""
+    def _bind(self) -> Launch:
+        """Product with the pairs and weights that the operator has now."""
         operator, used, v = self.operator, self._used, self._v
         now = (operator.neighbors, operator.weights)
-        if self._bound and all(a is b for a, b in zip(now, self._bound, strict=True)):
-            return
+        is_bound = self._bound and all(a is b for a, b in zip(now, self._bound, strict=True))
+        if is_bound and self._turn is not None:
+            return self._turn
         self._bound = now
         used.neighbors, used.weights = operator.neighbors, self._weights()
         self._turn = self.backend.prepare(
@@ -216,9 +221,11 @@ class ConjugateGradient:
             neighbors=used.neighbors,
             finish=turn,
             reduce=(None, None, "sum"),
+            again=self._turn,
             beta=0.0,
             s=0.0,
         )
+        return self._turn
 
     def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
         """Multigrid for this matrix; levels are built when first needed, from the first pairs,

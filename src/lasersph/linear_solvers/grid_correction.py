@@ -24,8 +24,10 @@ different sizes. References: [Xu1996], [Bramble1990] for the additive form.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
@@ -33,7 +35,7 @@ from lasersph.compute.dense import invert
 from lasersph.compute.routine import Step
 from lasersph.linear_solvers import grid_nodes, grid_transfer
 from lasersph.linear_solvers.cells import Axis, Cells
-from lasersph.particles.neighbor_lists import NeighborList, members_of
+from lasersph.particles.neighbor_lists import NeighborList, item, members_of
 
 WIDTH = 2.0 / 3.0
 """Spacing of the finest grid over the support radius."""
@@ -41,6 +43,8 @@ COARSEST = 80
 """Grids are coarsened until there are at most as many nodes."""
 VANISHING = 1e-10
 """Pivot of the exact inverse over the largest diagonal element, below which a node is left out."""
+COUPLINGS = ("across", "along", "aslant")
+"""Of a node toward the next column, the next line, and the nodes of both."""
 DAMPING = 8.0 / 9.0
 """Of the Jacobi sweeps: it reduces all that the next grid does not resolve to a third."""
 
@@ -133,6 +137,7 @@ class GridCorrection:
         self._sorted_u, self._sorted_w = backend.zeros(count), backend.zeros(count)
         self._order = backend.zeros(count, "index")
         self._step: Step | None = None
+        self._set_up: Step | None = None
 
     def prepare(
         self, position: Array, mask: Array, volume: Array, boundary_coefficient: Array
@@ -150,8 +155,19 @@ class GridCorrection:
         members = members_of(backend, cells.number, cells.count)
         backend.copy(members.row_start, self._members.row_start)
         backend.copy(members.neighbor, self._order)
-        backend.gather(cells.u, self._order, self._sorted_u)
-        backend.gather(cells.w, self._order, self._sorted_w)
+        given = (volume, boundary_coefficient)
+        if self._set_up and all(a is b for a, b in zip(given, self._set_up_of, strict=True)):
+            self._set_up()
+        else:
+            self._set_up_of = given
+            self._set_up = backend.recorded(lambda: self._set_up_levels(*given))
+        backend.copy(backend.asarray(_inverse(backend, self.levels[-1])), self._inverse)
+
+    def _set_up_levels(self, volume: Array, boundary_coefficient: Array) -> None:
+        """Volumes, boundary coefficients and diagonals of all levels."""
+        run, places = self.backend.pointwise, {"place": self._order}
+        run(item, places, self._sorted_u, numbers=self._cells.u)
+        run(item, places, self._sorted_w, numbers=self._cells.w)
         for values, name in ((volume, "C"), (boundary_coefficient, "a")):
             self._collect(values, (self.levels[0].at[name], None, None))
         for level, above in zip(self.levels, [*self.levels[1:], None], strict=True):
@@ -159,7 +175,6 @@ class GridCorrection:
             if above:
                 for name in ("C", "a"):
                     level.collect(above, name, (above.at[name], None, None))
-        backend.copy(backend.asarray(_inverse(backend, self.levels[-1])), self._inverse)
 
     def correction(self, r: Array, diagonal: Array, mask: Array, z: Array) -> Step:
         """Step that writes M^-1 r into z, 0 where the mask is 0, and reduces r z.
@@ -189,7 +204,7 @@ class GridCorrection:
     def _make_levels(self, x: Axis, z: Axis) -> None:
         backend = self.backend
         cells = x.cells * z.cells
-        self._step = None
+        self._step = self._set_up = None
         self._members = NeighborList(backend.zeros(cells + 1, "offset"), self._order)
         self._places = _places(backend, x.cells, z.cells)
         self._sums = [backend.zeros(cells + 1) for _ in range(4)]
@@ -246,17 +261,27 @@ def _inverse(backend: Backend, level: Level) -> np.ndarray:
     """
     n, stencil = level.count, level.stencil
     s, a = (backend.to_host(level.at[name]).astype(np.float64) for name in ("s", "a"))
-    columns, lines = level.x.nodes, level.z.nodes
-    c, m = np.divmod(np.arange(n), lines)
-    K = np.diag(a)
+    first, second, kinds = _couplings(*level.shape.values())
+    g = np.array([stencil[name] for name in COUPLINGS])[kinds] * s[first] * s[second]
+    place = np.concatenate([np.arange(n) * (n + 1), first * (n + 1), first * n + second])
+    K = np.bincount(place, np.concatenate([a, g, -g]), n * n).reshape(n, n)
+    return invert(K, VANISHING * np.diag(K).max(initial=0.0)).ravel()
+
+
+@lru_cache(maxsize=8)
+def _couplings(
+    columns: int, lines: int, x_wraps: int, z_wraps: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Both nodes of all that are coupled in a grid, and the place of the kind in COUPLINGS."""
+    c, m = np.divmod(np.arange(columns * lines), lines)
+    parts: list[tuple[NDArray[np.int64], ...]] = []
     for i in (-1, 0, 1):
         for j in (-1, 0, 1):
-            column = (c + i) % columns if level.x.wraps else c + i
-            line = (m + j) % lines if level.z.wraps else m + j
+            column = (c + i) % columns if x_wraps else c + i
+            line = (m + j) % lines if z_wraps else m + j
             other = column * lines + line
             is_inside = (column >= 0) & (column < columns) & (line >= 0) & (line < lines)
-            k = np.flatnonzero(is_inside & (other != np.arange(n)))
-            g = stencil["aslant" if i and j else "across" if i else "along"] * s[k] * s[other[k]]
-            K[k, other[k]] -= g
-            K[k, k] += g
-    return invert(K, VANISHING * np.diag(K).max(initial=0.0)).ravel()
+            k = np.flatnonzero(is_inside & (other != np.arange(other.size)))
+            parts.append((k, other[k], np.full(k.size, 2 if i and j else 0 if i else 1)))
+    first, second, kinds = (np.concatenate(part) for part in zip(*parts, strict=True))
+    return first, second, kinds

@@ -96,15 +96,16 @@ class IncompleteFactors:
 
     def solve(
         self, C: Array, a: Array, mask: Array, s: float, *, residual: float, max_iterations: int
-    ) -> int:
-        """Iterate from x = 0, r the right-hand side and p = 0; returns the iterations."""
+    ) -> tuple[int, float]:
+        """Iterate from x = 0, r the right-hand side and p = 0; returns the iterations and the bound
+        of the residual."""
         self._factor_of(C, a, mask)(s=s)
         self.backend.fill(self._t, 0.0)
         self._eliminate(s=s)  # r' from r
         rz, error = self._advance(alpha=0.0, s=s)
         for sweep in self.sweeps:
             sweep.set({"s": s})
-        iterations, *_ = self.backend.routine(
+        iterations, _, error = self.backend.routine(
             conjugate_gradients,
             (Step(self.sweeps, "beta"), Step([self._advance], "alpha"), Step([])),
             0.0,
@@ -112,8 +113,8 @@ class IncompleteFactors:
             error,
             residual,
             max_iterations,
-        )
-        return int(iterations)
+        )[:3]
+        return int(iterations), error
 
     def _factor_of(self, C: Array, a: Array, mask: Array) -> Sweep:
         """Sweep that sets the factors from these arrays, bound when they are new."""

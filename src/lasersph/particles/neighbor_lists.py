@@ -92,13 +92,15 @@ def find_neighbors(
     box: Box | None = None,
     radius: Array | None = None,
     wanted: Rows | None = None,
+    room: search.Room | None = None,
 ) -> NeighborList:
     """All pairs closer than their support radius, of the first `count` particles with any.
 
     Args:
         box: that no particle may leave; default: around them all, as they are. radius: (N,) to
             search within [m], where it is more than the support. wanted: rows that are to be
-            found, the others stay empty; None for all.
+            found, the others stay empty; None for all. room: where the list is put, in place of
+            the last one there; None for memory of its own.
 
     Raises:
         EscapedParticle: a position that is not finite, or not in the box.
@@ -118,6 +120,7 @@ def find_neighbors(
         upper=box.high,
         period=box.period,
         wanted=wanted,
+        room=room,
     )
     return NeighborList(row_start, neighbor, position, support, kernel, mean, box.period)
 

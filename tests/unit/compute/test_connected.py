@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from lasersph.compute.connected import first_connected
+
 
 def first(backend, filled, wraps=(False, False)):
     """Smallest number of a cell connected with each, in the shape of the grid."""
@@ -40,8 +42,6 @@ def test_around_ends(backend, wraps, expected):
 
 def test_random_grids(backend):
     """As the host's labels say, for grids between sparse and full."""
-    from lasersph.compute.connected import first_connected
-
     random = np.random.default_rng(4)
     for share, wraps in ((0.3, (True, False)), (0.45, (False, False)), (0.7, (False, True))):
         filled = random.random((7, 9)) < share
@@ -53,3 +53,14 @@ def test_nothing(backend):
     """A grid without filled cells, and one of a single cell."""
     assert first(backend, [[0, 0]]) == [[0, 1]]
     assert first(backend, [[1]], (True, True)) == [[0]]
+
+
+def test_as_labels_of_images_say():
+    """Parts of a grid without periods are those of an image."""
+    ndimage = pytest.importorskip("scipy.ndimage")
+    filled = np.random.default_rng(7).random((40, 30)) < 0.4
+    label, count = ndimage.label(filled, np.ones((3, 3)))
+    found = first_connected(filled, (False, False)).reshape(filled.shape)
+    assert count > 10
+    for k in range(1, count + 1):
+        assert np.all(found[label == k] == np.flatnonzero(label == k)[0])

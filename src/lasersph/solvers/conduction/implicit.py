@@ -35,9 +35,10 @@ from lasersph.sph.laplacian import flow
 
 FIRST_FORCING = 0.05
 """Residual of the linear solver over that of the Newton iteration, in the first of a step; after
-that, what the last iteration has left of its own."""
-FORCING = (0.02, 0.2)
-"""Range of that [Eisenstat1996]."""
+that, what the last iteration has left beside that of its linear solver, over what it began with:
+nothing where the balance is linear, which is then solved at once [Eisenstat1996, eq. (2.1)]."""
+FORCING = (1e-6, 0.2)
+"""Range of that; below, the weights are rounded."""
 SMOOTH_RATIO = 2.0
 """Steps that differ by less than this are followed by a parabola, others by a straight line."""
 HALVINGS = 4
@@ -158,7 +159,8 @@ class ImplicitStep:
             plateau = self.assemble(step)
             self.solve(step, max(self.forcing * error, 0.3 * allowed))
             found, energy = self.correct(step, error, plateau)
-            self.forcing = min(max(found / error, FORCING[0]), FORCING[1])
+            nonlinear = abs(found - self.solver.residual) / error
+            self.forcing = min(max(nonlinear, FORCING[0]), FORCING[1])
             self.newton, error = self.newton + 1, found
         self.accept()
         return energy | {"newton_residual": error}

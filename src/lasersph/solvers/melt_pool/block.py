@@ -20,6 +20,7 @@ from lasersph.boundaries.surface import Surface
 from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.launch import Launch
+from lasersph.compute.search import Room
 from lasersph.compute.vectors import dot
 from lasersph.particles.faces import LEFT
 from lasersph.particles.ghosts import (
@@ -29,7 +30,7 @@ from lasersph.particles.ghosts import (
     ghost_types_of,
     scalar_of_type,
 )
-from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
+from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors, item
 from lasersph.particles.support import common
 from lasersph.solvers.conduction.body import Weighing
 from lasersph.solvers.melt_pool import ghost_fields
@@ -148,7 +149,7 @@ class Block:
         self.ghosts = GhostParticles(backend, count, self.search_radius, types)
         self._set_rules()
         self._set_factors()
-        self._geometry = PairGeometry(backend, lattice.weighing)
+        self._geometry, self._room = PairGeometry(backend, lattice.weighing), Room()
 
     def _set_rules(self) -> None:
         """Tables of what ghosts carry, by their type."""
@@ -258,13 +259,14 @@ class Block:
             box=Box(*corners),
             radius=found["radius"],
             wanted=self.rows,
+            room=self._room,
         )
         geometry, neighbor = self._geometry, self.pairs.neighbor
         geometry.begin(self.pairs, has_row, self._even_above)
         geometry.find(self.pairs, self._layers, has_kernel=has_kernel)
         self.weights, self.gradient, self.kernel = geometry.arrays
         self._folded = backend.zeros(neighbor.shape[0], "index")
-        backend.gather(self.source, neighbor, self._folded)
+        backend.pointwise(item, {"place": neighbor}, self._folded, numbers=self.source)
 
     def _find_rows_near_faces(self) -> None:
         """Numbers of the particles with complete pairs that may have ghosts among them."""
@@ -331,12 +333,12 @@ class Block:
         v_x, v_z = (self.backend.component(v, k) for k in (0, 1))
         return self.extend(ghost_fields.extended_velocity, v_x=v_x, v_z=v_z, jump=jump, **rules)
 
-    def prepare_velocity_change(self, d: Array, out: Array) -> Launch:
+    def prepare_velocity_change(self, d: Array, out: Array, again: Launch | None) -> Launch:
         """Loop that extends a change (2, n) of velocities, where walls and stress stay the same."""
         d_x, d_z = (self.backend.component(d, k) for k in (0, 1))
-        return self.backend.prepare(
-            ghost_fields.velocity_change, self.sources, out, d_x=d_x, d_z=d_z, **self._factors
-        )
+        tables = {"d_x": d_x, "d_z": d_z} | self._factors
+        function = ghost_fields.velocity_change
+        return self.backend.prepare(function, self.sources, out, again=again, **tables)
 
     def extend_tensor(self, M: Array) -> Array:
         """Tensors (2, 2, count) of the block on the block with ghosts."""

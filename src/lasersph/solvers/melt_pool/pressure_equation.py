@@ -30,6 +30,7 @@ from dataclasses import dataclass
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.compute.launch import Launch
 from lasersph.compute.routine import Step
 from lasersph.linear_solvers.components import Components
 from lasersph.linear_solvers.grid_correction import GridCorrection
@@ -128,6 +129,7 @@ class PressureEquation:
         self.components = Components(backend, count, support, period)
         self._correction = GridCorrection(backend, count, support, period)
         self._nothing, self._inner = backend.zeros(count), backend.zeros(0)
+        self._launches: tuple[Launch | None, ...] = (None,) * 3
         self._d, self._b, self._r, self._z, self._s, self._q = (
             backend.zeros(count) for _ in range(6)
         )
@@ -198,7 +200,8 @@ class PressureEquation:
             neighbor_value, self._neighbors, given, (r, None), finish=rest, reduce=reduce
         )
         correction = self._correction.correction(r, self._d, mask, self._z)
-        turned = backend.prepare(turn, fields, s, beta=0.0)
+        turned, multiplied, advanced = self._launches
+        turned = backend.prepare(turn, fields, s, again=turned, beta=0.0)
         multiplied = backend.prepare(
             neighbor_value,
             fields | {"p": s},
@@ -206,10 +209,11 @@ class PressureEquation:
             neighbors=self._neighbors,
             finish=multiply,
             reduce=(None, "sum"),
+            again=multiplied,
         )
-        advanced = backend.prepare(
-            advance, fields, (p, r, None, None), reduce=(None, None, "sum", "sum"), alpha=0.0
-        )
+        out, reduce = (p, r, None, None), (None, None, "sum", "sum")
+        advanced = backend.prepare(advance, fields, out, reduce=reduce, again=advanced, alpha=0.0)
+        self._launches = turned, multiplied, advanced
         wanted, iterations = (self.tolerance * scale) ** 2, 0.0
         if r_r > wanted:
             (r_z,) = correction()

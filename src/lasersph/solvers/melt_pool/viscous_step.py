@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.compute.launch import Launch
 from lasersph.compute.routine import Step
 from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.physics.viscosity import (
@@ -43,6 +44,7 @@ class ViscousStep:
         vectors = 5 if self.is_implicit else 1
         self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
         self._g_sum = backend.zeros(count)
+        self._launches: tuple[Launch | None, ...] = (None,) * 4
 
     def advance(
         self, block: Block, v: Array, b: Array, jump: Array, kinds: ParticleKinds, step: float
@@ -73,8 +75,9 @@ class ViscousStep:
         )
         points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
         extended = backend.zeros((2, block.total))
-        turned = backend.prepare(turn, points, d, rows=rows, beta=0.0)
-        ghosts = block.prepare_velocity_change(d, extended)
+        turned, ghosts, multiplied, advanced = self._launches
+        turned = backend.prepare(turn, points, d, rows=rows, again=turned, beta=0.0)
+        ghosts = block.prepare_velocity_change(d, extended, again=ghosts)
         multiplied = backend.prepare(
             momentum,
             {"v": extended, "d": d, "g_ij": block.weights, "V": block.V},
@@ -83,6 +86,7 @@ class ViscousStep:
             rows=rows,
             finish=multiply,
             reduce=(None, "sum"),
+            again=multiplied,
             s=s,
         )
         advanced = backend.prepare(
@@ -91,9 +95,11 @@ class ViscousStep:
             (v, r, z, None, None),
             rows=rows,
             reduce=(None, None, None, "sum", "sum"),
+            again=advanced,
             alpha=0.0,
             s=s,
         )
+        self._launches = turned, ghosts, multiplied, advanced
         turns = Step([turned, ghosts, multiplied], "beta")
         iterations, *_ = backend.routine(
             conjugate_gradients,
