@@ -20,6 +20,7 @@ FILES = ("unit/compute/test_strict_arrays.py", "unit/compute/test_pair_loops.py"
          "unit/particles/test_ghosts.py", "unit/solvers/melt_pool/test_near_melt.py",
          "unit/particles/test_cell_grid.py", "unit/particles/test_relative_displacement.py",
          "unit/linear_solvers/test_components.py", "unit/benchmarks/test_cuda_card.py",
+         "unit/boundaries/test_surface_columns.py", "unit/irradiation/test_layered.py",
          "laws/test_cuda_backend.py")  # fmt: skip
 
 

@@ -8,6 +8,7 @@ surface share its whole area, however many there are, and a column has the mean 
 from __future__ import annotations
 
 from math import floor
+from typing import Any
 
 import numpy as np
 
@@ -68,7 +69,7 @@ class SurfaceColumns:
         self.backend, self.count, self._width = backend, columns, width
         self.rows: Rows = backend.asarray(np.zeros(0), "index")
         self.area = backend.zeros(count)
-        self._grid = {"low": low, "inverse": 1.0 / width, "columns": float(columns)}
+        self._grid: dict[str, Any] = {"low": low, "inverse": 1.0 / width, "columns": float(columns)}
         self._mean, self._covers = backend.zeros(columns), backend.zeros(columns)
         self._sums = {side: tuple(backend.zeros(columns) for _ in "12") for side in ("", "_right")}
         self._ends: list[tuple[Array, Array, NeighborList]] = []
@@ -87,7 +88,7 @@ class SurfaceColumns:
             column, cover = backend.zeros(length, "index"), backend.zeros(length)
             backend.fill(column, self.count)
             out = (backend.head(column, size), backend.head(cover, size))
-            backend.pointwise(column_at_end, {"x": x}, out, right=right, **self._grid)
+            backend.pointwise(column_at_end, {"x": x}, out, **self._grid, right=right)
             self._ends.append((column, cover, members_of(backend, column, self.count)))
         self._average()
         fields = {}

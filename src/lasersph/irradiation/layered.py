@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from itertools import product
 from math import exp
+from typing import Any
 
 import numpy as np
 
@@ -102,9 +103,10 @@ class LayeredLight:
         self.surface_area = area[surface]
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._varies = bool(np.ptp(table[1]) > 0.0)
-        self._entering = dict(zip(("R_T", "R_R"), map(backend.asarray, table), strict=True))
+        R_T, R_R = map(backend.asarray, table)
         bottom = float(np.max(depth + half))
-        self._entering["beyond"] = 0.0 if self.alpha is None else exp(-self.alpha * bottom)
+        beyond = 0.0 if self.alpha is None else exp(-self.alpha * bottom)
+        self._entering: dict[str, Any] = {"R_T": R_T, "R_R": R_R, "beyond": beyond}
         self._area = backend.asarray(self.surface_area)
         self.fluence, self.columns = backend.zeros(surface.size), backend.zeros(surface.size)
         self._surface: SurfaceColumns | None = None
@@ -159,8 +161,9 @@ class LayeredLight:
             backend.pointwise(cell_at_corner, fields, out, **corner, **self._grid)
             # tau_k of the cells
             members = members_of(backend, cell, cells)
-            thickness = {"tau_one": self._tau_one}
-            backend.pair_sum(optical_thickness, members, {"cover": cover}, part, **thickness)
+            backend.pair_sum(
+                optical_thickness, members, {"cover": cover}, part, tau_one=self._tau_one
+            )
             backend.pointwise(add, {"a": inner, "b": part}, inner)
             corners.append((cell, column, cover))
         # s_k over the cover of the cells

@@ -59,6 +59,33 @@ def test_no_light_is_lost_or_made():
     assert booked["incident"] > booked["absorbed"] > 0.0
 
 
+def test_on_every_backend(backend):
+    """A particle moved by half a cell to the right and down keeps the light of its column, and with
+    a quarter of its square takes a fifth of the next one's, beside a whole square there."""
+    solver = pool(lambda x, z: z > -1e-6, "particles.spacing=625 nm", backend=backend)
+    light, columns = solver.body.light, solver.surface_columns
+    light.shine(*LIT)
+    light.absorb(solver.particles["temperature"])
+    lattice = backend.to_host(light.deposit)
+    x, z = backend.to_host(solver.position)
+    moved = np.array([x, z])
+    moved[:, 0] += [0.5 * 625e-9, -0.5 * 625e-9]
+    position, count = backend.asarray(moved), x.size
+    columns.find(position, backend.asarray(light_rows(moved), "index"))
+    light.follow(position, backend.asarray(-moved[1]), columns)
+    total = light.absorb(solver.particles["temperature"])
+    deposit = backend.to_host(light.deposit)
+    assert deposit.shape == (count,) and deposit.sum() == pytest.approx(total, rel=1e-5)
+    assert energies(light, total)["unassigned"] == pytest.approx(0.0, abs=1e-6 * light.incident)
+    assert deposit[1] == pytest.approx(0.8 * lattice[1], rel=1e-3)
+    assert deposit[0] == pytest.approx(lattice[0] + 0.2 * lattice[1], rel=1e-3)
+
+
+def light_rows(place):
+    """Particles of the uppermost row."""
+    return np.flatnonzero(-place[1] < 625e-9)
+
+
 def test_what_lies_above_takes_the_light():
     """A particle below another one takes exp(-alpha w) of what it would take alone."""
     alpha, w = 0.5, 1.0

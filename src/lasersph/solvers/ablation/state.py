@@ -56,6 +56,7 @@ class AblationState:
 
     def count_ejecta(self, ejecta: Ejecta) -> None:
         """Count what left in a step."""
-        self.ejecta = Ejecta(*(was + now for was, now in zip(self.ejecta, ejecta, strict=True)))
+        number, *others = (was + now for was, now in zip(self.ejecta, ejecta, strict=True))
+        self.ejecta = Ejecta(int(number), *others)
         self.add({"removed": ejecta.energy, "discarded": ejecta.discarded})
         self.add({"ejection_work": ejecta.work})
