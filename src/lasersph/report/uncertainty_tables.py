@@ -61,9 +61,14 @@ def main_rows(summary: dict[str, Any], found: dict[str, Any]) -> Rows:
         twice = found["coverage"]
         parts = [entry["inputs"].get(key) for key in found["inputs"]]
         sizes = [None if part is None else twice * part["standard"] for part in parts]
-        texts = (quantity(size, unit, 2) for size in (entry["numerical"], *sizes))
+        texts = (two_digits(size, unit) for size in (entry["numerical"], *sizes))
         rows.append((one.words, value_text(entry, unit), *texts))
     return rows
+
+
+def two_digits(size: float | None, unit: str) -> str:
+    """A part of an error, rounded to the two digits that an error has."""
+    return quantity(None if size is None else float(f"{size:.2g}"), unit)
 
 
 def value_text(entry: dict[str, Any], unit: str) -> str:
@@ -91,7 +96,7 @@ def all_rows(summary: dict[str, Any], found: dict[str, Any]) -> Rows:
     declared = {one.key: one.unit for kind in OBSERVERS for one in kind.all_results()}
     for key, entry in found["numbers"].items():
         unit = unit_in(declared.get(key, unit_of(key)), int(summary["dimensions"]))
-        parts = (quantity(entry[name], unit, 2) for name in ("numerical", "from_inputs"))
+        parts = (two_digits(entry[name], unit) for name in ("numerical", "from_inputs"))
         behavior = entry.get("behavior", "–")
         if entry.get("order") is not None:
             behavior += f", order {shown(entry['order'], 3)}"

@@ -30,6 +30,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from lasersph.analytic.convergence import ROUNDING
 from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.output.atomic import replace_json
@@ -198,8 +199,11 @@ def _part(value: float, plus: float | None, minus: float | None) -> dict[str, An
     """What one input does to a number; None where neither side has it."""
     if plus is None and minus is None:
         return None
-    up = None if plus is None else plus - value
-    down = None if minus is None else minus - value
+    smallest = ROUNDING * abs(value)
+    up, down = (
+        None if other is None else other - value if abs(other - value) > smallest else 0.0
+        for other in (plus, minus)
+    )
     if up is None or down is None:
         return {"up": up, "down": down, "standard": abs(up or down or 0.0), "is_linear": None}
     half, middle = 0.5 * (up - down), 0.5 * (up + down)

@@ -33,6 +33,7 @@ def formula(case, folder):
         "spacing_m": case.particles.spacing, "particles": 3,
         "temperature_max_K": 300.0 + 100.0 * F / math.sqrt(k) + d**2,
         "bent_K": 500.0 - (F - 1.0) ** 2,
+        "rounding_K": 400.0 + 1e-13 * F,
     }  # fmt: skip
     return SimpleNamespace(summary=summary)
 
@@ -51,7 +52,7 @@ def test_parts_add_in_squares(tmp_path):
     assert entry["inputs"]["material.conductivity"]["standard"] == pytest.approx(half)
     assert entry["error"] == pytest.approx(math.hypot(1.25, 2 * 4.0, 2 * half))
     assert json.loads((tmp_path / "uncertainty.json").read_text())["numbers"].keys() == {
-        "temperature_max_K", "bent_K",
+        "temperature_max_K", "bent_K", "rounding_K",
     }  # fmt: skip
     assert open_run_uncertainty(tmp_path)["inputs"]["laser.fluence"]["source"] == "x"
 
@@ -68,6 +69,8 @@ def test_bent_number_counts_its_larger_change(tmp_path):
     part = found["numbers"]["bent_K"]["inputs"]["laser.fluence"]
     assert part["is_linear"] is False
     assert part["standard"] == pytest.approx(0.0016)
+    part = found["numbers"]["rounding_K"]["inputs"]["laser.fluence"]
+    assert (part["standard"], part["is_linear"]) == (0.0, True)
 
 
 def test_side_that_the_case_refuses_is_left_out(tmp_path):
