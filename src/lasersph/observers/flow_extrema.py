@@ -11,11 +11,15 @@ than the outer one that it joins. Until then the pool spreads, the temperature b
 before it and the speed with it: no maximum within some spacings of the edge counts. Of two that do
 not fit this the one that continues the outer one counts alone (the larger one, where none is
 known). A single one keeps the name of the one it continues: that whose last place is closer. A
-first single one is outer. Seen is the side x > 0; a run over a full period is symmetric, which a
-law of its own checks.
+first single one is outer. Its place is the center of its top, all that lies less than that
+twentieth below it: where maxima that do not count by themselves take turns in being the highest,
+the place of the highest jumps between them, as from 0.9 of the width of a pool to its middle. Seen
+is the side x > 0; a run over a full period is symmetric, which a law of its own checks.
 """
 
 from __future__ import annotations
+
+from itertools import pairwise
 
 import numpy as np
 
@@ -135,11 +139,33 @@ def surface_extrema(view: View, margin: float = 0.0) -> list[Place]:
         return []
     speed = np.concatenate([[0.0], np.abs(flow.surface_velocity[chosen]), [0.0]])
     place = np.concatenate([[0.0], x[chosen], [0.0]])
-    found, rise = local_maxima(speed, PROMINENCE * float(np.max(speed)))
+    least = PROMINENCE * float(np.max(speed))
+    found, rise = local_maxima(speed, least)
+    center = centers_of_tops(place, speed, found, least)
     edge = float(np.max(place)) - margin * float(view.width[0, flow.surface[0]])
-    found, rise = found[place[found] <= edge], rise[place[found] <= edge]
-    most = np.sort(found[np.argsort(-rise, kind="stable")[:2]])
-    return [(float(speed[k]), float(place[k])) for k in most]
+    inside = np.flatnonzero(place[found] <= edge)
+    most = np.sort(inside[np.argsort(-rise[inside], kind="stable")[:2]])
+    return [(float(speed[found[k]]), float(center[k])) for k in most]
+
+
+def centers_of_tops(
+    place: np.ndarray, speed: np.ndarray, peaks: np.ndarray, least: float
+) -> np.ndarray:
+    """Centers of what rises above speed[peak] - least, weighted by how far, for each peak [m].
+
+    A top reaches to the lowest speeds between its peak and the next ones.
+
+    Args:
+        place, speed: (n,) [m], [m/s]; speeds are zero at both ends. peaks: (m,) their numbers.
+    """
+    valleys = [a + int(np.argmin(speed[a:b])) for a, b in pairwise(peaks)]
+    ends = [0, *valleys, speed.size]
+    centers = np.zeros(peaks.size)
+    for k, peak in enumerate(peaks):
+        top = slice(ends[k], ends[k + 1])
+        weights = np.maximum(speed[top] - speed[peak] + least, 0.0)
+        centers[k] = np.average(place[top], weights=weights)
+    return centers
 
 
 def local_maxima(values: np.ndarray, least: float) -> tuple[np.ndarray, np.ndarray]:

@@ -3,8 +3,10 @@
     speed_max = max |v_i|,    kinetic energy = 1/2 rho sum_i V_i |v_i|^2
 
 over flowing particles, per unit length of a plane run; of half a period where half is computed,
-like the other energies of a run. The divergence that the projection leaves is given in 1/s and as
-a share of |v|max over the spacing, the largest that one particle could have.
+like the other energies of a run. The largest speed is that of a single particle, its largest value
+in time that of one step; no single particle moves the root mean square speed. The divergence that
+the projection leaves is given in 1/s and as a share of |v|max over the spacing, the largest that
+one particle could have.
 """
 
 from __future__ import annotations
@@ -29,6 +31,12 @@ class FlowSpeed(Observer):
             "speed of any particle",
             largest="flow.speed_max_m_s",
             is_main=True,
+        ),
+        Quantity(
+            "flow_speed_rms_m_s",
+            "m/s",
+            "root mean square speed of the liquid",
+            largest="flow.speed_rms_max_m_s",
         ),
         Quantity(
             "flow_kinetic_energy_J", "J", "kinetic energy", largest="flow.kinetic_energy_max_J"
@@ -81,9 +89,11 @@ class FlowSpeed(Observer):
             least = self.spacing_min
             now = float(flow.spacing_min)
             self.spacing_min = now if least is None else min(least, now)
+        energy, mass = kinetic_energy(view), flow.density * float(np.sum(view.volume[flow.flows]))
         values = (
             fastest,
-            kinetic_energy(view),
+            (2.0 * energy / mass) ** 0.5 if count else 0.0,
+            energy,
             float(flow.divergence_rms),
             float(flow.divergence_max),
             float(flow.divergence_rms) / largest if largest > 0.0 else 0.0,

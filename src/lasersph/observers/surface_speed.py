@@ -53,6 +53,12 @@ class SurfaceSpeed(Observer):
             is_main=True,
         ),
         Quantity(
+            "flow_surface_speed_mean_m_s",
+            "m/s",
+            "mean speed of the liquid surface",
+            largest="flow.surface_speed_mean_max_m_s",
+        ),
+        Quantity(
             "flow_row_speed_max_m_s",
             "m/s",
             "horizontal speed of the first row of particles",
@@ -109,7 +115,8 @@ class SurfaceSpeed(Observer):
             speed = np.where(is_wet, np.abs(flow.surface_velocity), 0.0)
             of_row = float(np.max(np.abs(flow.velocity[0, flow.surface])))
             fastest = int(np.argmax(speed))
-            values = (float(np.max(speed)), of_row, *below_the_peak(view, flow, fastest))
+            mean = float(np.mean(speed[is_wet]))
+            values = (float(np.max(speed)), mean, of_row, *below_the_peak(view, flow, fastest))
         row = self.record(view.time, values)
         surface = self.peak["flow_surface_speed_max_m_s"]
         if surface.last == view.time and surface.value > 0.0:

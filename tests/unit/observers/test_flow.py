@@ -11,7 +11,7 @@ from synthetic_flow import FASTEST, LAYER, SLOPE, VISCOSITY, pool_flow
 from synthetic_run import NM, NS, PERIOD
 
 from lasersph.observers import View, flow_observers, snapshot_fields
-from lasersph.observers.flow_extrema import FlowExtrema, surface_extrema
+from lasersph.observers.flow_extrema import FlowExtrema, centers_of_tops, surface_extrema
 from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.snapshots import UNITS
@@ -62,6 +62,19 @@ def test_speed_and_kinetic_energy():
     area, density = (5 * NM) ** 2, synthetic_flow.DENSITY
     assert row["flow_kinetic_energy_J"] == pytest.approx(0.5 * density * area * 29.0)
     assert row["flow_divergence_relative"] == pytest.approx(1e6 * 5 * NM / 5.0)
+
+
+def test_mean_speeds_by_hand(view):
+    """Root mean square of what flows; mean of |u| over the liquid surface, whatever one does."""
+    flows = view.flow.flows
+    velocity = np.where(flows, np.array([[3.0], [4.0]]), 0.0)
+    still = replace(view, flow=replace(view.flow, velocity=velocity))
+    assert FlowSpeed(2).observe(still)["flow_speed_rms_m_s"] == pytest.approx(5.0)
+    wet = flows[view.flow.surface]
+    speed = np.where(wet, -2.0, 0.0)
+    speed[np.flatnonzero(wet)[0]] = -2.0 - 0.01 * np.count_nonzero(wet)
+    row = SurfaceSpeed().observe(replace(view, flow=replace(view.flow, surface_velocity=speed)))
+    assert row["flow_surface_speed_mean_m_s"] == pytest.approx(2.01)
 
 
 def test_surface_peak_and_what_lies_below(view):
@@ -133,6 +146,26 @@ def test_two_extrema_are_told_apart():
     assert inner[1] == pytest.approx(400 * NM, abs=60 * NM)
     assert inner[0] > outer[0]
     assert outer[1] == pytest.approx(PERIOD / 4, abs=5 * NM)
+
+
+def test_place_does_not_jump_between_maxima_of_one_top():
+    """Two maxima, the second one falling behind by less than a twentieth: the place goes over."""
+    place = np.arange(9.0)
+    places = []
+    for second in (1.02, 1.01, 1.0, 0.99, 0.98, 0.96, 0.94):
+        speed = np.array([0.0, 0.5, 1.0, 0.98, 0.97, 0.98, second, 0.5, 0.0])
+        peak = np.array([int(np.argmax(speed))])
+        places.append(float(centers_of_tops(place, speed, peak, 0.05)[0]))
+    assert places[2] == pytest.approx(4.0)
+    assert np.all(np.diff(places) < 0.0) and np.min(np.diff(places)) > -1.0
+    assert places[-1] < 3.5
+
+
+def test_tops_end_at_the_valleys_between_them():
+    """Two maxima that count: each has its own center."""
+    speed = np.array([0.0, 1.0, 0.5, 0.2, 0.5, 1.0, 0.0])
+    found = centers_of_tops(np.arange(7.0), speed, np.array([1, 5]), 0.05)
+    assert found.tolist() == [1.0, 5.0]
 
 
 def test_noise_is_no_extremum():
