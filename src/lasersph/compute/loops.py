@@ -115,29 +115,24 @@ class Loops:
         """Signature, kinds beside those of arrays, addresses for `Rebound`, and numbers."""
         signature, constants, neighbors = self._signature(call), call.constants, call.neighbors
         numbers = {name: constants[name] for name in signature.numbers}
-        unwrap, fields, rows = self.unwrap, call.fields, call.rows
-        ones = [0, 0 if rows is None else id(unwrap(rows))]
-        kinds: tuple = tuple(map(fingerprint, numbers.values()))
+        outs, fields = listed(call.out), [call.fields[symbol] for symbol in signature.fields]
+        kinds = (*map(fingerprint, numbers.values()), *[out is None for out in outs])
         if neighbors is None:
-            ones += (0, 0, 0)
-            ones += [id(unwrap(fields[symbol])) for symbol in signature.fields]
+            arrays = [call.rows, None, None, None, *fields]
         else:
             support = neighbors.support
-            ones += (id(unwrap(neighbors.row_start)), id(unwrap(neighbors.neighbor)))
-            ones.append(0 if support is None else id(unwrap(support)))
-            ones += [id(unwrap(fields[symbol])) for symbol in signature.fields]
+            arrays = [call.rows, neighbors.row_start, neighbors.neighbor, support, *fields]
             if signature.position:
-                ones.append(id(unwrap(neighbors.position)))
+                arrays.append(neighbors.position)
             if signature.support:
-                ones.append(id(unwrap(support)))
+                arrays.append(support)
             if signature.geometry:
-                period = neighbors.period
-                numbers["period"] = period
+                period = numbers["period"] = neighbors.period
                 kinds += (neighbors.kernel, neighbors.mean, period)
-        outs = listed(call.out)
-        kinds += (tuple([out is None for out in outs]),)
-        ones += [id(unwrap(out)) for out in outs if out is not None]
-        ones += [id(unwrap(constants[name])) for name in signature.tables]
+        arrays += [out for out in outs if out is not None]
+        arrays += [constants[name] for name in signature.tables]
+        unwrap = self.unwrap
+        ones = [0, *[0 if one is None else id(unwrap(one)) for one in arrays]]
         return signature, kinds, array("Q", ones), numbers
 
     def _bound(self, given: Given) -> Bound:

@@ -180,6 +180,7 @@ class Rebound:
     """
 
     key: tuple | None = None
+    _numbers: dict[str, Any] | None = None
 
     def __init__(self, bound: Bound, signature: Signature, threads: int, call: Call) -> None:
         compiled = bound.compiled
@@ -217,7 +218,10 @@ class Rebound:
 
     def run(self, ones: array, numbers: dict[str, Any]) -> bool:
         """Run with the arrays at some addresses, 0 first; False where they are of other kinds."""
-        self.launch.set(numbers)
+        # routines change the numbers of prepared launches where they lie
+        if self.key is not None or numbers != self._numbers:
+            self.launch.set(numbers)
+            self._numbers = numbers
         plan, frame = self._places
         self._call(plan, ones.buffer_info()[0], frame)
         return bool(ones[0])

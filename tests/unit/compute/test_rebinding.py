@@ -12,6 +12,11 @@ def doubled(a):
     return 2.0 * a
 
 
+def scaled(a, factor):
+    """A multiple of a field, and the same for its sum."""
+    return factor * a, factor * a
+
+
 def doubles(backend):
     """A loop run with two pairs of arrays: the second call finds the launch of the first."""
     found = []
@@ -48,3 +53,30 @@ def test_calls_that_store_different_results():
     backend.pointwise(both_halves, {"a": a}, (first, None))
     backend.pointwise(both_halves, {"a": a}, (None, second))
     assert first.tolist() == [2.0, 4.0] and second.tolist() == [1.0, 2.0]
+
+
+def test_a_prepared_loop_takes_other_arrays():
+    """Prepared again, a loop runs with the new arrays, row counts and numbers, and is the same."""
+    backend, launch, seen = compute.cpu(threads=1), None, []
+    for size, factor in ((3, 2.0), (5, 3.0), (4, 5.0)):
+        a, out = backend.asarray(np.arange(float(size))), backend.zeros(size)
+        reduce = (None, "sum")
+        launch = backend.prepare(
+            scaled, {"a": a}, (out, None), reduce=reduce, again=launch, factor=factor
+        )
+        seen.append(launch)
+        del a
+        assert launch() == (factor * size * (size - 1) / 2.0,)
+        assert out.tolist() == [factor * k for k in range(size)]
+    assert seen[2] is seen[1]
+
+
+def test_a_prepared_loop_of_other_kinds_is_bound_anew():
+    """What was another loop is left alone."""
+    backend = compute.cpu(threads=1)
+    a, first, second = backend.asarray([1.0, 2.0]), backend.zeros(2), backend.zeros(2)
+    launch = backend.prepare(doubled, {"a": a}, first)
+    other = backend.prepare(scaled, {"a": a}, (second, None), again=launch, factor=3.0)
+    other()
+    launch()
+    assert first.tolist() == [2.0, 4.0] and second.tolist() == [3.0, 6.0]

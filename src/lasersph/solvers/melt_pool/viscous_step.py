@@ -64,8 +64,7 @@ class ViscousStep:
             return 0
         s = self.nu * step
         r, z, d, q = self._work
-        for work in self._work:
-            backend.fill(work, 0.0)
+        backend.fill(d, 0.0)  # which ghosts read beyond the rows
         backend.pair_sum(weight_of, block.pairs, fields, self._g_sum, rows=rows)
         backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
         fields |= {"v_star": self._star, "g_sum": self._g_sum}
