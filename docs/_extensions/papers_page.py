@@ -71,9 +71,10 @@ def section(part: Part, states: Mapping[str, State]) -> list[str]:
     state = states[part["validation"]] if "validation" in part else None
     if state is not None:
         texts[-1] += f" Command: `lasersph validate {state.name}`, record {label(state)}."
-        file = f"{part.get('figure')}.png"
-        if state.record and file in state.record["figures"]:
-            texts.append(f"![{plain(part['where'])}](validation/{state.name}/{file})")
+        files = [f"{name}.png" for name in part.get("figures", ())]
+        drawn = state.record["figures"] if state.record else []
+        alt = plain(part["where"])
+        texts += [f"![{alt}](validation/{state.name}/{file})" for file in files if file in drawn]
     if part.get("rows"):
         texts.append(table(HEAD, [cells(entry, state) for entry in part["rows"]]))
     if part.get("missing"):
@@ -111,7 +112,6 @@ def verdict(entry: Mapping[str, str], state: State | None) -> tuple[str, str]:
     if row["verdict"] is None:
         raise ValueError(f"{row['quantity']!r} is not judged: say why it differs")
     unit = "" if row["unit"] in ("", "1", "SI") else f" {row['unit']}"
-    band = "" if row["tolerance"] is None else f"within {row['tolerance']:.3g}{unit}: "
-    because = f"; {entry['because']}" if "because" in entry else ""
-    word = REPRODUCED if row["verdict"] else NOT_MET
-    return word, plain(band + row["reason"] + because + changed)
+    band = "" if row["tolerance"] is None else f"within {row['tolerance']:.3g}{unit}"
+    reasons = "; ".join(filter(None, (band, row["reason"], entry.get("because"))))
+    return REPRODUCED if row["verdict"] else NOT_MET, plain(reasons + changed)

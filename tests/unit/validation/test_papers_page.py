@@ -29,7 +29,7 @@ STATES = {name: state_of(name, DOCS / "validation") for name in names()}
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part["where"])
 def test_every_number_is_recorded(part):
     """Every row, and every other that shows why ours differs, is in a record that is no older."""
-    assert part.keys() <= {"where", "what", "validation", "figure", "rows", "missing"}
+    assert part.keys() <= {"where", "what", "validation", "figures", "rows", "missing"}
     assert part.get("rows") or part.get("missing")
     if "validation" not in part or STATES[part["validation"]].is_out_of_date:
         return
@@ -40,8 +40,7 @@ def test_every_number_is_recorded(part):
             if key in entry:
                 assert row_named(state, entry[key]), entry[key]
         verdict(entry, state)
-    if "figure" in part:
-        assert f"{part['figure']}.png" in state.record["figures"]
+    assert {f"{name}.png" for name in part.get("figures", ())} <= {*state.record["figures"]}
 
 
 def test_page_names_every_figure_and_table():
@@ -79,7 +78,7 @@ def state(*rows):
 def test_verdicts():
     """Within its band, outside, shown with and without a reason, own, missing."""
     entry = {"row": "T"}
-    assert verdict(entry, state(row())) == ("reproduced", "within 0.5 K: a digit")
+    assert verdict(entry, state(row())) == ("reproduced", "within 0.5 K; a digit")
     assert verdict(entry, state(row(verdict=False)))[0] == NOT_MET
     assert verdict(entry, state(row(own=True, verdict=None)))[0] == "own"
     assert verdict({"row": "other"}, state(row()))[0] == MISSING
@@ -99,5 +98,5 @@ def test_page():
     papers = {"ablation": [part], "texturing": [{"where": "Fig. 2", "what": "x", "missing": "y"}]}
     page = papers_page(papers, {"stefan": state(row())})
     assert "Numbers: 1 reproduced, 0 not given." in page
-    assert "| T \\[K\\] | 3 | 3.1 | reproduced: within 0.5 K: a digit |" in page
+    assert "| T \\[K\\] | 3 | 3.1 | reproduced: within 0.5 K; a digit |" in page
     assert "*Not given by the paper*: y." in page
