@@ -8,6 +8,7 @@ import synthetic_ablation
 
 from lasersph.output import open_run
 from lasersph.validation.ablation_aluminium import rows as ablation_aluminium
+from lasersph.validation.ablation_column import rows as ablation_column
 from lasersph.validation.ablation_depth import rows as ablation_depth
 from lasersph.validation.ablation_depth.front import ablate
 from lasersph.validation.ablation_depth.rows import Column
@@ -60,10 +61,10 @@ def test_runs_of_the_published_rule(study):
 
 def test_numbers_without_a_run(study):
     """Eq. (5) and the light in metal and vapor."""
-    one = study("ablation-aluminium")
-    ablation_aluminium.add_estimates(one)
+    one = study("ablation-column")
+    ablation_column.add_estimates(one)
     assert all(row.verdict is not False for row in one.rows)
-    assert sum(row.verdict is True for row in one.rows) == 5
+    assert sum(row.verdict is True for row in one.rows) == 6
 
 
 def test_rows_of_a_spot(study, spot):
@@ -78,7 +79,7 @@ def test_rows_of_a_spot(study, spot):
 
 def test_row_of_a_time_that_never_came(study):
     """A particle that did not leave fails its row and stops nothing."""
-    one = study("ablation-aluminium")
+    one = study("ablation-column")
     never = {"melted_at_s": None, "left_at_s": 1.25e-9}
     one.add_group("column", SimpleNamespace(summary={"traces": {"center": never}}))
     verdicts = {row.quantity.split()[-2]: row.verdict for row in one.rows[:3]}

@@ -7,9 +7,6 @@ from lasersph.validation.ablation_depth.column import Column, Columns, Pulse
 from lasersph.validation.ablation_depth.front import Ablation, Metal, ablate
 from lasersph.validation.study import Study
 
-TEXT = ((10, 0.6, 0.2), (20, 1.1, 0.3))
-"""Fluence [J/cm2], depth that the text gives, half of its range and a layer [um]; 10 ns."""
-
 
 def compare(study: Study) -> None:
     """All fluences at all spacings, a lattice in 3-D, and the published rule."""
@@ -118,10 +115,5 @@ def add_depths(study: Study, exact: dict[Pulse, Ablation], columns: Columns) -> 
     for (ns, f), one in exact.items():
         names = {"fluence": f, "ns": ns, "spacing": fine}
         study.add("smooth", columns[ns, f, fine].smooth, 1e6 * one.depth, **names)
-    for f, middle, share in TEXT:
-        smooth, published = columns[10, f, fine].smooth, published_depth(study, 10, f)
-        names = {"fluence": f, "ns": 10, "spacing": fine}
-        study.add("text_depth", smooth, middle, published=published, share=share, **names)
-    study.add("text_measured", columns[10, 10, fine].smooth, spacing=fine)
     ratio = errors[fine] / errors[coarse]
     study.add("convergence", ratio, share=fine / coarse, fine=fine, coarse=coarse)
