@@ -14,6 +14,7 @@ import numpy as np
 from lasersph.observers import AblationView, View, ablation_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
+from lasersph.output.run_folder import Origin
 from lasersph.output.settings import SnapshotPlan, SnapshotSchedule, Trace
 
 NS, UM = 1e-9, 1e-6
@@ -152,13 +153,8 @@ def make_run(folder: Path, dimension: int, kind: str = "top-hat") -> Path:
         "domain": {"depth": DEPTH, "width": WIDTH},
         "time": {"end": END},
     }  # fmt: skip
-    run = RunFolder.create(
-        folder,
-        case_text=CASE_TEXT,
-        case=case,
-        versions={"lasersph": "0.0.0", "python": "3.11"},
-        case_hash="made-up",
-    )
+    versions = {"lasersph": "0.0.0", "python": "3.11"}
+    run = RunFolder.create(folder, Origin(CASE_TEXT, case, versions, "made-up"))
     traces = (Trace(name="center", depth=0.1 * UM), Trace(name="third-layer", depth=0.5 * UM))
     observers = ablation_observers(dimension, traces=traces, axis=(0.0, 0.0))
     snapshots = SnapshotSchedule(SnapshotPlan(interval=1 * NS), END)

@@ -20,6 +20,7 @@ from synthetic_run import NM, NS, PERIOD
 from lasersph.observers import FlowView, View, flow_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
+from lasersph.output.run_folder import Origin
 from lasersph.output.settings import SnapshotPlan, SnapshotSchedule
 
 LAYER = 120 * NM
@@ -157,7 +158,7 @@ def write_run(folder, views, *, box, end, complete, times=()):
         "time": {"end": end},
     }
     versions = {"lasersph": "0.1.0", "numpy": np.__version__}
-    run = RunFolder.create(folder, case_text="# made up\n", case=case, versions=versions)
+    run = RunFolder.create(folder, Origin("# made up\n", case, versions))
     counts = ("newton", "linear", "pressure", "viscosity")
     observers = flow_observers(2, box=box, iterations=counts)
     schedule = SnapshotSchedule(SnapshotPlan(interval=end / 20, times=times), end)

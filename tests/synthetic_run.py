@@ -13,6 +13,7 @@ import numpy as np
 from lasersph.observers import View, heat_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
 from lasersph.output import RunFolder
+from lasersph.output.run_folder import Origin
 from lasersph.output.settings import Probe, SnapshotPlan, SnapshotSchedule
 
 NS, NM = 1e-9, 1e-9
@@ -121,7 +122,7 @@ def make_run(folder: Path, *, dimension=2, strength=1.0, fluence=6000.0, complet
         "time": {"end": END},
     }
     versions = {"lasersph": "0.1.0", "numpy": np.__version__}
-    run = RunFolder.create(folder, case_text=CASE_TEXT, case=case, versions=versions)
+    run = RunFolder.create(folder, Origin(CASE_TEXT, case, versions))
     position, width = lattice(dimension)
     probes = (Probe(name="surface", method="linear"), Probe(name="deep", depth=500 * NM))
     observers = heat_observers(dimension, probes=probes, iterations=("newton", "linear"))

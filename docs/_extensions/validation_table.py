@@ -2,20 +2,13 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any
+
+from lasersph.validation.records import State
 
 NOT_MET = "## Not met"
 HEAD = ("quantity", "published", "reference", "computed", "tolerance", "verdict")
 VERDICTS = {True: "ok", False: "**FAILED**", None: "shown"}
-
-
-class State(Protocol):
-    """What the page needs of `lasersph.validation.records.State`."""
-
-    name: str
-    word: str
-    text: str
-    record: dict[str, Any] | None
 
 
 def validation_table(states: Sequence[State], readmes: Mapping[str, str]) -> str:

@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,13 +25,6 @@ Array = NDArray[np.float64]
 
 
 @cache
-def tridiagonal_solver() -> Any:
-    """LAPACK's dgtsv, which takes as long to load as all else that reads a case."""
-    from scipy.linalg import get_lapack_funcs
-
-    return get_lapack_funcs("gtsv", dtype=np.float64)
-
-
 @dataclass(frozen=True)
 class MeltEstimate:
     """Depth of the melt [m] (0 where nothing melts), first and last time there is some [s], the
@@ -93,7 +85,10 @@ def melt_depth(
     if not callable(reflectivity):
         constant = float(reflectivity)
         reflectivity = lambda T: np.full_like(T, constant)  # noqa: E731
-    absorbed_share = _absorbed_share(faces, absorption_coefficient)
+    alpha = absorption_coefficient
+    left = np.where(faces > 0.0, 0.0, 1.0) if np.isinf(alpha) else np.exp(-alpha * faces)
+    left[-1] = 0.0  # the last cell keeps the rest
+    absorbed_share = left[:-1] - left[1:]
 
     h = np.zeros((columns.size, faces.size - 1))
     deepest, start, end, hottest = 0.0, np.nan, np.nan, float(curve.temperature(h[0, 0]))
@@ -220,7 +215,9 @@ class _Block:
         diagonal = capacity + slope * (np.hstack([g, zero]) + np.hstack([zero, g]))
         lower = np.hstack([-g * slope[:, :-1], zero]).ravel()[:-1]
         upper = np.hstack([-g * slope[:, 1:], zero]).ravel()[:-1]
-        solve = tridiagonal_solver()
+        from scipy.linalg import get_lapack_funcs  # loads as long as all else that reads a case
+
+        solve = get_lapack_funcs("gtsv", dtype=np.float64)
         *_, change, info = solve(lower, diagonal.ravel(), upper, -r.ravel())
         if info != 0:
             raise ArithmeticError(f"tridiagonal solve failed (LAPACK dgtsv info {info})")
@@ -272,13 +269,6 @@ def _cell_faces(light: float, span: float, alpha: float, diffusivity: float, n: 
         total = finest * np.expm1(n * np.log(growth)) / (growth - 1.0)
         low, high = (growth, high) if total < deepest else (low, growth)
     return np.concatenate([[0.0], np.cumsum(finest * growth ** np.arange(n))])
-
-
-def _absorbed_share(faces: Array, alpha: float) -> Array:
-    """Share of the absorbed energy left in each cell; the last keeps the rest."""
-    left = np.where(faces > 0.0, 0.0, 1.0) if np.isinf(alpha) else np.exp(-alpha * faces)
-    left[-1] = 0.0
-    return left[:-1] - left[1:]
 
 
 def _front(faces: Array, fraction: Array, level: float) -> float:

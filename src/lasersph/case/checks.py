@@ -13,6 +13,7 @@ from lasersph.case.motion_checks import motion_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
+    Size,
     in_words,
     memories,
     size_of,
@@ -46,18 +47,21 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
     ]
 
 
-def refuse_if_too_large(case: CaseContents, backend: str = "cpu") -> None:
+def refuse_if_too_large(case: CaseContents, backend: str = "cpu", size: Size | None = None) -> None:
     """Refuse a case whose particles do not fit into the memory of this machine, or of its card.
 
+    Args:
+        size: what it needs where that is known; else it is estimated, and some room left.
+
     Raises:
-        CaseError: with the estimate, before anything is allocated.
+        CaseError: with the size, before anything is allocated.
         NoDevice: the backend is "cuda" and there is no graphics card.
     """
-    size = size_of(case)
+    needed, share = (size_of(case), LARGEST_COST_SHARE) if size is None else (size, 1.0)
     for words, memory in memories(backend):
-        if size.bytes > LARGEST_COST_SHARE * memory:
+        if needed.bytes > share * memory:
             raise CaseError(
-                f"about {size} of memory, but {words.format(in_words(memory))}",
+                f"about {needed} of memory, but {words.format(in_words(memory))}",
                 "take a coarser spacing or a smaller domain",
                 key="particles.spacing",
             )

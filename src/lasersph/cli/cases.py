@@ -60,9 +60,8 @@ def check(
 ) -> None:
     """Say what a run would need, before anything runs: particles, memory, steps, warnings."""
     from lasersph.case import load_case, refuse_if_too_large
-    from lasersph.case.size import in_words, memories
+    from lasersph.case.size import Size
     from lasersph.compute.threads import chosen
-    from lasersph.input import CaseError
     from lasersph.simulation import forecast
 
     refuse_backend(backend, threads)
@@ -71,14 +70,7 @@ def check(
     refuse_if_too_large(loaded, backend)
     count = chosen(threads)
     expected = forecast(loaded, threads=count)
-    for words, memory in memories(backend):
-        if expected.memory > memory:
-            raise CaseError(
-                f"{expected.particles} particles need about {in_words(expected.memory)} of memory, "
-                f"but {words.format(in_words(memory))}",
-                "take a coarser spacing or a smaller domain",
-                key="particles.spacing",
-            )
+    refuse_if_too_large(loaded, backend, Size(expected.particles, expected.memory))
     print(aligned(_rows(loaded, expected, count, backend)))
     for warning in expected.warnings:
         print(f"warning: {warning}")

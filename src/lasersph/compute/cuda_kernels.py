@@ -87,13 +87,13 @@ def piece_sums(count, counts, out, sums):
         k = piece * SIZE + np.uint64(thread)
         shared[thread] = np.uint64(counts[k]) if k < count else ZERO
         cuda.syncthreads()
-        reach = 1
-        while reach < THREADS:
-            before = shared[thread - reach] if thread >= reach else ZERO
+        width = 1
+        while width < THREADS:
+            before = shared[thread - width] if thread >= width else ZERO
             cuda.syncthreads()
             shared[thread] += before
             cuda.syncthreads()
-            reach *= 2
+            width *= 2
         if k < count:
             out[k + ONE] = shared[thread]
         if thread == THREADS - 1:

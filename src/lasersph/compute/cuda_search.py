@@ -30,6 +30,7 @@ from lasersph.compute.search import (
 )
 from lasersph.compute.source import SourceUnit
 from lasersph.compute.splice import PairRows
+from lasersph.compute.vectors import element
 
 _SCAN = '''{mean}
 
@@ -45,7 +46,7 @@ def scan(count, {targets}, support, {sorted_positions}, sorted_support, order, s
         li = support[i]
 {load_targets}
         for level in range(largest.size):
-            reach = f__mean_of(li, largest[level]) + slack
+            radius = f__mean_of(li, largest[level]) + slack
             size = real(1.0) / inverse[level]
             cells = first_cell[level]
 {images}
@@ -70,11 +71,6 @@ def level_of(support, smallest):
     while ratio >= 1.0:
         ratio, level = 0.5 * ratio, level + 1
     return level
-
-
-def renumbered(level, number):
-    """Number of a level among those that have particles."""
-    return number[level]
 
 
 def cell_1(x, level, first_cell, inverse, low_0, shape_0):
@@ -264,7 +260,7 @@ class CudaSearch:
         names = np.zeros(most, np.uint32)
         names[used] = np.arange(used.size)
         numbers = backend.asarray(names, "index")
-        backend.pointwise(renumbered, {"level": number}, number, number=numbers)
+        backend.pointwise(element, {"place": number}, number, table=numbers)
         return number, levels
 
     def _cells(

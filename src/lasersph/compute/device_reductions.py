@@ -91,11 +91,11 @@ def partition(a: Any, kth: int, **options: Any) -> Any:
     low, high = smallest(a), largest(a)
     if not high < np.inf:
         return NotImplemented
-    reach = (high - low) * (kth + 1) / a.size
-    near = a <= low + reach
+    width = (high - low) * (kth + 1) / a.size
+    near = a <= low + width
     while count(near) <= kth:
-        reach *= 2.0
-        near = a <= low + reach
+        width *= 2.0
+        near = a <= low + width
     rows = numbers(near)
     return rows[np.argpartition(a[rows], kth)]
 

@@ -1,9 +1,9 @@
 """Text of the neighbor search: sorting by cell, scanning and storing, one file each.
 
 For each target and each level of cells, rows of cells along the first axis are cut to the sphere of
-the level's largest reach, and their particles, contiguous in memory, are scanned without branches:
-first the tests r_ij < mean(l_i, l_j) of a piece, in vector instructions, then each candidate is
-written and the place moves on only where its test holds and j != i.
+the level's largest search radius, and their particles, contiguous in memory, are scanned without
+branches: first the tests r_ij < mean(l_i, l_j) of a piece, in vector instructions, then each
+candidate is written and the place moves on only where its test holds and j != i.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def scan(begin, end, threads, start, used, count, targets, support, sorted_posit
         li = support[i]
 {load_targets}
         for level in range(largest.size):
-            reach = f__mean_of(li, largest[level]) + slack
+            radius = f__mean_of(li, largest[level]) + slack
             size = real(1.0) / inverse[level]
             cells = first_cell[level]
             member = first_member[level]
@@ -94,9 +94,9 @@ def store(begin, end, threads, start, count, bases, scratch, ends, row_start, ne
 
 
 def _file(precision: str, text: str, **parts: str) -> str:
-    spread = "\n    ".join(DISPATCH)
+    dispatch = "\n    ".join(DISPATCH)
     return (_HEAD + text).format(
-        precision=precision, block=BLOCK, outer=OUTER, dispatch=spread, **parts
+        precision=precision, block=BLOCK, outer=OUTER, dispatch=dispatch, **parts
     )
 
 
@@ -161,17 +161,17 @@ def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:
             put(f"y{k} = x{k} + shift{k}")
         else:
             put(f"y{k} = x{k}")
-        put(f"if y{k} - reach > high[level, {k}] or y{k} + reach < low[level, {k}]:")
+        put(f"if y{k} - radius > high[level, {k}] or y{k} + radius < low[level, {k}]:")
         put("    continue")
         if k:
-            put(f"a{k} = max((y{k} - reach - low[level, {k}]) * inverse[level], real(0.0))")
-            put(f"b{k} = (y{k} + reach - low[level, {k}]) * inverse[level]")
+            put(f"a{k} = max((y{k} - radius - low[level, {k}]) * inverse[level], real(0.0))")
+            put(f"b{k} = (y{k} + radius - low[level, {k}]) * inverse[level]")
             put(f"for c{k} in range(int(a{k}), min(int(b{k}), shape[level, {k}] - 1) + 1):")
             depth += 1
             put(f"edge = low[level, {k}] + real(c{k}) * size")
             put(f"gap{k} = max(max(edge - y{k}, y{k} - edge - size) - slack, real(0.0))")
     gaps = "".join(f" - gap{k} * gap{k}" for k in range(1, dimension))
-    put(f"rest = reach * reach{gaps}")
+    put(f"rest = radius * radius{gaps}")
     put("if rest <= real(0.0):")
     put("    continue")
     put("half = math.sqrt(rest) + slack")

@@ -23,7 +23,6 @@ from lasersph.compute.scan import ScanText, scan_text, sort_text, store_text
 
 FINEST = 1.1
 """Largest support of the first level over the smallest; in the following levels twice as much."""
-_CELLS_PER_REACH = 1.0
 _CELLS_PER_PARTICLE = 4
 _PLACES_PER_ROW = 256
 """At first; a list with more neighbors per particle is begun anew. Memory not written is free."""
@@ -122,20 +121,20 @@ def neighbor_list(
 
     Raises:
         EscapedParticle: a position is not finite or outside the box; number and position are named.
-        ValueError: a support is not positive, a period is not longer than twice the reach or
-            shorter than the particles' extent, or more than 2^32 - 1 particles.
+        ValueError: a support is not positive, a period is not longer than twice the largest search
+            radius or shorter than the particles' extent, or more than 2^32 - 1 particles.
     """
-    host, reach = backend.unwrap(position), backend.unwrap(support)
+    host, supports = backend.unwrap(position), backend.unwrap(support)
     dimension, total = host.shape
     widths = np.array(tuple(period) or (0.0,) * dimension, dtype=backend.real)
-    if not 0 <= count <= total or reach.shape != (total,) or widths.shape != (dimension,):
-        raise ValueError(f"{count} rows, {total} particles, {reach.shape[0]} supports")
+    if not 0 <= count <= total or supports.shape != (total,) or widths.shape != (dimension,):
+        raise ValueError(f"{count} rows, {total} particles, {supports.shape[0]} supports")
     if total >= 2**32 - 1:
         raise ValueError(f"{total} particles; a list holds fewer than 2^32 - 1")
     if backend.search is not None:
         return backend.search.neighbor_list(
             host,
-            reach,
+            supports,
             count,
             mean=mean,
             lower=lower,
@@ -144,9 +143,9 @@ def neighbor_list(
             wanted=None if wanted is None else backend.unwrap(wanted),
         )
     refuse_escape(host, lower, upper)
-    smallest, largest = (reach.min(), reach.max()) if total else (1.0, 1.0)
+    smallest, largest = (supports.min(), supports.max()) if total else (1.0, 1.0)
     if not (smallest > 0.0 and np.isfinite(largest)):  # not a number is neither
-        refuse_support(reach)
+        refuse_support(supports)
     row_start = np.zeros(count + 1, dtype=np.uint64)
     if count == 0:
         return backend.wrap(row_start), backend.wrap(np.zeros(0, dtype=np.uint32))
@@ -155,7 +154,7 @@ def neighbor_list(
     periodic = tuple(bool(width) for width in widths)
     module = _module(_scan(backend.precision, dimension, mean, periodic).text)
     sort = _module(sort_text(backend.precision, dimension)).sort
-    cells = _levels(sort, host, reach, mean, lower, upper)
+    cells = _levels(sort, host, supports, mean, lower, upper)
     extent = max(float(np.abs(cells.low).max()), float(np.abs(cells.high).max()), widths.max())
     slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(largest)))
     targets = host
@@ -163,7 +162,7 @@ def neighbor_list(
         rows = backend.unwrap(wanted)
         targets = np.full_like(host, np.inf)
         targets[:, rows] = host[:, rows]
-    arguments = (np.uint64(count), targets, reach, *cells, slack, widths)
+    arguments = (np.uint64(count), targets, supports, *cells, slack, widths)
     neighbor = _scanned(module, backend, arguments, count, row_start, room or Room())
     return backend.wrap(row_start), backend.wrap(neighbor)
 
@@ -240,7 +239,7 @@ def _levels(
         high[k] = part.max(axis=1) if upper is None else upper
         supports = support if single else support[group]
         largest[k], least[k] = supports.max(), supports.min()
-        size = float(mean(largest[k], largest[k])) / _CELLS_PER_REACH
+        size = float(mean(largest[k], largest[k]))
         place = order[members : members + group.size]
         start, shape[k], inverse[k] = _sorted(sort, position, group, low[k], high[k], size, place)
         first_cell[k], first_member[k] = cells, members
@@ -323,19 +322,19 @@ def refuse_support(support: np.ndarray) -> None:
     raise ValueError(f"support of particle {bad} is {support[bad]} m; it must be positive")
 
 
-def refuse_short_period(extent: np.ndarray, widths: np.ndarray, reach: float) -> None:
+def refuse_short_period(extent: np.ndarray, widths: np.ndarray, radius: float) -> None:
     """Raise ValueError where the period `widths` [m] of an axis is too short.
 
     Args:
-        extent: of the particles along each axis [m]. reach: longest distance of a pair [m].
+        extent: of the particles along each axis [m]. radius: longest distance of a pair [m].
     """
     for k, width in enumerate(widths):
         if width == 0.0:
             continue
-        if not width > 2.0 * reach:
+        if not width > 2.0 * radius:
             raise ValueError(
-                f"period {width:.6g} m of axis {k} must be longer than twice the reach"
-                f" {reach:.6g} m of a particle; use more particles per period"
+                f"period {width:.6g} m of axis {k} must be longer than twice the search"
+                f" radius {radius:.6g} m of a particle; use more particles per period"
             )
         if extent[k] > width:
             raise ValueError(

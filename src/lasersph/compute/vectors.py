@@ -71,6 +71,11 @@ def inverse(M):
     return np.linalg.inv(M)
 
 
+def element(place, table):
+    """Value at a place of a table."""
+    return table[place]
+
+
 def segment(x, nodes):
     """Number of the node before x in a strictly increasing table of two or more; the first and the
     last segment go on beyond the ends."""

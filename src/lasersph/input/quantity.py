@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 from lasersph.input.kinds import KINDS, kind_of
-from lasersph.input.units import Unit, UnitError, parse_unit
+from lasersph.input.units import UnitError, parse_unit
 
 _NUMBER = re.compile(
     r"\s*([+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,3})?)(.*)",
@@ -51,7 +51,10 @@ def parse_quantity(text: str, kind: str) -> float:
         raise QuantityError(f'"{shown}" has no unit; {hint}')
     if re.match(r"[,.0-9]", unit_text) and not re.match(r"1\s*/", unit_text):
         raise QuantityError(f'the number in "{shown}" cannot be read; {hint}')
-    unit = _unit(unit_text, shown, hint)
+    try:
+        unit = parse_unit(unit_text)
+    except UnitError as error:
+        raise QuantityError(f'{error} in "{shown}"; {hint}') from None
     if unit.offset and kind == "temperature_difference":
         raise QuantityError(f'"{shown}" is a temperature, not a difference; write it in K')
     if not wanted.accepts(unit):
@@ -59,13 +62,6 @@ def parse_quantity(text: str, kind: str) -> float:
         what = f"is {given.words}" if given else "has another dimension"
         raise QuantityError(f'"{shown}" {what}, not {wanted.words}; {hint}')
     return _finite(Fraction(number) * unit.factor + unit.offset, shown)
-
-
-def _unit(unit_text: str, shown: str, hint: str) -> Unit:
-    try:
-        return parse_unit(unit_text)
-    except UnitError as error:
-        raise QuantityError(f'{error} in "{shown}"; {hint}') from None
 
 
 def _finite(exact: Fraction, shown: str) -> float:

@@ -7,6 +7,7 @@ are SI numbers and not validated again.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from numbers import Real
@@ -62,21 +63,17 @@ def _reader(kind: str) -> Callable[[Any, ValidationInfo], Any]:
         if isinstance(value, bool) or not isinstance(value, Real):
             what = f"{str(value).lower()} is" if isinstance(value, bool) else "is"
             raise _refusal(f'{what} not {KINDS[kind].words}; write e.g. "{example}"')
-        number = _float(value)
-        if number is None or number != number or number in (float("inf"), float("-inf")):
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
+        if not math.isfinite(number):
             raise _refusal(f'{value} is not a finite number; write e.g. "{example}"')
         if needs_unit and kind != "fraction":
             raise _refusal(f'{value} has no unit; write e.g. "{example}"')
         return number
 
     return read
-
-
-def _float(value: Real) -> float | None:
-    try:
-        return float(value)
-    except OverflowError:
-        return None
 
 
 def _refusal(message: str) -> PydanticCustomError:

@@ -15,7 +15,6 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
 
 DIMENSIONS = ("m", "kg", "s", "K", "mol", "A", "cd", "rad")
 Dimension = tuple[int, ...]
@@ -185,18 +184,16 @@ def _product(tokens: list, start: int, text: str) -> tuple[Unit, int]:
         else:
             name, exponent = token
             factor = _symbol(name)
-        result = _times(result, factor, sign * exponent)
+        power = sign * exponent  # a temperature scale counts as its difference
+        pairs = zip(result.dimension, factor.dimension, strict=True)
+        dims = tuple(a + power * b for a, b in pairs)
+        parts = result.parts | factor.parts
+        result = Unit(result.factor * factor.factor**power, dims, parts=parts)
         sign, wanted = 1, False
         place += 1
     if wanted:
         raise UnitError(f'the unit "{text}" cannot be read')
     return result, place
-
-
-def _times(left: Unit, right: Unit, exponent: int) -> Unit:
-    """left * right^exponent; inside a product a temperature scale counts as its difference."""
-    dims = tuple(a + exponent * b for a, b in zip(left.dimension, right.dimension, strict=True))
-    return Unit(left.factor * right.factor**exponent, dims, parts=left.parts | right.parts)
 
 
 def _symbol(name: str) -> Unit:
@@ -210,7 +207,9 @@ def _from_pint(name: str) -> Unit:
     """A rarer unit by its name (psi, torr, inch, cal, ...); pint sees one bare word only."""
     if len(name) < 2:
         raise UnitError(f'unknown unit "{name}"{_case_hint(name)}')
-    registry = _registry()
+    import pint
+
+    registry = pint.get_application_registry()
     try:
         quantity = registry.Quantity(1.0, registry.parse_units(name)).to_base_units()
     except Exception as error:  # pint raises many types; all mean that this word is no plain unit
@@ -239,10 +238,3 @@ def _case_hint(name: str) -> str:
         return ' (do you mean "degC"?)'
     near = [known for known in _TABLE if known.lower() == name.lower()]
     return f' (do you mean "{near[0]}"?)' if near else ""
-
-
-@lru_cache(maxsize=1)
-def _registry() -> Any:
-    import pint
-
-    return pint.UnitRegistry()

@@ -74,11 +74,13 @@ class Laser(Model):
     def _check_amount(self) -> Laser:
         given = [name for name in AMOUNTS if getattr(self, name) is not None]
         if len(given) != 1:
-            got = " and ".join(given) if given else "none"
-            raise ValueError(
-                f"a laser needs one statement of its energy, got {got}; "
-                + (f"leave all but one of {got} out" if given else self._energy_to_write())
+            got = " and ".join(given) or "none"
+            example = (
+                'fluence = "1 J/cm^2"' if self.beam.names_fluence else 'pulse_energy = "10 uJ"'
             )
+            line = f"write e.g. {example} (one of {', '.join(AMOUNTS)})"
+            hint = f"leave all but one of {got} out" if given else line
+            raise ValueError(f"a laser needs one statement of its energy, got {got}; {hint}")
         name = given[0]
         if name in ("intensity", "power") and self.pulse.on_time is None:
             raise ValueError(
@@ -104,11 +106,6 @@ class Laser(Model):
                 'fluence_kind = "mean" with the mean fluence'
             )
         return self
-
-    def _energy_to_write(self) -> str:
-        """The line that says the energy of a pulse of this beam."""
-        example = 'fluence = "1 J/cm^2"' if self.beam.names_fluence else 'pulse_energy = "10 uJ"'
-        return f"write e.g. {example} (one of {', '.join(AMOUNTS)})"
 
     @model_validator(mode="after")
     def _check_path(self) -> Laser:

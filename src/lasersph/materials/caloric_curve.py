@@ -87,22 +87,19 @@ class CaloricCurve:
         temperature. Raises ValueError above a boiling point at which T is held.
         """
         values = np.asarray(temperature, dtype=np.float64)
-        held = self.vaporization is not None and self.plateau != "evaporate"
-        if held and np.any(values > self.temperature[-1]):
+        holds = self.vaporization is not None and self.plateau != "evaporate"
+        if holds and np.any(values > self.temperature[-1]):
             raise ValueError(
                 f"no enthalpy belongs to {np.max(values):g} K: the curve holds the boiling "
                 f"temperature of {self.temperature[-1]:g} K (plateau = {self.plateau!r})"
             )
         right = np.searchsorted(self.temperature, values, side="left")
-        right = np.clip(right, 1, self._last_rising())
+        rising = np.flatnonzero(np.diff(self.temperature) > 0.0)
+        right = np.clip(right, 1, rising[-1] + 1)
         low, high = self.temperature[right - 1], self.temperature[right]
         share = (values - low) / (high - low)
         left = self.enthalpy[right - 1]
         return left + share * (self.enthalpy[right] - left)
-
-    def _last_rising(self) -> int:
-        """Index of the node at the end of the last segment in which T rises."""
-        return int(np.flatnonzero(np.diff(self.temperature) > 0.0)[-1]) + 1
 
     def _linear(self, values: Array, enthalpy: ArrayLike) -> Array:
         """Interpolate node values in h, the end segments continued."""

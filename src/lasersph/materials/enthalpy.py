@@ -169,7 +169,7 @@ def build_curve(
     name: str,
 ) -> CaloricCurve:
     """The caloric curve of a material; see `Material.caloric_curve` for arguments and errors."""
-    held = plateau in ("hold", "clip") and vaporization is not None
+    holds = plateau in ("hold", "clip") and vaporization is not None
     if plateau not in ("hold", "clip", "evaporate"):
         raise ValueError(f'plateau must be "hold", "clip" or "evaporate", got {plateau!r}')
     if initial_temperature <= 0.0:
@@ -181,7 +181,7 @@ def build_curve(
             f"where {'melting' if melting else 'boiling'} of {name!r} begins"
         )
     c, k = heat_capacity, conductivity
-    end = _end_of_curve(c, k, initial_temperature, melting, vaporization, held)
+    end = _end_of_curve(c, k, initial_temperature, melting, vaporization, holds)
     solid_end = melting.solidus if melting else end
     solid = _sensible(c.solid_law, k.solid_law, initial_temperature, solid_end, 0.0)
     mush = _mush(k, melting) if melting else None
@@ -195,7 +195,7 @@ def build_curve(
     for piece in liquid:
         builder.sensible(piece)
     start = builder.enthalpy_at_temperature(vaporization.temperature) if vaporization else None
-    if held and vaporization is not None:
+    if holds and vaporization is not None:
         builder.boiling(vaporization.latent_heat)
     return builder.curve(
         initial_temperature=initial_temperature,
@@ -207,7 +207,7 @@ def build_curve(
         enthalpy_vaporized=start + vaporization.latent_heat if start and vaporization else None,
         latent_heats=(
             melting.latent_heat if melting else 0.0,
-            vaporization.latent_heat if held and vaporization else 0.0,
+            vaporization.latent_heat if holds and vaporization else 0.0,
         ),
     )
 
@@ -218,10 +218,10 @@ def _end_of_curve(
     initial_temperature: float,
     melting: Melting | None,
     vaporization: Vaporization | None,
-    held: bool,
+    holds: bool,
 ) -> float:
     """Temperature of the last node [K]: T_v, or where c_p and k do not change any more."""
-    if held and vaporization is not None:
+    if holds and vaporization is not None:
         return vaporization.temperature
     laws = (c.liquid_law, k.liquid_law) if melting else (c.solid_law, k.solid_law)
     uppers = [law.upper for law in laws if not law.is_constant and np.isfinite(law.upper)]

@@ -64,10 +64,11 @@ def save(folder: Path, checkpoint: Checkpoint) -> Path:
             "case_hash": checkpoint.case_hash,
             "step": checkpoint.step,
             "time": checkpoint.time,
-            "scalars": numbers_only(checkpoint.scalars),
-            "meta": numbers_only(checkpoint.meta),
+            "scalars": dict(checkpoint.scalars),
+            "meta": dict(checkpoint.meta),
             "arrays": [[name, a.dtype.str, list(a.shape)] for name, a in arrays.items()],
-        }
+        },
+        default=lambda value: value.tolist(),  # of NumPy's numbers and arrays
     ).encode()
 
     def write(stream: BinaryIO) -> None:
@@ -124,14 +125,8 @@ def load(path: Path) -> Checkpoint:
         flat = np.frombuffer(body, dtype=kind, count=count, offset=offset)
         arrays[name] = flat.reshape(shape).copy()
         offset += flat.nbytes
-    return Checkpoint(
-        step=header["step"],
-        time=header["time"],
-        case_hash=header["case_hash"],
-        arrays=arrays,
-        scalars=header["scalars"],
-        meta=header["meta"],
-    )
+    names = ("step", "time", "case_hash", "scalars", "meta")
+    return Checkpoint(**{name: header[name] for name in names}, arrays=arrays)
 
 
 def refuse_other_format(path: Path, header: Mapping[str, Any]) -> None:
@@ -164,14 +159,3 @@ def refuse_formats(files: Sequence[Path]) -> None:
             continue
         refuse_other_format(path, header)
         return
-
-
-def numbers_only(value: Any) -> Any:
-    """Numbers, texts, lists and dicts as JSON keeps them exactly (also NaN and infinity)."""
-    if isinstance(value, Mapping):
-        return {str(key): numbers_only(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [numbers_only(item) for item in value]
-    if hasattr(value, "tolist"):
-        return numbers_only(value.tolist())
-    return value

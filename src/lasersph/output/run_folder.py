@@ -21,6 +21,7 @@ import hashlib
 import json
 import os
 from collections.abc import Mapping
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -48,6 +49,26 @@ REQUIRED_KEYS = (
 )
 
 
+@dataclass(frozen=True)
+class Origin:
+    """What a run begins with.
+
+    Attributes:
+        case_text: the case file as given. case: with all defaults, SI.
+        versions: of the programs that compute. case_hash: which case this is; from `case` if empty.
+    """
+
+    case_text: str
+    case: Mapping[str, Any]
+    versions: Mapping[str, str]
+    case_hash: str = ""
+
+    @property
+    def name(self) -> str:
+        """Short name of the case that the folder belongs to."""
+        return self.case_hash or hash_of_case(self.case)
+
+
 class RunFolder:
     """The open run folder of one run. Make it with `create` or `resume`.
 
@@ -65,21 +86,8 @@ class RunFolder:
         self._lock = lock_folder(path)
 
     @classmethod
-    def create(
-        cls,
-        path: str | Path,
-        *,
-        case_text: str,
-        case: Mapping[str, Any],
-        versions: Mapping[str, str],
-        case_hash: str | None = None,
-    ) -> RunFolder:
-        """Make a new run folder.
-
-        Args:
-            path: a folder that does not exist or is empty. case_text: the case file as given.
-            case: the case with all defaults, SI. versions: versions of the programs that compute.
-            case_hash: which case this is; from `case` if not given.
+    def create(cls, path: str | Path, origin: Origin) -> RunFolder:
+        """Make a new run folder at a path that does not exist or is an empty folder.
 
         Raises:
             FolderRefused: the folder holds files or cannot be written; nothing was written.
@@ -96,22 +104,14 @@ class RunFolder:
             folder.mkdir(parents=True, exist_ok=True)
             if not os.access(folder, os.W_OK | os.X_OK):
                 raise FolderRefused(f"cannot write {folder}: permission denied")
-        return cls._start(folder, case_text, case, versions, case_hash or hash_of_case(case))
+        return cls._start(folder, origin)
 
     @classmethod
-    def resume(
-        cls,
-        path: str | Path,
-        *,
-        case_text: str,
-        case: Mapping[str, Any],
-        versions: Mapping[str, str],
-        case_hash: str | None = None,
-    ) -> tuple[RunFolder, Checkpoint | None]:
+    def resume(cls, path: str | Path, origin: Origin) -> tuple[RunFolder, Checkpoint | None]:
         """Open the folder of an earlier run of the same case and cut it back to its checkpoint.
 
-        Arguments as of `create`. A folder without a checkpoint is started again from the
-        beginning, a folder that does not exist is made, a complete run is left as it is.
+        A folder without a checkpoint is started again from the beginning, a folder that does not
+        exist is made, a complete run is left as it is.
 
         Returns:
             The folder, and the checkpoint to go on from. None: from the beginning, or, where
@@ -124,43 +124,36 @@ class RunFolder:
         """
         folder = Path(path)
         if is_untouched(folder):
-            arguments = {"case_text": case_text, "case": case, "versions": versions}
-            clear_leftovers(folder)
-            return cls.create(folder, **arguments, case_hash=case_hash), None
-        wanted = case_hash or hash_of_case(case)
+            for left in folder.iterdir() if folder.is_dir() else ():
+                with clear_errors("write", left, FolderRefused):
+                    left.unlink()
+            return cls.create(folder, origin), None
         files = checkpoints.candidates(folder / "checkpoint")
         is_complete = (folder / "summary.json").exists()
         if not is_complete:  # an earlier version hashed cases in its own way: ask for it first
             checkpoints.refuse_formats(files)
-        check_owner(folder, wanted)
+        check_owner(folder, origin.name)
         if is_complete:
-            return cls(folder, wanted), None
+            return cls(folder, origin.name), None
         if not files:
-            run = cls._start(folder, case_text, case, versions, wanted)
+            run = cls._start(folder, origin)
             run.restart()
             return run, None
-        run = cls(folder, wanted)
+        run = cls(folder, origin.name)
         return run, run.last_good(files)
 
     @classmethod
-    def _start(
-        cls,
-        folder: Path,
-        case_text: str,
-        case: Mapping[str, Any],
-        versions: Mapping[str, str],
-        case_hash: str,
-    ) -> RunFolder:
+    def _start(cls, folder: Path, origin: Origin) -> RunFolder:
         """Write what is known before the first step."""
         resolved = {
             "schema_version": SUMMARY_SCHEMA,
-            "case_hash": case_hash,
-            "versions": dict(versions),
-            "case": case,
+            "case_hash": origin.name,
+            "versions": dict(origin.versions),
+            "case": origin.case,
         }
         replace_json(folder / "resolved.json", resolved)
-        replace_text(folder / "case.toml", case_text)
-        return cls(folder, case_hash)
+        replace_text(folder / "case.toml", origin.case_text)
+        return cls(folder, origin.name)
 
     @property
     def is_complete(self) -> bool:
@@ -283,20 +276,8 @@ def is_untouched(folder: Path) -> bool:
     """Whether a folder is missing, empty, or left by a run killed before it wrote its case."""
     if not folder.exists():
         return True
-    return folder.is_dir() and all(is_leftover(path) for path in folder.iterdir())
-
-
-def is_leftover(path: Path) -> bool:
-    """Whether a file can remain of a run killed before it wrote its case."""
-    return path.is_file() and path.name == "resolved.json" + TEMPORARY_SUFFIX
-
-
-def clear_leftovers(folder: Path) -> None:
-    """Remove what a run killed at its start left. Raises OutputError."""
-    if folder.is_dir():
-        for path in folder.iterdir():
-            with clear_errors("write", path, FolderRefused):
-                path.unlink()
+    left = folder / ("resolved.json" + TEMPORARY_SUFFIX)
+    return folder.is_dir() and all(path == left and path.is_file() for path in folder.iterdir())
 
 
 def check_owner(folder: Path, case_hash: str) -> None:

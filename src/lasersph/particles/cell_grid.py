@@ -38,11 +38,6 @@ def cell_number(x, low, inverse, shape):
     return number
 
 
-def value_of_cell(cell, values):
-    """Value of a particle's cell."""
-    return values[cell]
-
-
 Numbers = Sequence[float] | np.ndarray
 
 

@@ -130,11 +130,6 @@ def origin(k, count, size, near, found):
     return near[pair % size], pair // size + 1
 
 
-def scalar_of_type(ghost_type, first):
-    """Number of a type."""
-    return first[ghost_type]
-
-
 class GhostParticles:
     """The first `count` particles with their ghosts.
 

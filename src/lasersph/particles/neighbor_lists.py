@@ -18,6 +18,7 @@ import numpy as np
 from lasersph.compute import search
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import element
 from lasersph.particles.support import common
 
 Mean = Callable[[float, float], float]
@@ -125,11 +126,6 @@ def find_neighbors(
     return NeighborList(row_start, neighbor, position, support, kernel, mean, box.period)
 
 
-def item(place, numbers):
-    """Number at a place of a table."""
-    return numbers[place]
-
-
 def row_length(place, start):
     """Number of neighbors in a row of a list."""
     return start[place + 1] - start[place]
@@ -163,7 +159,7 @@ def search_pairs(
     )
     # from places among the members to numbers of particles
     neighbor = backend.zeros(local.shape[0], "index")
-    backend.pointwise(item, {"place": local}, neighbor, numbers=subset.members)
+    backend.pointwise(element, {"place": local}, neighbor, table=subset.members)
     counts, lengths = backend.zeros(total, "index"), backend.zeros(size, "index")
     backend.pointwise(row_length, {"place": subset.places}, lengths, start=start)
     backend.scatter(lengths, subset.members, counts)

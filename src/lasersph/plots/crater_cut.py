@@ -124,7 +124,7 @@ def draw_body(axes: Axes, values: np.ndarray, frame: Box, **look: Any) -> Any:
     image = style.paint(axes, values, edges, unit, zorder=2, **look)
     axes.set_xlim(frame.left * unit.factor, frame.right * unit.factor)
     axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
-    axes.set_aspect(aspect_of(frame))
+    axes.set_aspect(min(frame.width / frame.height / NARROW, 1.0))
     return image
 
 
@@ -169,12 +169,6 @@ def draw_speeds(axes: Axes, cut: Cut, frame: Box, largest: float) -> Any:
 def arrow_length(frame: Box) -> float:
     """Length of the arrow of the fastest particle [m]."""
     return ARROW * max(frame.height, 0.5 * frame.width)
-
-
-def aspect_of(frame: Box) -> float:
-    """Height of a unit of z over the width of a unit of x; 1 unless the frame is narrow."""
-    shape = frame.width / frame.height
-    return 1.0 if shape >= NARROW else float(shape / NARROW)
 
 
 def height_profile(cut: Cut, frame: Box, corners: dict[str, Any]) -> Figure:

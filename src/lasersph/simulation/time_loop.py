@@ -23,6 +23,7 @@ from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
+from lasersph.output.run_folder import Origin
 from lasersph.output.settings import SnapshotSchedule
 from lasersph.simulation.forecast import spans_of
 from lasersph.simulation.progress import RemainingTime, RunProgress
@@ -101,15 +102,8 @@ def _open(
 ) -> tuple[RunFolder, Checkpoint | None]:
     versions = {"lasersph": __version__, "python": platform.python_version()}
     versions |= {name: version(name) for name in PACKAGES}
-    arguments: dict[str, Any] = {
-        "case_text": case.text,
-        "case": case.resolved(),
-        "versions": versions,
-        "case_hash": f"{case.hash()}-{variant}",
-    }
-    if resume:
-        return RunFolder.resume(out, **arguments)
-    return RunFolder.create(out, **arguments), None
+    origin = Origin(case.text, case.resolved(), versions, f"{case.hash()}-{variant}")
+    return RunFolder.resume(out, origin) if resume else (RunFolder.create(out, origin), None)
 
 
 class _Loop:

@@ -125,7 +125,7 @@ def test_escape(backend, bad):
 def test_refusals(backend):
     """Short periods, particles wider than the period and bad supports are refused."""
     x = np.random.default_rng(0).random((2, 50))
-    with pytest.raises(ValueError, match="must be longer than twice the reach"):
+    with pytest.raises(ValueError, match="must be longer than twice the search radius"):
         rows_of(backend, x, np.full(50, 0.5), 50, period=(1.0, 0.0))
     with pytest.raises(ValueError, match="more than its period"):
         rows_of(backend, x, np.full(50, 0.1), 50, period=(0.5, 0.0))

@@ -7,13 +7,15 @@ import shutil
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from lasersph.output import FolderRefused, OutputError, RunFolder, checkpoint, open_run
+from lasersph.output.run_folder import Origin
 
-CASE = {"case_text": 'spacing = "8 nm"\n', "case": {"spacing": 8e-9}, "versions": {"lasersph": "1"}}
+CASE = Origin('spacing = "8 nm"\n', {"spacing": 8e-9}, {"lasersph": "1"})
 SUMMARY = {
     "case": "toy",
     "solver": "toy",
@@ -48,7 +50,7 @@ print(calls)
 
 def toy_run(path, steps=40):
     """A run whose state is a chaotic map: any lost or repeated step shows in the end."""
-    run, found = RunFolder.resume(path, **CASE)
+    run, found = RunFolder.resume(path, CASE)
     if run.is_complete:
         run.close()
         return
@@ -82,7 +84,7 @@ def test_files_of_a_complete_run(tmp_path):
     assert run.summary["schema_version"] == 1
     assert run.resolved["schema_version"] == 1
     assert run.case == {"spacing": 8e-9}
-    assert run.case_text == CASE["case_text"]
+    assert run.case_text == CASE.case_text
     assert run.history["time_s"].shape == (40,)
     assert len(run.snapshots) == 10
     with pytest.raises(OutputError, match="not a run folder"):
@@ -93,42 +95,42 @@ def test_existing_folder_is_refused(tmp_path):
     """A folder with files in it is never written over."""
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(FolderRefused, match="is not empty"):
-        RunFolder.create(tmp_path, **CASE)
+        RunFolder.create(tmp_path, CASE)
     with pytest.raises(FolderRefused, match="not a run folder"):
-        RunFolder.resume(tmp_path, **CASE)
+        RunFolder.resume(tmp_path, CASE)
     with pytest.raises(FolderRefused, match="is a file"):
-        RunFolder.create(tmp_path / "notes.txt", **CASE)
+        RunFolder.create(tmp_path / "notes.txt", CASE)
     assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
 
 
 def test_unwritable_place_is_refused(tmp_path):
     """A folder that cannot be made gives one clear line."""
     with pytest.raises(FolderRefused, match="cannot write"):
-        RunFolder.create("/proc/lasersph-run", **CASE)
+        RunFolder.create("/proc/lasersph-run", CASE)
     (tmp_path / "file").write_text("")
     with pytest.raises(FolderRefused, match="cannot write"):
-        RunFolder.create(tmp_path / "file" / "run", **CASE)
+        RunFolder.create(tmp_path / "file" / "run", CASE)
 
 
 def test_two_processes_cannot_share_a_folder(tmp_path):
     """The second one is told so."""
-    first = RunFolder.create(tmp_path / "run", **CASE)
+    first = RunFolder.create(tmp_path / "run", CASE)
     with pytest.raises(FolderRefused, match="another process"):
-        RunFolder.resume(tmp_path / "run", **CASE)
+        RunFolder.resume(tmp_path / "run", CASE)
     first.close()
-    RunFolder.resume(tmp_path / "run", **CASE)[0].close()
+    RunFolder.resume(tmp_path / "run", CASE)[0].close()
 
 
 def test_another_case_is_refused(tmp_path):
     """A run is only resumed with the case that it was started with."""
     toy_run(tmp_path / "run")
     with pytest.raises(FolderRefused, match="another case"):
-        RunFolder.resume(tmp_path / "run", **{**CASE, "case": {"spacing": 4e-9}})
+        RunFolder.resume(tmp_path / "run", replace(CASE, case={"spacing": 4e-9}))
 
 
 def test_summary_needs_its_keys(tmp_path):
     """A summary that lacks a key of the contract is a mistake of the program."""
-    run = RunFolder.create(tmp_path / "run", **CASE)
+    run = RunFolder.create(tmp_path / "run", CASE)
     with pytest.raises(ValueError, match="lacks energy"):
         run.finish({key: value for key, value in SUMMARY.items() if key != "energy"})
     assert not run.is_complete
@@ -261,13 +263,13 @@ def test_checkpoint_of_an_earlier_version(tmp_path, monkeypatch):
     folder = tmp_path / "run"
     with monkeypatch.context() as patch:
         patch.setattr(checkpoint, "CHECKPOINT_SCHEMA", 3)
-        run = RunFolder.create(folder, **CASE)
+        run = RunFolder.create(folder, CASE)
         run.save_checkpoint(step=4, time=0.4, arrays={}, scalars={})
         run.close()
     before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-    for case_hash in (None, "another"):
+    for case_hash in ("", "another"):
         with pytest.raises(FolderRefused) as told:
-            RunFolder.resume(folder, **CASE, case_hash=case_hash)
+            RunFolder.resume(folder, replace(CASE, case_hash=case_hash))
         assert "of another version of lasersph: its format is 3, this version reads 5; " in str(
             told.value
         )

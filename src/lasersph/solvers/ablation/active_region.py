@@ -23,8 +23,8 @@ import numpy as np
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import dot
-from lasersph.particles.cell_grid import CellGrid, value_of_cell
+from lasersph.compute.vectors import dot, element
+from lasersph.particles.cell_grid import CellGrid
 from lasersph.particles.kinds import EJECTED, GONE
 from lasersph.particles.neighbor_lists import Subset
 
@@ -162,7 +162,7 @@ class ActiveRegion:
     def _particles_in(self, cells: np.ndarray) -> Rows:
         """Particles that started in these cells, in order; `_mark` is 1 for them."""
         marks = self.backend.asarray(cells.ravel().astype(float))
-        self.backend.pointwise(value_of_cell, {"cell": self.cell}, self._mark, values=marks)
+        self.backend.pointwise(element, {"place": self.cell}, self._mark, table=marks)
         return self.backend.rows_where(self._mark, 1.0)
 
     def _cells_of(self, position: Array, rows: Rows) -> np.ndarray:

@@ -21,16 +21,10 @@ from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.launch import Launch
 from lasersph.compute.search import Room
-from lasersph.compute.vectors import dot
+from lasersph.compute.vectors import dot, element
 from lasersph.particles.faces import LEFT
-from lasersph.particles.ghosts import (
-    LOWER,
-    UPPER,
-    GhostParticles,
-    ghost_types_of,
-    scalar_of_type,
-)
-from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors, item
+from lasersph.particles.ghosts import LOWER, UPPER, GhostParticles, ghost_types_of
+from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
 from lasersph.particles.support import common
 from lasersph.solvers.conduction.body import Weighing
 from lasersph.solvers.melt_pool import ghost_fields
@@ -210,8 +204,8 @@ class Block:
 
     def of_type(self, table: Array) -> Array:
         """(M,) values by the type of each particle."""
-        out, fields = self.backend.zeros(self.total), {"ghost_type": self.ghosts.ghost_type}
-        self.backend.pointwise(scalar_of_type, fields, out, first=table)
+        out, fields = self.backend.zeros(self.total), {"place": self.ghosts.ghost_type}
+        self.backend.pointwise(element, fields, out, table=table)
         return out
 
     def extend(self, function: Callable, **tables: Array | tuple[float, ...]) -> Array:
@@ -266,7 +260,7 @@ class Block:
         geometry.find(self.pairs, self._layers, has_kernel=has_kernel)
         self.weights, self.gradient, self.kernel = geometry.arrays
         self._folded = backend.zeros(neighbor.shape[0], "index")
-        backend.pointwise(item, {"place": neighbor}, self._folded, numbers=self.source)
+        backend.pointwise(element, {"place": neighbor}, self._folded, table=self.source)
 
     def _find_rows_near_faces(self) -> None:
         """Numbers of the particles with complete pairs that may have ghosts among them."""

@@ -12,7 +12,8 @@ import numpy as np
 from lasersph.compute import search
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
-from lasersph.particles.cell_grid import CellGrid, cell_number, value_of_cell
+from lasersph.compute.vectors import element
+from lasersph.particles.cell_grid import CellGrid, cell_number
 
 AT_ENDS = 5
 """Columns at either end of a period whose marks are shared: two outside, two of ghosts, one."""
@@ -122,5 +123,5 @@ class NearMelt:
             fields = cells | {"mark": marks}
             backend.pointwise(periodic_mark, fields, marks, line_marks=self._line_marks, **lines)
         found = backend.zeros(self.count)
-        backend.pointwise(value_of_cell, {"cell": self._cell}, found, values=marks)
+        backend.pointwise(element, {"place": self._cell}, found, table=marks)
         return found
