@@ -1,6 +1,6 @@
 """Backend on a graphics card: the CPU backend's arrays, copies and sorts in its memory.
 
-Loops come from the same pair functions (`cuda_text`). Work is queued in order; only what returns
+Loops come from the same pair functions (`cuda_launch`). Work is queued in order; only what returns
 numbers to the host waits for it. Orders and neighbors are not compared with the lengths of what
 they index.
 """

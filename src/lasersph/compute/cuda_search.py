@@ -18,7 +18,7 @@ from numba import cuda
 from lasersph.compute import cache, cuda_kernels
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import start
-from lasersph.compute.cuda_text import HEAD, INNER, supported
+from lasersph.compute.cuda_launch import HEAD, INNER, supported
 from lasersph.compute.scan import distance, images, indented
 from lasersph.compute.search import (
     FINEST,

@@ -13,92 +13,74 @@ import numpy as np
 
 
 def sum_of(a, b):
-    """a + b."""
     return a + b
 
 
 def difference(a, b):
-    """a - b."""
     return a - b
 
 
 def product(a, b):
-    """a b."""
     return a * b
 
 
 def quotient(a, b):
-    """a / b."""
     return a / b
 
 
 def larger(a, b):
-    """max(a, b)."""
     return max(a, b)
 
 
 def smaller(a, b):
-    """min(a, b)."""
     return min(a, b)
 
 
 def negative(a):
-    """-a."""
     return -a
 
 
 def size(a):
-    """|a|."""
     return abs(a)
 
 
 def root(a):
-    """Square root of a."""
     return math.sqrt(a)
 
 
 def below(a, b):
-    """Whether a < b."""
     return a < b
 
 
 def not_above(a, b):
-    """Whether a <= b."""
     return a <= b
 
 
 def above(a, b):
-    """Whether a > b."""
     return a > b
 
 
 def not_below(a, b):
-    """Whether a >= b."""
     return a >= b
 
 
 def both(a, b):
-    """Whether neither is 0."""
     return a > 0 and b > 0
 
 
 def any_of(a, b):
-    """Whether one is not 0."""
     return a > 0 or b > 0
 
 
 def none(a):
-    """Whether a is 0."""
     return a == 0
 
 
 def chosen(test, a, b):
-    """a where the test holds, else b."""
     return a if test > 0 else b
 
 
 def value(a):
-    """a, to be reduced."""
     return a
 
 

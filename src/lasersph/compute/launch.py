@@ -1,4 +1,10 @@
-"""A loop bound to its arrays, and what runs it: once, or again with other numbers."""
+"""A loop bound to its arrays, and what runs it: once, or again with other numbers.
+
+A launch is a frame of 64-bit words: address of the loop, number of its blocks, threads, rows,
+number of reductions, addresses of how to reduce, of what the blocks have reduced and of the
+results; and from there on what the loop itself reads. Blocks are added up in their order, so that
+no result depends on the number of threads.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +19,41 @@ import numpy as np
 
 from lasersph.compute import cache as folder
 from lasersph.compute.arguments import addresses
-from lasersph.compute.generate import LoopText
-from lasersph.compute.run_text import HOWS, run_text
+from lasersph.compute.generate import NATIVE, LoopText
 
 SHARED = 50_000
 """Rows or pairs from which on several threads take part: below that, waking a thread that sleeps
 takes longer than it saves."""
 _CODES = {"float64": "d", "float32": "f"}
+HOWS = ("sum", "max", "min")
+EMPTY = {"sum": 0.0, "max": float("-inf"), "min": float("inf")}
+"""What no rows reduce to."""
+HEAD_WORDS = 8
+RUN = f'''ZERO, ONE, TWO = np.uint64(0), np.uint64(1), np.uint64(2)
+
+
+@njit
+def run(launch):
+    """Run the launch at an address; its reductions go to its results."""
+    words = at_uint64(launch)
+    blocks, threads, count, reduced = words[1], words[2], words[3], words[4]
+    frame = launch + np.uint64({8 * HEAD_WORDS})
+    if threads == ONE:
+        for block in range(blocks):
+            invoke(words[0], block, block + ONE, threads, count, frame)
+    elif blocks > ZERO:
+        invoke(words[0], ZERO, blocks, threads, count, frame)
+    hows, partial, results = at_uint8(words[5]), at_{{precision}}(words[6]), at_float64(words[7])
+    for k in range(reduced):
+        total = 0.0 if hows[k] == 0 else (-np.inf if hows[k] == 1 else np.inf)
+        for block in range(blocks):
+            part = np.float64(partial[k * blocks + block])
+            if hows[k] == 0:
+                total += part
+            elif part != part or (part > total if hows[k] == 1 else part < total):
+                total = part
+        results[k] = total
+'''
 
 
 class Compiled(NamedTuple):
@@ -100,7 +134,7 @@ class Launch:
     """A loop with its arrays; called with the numbers that have changed, it runs.
 
     Attributes:
-        address: of its frame, see `run_text`. reductions: "sum", "max" or "min" for each result.
+        address: of its frame. reductions: "sum", "max" or "min" for each result.
         rebound: what binds it to other arrays, where it was prepared again.
         results: what the last run has reduced. numbers: the constants as `places` counts them.
     """
@@ -215,7 +249,8 @@ def _address(memory: array) -> int:
 @cache
 def start_function(precision: str) -> Callable[[int], None]:
     """What runs the launch at an address."""
-    address = folder.entry(run_text(precision), is_fast=False)
+    text = (NATIVE + RUN).format(precision=precision) + "\n\ndef loop(launch):\n    run(launch)\n"
+    address = folder.entry(text, is_fast=False)
     return ctypes.PYFUNCTYPE(None, ctypes.c_uint64)(address)
 
 

@@ -23,8 +23,7 @@ import numpy as np
 
 from lasersph.compute import cache as folder
 from lasersph.compute.generate import NATIVE
-from lasersph.compute.launch import SHARED, Bound, Launch
-from lasersph.compute.run_text import HEAD_WORDS, RUN
+from lasersph.compute.launch import HEAD_WORDS, RUN, SHARED, Bound, Launch
 from lasersph.compute.signature import Call, Signature
 
 HEAD, ENTRY = 8, 8

@@ -16,8 +16,7 @@ from typing import Any
 
 from lasersph.compute import cache as folder
 from lasersph.compute.generate import NATIVE
-from lasersph.compute.launch import Launch
-from lasersph.compute.run_text import RUN
+from lasersph.compute.launch import RUN, Launch
 
 _TEXT = '''
 @njit

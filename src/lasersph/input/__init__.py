@@ -13,9 +13,8 @@ from lasersph.input.formatting import (
     format_quantity,
     format_with_error,
 )
-from lasersph.input.kinds import KINDS, Kind
 from lasersph.input.model import Model, did_you_mean, nearest, refusal
-from lasersph.input.quantity import QuantityError, parse_quantity
+from lasersph.input.quantity import KINDS, Kind, QuantityError, parse_quantity
 from lasersph.input.types import (
     AbsorptionCoefficient,
     Acceleration,

@@ -16,8 +16,7 @@ from typing import Annotated, Any, get_args
 from pydantic import BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from lasersph.input.kinds import KINDS
-from lasersph.input.quantity import QuantityError, parse_quantity
+from lasersph.input.quantity import KINDS, QuantityError, parse_quantity
 
 
 @dataclass(frozen=True)

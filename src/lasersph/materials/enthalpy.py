@@ -242,8 +242,4 @@ def _sensible(c: Law[Any], k: Law[Any], lower: float, upper: float, melt: float)
 def _mush(k: Property[Any], melting: Melting) -> Piece:
     """The melting range: T linear in h, k linear in T from the solid's to the liquid's."""
     low, high = melting.solidus, melting.liquidus
-
-    def conductivity(T: Array) -> Array:
-        return k.at(T, low, high)
-
-    return Piece(low, high, np.ones_like, conductivity, 1.0)
+    return Piece(low, high, np.ones_like, lambda T: k.at(T, low, high), 1.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 SAME = 1e-12
 """Relative difference of two values that are the same but for rounding."""
@@ -34,10 +34,6 @@ class Peak:
             return None
         return 0.5 * (self.first + self.last)
 
-    def state(self) -> dict[str, float | None]:
-        """Arguments of `Peak` to continue."""
-        return asdict(self)
-
 
 @dataclass
 class Span:
@@ -51,7 +47,3 @@ class Span:
         if holds:
             self.first = time if self.first is None else self.first
             self.last = time
-
-    def state(self) -> dict[str, float | None]:
-        """Arguments of `Span` to continue."""
-        return asdict(self)
