@@ -33,9 +33,10 @@ from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.compute.dense import invert
 from lasersph.compute.routine import Step
+from lasersph.compute.vectors import element
 from lasersph.linear_solvers import grid_nodes, grid_transfer
 from lasersph.linear_solvers.cells import Axis, Cells
-from lasersph.particles.neighbor_lists import NeighborList, item, members_of
+from lasersph.particles.neighbor_lists import NeighborList, members_of
 
 WIDTH = 2.0 / 3.0
 """Spacing of the finest grid over the support radius."""
@@ -166,8 +167,8 @@ class GridCorrection:
     def _set_up_levels(self, volume: Array, boundary_coefficient: Array) -> None:
         """Volumes, boundary coefficients and diagonals of all levels."""
         run, places = self.backend.pointwise, {"place": self._order}
-        run(item, places, self._sorted_u, numbers=self._cells.u)
-        run(item, places, self._sorted_w, numbers=self._cells.w)
+        run(element, places, self._sorted_u, table=self._cells.u)
+        run(element, places, self._sorted_w, table=self._cells.w)
         for values, name in ((volume, "C"), (boundary_coefficient, "a")):
             self._collect(values, (self.levels[0].at[name], None, None))
         for level, above in zip(self.levels, [*self.levels[1:], None], strict=True):
