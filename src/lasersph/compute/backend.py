@@ -288,8 +288,8 @@ class Backend:
         return run_routine(function, steps, numbers, self.precision)
 
     def component(self, array: Array, k: int) -> Array:
-        """View of component k of a vector, (n,) of (dim, n)."""
-        return self.wrap(self.unwrap(array)[k])
+        """View of component k of a vector or tensor, row-major: (n,) of (dim, n), (dim, dim, n)."""
+        return self.wrap(components(self.unwrap(array))[k])
 
     def recorded(self, run: Callable[[], None]) -> Step:
         """Run loops, and return a step that runs them again: same arrays, same constants.

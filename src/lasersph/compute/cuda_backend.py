@@ -147,7 +147,7 @@ class CudaBackend(Backend):
         return source.head(count)
 
     def component(self, array: Array, k: int) -> CudaArray:
-        """View of component k of a vector, (n,) of (dim, n)."""
+        """View of component k of a vector or tensor, row-major: (n,) of (dim, n), (dim, dim, n)."""
         return self.unwrap(array).component(k)
 
     def gather(self, source: Array, order: Array, out: Array) -> None:

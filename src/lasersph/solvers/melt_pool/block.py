@@ -336,10 +336,9 @@ class Block:
 
     def extend_tensor(self, M: Array) -> Array:
         """Tensors (2, 2, count) of the block on the block with ghosts."""
-        backend, rows = self.backend, [self.backend.component(M, k) for k in (0, 1)]
-        names = ("M_xx", "M_xz", "M_zx", "M_zz")
-        parts = (backend.component(row, k) for row in rows for k in (0, 1))
-        tables, out = dict(zip(names, parts, strict=True)), backend.zeros((2, 2, self.total))
+        backend, names = self.backend, ("M_xx", "M_xz", "M_zx", "M_zz")
+        tables = {name: backend.component(M, k) for k, name in enumerate(names)}
+        out = backend.zeros((2, 2, self.total))
         function = ghost_fields.extended_tensor
         backend.pointwise(function, self.sources, out, **tables, **self.signs)
         return out
