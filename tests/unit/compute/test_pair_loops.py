@@ -375,6 +375,15 @@ def test_same_as_plain_python(backend, dimension):
             np.testing.assert_allclose(backend.to_host(got)[..., i], value, rtol=1e-12)
 
 
+def test_components(backend):
+    """Of vectors, and of tensors row by row."""
+    for shape in ((2, 5), (2, 2, 5)):
+        values = np.arange(float(np.prod(shape))).reshape(shape)
+        for k, row in enumerate(values.reshape(-1, 5)):
+            found = backend.component(backend.asarray(values), k)
+            assert backend.to_host(found).tolist() == row.tolist()
+
+
 def test_prepared_loop_takes_new_numbers(backend):
     """T <- factor T, twice with another factor; the sum of T^2 before comes back."""
     T = backend.asarray([1.0, 2.0])
