@@ -43,7 +43,7 @@ class FlowView:
         wall_heat, wall_impulse: of each side of a box, since the start: heat that has entered [J/m]
             and momentum that it has given to the liquid along itself [N s/m], as the steps
             exchanged them.
-        is_shortened: whether the step was cut to end at a given time.
+        full_step: step before it was cut to end at a given time [s].
     """
 
     velocity: np.ndarray
@@ -67,4 +67,4 @@ class FlowView:
     conducting_sides: tuple[str, ...] = ()
     wall_heat: Mapping[str, float] = field(default_factory=dict)
     wall_impulse: Mapping[str, float] = field(default_factory=dict)
-    is_shortened: bool = False
+    full_step: float = 0.0

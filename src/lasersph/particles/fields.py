@@ -73,6 +73,13 @@ FLOW = _table(
     Field("velocity", "v", "m/s", "velocity", "vector", is_kept=True),
     Field("speed", "speed", "m/s", "size of the velocity"),
     Field("pressure", "p", "Pa", "pressure", is_kept=True),
+    Field(
+        "settled_jump",
+        "settled",
+        "m/s",
+        "velocity of ghosts over their sources that viscosity has settled",
+        is_kept=True,
+    ),
     Field("was_fluid", "was_fluid", "1", "1 where it flowed one step ago", is_kept=True),
     Field(
         "has_moving_pairs",

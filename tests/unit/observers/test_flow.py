@@ -263,13 +263,17 @@ def test_lid_pressure_beside_the_recoil_pressure(view):
     assert lid["recoil_max_Pa"] == pytest.approx(view.flow.recoil_pressure[0])
 
 
-def test_lid_pressure_of_a_shortened_step_is_passed_over(view):
-    """It keeps the values of the step before."""
-    observer = SurfacePressure()
-    before = observer.observe(view)
-    flow = replace(view.flow, surface_pressure=3.0 * view.flow.surface_pressure, is_shortened=True)
-    assert observer.observe(replace(view, flow=flow)) == before
-    assert observer.summary()["lid"]["pressure_max_Pa"] == before["lid_pressure_max_Pa"]
+@pytest.mark.parametrize("share", [1.0, 0.1])
+def test_lid_pressure_counts_an_impulse_by_its_size(view, share):
+    """A pressure 2e5 Pa higher for a step, or ten times that for a tenth of one, adds 2e5 / 10."""
+    observer, step = SurfacePressure(), 1e-11
+    flow = replace(view.flow, full_step=step)
+    before = observer.observe(replace(view, flow=flow))["lid_pressure_max_Pa"]
+    pushed = replace(flow, surface_pressure=flow.surface_pressure + 2e5 / share)
+    row = observer.observe(replace(view, flow=pushed, time=view.time + share * step))
+    rise = row["lid_pressure_max_Pa"] - before
+    assert rise == pytest.approx(2e5 / 10, rel=0.06)
+    assert observer.summary()["lid"]["pressure_max_Pa"] == row["lid_pressure_max_Pa"]
 
 
 def test_pool_width_of_moved_particles():

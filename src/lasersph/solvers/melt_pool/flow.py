@@ -15,7 +15,7 @@ contracts the particles [Monaghan2000].
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite
+from math import exp, isfinite
 
 import numpy as np
 
@@ -74,6 +74,13 @@ def stop_solid(v, fluid):
     """Velocity of what flows, 0 of all others [m/s]; and |v|^2."""
     flowing = fluid * v
     return flowing, dot(flowing, flowing)
+
+
+def settle(settled, jump, share):
+    """Jump that the divergence sees [m/s]; at once the present one where there was none."""
+    if settled == 0.0:
+        return 1.0 * jump
+    return settled + share * (jump - settled)
 
 
 def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
@@ -144,7 +151,7 @@ class Flow:
         spacing: float,
     ) -> None:
         backend, count = particles.backend, particles.count
-        particles.add("volume", "velocity", "pressure")
+        particles.add("volume", "velocity", "pressure", "settled_jump")
         self.spacing, self.particles = spacing, particles
         self.backend, self.liquid, self.surface, self.settings = backend, liquid, surface, settings
         self.velocity, self.pressure = particles["velocity"], particles["pressure"]
@@ -199,6 +206,19 @@ class Flow:
         """(n,) by how much the surface makes ghosts faster than their sources [m/s]."""
         return self._nothing if self.surface is None else self.surface.ghost_velocity_jump
 
+    def settle_jump(self, step: float) -> None:
+        """Let the divergence see the stress of the surface as fast as viscosity spreads it.
+
+        Ghosts beyond a stressed surface continue the profile of u, and where they do so unevenly
+        their divergence is that of the profile. A stress that changes at once has no profile yet:
+        its divergence would have to be undone within the step, by a pressure that grows as 1 / dt.
+        So the jump follows within the time l^2 / nu in which momentum crosses a support.
+        """
+        time = self.block.moving_support**2 / self.liquid.viscosity
+        fields = {"settled": self.particles["settled_jump"], "jump": self.ghost_velocity_jump()}
+        share = 1.0 - exp(-step / time)
+        self.backend.pointwise(settle, fields, fields["settled"], share=share)
+
     def correct_kernel(self, rows: Rows) -> None:
         """Correction matrices of some rows at the present positions."""
         block = self.block
@@ -230,6 +250,7 @@ class Flow:
             NotConverged: the pressure equation is not solved.
         """
         backend, block = self.backend, self.block
+        self.settle_jump(step)
         speed = max(self.largest_speed, block.conditions.largest_wall_speed())
         rate = DRIFT_RATE * speed / self.spacing
         backend.pair_sum(
@@ -320,13 +341,14 @@ class Flow:
         if self.largest_speed > 0.0:
             self.backend.fill(self.velocity, 0.0)
             self.backend.fill(self.pressure, 0.0)
+            self.backend.fill(self.particles["settled_jump"], 0.0)
         self.largest_speed = self.largest_acceleration = 0.0
         self.divergence = (0.0, 0.0)
         self.iterations = {"pressure": 0, "viscosity": 0}
 
     def _divergence_fields(self) -> dict[str, Array]:
         block = self.block
-        v = block.mirror_velocity(self.velocity, self.ghost_velocity_jump())
+        v = block.mirror_velocity(self.velocity, self.particles["settled_jump"])
         return {"v": v, "C": self._C, "G_ij": block.gradient}
 
     def _set_dummy_pressure(self, kinds: ParticleKinds) -> None:

@@ -16,8 +16,12 @@ from flow_boxes import (
     start_from,
 )
 
+from lasersph import compute
+from lasersph.boundaries.flat_surface import ImposedTemperature
+from lasersph.case import load_case
 from lasersph.compute.search import EscapedParticle
 from lasersph.simulation.recipes import recipe_of
+from lasersph.solvers.melt_pool.flow import settle
 from lasersph.solvers.step_control import RETRIES, NotConverged
 
 LIFE = 45
@@ -231,6 +235,34 @@ def test_acceleration_is_that_of_all_forces(viscosity):
     limit = slowed.time_step_limits()["force"]
     support = slowed.domain.support
     assert limit == 0.25 * (support / slowed.flow.largest_acceleration) ** 0.5
+
+
+def stirred_layer(step, fold):
+    """Largest pressure [Pa] in the step after the wave of temperature on a flowing layer of steel
+    has grown by a factor, and before."""
+    case = load_case("marangoni-layer", ["particles.spacing=100nm"])
+    solver = recipe_of(case).build(compute.cpu(threads=1))
+    for _ in range(12):
+        solver.step(2e-9)
+    found = []
+    for factor in (1.0, fold):
+        wave = case.boundaries.surface_temperature_wave
+        wave = wave.model_copy(update={"amplitude": factor * wave.amplitude})
+        solver.domain.surface.given = ImposedTemperature(1727.0, wave)
+        solver.step(step)
+        pressure = solver.flow.pressure
+        found.append(np.abs(solver.backend.to_host(pressure)).max())
+    return found
+
+
+def test_pressure_of_a_changed_stress_does_not_grow_as_the_step_shrinks():
+    """The divergence of what lies beyond the surface follows the stress within l^2 / nu, 138 ns
+    here: with steps of 2 and 0.25 ns the change asks for pressures of one size."""
+    (before, after), (_, short) = stirred_layer(2e-9, 1.5), stirred_layer(2.5e-10, 1.5)
+    assert before < after
+    assert short < 1.5 * after
+    assert settle(4.0, 8.0, 0.25) == 5.0
+    assert settle(0.0, 8.0, 0.25) == 8.0
 
 
 def test_iterations_and_checkpoint_scalars():

@@ -15,7 +15,6 @@ from lasersph.compute.array_types import Array
 from lasersph.observers.flow_view import FlowView
 from lasersph.physics.evaporation import recoil_pressure, saturation_pressure, vapor_constants
 from lasersph.solvers.melt_pool.solver import MeltPool
-from lasersph.solvers.step_control import ROUNDING
 
 SIDES = ("left", "right", "bottom", "surface")
 
@@ -73,7 +72,7 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Array], np.ndarray])
         ),
         wall_heat=dict(solver.exchange.heat),
         wall_impulse=dict(solver.exchange.impulse),
-        is_shortened=solver.state.time_step < (1.0 - ROUNDING) * solver.state.unclipped_step,
+        full_step=solver.state.unclipped_step,
     )
 
 
