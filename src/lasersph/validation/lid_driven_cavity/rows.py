@@ -66,7 +66,7 @@ def add_rows(study: Study, reynolds: int, line: CenterLine, found: dict[int, np.
     errors = {n: deviation(line, values) for n, values in found.items()}
     coarse, fine = min(found), max(found)
     for n, error in errors.items():
-        study.add("deviation", 100.0 * error, judge=n == fine, count=n, **names)
+        study.add(f"deviation_{reynolds}", 100.0 * error, judge=n == fine, count=n, **names)
     study.add("convergence", errors[fine] / errors[coarse], fine=fine, coarse=coarse, **names)
     good = line.inner & ~line.is_misprint
     printed = np.sqrt(np.mean((line.ghia - line.value)[good] ** 2))

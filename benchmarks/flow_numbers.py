@@ -1,0 +1,101 @@
+"""Numbers of the flow that no paper gives, by what they do to a cavity and a dam break.
+
+    python benchmarks/flow_numbers.py            the tables of docs/methods/numbers.md
+    python benchmarks/flow_numbers.py --only cavity, vortices or dam-break
+
+The cavity under a moving lid at Re 400 with 20 particles a side, its center lines beside finite
+differences, for support ratios, factors of the shifting and shares of the advection limit; the
+front of a dam break with 10 and 20 particles in the width of the column.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from lasersph import load_case, open_run, run
+from lasersph.physics import flow_limits
+from lasersph.solvers.step_control import StepFailed
+from lasersph.validation.dam_break.rows import front_of
+from lasersph.validation.lid_driven_cavity.center_lines import center_line
+from lasersph.validation.lid_driven_cavity.rows import deviation, lines_of
+from lasersph.validation.taylor_green.rows import energy_rate, velocity_error, vortices_of
+
+COUNT, REYNOLDS, END = 20, 400, 35.0
+SHIPPED = (3.1, 0.01, 0.06)
+"""Support ratio and shifting of the shipped cavity, share of the advection limit."""
+CAVITIES = (
+    SHIPPED, (3.75, 0.01, 0.06), (3.1, 0.04, 0.06), (3.75, 0.04, 0.06), (3.1, 0.01, 0.25),
+    (3.1, 0.0, 0.06), (3.1, 0.01, 0.12), (2.6, 0.01, 0.06),
+)  # fmt: skip
+COLUMNS = (10, 20)
+VORTICES = ((0.01, 0.03), (0.01, 0.06), (0.01, 0.12), (0.01, 0.25), (0.002, 0.06), (0.002, 0.25))
+"""Kinematic viscosity [m^2/s], for Re 100 and 500, and share of the advection limit."""
+
+
+def cavity(folder: Path, ratio: float, shifting: float, advection: float) -> str:
+    """Deviations of u and w in % of the lid's speed, and the least distance of particles."""
+    settings = [
+        f"particles.spacing={1.0 / COUNT!r} m",
+        f"particles.support_ratio={ratio}",
+        f"solver.shifting={shifting}",
+        f"material.kinematic_viscosity={1.0 / REYNOLDS!r} m^2/s",
+        f"time.end={END} s",
+    ]
+    flow_limits.ADVECTION = advection
+    try:
+        run(load_case("lid-driven-cavity", settings), folder, threads=1)
+    except StepFailed as error:
+        return f"fails: {error}"
+    found = open_run(folder)
+    lines = {component: center_line(component, REYNOLDS) for component in "uv"}
+    u, w = (100.0 * deviation(lines[c], v) for c, v in lines_of(found, lines).items())
+    closest = found.summary["flow"]["spacing_min_m"] / found.summary["spacing_m"]
+    return f"u {u:.2f}  w {w:.2f} % of lid, closest {closest:.2f}, {found.summary['steps']} steps"
+
+
+def vortices(folder: Path, viscosity: float, advection: float) -> str:
+    """Rate of the decay of the kinetic energy over the exact one, error of the velocities in %."""
+    settings = ["particles.spacing=40mm", f"material.kinematic_viscosity={viscosity!r} m^2/s"]
+    flow_limits.ADVECTION = advection
+    case = load_case("taylor-green", settings)
+    run(case, folder, threads=1)
+    found, wanted = open_run(folder), vortices_of(case)
+    error = velocity_error(found.snapshots[-1], wanted)
+    steps = found.summary["steps"]
+    return f"rate {energy_rate(found, wanted):.4f}  error {100.0 * error:.2f} %, {steps} steps"
+
+
+def front(folder: Path, count: int) -> str:
+    """Places of the front at some times and its speed from T = 1.4 on."""
+    case = load_case("dam-break", [f"particles.spacing={57.15 / count!r} mm"])
+    run(case, folder, threads=1)
+    found = front_of(open_run(folder))
+    times = np.array([0.84, 1.43, 1.98, 2.51, 3.11])
+    places = "  ".join(f"{z:.3f}" for z in found.delayed(0.0, times))
+    late = (found.time >= 1.4) & (found.time <= 3.33)
+    return f"{places}  speed {np.polyfit(found.time[late], found.place[late], 1)[0]:.4f}"
+
+
+def main() -> None:
+    """Print the tables."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", choices=("cavity", "vortices", "dam-break"))
+    only = parser.parse_args().only
+    with tempfile.TemporaryDirectory() as place:
+        if only in (None, "cavity"):
+            for number, numbers in enumerate(CAVITIES):
+                print(*numbers, cavity(Path(place) / f"cavity-{number}", *numbers), flush=True)
+        if only in (None, "vortices"):
+            for number, numbers in enumerate(VORTICES):
+                print(*numbers, vortices(Path(place) / f"vortices-{number}", *numbers), flush=True)
+        if only in (None, "dam-break"):
+            for count in COLUMNS:
+                print(count, front(Path(place) / f"column-{count}", count), flush=True)
+
+
+if __name__ == "__main__":
+    main()
