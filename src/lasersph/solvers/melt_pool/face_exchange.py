@@ -73,8 +73,8 @@ class FaceExchange:
 
     def __init__(self, backend: Backend, count: int) -> None:
         self.backend = backend
-        self.heat = dict.fromkeys(PLANE, 0.0)
-        self.impulse = dict.fromkeys(PLANE, 0.0)
+        self.heat: dict[str, float] = dict.fromkeys(PLANE, 0.0)
+        self.impulse: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         names = [f"{name}_{k}" for name in "ab" for k in range(len(PLANE))]
         self._sums = {name: backend.zeros(count) for name in names}
 
