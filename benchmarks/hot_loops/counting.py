@@ -50,7 +50,7 @@ class _CountedLoops(Loops):
             self.note(call)
         return super().run(call)
 
-    def prepared(self, call: Call) -> Launch:
+    def prepared(self, call: Call, again: Launch | None = None) -> Launch:
         bound = self._bound(self.given(call))
         return _CountedLaunch(bound, self.launcher.threads, partial(self._tell, call))
 

@@ -16,6 +16,7 @@ from lasersph.compute.backend import Backend
 from lasersph.materials import load_material
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.physics.phase_change import state
+from lasersph.sph.correction import kernel_gradient
 from lasersph.sph.shifting import repulsion_terms, shift
 
 METAL = "steel-304"
@@ -87,6 +88,9 @@ def shifting(backend: Backend, neighbors: NeighborList) -> HotLoop:
     """Displacement that keeps particles from clustering."""
     dimension, count = shape_of(neighbors)
     fields = {name: backend.asarray(np.ones(count)) for name in ("is_fluid", "at_face")}
+    fields["G_ij"] = backend.zeros((dimension, neighbors.neighbor.shape[0]))
+    volume = {"V": backend.asarray(np.ones(count))}
+    backend.pair_values(kernel_gradient, neighbors, volume, fields["G_ij"])
     out, normal = backend.zeros((dimension, count)), (0.0,) * (dimension - 1) + (1.0,)
 
     def run() -> int:

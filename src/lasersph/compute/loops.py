@@ -80,10 +80,11 @@ class Loops:
             return self.launcher.launch(self._bound(self.given(call)))
         signature, kinds, ones, numbers = self._addresses(call)
         key, found = (signature, kinds), again.rebound
-        is_same = found is not None and found.key == key and source.is_current(found.watched)
-        if is_same and found.run(ones, numbers):
-            again.holds(call)
-            return again
+        if found is not None and found.key == key and source.is_current(found.watched):
+            is_bound = found.run(ones, numbers)
+            if is_bound:
+                again.holds(call)
+                return again
         found = Rebound(self._bound(self.given(call)), signature, self.launcher.threads, call)
         found.only_binds(key)
         found.launch.holds(call)

@@ -265,7 +265,7 @@ def _inverse(backend: Backend, level: Level) -> np.ndarray:
     first, second, kinds = _couplings(*level.shape.values())
     g = np.array([stencil[name] for name in COUPLINGS])[kinds] * s[first] * s[second]
     place = np.concatenate([np.arange(n) * (n + 1), first * (n + 1), first * n + second])
-    K = np.bincount(place, np.concatenate([a, g, -g]), n * n).reshape(n, n)
+    K = np.asarray(np.bincount(place, np.concatenate([a, g, -g]), n * n), float).reshape(n, n)
     return invert(K, VANISHING * np.diag(K).max(initial=0.0)).ravel()
 
 

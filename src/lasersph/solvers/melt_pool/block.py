@@ -208,7 +208,7 @@ class Block:
         self.backend.pointwise(element, fields, out, table=table)
         return out
 
-    def extend(self, function: Callable, **tables: Array | tuple[float, ...]) -> Array:
+    def extend(self, function: Callable, tables: Constants) -> Array:
         """Vectors (2, M) by a function of `ghost_fields`."""
         out = self.backend.zeros((2, self.total))
         self.backend.pointwise(function, self.sources, out, **tables)
@@ -233,8 +233,8 @@ class Block:
         ghosts.find(position)
         self.total, self.source = ghosts.total, ghosts.source
         self.sources = {"source": ghosts.source, "ghost_type": ghosts.ghost_type}
-        names = ("V", "support", "radius", "layer", "normal", "lateral")
-        found = dict(zip(names, (backend.zeros(self.total) for _ in names), strict=True))
+        names: tuple[str, ...] = ("V", "support", "radius", "layer", "normal", "lateral")
+        found: dict[str, Array] = {name: backend.zeros(self.total) for name in names}
         backend.pointwise(
             ghost_fields.ghost_layers, self.sources, tuple(found.values()), **self._own
         )
@@ -325,12 +325,13 @@ class Block:
 
     def _extended_velocity(self, v: Array, jump: Array, rules: Constants) -> Array:
         v_x, v_z = (self.backend.component(v, k) for k in (0, 1))
-        return self.extend(ghost_fields.extended_velocity, v_x=v_x, v_z=v_z, jump=jump, **rules)
+        tables = {"v_x": v_x, "v_z": v_z, "jump": jump, **rules}
+        return self.extend(ghost_fields.extended_velocity, tables)
 
     def prepare_velocity_change(self, d: Array, out: Array, again: Launch | None) -> Launch:
         """Loop that extends a change (2, n) of velocities, where walls and stress stay the same."""
         d_x, d_z = (self.backend.component(d, k) for k in (0, 1))
-        tables = {"d_x": d_x, "d_z": d_z} | self._factors
+        tables: Constants = {"d_x": d_x, "d_z": d_z, **self._factors}
         function = ghost_fields.velocity_change
         return self.backend.prepare(function, self.sources, out, again=again, **tables)
 
@@ -364,7 +365,8 @@ class Block:
 
     def _place(self, position: Array) -> Array:
         x, z = (self.backend.component(position, k) for k in (0, 1))
-        return self.extend(ghost_fields.ghost_position, x=x, z=z, **self.signs, **self._offsets)
+        tables = {"x": x, "z": z, **self.signs, **self._offsets}
+        return self.extend(ghost_fields.ghost_position, tables)
 
     def _corner(self, end: int) -> tuple[float, ...]:
         """Box that no particle and no ghost may leave [m]."""
