@@ -14,6 +14,7 @@ import numpy as np
 from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array
 from lasersph.physics.flow_limits import flow_limits
+from lasersph.solvers.conduction.implicit import ImplicitStep
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.block import Block
@@ -183,7 +184,9 @@ class MeltPool:
         self.illuminate(step)
         self.heat.conduct(step, unclipped_step)
         if self.domain.is_box:
-            self.exchange.book_heat(self.flow.block, self.heat.scheme.P, step)
+            scheme = self.heat.scheme
+            assert isinstance(scheme, ImplicitStep)
+            self.exchange.book_heat(self.flow.block, scheme.P, step)
         self.shift(step)
         self.adjust()
         self._measure()
