@@ -71,7 +71,8 @@ def test_rows_of_a_spot(study, spot):
     """A crater that keeps its energy passes; its sizes are shown; it is symmetric."""
     assert ablation_aluminium.asymmetry(spot) < 1e-12
     one = study("ablation-aluminium")
-    one.add_group("spot", spot, name="made-up")
+    kept = spot.summary | {"energy": {"imbalance_relative": 1e-9}}
+    one.add_group("spot", SimpleNamespace(summary=kept), name="made-up")
     balance, depth, *_ = one.rows
     assert balance.verdict is True
     assert depth.computed == pytest.approx(0.8) and depth.verdict is None
