@@ -96,7 +96,7 @@ def with_table(text: str, rows: list[dict]) -> str:
 
 def main() -> None:
     rows = json.loads(RECORD.read_text(encoding="utf-8"))
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("rows", nargs="*", metavar="ROW", help="default: all")
     parser.add_argument("--list", action="store_true", help="say which rows there are")
     chosen = parser.parse_args()

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,7 +24,6 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 
 
-@cache
 @dataclass(frozen=True)
 class MeltEstimate:
     """Depth of the melt [m] (0 where nothing melts), first and last time there is some [s], the
@@ -217,7 +216,7 @@ class _Block:
         upper = np.hstack([-g * slope[:, 1:], zero]).ravel()[:-1]
         from scipy.linalg import get_lapack_funcs  # loads as long as all else that reads a case
 
-        solve = get_lapack_funcs("gtsv", dtype=np.float64)
+        solve: Any = get_lapack_funcs("gtsv", dtype=np.float64)
         *_, change, info = solve(lower, diagonal.ravel(), upper, -r.ravel())
         if info != 0:
             raise ArithmeticError(f"tridiagonal solve failed (LAPACK dgtsv info {info})")

@@ -121,7 +121,7 @@ class Comparison:
             found = "holds" if computed else "does not hold"
             text = self.claim.format(**words)
             verdict = bool(computed) if self.is_judged and judge else None
-            notes = {"reason": self.reason, "changed": self.changed}
+            notes: dict[str, Any] = {"reason": self.reason, "changed": self.changed}
             return Row(text, "", "claimed", None, found, None, verdict, source, self.name, **notes)
         reference = self.reference if reference is None else float(reference)
         published = self.published if published is None else published
