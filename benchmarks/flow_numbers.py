@@ -82,7 +82,7 @@ def front(folder: Path, count: int) -> str:
 
 def main() -> None:
     """Print the tables."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--only", choices=("cavity", "vortices", "dam-break"))
     only = parser.parse_args().only
     with tempfile.TemporaryDirectory() as place:

@@ -130,7 +130,7 @@ def draw(runs: list[Run], path: Path) -> None:
 
 def main() -> None:
     """Print the table; draw where a figure is asked for."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("folder", nargs="+", type=Path, help="run folders, coarse to fine")
     parser.add_argument("--figure", type=Path)
     given = parser.parse_args()

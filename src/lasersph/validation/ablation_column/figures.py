@@ -24,7 +24,9 @@ def draw(study: Study, column: Run, gas: dict[str, float]) -> None:
 
 def draw_intensity(study: Study) -> None:
     """Intensity over x and time of the case's top hat, and of a Gaussian of its size (Fig. 17)."""
-    given = study.case().laser.model_dump(exclude_unset=True)
+    laser = study.case().laser
+    assert laser is not None
+    given = laser.model_dump(exclude_unset=True)
     radius, duration = given["beam"]["radius"], given["pulse"]["duration"]
     gaussian = {"kind": "gaussian", "radius_1e2": radius}
     beams = {
