@@ -125,8 +125,12 @@ def sum_energies(view: View) -> tuple[float, float, float, float]:
     from the booking alone, which then stands for the last one.
     """
     heat = view.mass * view.enthalpy
-    melting, boiling = view.latent_heats
-    latent = view.mass * (melting * view.melt_fraction + boiling * view.vapor_fraction)
+    latent = 0.0 * heat
+    for latent_heat, fraction in zip(
+        view.latent_heats, (view.melt_fraction, view.vapor_fraction), strict=True
+    ):
+        if latent_heat:
+            latent = latent + latent_heat * (view.mass * fraction)
     if view.ablation is None:
         kinetic = 0.0 if view.flow is None else kinetic_energy(view)
         removed = float(view.energy.get("removed", 0.0))

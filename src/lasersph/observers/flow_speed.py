@@ -89,7 +89,8 @@ class FlowSpeed(Observer):
             least = self.spacing_min
             now = float(flow.spacing_min)
             self.spacing_min = now if least is None else min(least, now)
-        energy, mass = kinetic_energy(view), flow.density * float(np.sum(view.volume[flow.flows]))
+        energy = kinetic_energy(view)
+        mass = flow.density * float(np.sum(np.where(flow.flows, view.volume, 0.0)))
         values = (
             fastest,
             (2.0 * energy / mass) ** 0.5 if count else 0.0,
