@@ -78,5 +78,6 @@ def test_another_format_is_refused(tmp_path, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(checkpoint, "CHECKPOINT_SCHEMA", 99)
         path = checkpoint.save(tmp_path, state(1))
-    with pytest.raises(OutputError, match="its format is 99, this version reads 5"):
+    ours = checkpoint.CHECKPOINT_SCHEMA
+    with pytest.raises(OutputError, match=f"its format is 99, this version reads {ours}"):
         checkpoint.load(path)
