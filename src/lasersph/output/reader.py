@@ -186,9 +186,9 @@ def from_three_axes(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
     return np.ascontiguousarray(block[:, axes].T)
 
 
-def install_hint(package: str) -> str:
-    """What to say where an optional package is not installed."""
-    return f"{package} is not installed: pip install 'lasersph[frames]' brings it"
+def install_hint(package: str, extra: str = "frames") -> str:
+    """What to say where an optional package is not installed, and which extra brings it."""
+    return f"{package} is not installed: pip install 'lasersph[{extra}]' brings it"
 
 
 def read_json(path: Path) -> dict[str, Any]:

@@ -3,10 +3,12 @@
 uncertainty          how sure the numbers of one run are: discretization, uncertain inputs
 spacing_study        what the numbers of a case tend to as the particles get finer, and how surely
 fluence_threshold    the fluence at which melting, boiling or ablation begins
+emulator             a Gaussian process through some runs: a number at keys that none of them has
 spot_threshold       the same of a Gaussian spot from its craters, and how much they remove
 """
 
 from lasersph.studies.companions import Input, inputs_of, read_input
+from lasersph.studies.emulator import Box, Emulator, box_of, fit_emulator
 from lasersph.studies.fluence_threshold import Threshold, Trial, show_energy, threshold
 from lasersph.studies.spacing_study import SpacingStudy, StudyRow, converge
 from lasersph.studies.spot_threshold import SpotCrater, SpotThreshold, no_spot, spot_threshold
@@ -14,6 +16,8 @@ from lasersph.studies.uncertainty import assess_uncertainty
 from lasersph.studies.variation import changed
 
 __all__ = [
+    "Box",
+    "Emulator",
     "Input",
     "SpacingStudy",
     "SpotCrater",
@@ -22,8 +26,10 @@ __all__ = [
     "Threshold",
     "Trial",
     "assess_uncertainty",
+    "box_of",
     "changed",
     "converge",
+    "fit_emulator",
     "inputs_of",
     "no_spot",
     "read_input",
