@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, is_dataclass
 from typing import Any
@@ -14,7 +15,7 @@ Row = dict[str, float | int | str]
 """Values of the history columns at a step, by key."""
 
 
-class Observer:
+class Observer(ABC):
     """Looks at a run after every step and changes nothing but itself.
 
     A subclass declares its `columns`, measures them in `observe` and hands them to `record`. What
@@ -44,9 +45,9 @@ class Observer:
         """Every key of summary.json that it fills, with unit and words."""
         return (*(one for column in cls.columns for one in column.results()), *cls.results)
 
+    @abstractmethod
     def observe(self, view: View) -> Row:
         """Values of its columns at this step."""
-        raise NotImplementedError
 
     def record(self, time: float, values: Sequence[float | int | str]) -> Row:
         """The row of some values, in the order of the columns, which it takes into account."""

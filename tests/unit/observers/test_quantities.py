@@ -86,3 +86,13 @@ def test_keys_say_their_units():
 def test_dotted_keys_become_tables():
     """Keys of one table stand together."""
     assert nest({"a.b": 1, "c": 2, "a.d.e": 3}) == {"a": {"b": 1, "d": {"e": 3}}, "c": 2}
+
+
+def test_what_does_not_observe_is_no_observer():
+    """A class without `observe` is refused when it is made, not at the first step."""
+
+    class Blind(Observer):
+        """Never looks."""
+
+    with pytest.raises(TypeError, match="observe"):
+        Blind()
