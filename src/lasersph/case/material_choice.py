@@ -27,7 +27,7 @@ SET_HERE = "set in the case"
 UNNAMED = "of the case"
 SECTIONS = ("melting", "vaporization", "optics")
 UNSOURCED = ("source", "note", "uncertainty")
-PLAIN = ("name", "title", "composition", "note", "reference_temperature")
+PLAIN = ("name", "title", "composition", "note", "reference_temperature", "sulfur")
 
 
 def _choose(value: Any, info: ValidationInfo) -> Any:

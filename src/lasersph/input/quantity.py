@@ -137,6 +137,8 @@ _ALL = (
     Kind("surface_tension_slope", "N/(m K)", "-0.43 mN/(m K)", dimension(kg=1, s=-2, K=-1)),
     Kind("expansion", "1/K", "2.3e-5 1/K", dimension(K=-1)),
     Kind("molar_mass", "kg/mol", "26.98 g/mol", dimension(kg=1, mol=-1)),
+    Kind("molar_energy", "J/mol", "-166 kJ/mol", dimension(m=2, kg=1, s=-2, mol=-1)),
+    Kind("surface_concentration", "mol/m^2", "1.3e-5 mol/m^2", dimension(m=-2, mol=1)),
     Kind("velocity", "m/s", "10 m/s", dimension(m=1, s=-1)),
     Kind("acceleration", "m/s^2", "9.81 m/s^2", dimension(m=1, s=-2)),
     Kind("pressure", "Pa", "101325 Pa", dimension(m=-1, kg=1, s=-2), refuses=frozenset({ENERGY})),

@@ -13,18 +13,20 @@ from lasersph.input import (
     Density,
     Diffusivity,
     Expansion,
+    Fraction,
     KinematicViscosity,
     Model,
     SpecificHeat,
-    SurfaceTension,
     SurfaceTensionSlope,
     Temperature,
     Viscosity,
+    refusal,
 )
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.materials.enthalpy import build_curve
 from lasersph.materials.property import Law, Property
 from lasersph.materials.sections import Melting, Optics, Vaporization
+from lasersph.materials.surface_tension import SurfaceTensionLaw
 
 Array = NDArray[np.float64]
 Plateau = Literal["hold", "clip", "evaporate"]
@@ -39,6 +41,10 @@ POSITIVE = (
     "surface_tension",
 )
 """Properties whose values must be above zero wherever their source gives them."""
+NO_ADSORPTION = (
+    "lowers the surface tension by surface_tension.adsorption, which the material does not have; "
+    "give saturation, segregation and enthalpy there, or leave sulfur out"
+)
 JUMP_WIDTH = 1e-3
 """Temperature over which a table draws a jump at the melting point [K]."""
 
@@ -57,6 +63,9 @@ class Material(Model):
     reference_temperature: Temperature = Field(
         default=298.15, gt=0, description="where the density of fixed particles is taken"
     )
+    sulfur: Fraction = Field(
+        default=0.0, ge=0, lt=0.01, description="mass fraction, which lowers the surface tension"
+    )
     density: Property[Density]
     heat_capacity: Property[SpecificHeat]
     conductivity: Property[Conductivity]
@@ -64,7 +73,7 @@ class Material(Model):
     diffusivity: Property[Diffusivity] | None = None
     viscosity: Property[Viscosity] | None = None
     kinematic_viscosity: Property[KinematicViscosity] | None = None
-    surface_tension: Property[SurfaceTension] | None = None
+    surface_tension: SurfaceTensionLaw | None = None
     surface_tension_slope: Property[SurfaceTensionSlope] | None = None
     expansion: Property[Expansion] | None = Field(
         default=None, description="volumetric, of the liquid"
@@ -76,6 +85,9 @@ class Material(Model):
     @model_validator(mode="after")
     def _check_values(self) -> Material:
         """Refuse values that no solver survives: zero or negative, or reflectivity beyond 0..1."""
+        gamma = self.surface_tension
+        if self.sulfur > 0.0 and (gamma is None or gamma.adsorption is None):
+            raise refusal(("sulfur", NO_ADSORPTION))
         for name, property_ in self.properties().items():
             for phase, law in property_.laws().items():
                 values = law.at(sample_temperatures(law))
@@ -92,12 +104,14 @@ class Material(Model):
         return self
 
     def properties(self) -> dict[str, Property[Any]]:
-        """All given properties by name, reflectivity included."""
+        """All given properties by name, reflectivity and the effect of sulfur included."""
         found = {
             name: getattr(self, name)
             for name in type(self).model_fields
             if isinstance(getattr(self, name), Property)
         }
+        if self.surface_tension is not None:
+            found["surface_tension"] = self.surface_tension.with_sulfur(self.sulfur)
         if self.optics is not None and self.optics.reflectivity is not None:
             found["reflectivity"] = self.optics.reflectivity
         return found

@@ -49,6 +49,8 @@ READ = [
     ("0.87 N/m", "surface_tension", 0.87),
     ("0.87 J/m^2", "surface_tension", 0.87),
     ("-0.43 mN/(m K)", "surface_tension_slope", -4.3e-4),
+    ("-166 kJ/mol", "molar_energy", -166e3),
+    ("1.3e-8 kmol/m^2", "surface_concentration", 1.3e-5),
     ("71 mrad", "angle", 0.071),
     ("180 deg", "angle", math.pi),
     ("25 %", "fraction", 0.25),
