@@ -1,11 +1,12 @@
 """Numbers of the flow that no paper gives, by what they do to a cavity and a dam break.
 
     python benchmarks/flow_numbers.py            the tables of docs/methods/numbers.md
-    python benchmarks/flow_numbers.py --only cavity, vortices or dam-break
+    python benchmarks/flow_numbers.py --only cavity, vortices, dam-break or speeds
 
 The cavity under a moving lid at Re 400 with 20 particles a side, its center lines beside finite
 differences, for support ratios, factors of the shifting and shares of the advection limit; the
-front of a dam break with 10 and 20 particles in the width of the column.
+front of a dam break with 10 and 20 particles in the width of the column; how much single particles
+move the speeds that are reported of a steady cavity under a surface that is warm in the middle.
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ CAVITIES = (
 COLUMNS = (10, 20)
 VORTICES = ((0.01, 0.03), (0.01, 0.06), (0.01, 0.12), (0.01, 0.25), (0.002, 0.06), (0.002, 0.25))
 """Kinematic viscosity [m^2/s], for Re 100 and 500, and share of the advection limit."""
+SPEEDS = ("flow_surface_speed_max_m_s", "flow_surface_speed_mean_m_s",
+          "flow_speed_max_m_s", "flow_speed_rms_m_s")  # fmt: skip
 
 
 def cavity(folder: Path, ratio: float, shifting: float, advection: float) -> str:
@@ -80,10 +83,28 @@ def front(folder: Path, count: int) -> str:
     return f"{places}  speed {np.polyfit(found.time[late], found.place[late], 1)[0]:.4f}"
 
 
+def speeds(folder: Path, reynolds: float) -> str:
+    """Largest value over the mean in time of each reported speed of a steady cavity."""
+    side, viscosity, density = 1e-6, 7e-3, 6863.0
+    slope = reynolds * viscosity**2 / (2.0 * np.pi * density * side)
+    case = load_case("marangoni-layer", [
+        f"domain.width={side} m", f"domain.depth={side} m", "domain.extent=full",
+        "solver.flow.left=no-slip", "solver.flow.right=no-slip",
+        f"particles.spacing={side / 24!r} m",
+        f'boundaries.surface_temperature_wave={{amplitude="1 K", period="{side} m"}}',
+        f"material.surface_tension_slope={-slope!r} N/(m K)", "time.step=5 ns", "time.end=2 us",
+    ])  # fmt: skip
+    run(case, folder, threads=1)
+    history = open_run(folder).history
+    late = history["time_s"] > 1e-6
+    found = (history[name][late] for name in SPEEDS)
+    return "  ".join(f"{100.0 * (np.max(v) / np.mean(v) - 1.0):.2f} %" for v in found)
+
+
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--only", choices=("cavity", "vortices", "dam-break"))
+    parser.add_argument("--only", choices=("cavity", "vortices", "dam-break", "speeds"))
     only = parser.parse_args().only
     with tempfile.TemporaryDirectory() as place:
         if only in (None, "cavity"):
@@ -95,6 +116,10 @@ def main() -> None:
         if only in (None, "dam-break"):
             for count in COLUMNS:
                 print(count, front(Path(place) / f"column-{count}", count), flush=True)
+        if only in (None, "speeds"):
+            print(*SPEEDS)
+            for reynolds in (1.0, 200.0):
+                print(reynolds, speeds(Path(place) / f"speeds-{reynolds}", reynolds), flush=True)
 
 
 if __name__ == "__main__":

@@ -115,7 +115,7 @@ class SurfaceSpeed(Observer):
             speed = np.where(is_wet, np.abs(flow.surface_velocity), 0.0)
             of_row = float(np.max(np.abs(flow.velocity[0, flow.surface])))
             fastest = int(np.argmax(speed))
-            mean = float(np.mean(speed[is_wet]))
+            mean = mean_along(view.position[0, flow.surface], speed, is_wet)
             values = (float(np.max(speed)), mean, of_row, *below_the_peak(view, flow, fastest))
         row = self.record(view.time, values)
         surface = self.peak["flow_surface_speed_max_m_s"]
@@ -142,6 +142,20 @@ class SurfaceSpeed(Observer):
     def summary(self) -> dict[str, object]:
         """Nothing where no surface moved."""
         return super().summary() if self.at_peak else {}
+
+
+def mean_along(x: np.ndarray, values: np.ndarray, chosen: np.ndarray) -> float:
+    """Mean over length of values (m,) at places x (m,) of the surface [m], of those chosen (m,).
+
+    Each counts as long as it lies from its neighbors, so that none which joins or leaves the row
+    moves the mean as one of many.
+    """
+    if x.size < 2:
+        return float(np.mean(values[chosen]))
+    order = np.argsort(x, kind="stable")
+    length = np.empty(x.size)
+    length[order] = np.gradient(x[order])
+    return float(np.average(values[chosen], weights=length[chosen]))
 
 
 def below_the_peak(view: View, flow: FlowView, place: int) -> tuple[float, ...]:

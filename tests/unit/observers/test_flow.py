@@ -16,7 +16,7 @@ from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.snapshots import UNITS
 from lasersph.observers.surface_pressure import SurfacePressure
-from lasersph.observers.surface_speed import SurfaceSpeed, zero_of
+from lasersph.observers.surface_speed import SurfaceSpeed, mean_along, zero_of
 
 
 def rows(*heights, spacing=5 * NM):
@@ -75,6 +75,17 @@ def test_mean_speeds_by_hand(view):
     speed[np.flatnonzero(wet)[0]] = -2.0 - 0.01 * np.count_nonzero(wet)
     row = SurfaceSpeed().observe(replace(view, flow=replace(view.flow, surface_velocity=speed)))
     assert row["flow_surface_speed_mean_m_s"] == pytest.approx(2.01)
+
+
+def test_a_particle_that_joins_the_surface_moves_no_mean():
+    """Mean of |x| over -1 ... 1 with 40 particles, and with five more where |x| is nearly 1."""
+    x = (np.arange(40) + 0.5) / 20.0 - 1.0
+    all_of = np.ones(45, bool)
+    assert mean_along(x, np.abs(x), all_of[:40]) == pytest.approx(0.5, abs=1e-3)
+    more = np.append(x, x[-6:-1] + 0.01)
+    assert np.mean(np.abs(more)) > 0.53
+    assert mean_along(more, np.abs(more), all_of) == pytest.approx(0.5, abs=1e-2)
+    assert mean_along(x[:1], np.full(1, 3.0), all_of[:1]) == 3.0
 
 
 def test_surface_peak_and_what_lies_below(view):
