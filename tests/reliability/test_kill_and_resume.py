@@ -1,5 +1,6 @@
 """A run killed at any moment and resumed ends with the same bits as one left alone."""
 
+import json
 import random
 
 import pytest
@@ -119,8 +120,33 @@ def test_second_process_is_refused(tmp_path):
     folder = tmp_path / "run"
     process = start_and_pause(folder, 1)
     try:
-        with pytest.raises(FolderRefused, match="another process is writing"):
+        with pytest.raises(FolderRefused, match=f"another process is writing.*{process.pid} on "):
             run(small_case(), folder, resume=True, threads=2)
     finally:
         process.kill()
         process.communicate()
+
+
+def test_folder_taken_over(tmp_path):
+    """A run whose folder another machine took over while it slept writes nothing more."""
+    folder = tmp_path / "run"
+    done = []
+
+    def take_over():
+        done.append(1)
+        if len(done) == 3:
+            (folder / ".lock").unlink()
+            owner = {"process": 7, "host": "node7", "since": "now", "machine": "another"}
+            (folder / ".lock").write_text(json.dumps(owner))
+        return False
+
+    with pytest.raises(OutputError, match="was taken over by process 7 on node7"):
+        run(small_case(), folder, threads=2, should_stop=take_over)
+    assert len(done) == 3
+    assert not (folder / "checkpoint").exists()
+    assert not (folder / "history.csv").exists()
+
+
+def test_no_lock_is_left(reference):
+    """A finished run leaves no lock."""
+    assert not (reference / ".lock").exists()

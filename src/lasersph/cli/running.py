@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import signal
 import sys
+import threading
 from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType
@@ -54,14 +56,30 @@ Uncertain = Annotated[
 Figures = Annotated[bool, typer.Option(help="Draw the figures and write report.html at the end.")]
 
 
+UntilStdinCloses = Annotated[
+    bool,
+    typer.Option(
+        "--until-stdin-closes",
+        hidden=True,
+        help="For programs that start runs: stop with a checkpoint when standard input ends, as it "
+        "does when the program that holds its other end dies, and wait for a folder in use.",
+    ),
+]
+LONGEST_WAIT = 120.0
+"""How long a run that another program starts waits for a process that still writes its last
+checkpoint into the folder [s]: twice `output.folder_lock.SILENCE`."""
+
+
 class StopSignals:
-    """Notes Ctrl-C and SIGTERM, so that the run can stop between two steps.
+    """Notes Ctrl-C, SIGTERM and the end of standard input, so that a run stops between two steps.
 
     A second Ctrl-C stops at once.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, until_stdin_closes: bool = False) -> None:
         self.code = 0
+        if until_stdin_closes:
+            threading.Thread(target=self._note_end_of_stdin, daemon=True).start()
         self._before: dict[int, Any] = {}
 
     def __enter__(self) -> StopSignals:
@@ -80,8 +98,14 @@ class StopSignals:
             raise KeyboardInterrupt
         self.code = INTERRUPTED if number == signal.SIGINT else TERMINATED
 
+    def _note_end_of_stdin(self) -> None:
+        # not sys.stdin: a thread that waits in its buffer aborts the interpreter at its end
+        while os.read(0, 1):
+            pass
+        self.code = TERMINATED
+
     def asked(self) -> bool:
-        """Whether a signal has come."""
+        """Whether a signal has come, or the end of standard input."""
         return self.code != 0
 
 
@@ -97,6 +121,7 @@ def run(
     uncertainty: Uncertainty = False,
     uncertain: Uncertain = None,
     figures: Figures = True,
+    until_stdin_closes: UntilStdinCloses = False,
 ) -> None:
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
     from lasersph.case import load_case
@@ -117,10 +142,12 @@ def run(
     command += ["--uncertainty"] if uncertainty else []
     command += [word for given in uncertain or () for word in ("--uncertain", given)]
     options = {"threads": threads, "precision": precision, "backend": backend}
+    options |= {"wait": LONGEST_WAIT if until_stdin_closes else 0.0}
 
     def make(case: Case, path: Path) -> Result:
         again = resume or path != folder  # companions lie in our own folder
-        return _compute(case, path, shlex.join(command), {**options, "resume": again})
+        with StopSignals(until_stdin_closes=until_stdin_closes) as signals:
+            return _compute(case, path, signals, shlex.join(command), {**options, "resume": again})
 
     if uncertainty:
         from lasersph.studies import assess_uncertainty
@@ -152,14 +179,16 @@ def _uncertain_inputs(case: Case, given: Sequence[str], *, wanted: bool) -> list
         raise WrongCommand(f"--uncertain: {error}") from None
 
 
-def _compute(case: Case, folder: Path, again: str, options: dict[str, Any]) -> Result:
+def _compute(
+    case: Case, folder: Path, signals: StopSignals, again: str, options: dict[str, Any]
+) -> Result:
     """Run with progress; a signal ends it with a checkpoint and the way to go on."""
     from lasersph import simulation
     from lasersph.cli.progress import ProgressDisplay
     from lasersph.compute.compiling import Compiling
     from lasersph.simulation.time_loop import Stopped
 
-    with StopSignals() as signals, ProgressDisplay() as progress:
+    with ProgressDisplay() as progress:
         try:
             with Compiling(progress.compiling) as compiling:
                 result = simulation.run(

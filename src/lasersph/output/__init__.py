@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from lasersph.output.checkpoint import Checkpoint
-    from lasersph.output.errors import FolderRefused, OutputError
+    from lasersph.output.errors import FolderLocked, FolderRefused, OutputError
     from lasersph.output.reader import Run, Snapshots, open_run
     from lasersph.output.run_folder import RunFolder, hash_of_case
 
 __all__ = [
     "Checkpoint",
+    "FolderLocked",
     "FolderRefused",
     "OutputError",
     "Run",
@@ -26,6 +27,7 @@ __all__ = [
 
 _FILES = {
     "Checkpoint": "checkpoint",
+    "FolderLocked": "errors",
     "FolderRefused": "errors",
     "OutputError": "errors",
     "Run": "reader",

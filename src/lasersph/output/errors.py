@@ -22,6 +22,9 @@ REASONS = {
 }
 
 
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+
+
 class OutputError(Exception):
     """A run folder could not be written or read; the message is one clear line."""
 
@@ -30,13 +33,17 @@ class FolderRefused(OutputError):
     """The given folder cannot be used for this run; nothing was written."""
 
 
+class FolderLocked(FolderRefused):
+    """Another process is computing in the folder; nothing was written."""
+
+
 @contextmanager
 def clear_errors(action: str, path: Path, kind: type[OutputError] = OutputError) -> Iterator[None]:
     """Turn an operating-system error into one line: what was tried, where, and why it failed.
 
     Args:
         action: what was tried, "write", "read". path: the file or folder concerned.
-        kind: class of the error raised.
+        kind: class of the error raised; no room is a failure, whatever the command.
 
     Raises:
         OutputError: for every OSError raised inside the block.
@@ -45,4 +52,5 @@ def clear_errors(action: str, path: Path, kind: type[OutputError] = OutputError)
         yield
     except OSError as error:
         reason = REASONS.get(error.errno or 0, error.strerror or str(error))
+        kind = OutputError if error.errno in FULL else kind
         raise kind(f"cannot {action} {path}: {reason}") from error

@@ -20,6 +20,7 @@ import numpy as np
 
 from lasersph.output.atomic import to_json_values
 from lasersph.output.errors import OutputError, clear_errors
+from lasersph.output.generation import raise_generation
 
 Value = float | int | str
 
@@ -82,6 +83,7 @@ class History:
         """
         self._buffer.clear()
         if rows == 0:
+            raise_generation(self.path.parent)
             with clear_errors("write", self.path):
                 self.path.unlink(missing_ok=True)
             self.columns = ()
@@ -119,6 +121,7 @@ def keep_lines(path: Path, count: int, what: str) -> list[str]:
     if len(lines) < count:
         raise OutputError(f"{path} holds fewer {what} than the checkpoint: {count}")
     if path.exists():
+        raise_generation(path.parent)
         with clear_errors("write", path):
             os.truncate(path, sum(len(line.encode()) + 1 for line in lines[:count]))
     return lines[:count]

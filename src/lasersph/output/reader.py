@@ -1,12 +1,13 @@
 """Read a run folder back: `open_run(folder)` gives history, summary, snapshots and events.
 
-Works on a finished run and on one that is still running. Nothing is ever written.
+Works on a finished run and on one that is still running: what a run overwrites while it is read
+is read again (`generation`). Nothing is ever written.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lasersph.output.errors import OutputError, clear_errors
+from lasersph.output.generation import Result, read_unchanged
 from lasersph.output.history import read_events, read_history
 from lasersph.output.particle_file import AXES, open_for_reading
 
@@ -70,12 +72,12 @@ class Run:
     def history(self) -> dict[str, np.ndarray]:
         """Columns of history.csv, arrays (steps,), by name; the names end in the unit."""
         path = self.path / "history.csv"
-        return read_history(path) if path.exists() else {}
+        return read_unchanged(self.path, lambda: read_history(path) if path.exists() else {})
 
     @cached_property
     def events(self) -> list[dict[str, Any]]:
         """What happened in the run: dicts with time_s, step, event and more."""
-        return read_events(self.path / "events.jsonl")
+        return read_unchanged(self.path, lambda: read_events(self.path / "events.jsonl"))
 
     @cached_property
     def snapshots(self) -> Snapshots:
@@ -135,20 +137,28 @@ class Snapshots:
         """Times of the steps [s]. Raises OutputError where the file is damaged."""
         if not self.path.exists():
             return np.zeros(0)
-        with open_for_reading(self.path) as file:
-            return file["VTKHDF/Steps/Values"][:]
+        return self._read(lambda file: file["VTKHDF/Steps/Values"][:])
 
     @cached_property
     def dimension(self) -> int:
         """Number of space dimensions of the run."""
-        with open_for_reading(self.path) as file:
-            return int(file.attrs["dimension"])
+        return self._read(lambda file: int(file.attrs["dimension"]))
 
     @cached_property
     def units(self) -> dict[str, str]:
         """Unit of each field."""
-        with open_for_reading(self.path) as file:
-            return {name: str(d.attrs["unit"]) for name, d in file["VTKHDF/PointData"].items()}
+        return self._read(
+            lambda file: {n: str(d.attrs["unit"]) for n, d in file["VTKHDF/PointData"].items()}
+        )
+
+    def _read(self, read: Callable[[Any], Result]) -> Result:
+        """What `read` finds in the HDF5 file. Raises OutputError."""
+
+        def read_file() -> Result:
+            with open_for_reading(self.path) as file:
+                return read(file)
+
+        return read_unchanged(self.path.parent, read_file)
 
     def nearest(self, time: float) -> dict[str, Any]:
         """The step closest to a time [s]. Raises IndexError where there is none."""
@@ -163,22 +173,28 @@ class Snapshots:
         return (self[k] for k in range(len(self)))
 
     def __getitem__(self, number: int) -> dict[str, Any]:
-        if not -len(self) <= number < len(self):
-            raise IndexError(f"the run has {len(self)} snapshots")
-        number %= len(self)
-        axes = AXES[self.dimension]
-        with open_for_reading(self.path) as file:
-            root = file["VTKHDF"]
-            steps = root["Steps"]
-            count = int(root["NumberOfPoints"][int(steps["PartOffsets"][number])])
-            start = int(steps["PointOffsets"][number])
-            points = root["Points"][start : start + count]
-            step = {"time": float(self.times[number]), "position": from_three_axes(points, axes)}
-            for name, dataset in root["PointData"].items():
-                start = int(steps["PointDataOffsets"][name][number])
-                block = dataset[start : start + count]
-                step[name] = block if block.ndim == 1 else from_three_axes(block, axes)
-        return step
+        return self._read(lambda file: read_step(file, number))
+
+
+def read_step(file: Any, number: int) -> dict[str, Any]:
+    """One step of an open file. Raises IndexError where the file does not hold it (any longer)."""
+    axes = AXES[int(file.attrs["dimension"])]
+    root = file["VTKHDF"]
+    steps = root["Steps"]
+    present = int(steps.attrs["NSteps"])
+    if not -present <= number < present:
+        raise IndexError(f"the run has {present} snapshots")
+    number %= present
+    count = int(root["NumberOfPoints"][int(steps["PartOffsets"][number])])
+    start = int(steps["PointOffsets"][number])
+    points = root["Points"][start : start + count]
+    time = float(steps["Values"][number])
+    step = {"time": time, "position": from_three_axes(points, axes)}
+    for name, dataset in root["PointData"].items():
+        start = int(steps["PointDataOffsets"][name][number])
+        block = dataset[start : start + count]
+        step[name] = block if block.ndim == 1 else from_three_axes(block, axes)
+    return step
 
 
 def from_three_axes(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:

@@ -10,6 +10,8 @@
     uncertainty.json errors of the results, from the runs in companions/ (`run --uncertainty`)
     checkpoint/      what a resumed run starts from
     figures/, report.html
+    .lock            who computes in the folder now; gone when nobody does (`folder_lock`)
+    .generation      how readers notice that files change while they read them (`generation`)
 
 A checkpoint records how long the other files were when it was written. A resumed run cuts them
 back to that, so that it continues as if nothing had happened.
@@ -20,7 +22,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -32,11 +35,14 @@ from lasersph.output import checkpoint as checkpoints
 from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_json, replace_text, to_json_values
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
+from lasersph.output.folder_lock import FolderLock, is_lock
 from lasersph.output.history import Events, History
 from lasersph.output.particle_file import ParticleFile
 from lasersph.output.transaction import rename_damaged
 
 SUMMARY_SCHEMA = 1
+LEFT_BY_KILL = "resolved.json" + TEMPORARY_SUFFIX
+"""All that a run killed before it wrote its case leaves."""
 REQUIRED_KEYS = (
     "case",
     "solver",
@@ -77,41 +83,44 @@ class RunFolder:
         history, events, particles: the files that grow with the run.
     """
 
-    def __init__(self, path: Path, case_hash: str) -> None:
+    def __init__(self, path: Path, case_hash: str, lock: FolderLock | None) -> None:
+        """The folder of a run that `lock` keeps others from; a complete one needs none."""
         self.path = path
         self.case_hash = case_hash
         self.history = History(path / "history.csv")
         self.events = Events(path / "events.jsonl")
         self.particles = ParticleFile(path / "particles.vtkhdf")
-        self._lock = lock_folder(path)
+        self._lock = lock
 
     @classmethod
-    def create(cls, path: str | Path, origin: Origin) -> RunFolder:
+    def create(cls, path: str | Path, origin: Origin, *, wait: float = 0.0) -> RunFolder:
         """Make a new run folder at a path that does not exist or is an empty folder.
 
+        Args:
+            wait: how long another process may take to leave the folder [s].
+
         Raises:
-            FolderRefused: the folder holds files or cannot be written; nothing was written.
+            FolderRefused: the folder holds files, another process computes in it or it cannot be
+                written; nothing was written.
         """
         folder = Path(path)
-        if folder.exists() and not folder.is_dir():
-            raise FolderRefused(f"{folder} is a file, not a folder: choose another name with --out")
-        with clear_errors("write", folder, FolderRefused):
-            if folder.is_dir() and any(folder.iterdir()):
-                raise FolderRefused(
-                    f"{folder} is not empty: choose another folder with --out,"
-                    " or continue the run in it with --resume"
-                )
-            folder.mkdir(parents=True, exist_ok=True)
-            if not os.access(folder, os.W_OK | os.X_OK):
-                raise FolderRefused(f"cannot write {folder}: permission denied")
-        return cls._start(folder, origin)
+        refuse_if_used(folder)
+        lock = make_and_lock(folder, wait)
+        with releasing_on_failure(lock):
+            refuse_if_used(folder)
+            return cls._start(folder, origin, lock)
 
     @classmethod
-    def resume(cls, path: str | Path, origin: Origin) -> tuple[RunFolder, Checkpoint | None]:
+    def resume(
+        cls, path: str | Path, origin: Origin, *, wait: float = 0.0
+    ) -> tuple[RunFolder, Checkpoint | None]:
         """Open the folder of an earlier run of the same case and cut it back to its checkpoint.
 
         A folder without a checkpoint is started again from the beginning, a folder that does not
         exist is made, a complete run is left as it is.
+
+        Args:
+            wait: how long another process may take to leave the folder [s].
 
         Returns:
             The folder, and the checkpoint to go on from. None: from the beginning, or, where
@@ -119,31 +128,36 @@ class RunFolder:
 
         Raises:
             FolderRefused: the folder belongs to another case or to another version of this
-                program, or is not a run folder.
+                program, is not a run folder, or another process computes in it.
             OutputError: no checkpoint in it can be used.
         """
         folder = Path(path)
         if is_untouched(folder):
-            for left in folder.iterdir() if folder.is_dir() else ():
-                with clear_errors("write", left, FolderRefused):
-                    left.unlink()
-            return cls.create(folder, origin), None
-        files = checkpoints.candidates(folder / "checkpoint")
-        is_complete = (folder / "summary.json").exists()
-        if not is_complete:  # an earlier version hashed cases in its own way: ask for it first
-            checkpoints.refuse_formats(files)
-        check_owner(folder, origin.name)
-        if is_complete:
-            return cls(folder, origin.name), None
-        if not files:
-            run = cls._start(folder, origin)
+            lock = make_and_lock(folder, wait)
+        elif not (folder / "resolved.json").exists():
+            raise FolderRefused(f"{folder} is not a run folder: nothing to resume there")
+        elif (folder / "summary.json").exists():
+            check_owner(folder, origin.name)
+            return cls(folder, origin.name, None), None
+        else:
+            lock = FolderLock(folder, wait=wait)
+        with releasing_on_failure(lock):
+            if is_untouched(folder):
+                (folder / LEFT_BY_KILL).unlink(missing_ok=True)
+                return cls._start(folder, origin, lock), None
+            files = check_folder(folder, origin)
+            run = cls(folder, origin.name, lock)
+            if run.is_complete:  # by the process that was waited for
+                run.close()
+                return run, None
+            if files:
+                return run, run.last_good(files)
+            run = cls._start(folder, origin, lock)
             run.restart()
             return run, None
-        run = cls(folder, origin.name)
-        return run, run.last_good(files)
 
     @classmethod
-    def _start(cls, folder: Path, origin: Origin) -> RunFolder:
+    def _start(cls, folder: Path, origin: Origin, lock: FolderLock) -> RunFolder:
         """Write what is known before the first step."""
         resolved = {
             "schema_version": SUMMARY_SCHEMA,
@@ -153,7 +167,7 @@ class RunFolder:
         }
         replace_json(folder / "resolved.json", resolved)
         replace_text(folder / "case.toml", origin.case_text)
-        return cls(folder, origin.name)
+        return cls(folder, origin.name, lock)
 
     @property
     def is_complete(self) -> bool:
@@ -165,6 +179,11 @@ class RunFolder:
         """The results of a complete run. Raises OutputError."""
         with clear_errors("read", self.path / "summary.json"):
             return json.loads((self.path / "summary.json").read_text())
+
+    def confirm_lock(self) -> None:
+        """Make sure that no other process took the folder over. Raises OutputError."""
+        if self._lock is not None:
+            self._lock.confirm()
 
     def log(self, text: str) -> None:
         """Add a line to run.log, with date and time. Raises OutputError."""
@@ -260,9 +279,13 @@ class RunFolder:
 
     def close(self) -> None:
         """Flush the history and let other processes use the folder."""
-        self.history.flush()
-        if self._lock is not None:
-            os.close(self._lock)
+        if self._lock is None:
+            return
+        try:
+            if self._lock.is_ours:
+                self.history.flush()
+        finally:
+            self._lock.release()
             self._lock = None
 
 
@@ -276,15 +299,62 @@ def is_untouched(folder: Path) -> bool:
     """Whether a folder is missing, empty, or left by a run killed before it wrote its case."""
     if not folder.exists():
         return True
-    left = folder / ("resolved.json" + TEMPORARY_SUFFIX)
-    return folder.is_dir() and all(path == left and path.is_file() for path in folder.iterdir())
+    return folder.is_dir() and all(
+        path.is_file() and (path.name == LEFT_BY_KILL or is_lock(path)) for path in folder.iterdir()
+    )
+
+
+def refuse_if_used(folder: Path) -> None:
+    """Refuse a new run in a folder that holds files. Raises FolderRefused."""
+    if folder.exists() and not folder.is_dir():
+        raise FolderRefused(f"{folder} is a file, not a folder: choose another name with --out")
+    with clear_errors("write", folder, FolderRefused):
+        if folder.is_dir() and not all(is_lock(path) for path in folder.iterdir()):
+            raise FolderRefused(
+                f"{folder} is not empty: choose another folder with --out,"
+                " or continue the run in it with --resume"
+            )
+
+
+def make_and_lock(folder: Path, wait: float) -> FolderLock:
+    """Make a folder where there is none, and lock it. Raises FolderRefused."""
+    with clear_errors("write", folder, FolderRefused):
+        folder.mkdir(parents=True, exist_ok=True)
+        if not os.access(folder, os.W_OK | os.X_OK):
+            raise FolderRefused(f"cannot write {folder}: permission denied")
+    return FolderLock(folder, wait=wait)
+
+
+@contextmanager
+def releasing_on_failure(lock: FolderLock) -> Iterator[None]:
+    """Let go of a folder where the block raises."""
+    try:
+        yield
+    except BaseException:
+        lock.release()
+        raise
+
+
+def check_folder(folder: Path, origin: Origin) -> list[Path]:
+    """Refuse the folder of another case or another version of this program.
+
+    Returns:
+        Its checkpoint files, the latest first.
+
+    Raises:
+        FolderRefused: see `check_owner`, `checkpoint.refuse_formats`.
+    """
+    files = checkpoints.candidates(folder / "checkpoint")
+    if not (folder / "summary.json").exists():
+        # an earlier version hashed cases in its own way: ask for it first
+        checkpoints.refuse_formats(files)
+    check_owner(folder, origin.name)
+    return files
 
 
 def check_owner(folder: Path, case_hash: str) -> None:
-    """Refuse a folder that is not a run folder or holds another case."""
+    """Refuse a folder that holds another case. Raises FolderRefused."""
     path = folder / "resolved.json"
-    if not folder.is_dir() or not path.exists():
-        raise FolderRefused(f"{folder} is not a run folder: nothing to resume there")
     with clear_errors("read", path, FolderRefused):
         text = path.read_text()
     try:
@@ -296,29 +366,3 @@ def check_owner(folder: Path, case_hash: str) -> None:
             f"{folder} holds a run of another case: resume it with the case and settings that it"
             " was started with, or choose another folder"
         )
-
-
-def lock_folder(folder: Path) -> int | None:
-    """Keep a second process from writing into the folder, as long as this one lives.
-
-    Returns:
-        The open lock, to be closed; None on systems without file locks.
-
-    Raises:
-        FolderRefused: another process is writing.
-    """
-    try:
-        import fcntl
-    except ImportError:
-        return None
-    with clear_errors("write", folder, FolderRefused):
-        descriptor = os.open(folder / "run.log", os.O_RDWR | os.O_CREAT, 0o666)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError as error:
-        os.close(descriptor)
-        raise FolderRefused(f"another process is writing to {folder}") from error
-    except OSError:  # a file system without locks
-        os.close(descriptor)
-        return None
-    return descriptor

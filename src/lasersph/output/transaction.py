@@ -6,10 +6,11 @@ and `commit` brings the pages to the disk so that no moment is harmful:
 
 1. what lies beyond the old end is written first: the old content does not refer to it;
 2. changed pages of the old content go to a journal file, which appears whole or not at all;
-3. they are written into the file, and the journal is removed.
+3. the folder's generation is raised, so that readers of the old content read again;
+4. the pages are written into the file, and the journal is removed.
 
 A kill before 2 leaves the old content, a kill after it a journal from which the next opening
-finishes the work. A full disk is met in 1 or 2, since 3 needs no new room,
+finishes the work. A full disk is met in 1 to 3, since 4 needs no new room,
 and leaves the old content. This is the write-ahead log of databases (Gray and Reuter, Transaction
 Processing, 1993), for one file.
 """
@@ -25,6 +26,7 @@ from typing import Any, BinaryIO
 
 from lasersph.output.atomic import replace_file
 from lasersph.output.errors import OutputError, clear_errors
+from lasersph.output.generation import raise_generation
 
 PAGE = 16384
 JOURNAL_SUFFIX = ".journal"
@@ -33,8 +35,8 @@ JOURNAL_SUFFIX = ".journal"
 class Transaction(io.RawIOBase):
     """A file object over `path` whose writes stay in memory until `commit`.
 
-    Without a commit the file is untouched: open one to read a file that another process may be
-    writing.
+    Without a commit the file is untouched: open one, inside `generation.read_unchanged`, to read
+    a file that another process may be writing.
     """
 
     def __init__(self, path: Path) -> None:
@@ -45,13 +47,15 @@ class Transaction(io.RawIOBase):
         self.pages: dict[int, bytearray] = {}
         self.position = 0
         self.file: BinaryIO | None = None
+        # the journal first: a file opened after it holds all that lies beyond the old end
+        unfinished = read_journal(path)
         with clear_errors("read", path):
             if path.exists():
                 self.file = open(path, "rb")  # noqa: SIM115  (closed in close())
         self.stored = os.fstat(self.file.fileno()).st_size if self.file else 0
         self.size = self.stored
-        if journal_of(path).exists():
-            self.pages, self.size = read_journal(path)
+        if unfinished is not None:
+            self.pages, self.size = unfinished
 
     def readable(self) -> bool:
         return True
@@ -127,7 +131,9 @@ class Transaction(io.RawIOBase):
                         write_at(descriptor, offset, data)
                     os.fsync(descriptor)
                     write_journal(self.path, changed, self.size)
+                    raise_generation(self.path.parent)
                 except BaseException:
+                    journal_of(self.path).unlink(missing_ok=True)
                     os.ftruncate(descriptor, self.stored)
                     raise
                 apply_journal(self.path, descriptor, changed, self.size)
@@ -185,11 +191,18 @@ def write_journal(path: Path, pages: dict[int, bytearray], size: int) -> None:
     replace_file(journal_of(path), lambda stream: stream.write(data))
 
 
-def read_journal(path: Path) -> tuple[dict[int, bytearray], int]:
-    """Pages and file size of an unfinished commit. Raises OutputError where it is damaged."""
+def read_journal(path: Path) -> tuple[dict[int, bytearray], int] | None:
+    """Pages and file size of an unfinished commit; None where there is none.
+
+    Raises:
+        OutputError: the journal is damaged.
+    """
     journal = journal_of(path)
     with clear_errors("read", journal):
-        line, _, body = journal.read_bytes().partition(b"\n")
+        try:
+            line, _, body = journal.read_bytes().partition(b"\n")
+        except FileNotFoundError:
+            return None
     try:
         head = json.loads(line)
         if hashlib.sha256(body).hexdigest() != head["sha256"]:
@@ -213,19 +226,21 @@ def apply_journal(path: Path, descriptor: int, pages: dict[int, bytearray], size
 
 def finish_commit(path: Path) -> None:
     """Finish the commit that a killed process left, if there is one. Raises OutputError."""
-    if not journal_of(path).exists():
+    unfinished = read_journal(path)
+    if unfinished is None:
         return
-    pages, size = read_journal(path)
+    raise_generation(path.parent)
     with clear_errors("write", path):
         descriptor = os.open(path, os.O_RDWR)
         try:
-            apply_journal(path, descriptor, pages, size)
+            apply_journal(path, descriptor, *unfinished)
         finally:
             os.close(descriptor)
 
 
 def discard(path: Path) -> None:
     """Remove a file and its journal, if they are there. Raises OutputError."""
+    raise_generation(path.parent)
     with clear_errors("write", path):
         path.unlink(missing_ok=True)
         journal_of(path).unlink(missing_ok=True)
@@ -234,6 +249,7 @@ def discard(path: Path) -> None:
 def rename_damaged(path: Path) -> Path:
     """Rename a damaged file and its journal to `<name>.damaged`; return the new name."""
     aside = path.with_name(path.name + ".damaged")
+    raise_generation(path.parent)
     with clear_errors("write", path):
         os.replace(path, aside)
         if journal_of(path).exists():

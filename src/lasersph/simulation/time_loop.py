@@ -55,6 +55,7 @@ def run(
     out: str | Path,
     *,
     resume: bool = False,
+    wait: float = 0.0,
     threads: int | None = None,
     precision: str = "float64",
     backend: str = "cpu",
@@ -68,6 +69,7 @@ def run(
     Args:
         out: folder of the run; must be new or empty unless `resume`.
         resume: continue from the last checkpoint in `out`; from the start where there is none.
+        wait: how long another process that computes in `out` may take to leave it [s].
         threads: None takes all processors. precision: "float64" or "float32".
         backend: "cpu", or "cuda" for a graphics card. Either continues what the other began.
         recipe: a class of one's own in place of that of the case's solver, with terms, boundaries
@@ -85,7 +87,11 @@ def run(
     device = compute.cuda(precision) if backend == "cuda" else compute.cpu(threads, precision)
     chosen = recipe_of(case) if recipe is None else recipe(case)
     own = "" if recipe is None else f"-{recipe.__name__}"
-    folder, checkpoint = _open(case, out, resume, precision + own)
+    origin = _origin(case, precision + own)
+    if resume:
+        folder, checkpoint = RunFolder.resume(out, origin, wait=wait)
+    else:
+        folder, checkpoint = RunFolder.create(out, origin, wait=wait), None
     try:
         if folder.is_complete:
             return Result(folder.path, folder.summary)
@@ -97,13 +103,10 @@ def run(
         folder.close()
 
 
-def _open(
-    case: Case, out: str | Path, resume: bool, variant: str
-) -> tuple[RunFolder, Checkpoint | None]:
+def _origin(case: Case, variant: str) -> Origin:
     versions = {"lasersph": __version__, "python": platform.python_version()}
     versions |= {name: version(name) for name in PACKAGES}
-    origin = Origin(case.text, case.resolved(), versions, f"{case.hash()}-{variant}")
-    return RunFolder.resume(out, origin) if resume else (RunFolder.create(out, origin), None)
+    return Origin(case.text, case.resolved(), versions, f"{case.hash()}-{variant}")
 
 
 class _Loop:
@@ -152,6 +155,7 @@ class _Loop:
             limits["snapshot"] = max(self.snapshots.next_time - state.time, 0.0) or float("inf")
             self.limit, step, unclipped_step = choose_step(limits)
             taken = self._step(step, unclipped_step)
+            self.folder.confirm_lock()
             if taken == step and self.limit in ("end", "snapshot"):
                 state.time = end if self.limit == "end" else self.snapshots.next_time
             self.steps += 1
