@@ -114,6 +114,6 @@ def add_depths(study: Study, exact: dict[Pulse, Ablation], columns: Columns) -> 
             study.add("layers", whole, depth, published=published, share=d, **names)
     for (ns, f), one in exact.items():
         names = {"fluence": f, "ns": ns, "spacing": fine}
-        study.add("smooth", columns[ns, f, fine].smooth, 1e6 * one.depth, **names)
+        study.add("smooth", columns[ns, f, fine].smooth, 1e6 * one.depth, share=fine, **names)
     ratio = errors[fine] / errors[coarse]
     study.add("convergence", ratio, share=fine / coarse, fine=fine, coarse=coarse)

@@ -72,7 +72,7 @@ def draw(study: Study, columns: dict[str, Column]) -> None:
         last, times = found.run.snapshots[-1], found.run.snapshots.times
         at_end.append(marks(-last["position"][-1], 1e-3 * last["pressure"], name, k))
         at_bottom.append(line(times, found.bottom, name, k))
-    at_bottom += [exact(times[[0, -1]], [edge, edge], "") for edge in (0.98, 1.02)]
+    at_bottom += [exact(times[[0, -1]], [edge, edge], "") for edge in (0.99, 1.01)]
     study.draw(
         "hydrostatic-column",
         Panel("depth [m]", "pressure [kPa]", at_end, "(a) at the end"),

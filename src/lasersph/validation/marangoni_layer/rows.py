@@ -66,9 +66,10 @@ def exact_solution(case: Case) -> ThermocapillaryLayer:
     )
 
 
-def layer(study: Study, count: int, solution: ThermocapillaryLayer) -> Layer:
-    """A run with `count` rows, measured at the center of each height."""
-    one = study.run(f"{count}-rows", f"particles.spacing={solution.depth / count!r} m")
+def layer(study: Study, count: int, solution: ThermocapillaryLayer, *settings: str) -> Layer:
+    """A run with `count` rows, and further settings, measured at the center of each height."""
+    spacing = f"particles.spacing={solution.depth / count!r} m"
+    one = study.run("-".join([f"{count}-rows", *settings]), spacing, *settings)
     last = one.snapshots[-1]
     height = -(np.arange(PLACES) + 0.5) / PLACES
     crest, node = columns(solution, height)

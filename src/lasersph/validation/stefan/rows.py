@@ -21,13 +21,14 @@ def compare(study: Study) -> None:
     }
     for d, one in runs.items():
         front = 1e6 * float(solution.front(end))
-        study.add("front", 1e6 * fronts(one)[-1], front, end=1e9 * end, spacing=d)
+        study.add("front", 1e6 * fronts(one)[-1], front, share=1e-3 * d, end=1e9 * end, spacing=d)
     errors = {d: mean_front_error(one, solution) for d, one in runs.items()}
     for d, error in errors.items():
         study.add("front_error", 1e9 * error, spacing=d)
     for d, one in runs.items():
         volume = 1e6 * one.summary["melt"]["volume_max_m3"]
-        study.add("melt_volume", volume, 1e6 * float(solution.front(end)), spacing=d)
+        front = 1e6 * float(solution.front(end))
+        study.add("melt_volume", volume, front, share=1e-3 * d, spacing=d)
     coarse, fine = spacings[0], spacings[-1]
     study.add("convergence", errors[fine] / errors[coarse], fine=fine, coarse=coarse)
     error = temperature_error(runs[fine], solution)
