@@ -15,6 +15,7 @@ from lasersph.observers.observer_list import (
     ablation_observers,
     flow_observers,
     heat_observers,
+    numerical_sd,
 )
 from lasersph.observers.probes import Probes
 from lasersph.observers.quantity import Quantity
@@ -48,5 +49,6 @@ __all__ = [
     "crater_shape",
     "flow_observers",
     "heat_observers",
+    "numerical_sd",
     "snapshot_fields",
 ]

@@ -26,6 +26,8 @@ SIZES = {
     "width": "width of the crater along x at the original surface",
     "diameter": "diameter of the circle of the same area",
 }
+CELLS = {"depth": 1.0, "depth_max": 1.0, "width": 2.0}
+"""Cells by which a size jumps: particles leave one by one, a width grows at both ends at once."""
 REMOVED = Quantity("crater_removed_volume_m3", "m^3", "volume of ejected metal")
 VAPORIZED = Quantity(
     "crater_vaporized_volume_m3",
@@ -50,6 +52,7 @@ class Crater(Observer):
                 words,
                 end=f"crater.{name}_m",
                 is_main=name in ("depth", "depth_mean", "diameter"),
+                cells=CELLS.get(name, 0.0),
             )
             for name, words in SIZES.items()
         ),

@@ -8,6 +8,14 @@ a spot is computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5]
 half way between their particles, also where these move: at rest sizes are whole cells. What has
 been ejected belongs to no pool.
 
+Where melt is deepest the depth at f_m = 0.5 is interpolated as well, between the centers of the
+deepest such cell (1) and of the one below (2). The place where f_m falls to 0.5 rests at the face
+while cell 1 is molten and cell 2 still warms up; the place where T falls to the middle of the
+melting range rests at a center while that cell melts. So their mean is taken, which always moves:
+
+    z = z_1 + (z_2 - z_1) (s_f + s_T) / 2,   s_f = (f_1 - 1/2) / (f_1 - f_2)
+    s_T = (T_1 - T_m) / (T_1 - T_2),         T_m = (T_solidus + T_liquidus) / 2
+
 Left out: pools that wrap around a periodic boundary, and the second lateral direction in 3-D (the
 width is taken along x through the hottest surface cell).
 """
@@ -18,7 +26,7 @@ import numpy as np
 
 from lasersph.observers.ablation_view import EJECTED
 from lasersph.observers.observer import Observer, Row
-from lasersph.observers.peak import Span
+from lasersph.observers.peak import SAME, Span
 from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View, hottest_surface_cell, largest_depth, lower_faces
 
@@ -31,8 +39,8 @@ LEVELS = {
 """Part of a key, the melt fraction that a fluid cell has at least (any: above 0), and its name."""
 
 
-def sizes(name: str) -> tuple[Quantity, ...]:
-    """A size of the pool at each level."""
+def sizes(name: str, cells: float) -> tuple[Quantity, ...]:
+    """A size of the pool at each level, and by how many cells it jumps."""
     return tuple(
         Quantity(
             f"melt_{name}{level}_m",
@@ -40,11 +48,21 @@ def sizes(name: str) -> tuple[Quantity, ...]:
             f"{name} of {words}",
             largest=f"melt.{name}{level}_max_m",
             is_main=level == "",
+            cells=0.5 * cells if f"{name}{level}" == "width_half" else cells,
         )
         for level, (_, words) in LEVELS.items()
     )
 
 
+DEPTHS, WIDTHS = sizes("depth", 1.0), sizes("width", 2.0)
+INTERPOLATED_DEPTH = Quantity(
+    "melt_depth_interpolated_m",
+    "m",
+    "depth of half molten metal, interpolated between cells",
+    largest="melt.depth_interpolated_max_m",
+    is_main=True,
+    cells=0.5,
+)
 VOLUME = Quantity(
     "melt_volume_m3",
     "m^3",
@@ -60,10 +78,10 @@ class MeltPool(Observer):
     title = "melt pool"
     note = (
         "Depth: lower face of the deepest such cell below the original surface. Width: full"
-        " width of one pool at the surface. Sizes are whole cells, but for the width at f_m = 0.5,"
-        " which is interpolated."
+        " width of one pool at the surface. Sizes are whole cells, but for the width at f_m = 0.5"
+        " and the interpolated depth."
     )
-    columns = (*sizes("depth"), *sizes("width"), VOLUME)
+    columns = (*DEPTHS, *WIDTHS, VOLUME, INTERPOLATED_DEPTH)
     results = (
         *(
             Quantity(f"melt.{name}{level}_s", "s", f"{text} {words}", is_main=level == "")
@@ -76,7 +94,7 @@ class MeltPool(Observer):
 
     def __init__(self, dimension: int) -> None:
         if dimension == 1:
-            self.columns = (*sizes("depth"), VOLUME)
+            self.columns = (*DEPTHS, VOLUME, INTERPOLATED_DEPTH)
         super().__init__()
         self.dimension = dimension
         self.span = {level: Span() for level in LEVELS}
@@ -88,20 +106,23 @@ class MeltPool(Observer):
         largest = float(np.max(fraction))
         faces = lower_faces(view) if largest > 0.0 else np.zeros(0)
         depth, width = dict.fromkeys(LEVELS, 0.0), dict.fromkeys(LEVELS, 0.0)
+        between_cells = 0.0
         for level, (least, _) in LEVELS.items():
             exists = largest > 0.0 and largest >= least
             self.span[level].update(exists, view.time)
             if exists:
                 depth[level] = largest_depth(faces, is_fluid(fraction, least))
                 width[level] = pool_width(view, least) if self.dimension > 1 else 0.0
+                if least == HALF:
+                    between_cells = interpolated_depth(view, fraction, faces)
         self.end_time = view.time
         volume = float(np.sum(fraction * view.volume)) if largest > 0.0 else 0.0
         widths = width.values() if self.dimension > 1 else ()
-        return self.record(view.time, (*depth.values(), *widths, volume))
+        return self.record(view.time, (*depth.values(), *widths, volume, between_cells))
 
     def values(self) -> dict[str, object]:
         """Times, None where no such cell was seen; in 1-D there are no widths."""
-        absent = (one for column in sizes("width") for one in (column.largest, column.largest_at))
+        absent = (one for column in WIDTHS for one in (column.largest, column.largest_at))
         found: dict[str, object] = {one: None for one in absent if self.dimension == 1}
         for level, span in self.span.items():
             found |= {f"melt.start{level}_s": span.first, f"melt.end{level}_s": span.last}
@@ -126,6 +147,34 @@ def remaining_fraction(view: View) -> np.ndarray:
 def is_fluid(fraction: np.ndarray, least: float) -> np.ndarray:
     """Where a melt fraction reaches a level of `LEVELS`."""
     return fraction > 0.0 if least == 0.0 else fraction >= least
+
+
+def interpolated_depth(view: View, fraction: np.ndarray, faces: np.ndarray) -> float:
+    """Depth to which metal is half molten, interpolated between cells [m].
+
+    Below the hottest of the deepest half molten cells; see the head of this file.
+
+    Args:
+        fraction: (n,) melt fractions without what has been ejected; one at least reaches 0.5.
+        faces: (n,) depths of the lower faces of the cells [m].
+    """
+    fluid = is_fluid(fraction, HALF)
+    deepest = largest_depth(faces, fluid)
+    lowest = np.flatnonzero(fluid & (faces >= deepest * (1.0 - SAME)))
+    upper = int(lowest[np.argmax(view.enthalpy[lowest])])
+    side = np.abs(view.position[:-1] - view.position[:-1, upper, None])
+    is_below = np.all(side < 0.5 * view.width[:-1], axis=0) & (faces > faces[upper])
+    below = np.flatnonzero(is_below & ~fluid)
+    if below.size == 0 or view.solidus is None or view.liquidus is None:
+        return float(faces[upper])
+    lower = int(below[np.argmin(faces[below])])
+    melting = 0.5 * (view.solidus + view.liquidus)
+    share = (fraction[upper] - HALF) / (fraction[upper] - fraction[lower])
+    hot, cold = view.temperature[upper], view.temperature[lower]
+    if hot > cold:  # both at the melting point: the fractions alone tell
+        share = 0.5 * (share + min(max((hot - melting) / (hot - cold), 0.0), 1.0))
+    z = view.position[-1]
+    return float(-(z[upper] + share * (z[lower] - z[upper])))
 
 
 def pool_width(view: View, least: float) -> float:

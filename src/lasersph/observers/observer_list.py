@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from lasersph.observers.box_flow import BoxFlow
@@ -48,6 +49,26 @@ COLUMNS = {one.key: one for kind in OBSERVERS for one in kind.columns}
 """Quantity of each column of history.csv."""
 RESULTS = {one.key: one for kind in OBSERVERS for one in kind.all_results()}
 """Quantity of each key of summary.json that an observer fills."""
+
+
+def numerical_sd(summary: Mapping[str, Any]) -> dict[str, float]:
+    """Numerical standard deviation of the sizes of a summary that jump by whole cells [m].
+
+    A size counted in cells of spacing dx lies anywhere within its cell, evenly, so its standard
+    deviation is dx / sqrt(12) (JCGM 100:2008, 4.3.7); a width jumps at both of its ends at once.
+    Interpolation halves it: the computed field follows the lattice as well. Sizes of 0 have none.
+
+    Returns:
+        By dotted key of the summary. dx is its finest spacing; deeper layers may be coarser.
+    """
+    found: dict[str, float] = {}
+    for key, one in RESULTS.items():
+        value: Any = summary
+        for name in key.split("."):
+            value = value.get(name) if isinstance(value, Mapping) else None
+        if one.cells and value:
+            found[key] = one.cells * float(summary["spacing_m"]) / math.sqrt(12.0)
+    return found
 
 
 class Observers:

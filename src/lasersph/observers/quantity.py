@@ -26,6 +26,8 @@ class Quantity:
         end: key of summary.json for its value at the end of the run.
         at: keys of summary.json that say when and where.
         is_main: whether `lasersph info` shows it.
+        cells: cells by which its largest value or that at the end jumps, as sizes in whole cells
+            do; half as many where it is interpolated between them; 0 for what does not jump.
     """
 
     key: str
@@ -35,6 +37,7 @@ class Quantity:
     end: str = ""
     at: tuple[str, ...] = ()
     is_main: bool = False
+    cells: float = 0.0
 
     def __post_init__(self) -> None:
         """Raises ValueError where a key does not say the unit."""
@@ -56,10 +59,11 @@ class Quantity:
         """The keys of summary.json that follow from a column."""
         if self.largest:
             words, at = f"largest {self.words}", (self.largest_at, *self.at)
-            yield Quantity(self.largest, self.unit, words, at=at, is_main=self.is_main)
+            yield replace(self, key=self.largest, words=words, at=at, largest="", end="")
         if self.end:
             words = f"{self.words}, at the end" if self.largest else self.words
-            yield Quantity(self.end, self.unit, words, is_main=self.is_main and not self.largest)
+            is_main = self.is_main and not self.largest
+            yield replace(self, key=self.end, words=words, is_main=is_main, largest="", end="")
 
 
 def suffix(unit: str) -> str:

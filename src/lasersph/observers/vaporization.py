@@ -36,12 +36,14 @@ class Vaporization(Observer):
             "m",
             "depth of cells that took up some of it",
             largest="vaporization.depth_any_max_m",
+            cells=1.0,
         ),
         Quantity(
             "vapor_depth_m",
             "m",
             "depth of cells that took up all of it",
             largest="vaporization.depth_max_m",
+            cells=1.0,
         ),
         Quantity(
             "evaporated_max_m",

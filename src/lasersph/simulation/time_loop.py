@@ -18,7 +18,7 @@ from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.input import format_quantity
-from lasersph.observers import Observer, Observers
+from lasersph.observers import Observer, Observers, numerical_sd
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
@@ -226,6 +226,7 @@ class _Loop:
             "dimensionless": self.recipe.dimensionless(),
             **self.recipe.summary(),
         }
+        summary["numerical_sd"] = numerical_sd(summary)
         self.folder.events.append("finished", time=state.time, step=self.steps)
         self.folder.log(f"finished after {self.steps} steps, {summary['wall_time_s']:.1f} s")
         self.folder.finish(summary)
