@@ -20,7 +20,7 @@ FREE = Boundaries(surface="free", bottom="free", emissivity=0.0)
 
 def solver_of(
     *, count=2, boundaries=FREE, time=None, laser=None, backend=None, phase_change=False,
-    initial=COLD, kernel="cubic-spline", support_ratio=None, **settings,
+    initial=COLD, kernel="cubic-spline", support_ratio=None, ambient_pressure=0.0, **settings,
 ):  # fmt: skip
     """Solver of a column at rest, with plain weights."""
     chosen = ConductionSettings(
@@ -36,10 +36,10 @@ def solver_of(
         boundaries=boundaries,
         material=material,
         laser=laser,
-        curve=material.caloric_curve(initial, chosen.plateau, phase_change=phase_change),
+        curve=material.caloric_curve(initial, chosen.curve_plateau, phase_change=phase_change),
         use_second_moment=False,
     )
-    return Conduction(body, chosen, time or TimeSettings(end=1e-9), laser)
+    return Conduction(body, chosen, time or TimeSettings(end=1e-9), laser, ambient_pressure)
 
 
 def set_enthalpy(solver, enthalpy):

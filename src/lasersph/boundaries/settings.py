@@ -26,6 +26,7 @@ from lasersph.input import (
     HeatTransferCoefficient,
     Length,
     Model,
+    Pressure,
     Temperature,
     TemperatureDifference,
     refusal,
@@ -39,6 +40,8 @@ DIRICHLET = ("fixed-temperature", "wall")
 """Kinds of faces whose temperature is given."""
 NEUMANN = "prescribed-flux"
 """The kind of faces whose heat flux is given."""
+STANDARD_ATMOSPHERE = 101325.0
+"""Of the surroundings [Pa]."""
 KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left", "right": "right"}
 """Each face and how the keys of its temperature and flux begin."""
 
@@ -95,6 +98,10 @@ class Boundaries(Model):
     )
     ambient_temperature: Temperature | None = Field(
         default=None, description="of the surroundings; default: the initial temperature"
+    )
+    ambient_pressure: Annotated[Pressure, Field(ge=0)] | None = Field(
+        default=None,
+        description='against which vapor leaves the surface; default: 1 atm; "0 Pa" for vacuum',
     )
 
     @model_validator(mode="after")
@@ -182,6 +189,11 @@ class Boundaries(Model):
         if self.surface in DIRICHLET or self.surface == "periodic" or material.optics is None:
             return 0.0
         return material.optics.emissivity or 0.0
+
+    @property
+    def pressure_of_surroundings(self) -> float:
+        """Against which vapor leaves the surface [Pa]: 1 atm where the case does not say."""
+        return STANDARD_ATMOSPHERE if self.ambient_pressure is None else self.ambient_pressure
 
     def surroundings(self, material: Material, initial: float) -> dict[str, float]:
         """T_a [K], h_c [W/(m^2 K)] and eps of `physics.losses.surface_loss`."""

@@ -136,25 +136,42 @@ def _material(case: CaseContents) -> Iterator[tuple[str, str]]:
     changes = case.solver.phase_change and case.flow is None
     try:
         case.material.caloric_curve(
-            case.initial_temperature, case.solver.plateau, phase_change=changes
+            case.initial_temperature, case.solver.curve_plateau, phase_change=changes
         )
     except ValueError as error:
         text = str(error)
         is_start = text.startswith("the initial temperature")
         yield "initial_temperature" if is_start else "material", text
-    if case.solver.plateau == "evaporate" and case.solver.phase_change:
-        vapor = case.material.vaporization
-        if vapor is None or vapor.molar_mass is None:
-            yield (
-                "solver.plateau",
-                f'"evaporate" needs vaporization data with molar_mass, which material '
-                f'"{case.material.name}" lacks; write plateau = "hold"',
-            )
+    yield from _evaporation(case)
     losses = case.boundaries.surroundings(case.material, case.initial_temperature)
     if case.boundaries.ambient_temperature is not None and not losses["h_c"] and not losses["eps"]:
         yield (
             "boundaries.ambient_temperature",
             "says nothing without convection or emissivity; give one of them or leave it out",
+        )
+
+
+def _evaporation(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """What vapor that leaves the surface needs."""
+    vapor, has_flux = case.material.vaporization, case.solver.has_vapor_flux
+    key, right = ("vaporization", "plateau") if has_flux else ("plateau", "hold")
+    if case.solver.evaporates and case.solver.phase_change:
+        if vapor is None or vapor.molar_mass is None:
+            yield (
+                f"solver.{key}",
+                f'"{getattr(case.solver, key)}" needs vaporization data with molar_mass, which '
+                f'material "{case.material.name}" lacks; write {key} = "{right}"',
+            )
+        elif has_flux and vapor.critical_temperature is None:
+            yield (
+                "solver.vaporization",
+                '"flux" needs the temperature above which there is no liquid surface; write e.g. '
+                'critical_temperature = "9250 K" in vaporization of the material',
+            )
+    if case.boundaries.ambient_pressure is not None and not has_flux:
+        yield (
+            "boundaries.ambient_pressure",
+            'says nothing but beside vaporization = "flux" in [solver]; leave it out or write that',
         )
 
 

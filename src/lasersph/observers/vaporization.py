@@ -2,7 +2,11 @@
 
 Under the plateau rules `hold` and `clip` a cell stays at T_v while it takes up the heat of
 vaporization; the times are the first and the last at which a surface cell was at T_v. Under
-`evaporate` there is no plateau: the times say when the surface was at or above T_v.
+`evaporate`, and where vapor leaves as a flux, there is no plateau: the times say when the surface
+was at or above T_v.
+
+Above 0.9 T_c a vapor is no ideal gas any more and the curve of saturation pressure an
+extrapolation: when and where the surface was that hot is told as well.
 """
 
 from __future__ import annotations
@@ -15,6 +19,8 @@ from lasersph.observers.peak import Span
 from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View, largest_depth, lower_faces
 
+NEAR_CRITICAL = 0.9
+"""Share of T_c above which the curve of saturation pressure does not hold."""
 TOLERANCE = 1e-6
 """Relative distance below T_v that still counts as T_v."""
 
@@ -51,16 +57,29 @@ class Vaporization(Observer):
             "evaporated thickness",
             largest="vaporization.evaporated_thickness_max_m",
         ),
+        Quantity(
+            "evaporated_mean_m",
+            "m",
+            "evaporated thickness, mean over the surface",
+            end="vaporization.evaporated_thickness_mean_m",
+        ),
     )
     results = (
         Quantity("vaporization.start_s", "s", "first at the vaporization temperature"),
         Quantity("vaporization.end_s", "s", "last at the vaporization temperature"),
+        Quantity("vaporization.near_critical_start_s", "s", "first above 0.9 T_c"),
+        Quantity("vaporization.near_critical_end_s", "s", "last above 0.9 T_c"),
+        Quantity("vaporization.near_critical_x_m", "m", "place of the hottest surface above it"),
+        Quantity("vaporization.critical_K", "K", "critical temperature T_c"),
     )
-    kept = ("span",)
+    kept = ("span", "near", "hottest", "place", "critical")
 
     def __init__(self) -> None:
         super().__init__()
-        self.span = Span()
+        self.span, self.near = Span(), Span()
+        self.hottest = 0.0
+        self.place: float | None = None
+        self.critical: float | None = None
 
     def observe(self, view: View) -> Row:
         """Largest vapor fraction, depth of its occurrence and evaporated thickness [m]."""
@@ -70,17 +89,40 @@ class Vaporization(Observer):
         if view.vaporization is not None:
             surface = float(np.max(view.temperature[view.surface]))
             self.span.update(surface >= view.vaporization * (1.0 - TOLERANCE), view.time)
+            self._look_near_critical(view, surface)
+        evaporated = np.zeros(1) if view.evaporated is None else view.evaporated
         values = (
             largest,
             largest_depth(faces, fraction > 0.0) if largest > 0.0 else 0.0,
             largest_depth(faces, fraction >= FULL) if largest >= FULL else 0.0,
-            0.0 if view.evaporated is None else float(np.max(view.evaporated)),
+            float(np.max(evaporated)),
+            float(np.mean(evaporated)),
         )
         return self.record(view.time, values)
 
     def values(self) -> dict[str, object]:
         """Times at the vaporization temperature."""
-        return {"vaporization.start_s": self.span.first, "vaporization.end_s": self.span.last}
+        found = {"vaporization.start_s": self.span.first, "vaporization.end_s": self.span.last}
+        is_near = self.near.first is not None
+        return found | {
+            "vaporization.near_critical_start_s": self.near.first,
+            "vaporization.near_critical_end_s": self.near.last,
+            "vaporization.near_critical_x_m": self.place,
+            "vaporization.critical_K": self.critical if is_near else None,
+        }
+
+    def _look_near_critical(self, view: View, surface: float) -> None:
+        """When the surface was above 0.9 T_c, and where it was hottest then."""
+        self.critical = view.critical
+        if view.critical is None:
+            return
+        is_near = surface > NEAR_CRITICAL * view.critical
+        self.near.update(is_near, view.time)
+        if is_near and surface > self.hottest:
+            self.hottest = surface
+            if view.dimension > 1:
+                at = view.surface[np.argmax(view.temperature[view.surface])]
+                self.place = float(view.position[0, at])
 
     def summary(self) -> dict[str, object]:
         """Nothing where the surface never reached T_v and nothing evaporated."""

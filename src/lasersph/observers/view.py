@@ -33,8 +33,10 @@ class View:
         limit: name of the limit that bound the time step.
         solidus, liquidus, vaporization: corner temperatures of the material [K], None where it
             has none.
-        evaporated: (surface,) thickness that has evaporated from each surface cell [m], where the
-            run follows it.
+        critical: temperature that a surface which evaporates must not reach [K]; None where a
+            plateau holds it below.
+        evaporated: (columns,) thickness that has evaporated from each column of cells [m], where
+            the run follows it.
         flow: velocity, pressure and what belongs to them; None in a run without flow.
         ablation: crater and ejecta; None in a run without ablation.
     """
@@ -60,6 +62,7 @@ class View:
     solidus: float | None = None
     liquidus: float | None = None
     vaporization: float | None = None
+    critical: float | None = None
     evaporated: np.ndarray | None = None
     flow: FlowView | None = None
     ablation: AblationView | None = None

@@ -8,14 +8,12 @@ the last term only where the solver lets the surface evaporate (`physics.evapora
 from __future__ import annotations
 
 from lasersph.physics.evaporation import (
-    evaporative_heat_flux,
-    evaporative_heat_flux_slope,
     latent_heat,
     latent_heat_slope,
-    mass_flux,
     saturation_pressure,
     saturation_pressure_slope,
 )
+from lasersph.physics.knudsen_layer import net_mass_flux
 
 STEFAN_BOLTZMANN = 5.670374419e-8
 """[W/(m^2 K^4)] (CODATA 2018)."""
@@ -28,13 +26,15 @@ def surface_loss(T, T_a, h_c, eps):
     return loss, slope
 
 
-def evaporation_loss(T, p_b, T_b, L_b, T_c, R_s):
-    """Evaporative heat flux [W/m^2], its slope in T [W/(m^2 K)] and the mass flux [kg/(m^2 s)]."""
+def evaporation_loss(T, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes):
+    """Evaporative heat flux [W/m^2], its slope in T [W/(m^2 K)] and the mass flux [kg/(m^2 s)].
+
+    Args:
+        p_b, T_b, L_b, T_c, R_s: `evaporation.vapor_constants`. p_e, ratio_nodes, flux_nodes: see
+            `knudsen_layer.net_mass_flux`.
+    """
     p, L = saturation_pressure(T, p_b, T_b, L_b, T_c, R_s), latent_heat(T, T_b, L_b, T_c)
     p_slope = saturation_pressure_slope(T, p, L, R_s)
     L_slope = latent_heat_slope(T, T_b, L_b, T_c)
-    return (
-        evaporative_heat_flux(T, p, L, R_s),
-        evaporative_heat_flux_slope(T, p, p_slope, L, L_slope, R_s),
-        mass_flux(T, p, R_s),
-    )
+    mass, mass_slope = net_mass_flux(T, p, p_slope, R_s, p_e, ratio_nodes, flux_nodes)
+    return L * mass, L_slope * mass + L * mass_slope, mass

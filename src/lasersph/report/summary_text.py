@@ -116,6 +116,16 @@ def warning_texts(summary: dict[str, Any], events: list[dict[str, Any]]) -> list
         if share > NUMERICAL_ALLOWED:
             percent = shown(100.0 * share, 3)
             found.append(f"The {TERMS[name]} is {percent} % of the energy moved.")
+    vapor = summary.get("vaporization", {})
+    if vapor.get("near_critical_start_s") is not None:
+        place = vapor["near_critical_x_m"]
+        where = "" if place is None else f", hottest at x = {quantity(place, 'm')}"
+        found.append(
+            f"The surface was above 0.9 of its critical temperature of {vapor['critical_K']:.0f} K "
+            f"from {quantity(vapor['near_critical_start_s'], 's')} to "
+            f"{quantity(vapor['near_critical_end_s'], 's')}{where}: the curve of vapor pressure "
+            "is an extrapolation there."
+        )
     return list(dict.fromkeys(found))
 
 

@@ -22,7 +22,7 @@ ABSORPTION_LENGTHS = 12.0
 def caloric_curve(case: Case) -> CaloricCurve:
     """Enthalpy curve of the case's material with the case's plateau rule."""
     return case.material.caloric_curve(
-        case.initial_temperature, case.solver.plateau, phase_change=case.solver.phase_change
+        case.initial_temperature, case.solver.curve_plateau, phase_change=case.solver.phase_change
     )
 
 

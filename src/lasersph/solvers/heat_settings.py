@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
+from lasersph.input import refusal
 from lasersph.solvers.solver_settings import SolverSettings
 
 
@@ -22,6 +23,11 @@ class HeatSettings(SolverSettings):
         description="at the vaporization temperature: hold it for any enthalpy; clip the enthalpy "
         "at the full latent heat; or no plateau but a surface that evaporates",
     )
+    vaporization: Literal["plateau", "flux"] = Field(
+        default="plateau",
+        description="what holds at the vaporization temperature: the plateau; or none, and vapor "
+        "leaves a surface that may be hotter, against boundaries.ambient_pressure",
+    )
     phase_change: bool = Field(default=True, description="false: neither melting nor vaporization")
     weights: Literal["second-moment", "plain"] = Field(
         default="second-moment",
@@ -30,3 +36,31 @@ class HeatSettings(SolverSettings):
     tolerance: Annotated[float, Field(gt=0, lt=1e-2)] = Field(
         default=1e-8, description="residual of a step over the absorbed energy"
     )
+
+    @model_validator(mode="after")
+    def _check_plateau(self) -> HeatSettings:
+        if self.has_vapor_flux and self.plateau != "hold":
+            raise refusal(
+                (
+                    "plateau",
+                    f'"{self.plateau}" says nothing where vaporization = "flux"; leave it out',
+                )
+            )
+        if self.has_vapor_flux and not self.phase_change:
+            raise refusal(("vaporization", "says nothing where phase_change = false; leave it out"))
+        return self
+
+    @property
+    def curve_plateau(self) -> Literal["hold", "clip", "evaporate"]:
+        """What the caloric curve does at the vaporization temperature."""
+        return "evaporate" if self.has_vapor_flux else self.plateau
+
+    @property
+    def evaporates(self) -> bool:
+        """Whether vapor leaves the surface as a flux; under plateau = "evaporate" into vacuum."""
+        return self.curve_plateau == "evaporate"
+
+    @property
+    def has_vapor_flux(self) -> bool:
+        """Whether it does so against the pressure of the surroundings, hotter than boiling."""
+        return self.vaporization == "flux"

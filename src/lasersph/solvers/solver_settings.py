@@ -29,6 +29,16 @@ class SolverSettings(Model):
         return False
 
     @property
+    def evaporates(self) -> bool:
+        """Whether vapor leaves the surface as a flux."""
+        return False
+
+    @property
+    def has_vapor_flux(self) -> bool:
+        """Whether it does so against the pressure of the surroundings, hotter than boiling."""
+        return False
+
+    @property
     def leaves_rest_inactive(self) -> bool:
         """Whether cold matter at rest is left alone until heat comes near."""
         return False

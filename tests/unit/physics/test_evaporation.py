@@ -15,6 +15,7 @@ import pytest
 from lasersph.materials import load_material
 from lasersph.materials.sections import Vaporization
 from lasersph.physics import evaporation as e
+from lasersph.physics.knudsen_layer import outflow_tables
 from lasersph.physics.losses import evaporation_loss
 
 R_S = 308.17  # J/(kg K), as AlShaer, Rogers & Li (2017) print it
@@ -216,8 +217,13 @@ def test_the_loop_factory_compiles_the_functions() -> None:
     T = np.array([500.0, 2000.0, 2730.0, 5000.0, 6600.0, 6700.0, 8000.0])
     flux, slope, mass = (backend.zeros(T.size) for _ in range(3))
     fields = {"T": backend.asarray(T)}
-    backend.pointwise(evaporation_loss, fields, (flux, slope, mass), **WATSON)
-    expected = np.array([evaporation_loss(float(value), **WATSON) for value in T])
+    ratio, share, _ = outflow_tables()
+    tables = {"ratio_nodes": backend.asarray(ratio), "flux_nodes": backend.asarray(share)}
+    vacuum = WATSON | {"p_e": 0.0}
+    backend.pointwise(evaporation_loss, fields, (flux, slope, mass), **vacuum, **tables)
+    expected = np.array(
+        [evaporation_loss(float(t), **vacuum, ratio_nodes=ratio, flux_nodes=share) for t in T]
+    )
     np.testing.assert_allclose(backend.to_host(flux), expected[:, 0], rtol=1e-12)
     np.testing.assert_allclose(backend.to_host(slope), expected[:, 1], rtol=1e-12)
     np.testing.assert_allclose(backend.to_host(mass), expected[:, 2], rtol=1e-12)

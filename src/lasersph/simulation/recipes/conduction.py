@@ -48,7 +48,8 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             curve=self.curve,
             use_second_moment=settings.weights == "second-moment",
         )
-        return Conduction(body, settings, case.time, case.laser)
+        pressure = case.boundaries.pressure_of_surroundings if settings.has_vapor_flux else 0.0
+        return Conduction(body, settings, case.time, case.laser, pressure)
 
     def heat_view(
         self, solver: Any, step: int, limit: str, take: Callable[[Array], np.ndarray]
@@ -70,13 +71,21 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             "solidus": body.curve.solidus,
             "liquidus": body.curve.liquidus,
             "vaporization": body.curve.vaporization,
+            "critical": self.critical_temperature,
         }
 
-    def evaporated(self, solver: Any, surface: np.ndarray) -> np.ndarray | None:
-        """Thickness that has evaporated from the cells of a surface [m], where it is followed."""
-        if self.settings.plateau != "evaporate":
+    @property
+    def critical_temperature(self) -> float | None:
+        """That a surface which evaporates must not reach [K]; None where a plateau holds it."""
+        vapor = self.case.material.vaporization
+        return vapor.critical_temperature if vapor and self.settings.has_vapor_flux else None
+
+    def evaporated(self, solver: Any) -> np.ndarray | None:
+        """Thickness that has evaporated from each column [m], where it is followed."""
+        if not self.settings.evaporates:
             return None
-        mass = solver.backend.look(solver.particles["evaporated_mass"])[surface]
+        columns = solver.body.filling.surface
+        mass = solver.backend.look(solver.particles["evaporated_mass"])[columns]
         return mass / self.case.material.density_reference
 
     def observers(self, iterations: Sequence[str]) -> Observers:
@@ -151,7 +160,7 @@ class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
     def view(self, solver: Conduction, step: int, limit: str) -> View:
         """The state for observers."""
         fields = self.heat_view(solver, step, limit, solver.backend.look)
-        return View(**fields, evaporated=self.evaporated(solver, fields["surface"]))
+        return View(**fields, evaporated=self.evaporated(solver))
 
     def step_forecast(self) -> StepForecast:
         """Limits, number and cost of the steps."""

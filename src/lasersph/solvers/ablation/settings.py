@@ -73,7 +73,7 @@ class AblationSettings(SolverSettings):
     )
 
     @property
-    def plateau(self) -> Literal["hold"]:
+    def curve_plateau(self) -> Literal["hold"]:
         """Matter at the boiling point keeps its temperature while it takes up latent heat."""
         return "hold"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -34,11 +34,6 @@ def clip_enthalpy(h, m, h_limit):
     return min(h, h_limit), m * max(h - h_limit, 0.0)
 
 
-def accumulate_evaporated_mass(evaporated, mass_flux, step):
-    """Mass per area that has evaporated [kg/m^2]."""
-    return evaporated + step * mass_flux
-
-
 class Conduction:
     """Solver of a run that computes heat, melting and the vaporization plateau.
 
@@ -52,10 +47,14 @@ class Conduction:
         settings: ConductionSettings,
         time: TimeSettings,
         laser: Laser | None,
+        ambient_pressure: float = 0.0,
     ) -> None:
+        """`ambient_pressure` [Pa]: against which vapor leaves the surface, 0 for vacuum."""
         self.body, self.settings, self.time_settings, self.laser = body, settings, time, laser
         self.particles, self.state = body.particles, HeatState()
-        self.exchange = SurfaceExchange(body, evaporates=settings.plateau == "evaporate")
+        self.exchange = SurfaceExchange(
+            body, evaporates=settings.evaporates, ambient_pressure=ambient_pressure
+        )
         backend: Backend = body.backend
         self._before = backend.zeros(body.count)
         if settings.scheme == "explicit":
@@ -144,8 +143,22 @@ class Conduction:
 
         Raises:
             NotConverged: not even a 256th of the step converges.
+            SupercriticalSurface: the surface is above the critical temperature.
         """
+        self.refuse_supercritical(lambda: self.body.filling.position)
         return retry_step(self.attempt, step, unclipped_step)
+
+    def refuse_supercritical(self, position: Callable[[], np.ndarray]) -> None:
+        """Stop before a step where the surface has no liquid any more.
+
+        Args:
+            position: returns those of the particles, (dim, n) [m].
+
+        Raises:
+            SupercriticalSurface: with place and temperature.
+        """
+        if self.settings.has_vapor_flux:
+            self.exchange.refuse_supercritical(self.particles["temperature"], position)
 
     def attempt(self, step: float, unclipped_step: float | None = None) -> None:
         """Advance by `step` [s] with the light that falls in it.
@@ -170,10 +183,8 @@ class Conduction:
         energy = self.scheme.advance(state, step, self._exchanged())
         discarded = self._discard()
         body.update_temperature()
-        if self.settings.plateau == "evaporate":
-            mass = particles["evaporated_mass"]
-            fields = {"evaporated": mass, "mass_flux": self.exchange.mass_flux}
-            backend.pointwise(accumulate_evaporated_mass, fields, mass, step=step)
+        if self.settings.evaporates:
+            self.exchange.accumulate(particles["evaporated_mass"], step)
         self._account(energy, discarded)
         fields = {"T": temperature, "T_old": self._before}
         (state.temperature_change,) = backend.pointwise(

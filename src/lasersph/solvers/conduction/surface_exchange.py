@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import numpy as np
+
+from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array, Rows
+from lasersph.input import format_quantity
 from lasersph.physics.evaporation import vapor_constants
+from lasersph.physics.knudsen_layer import outflow_tables
 from lasersph.physics.losses import evaporation_loss, surface_loss
 from lasersph.solvers.conduction.body import Body
+from lasersph.solvers.step_control import StepFailed
 
 
 def surface_power(T, area, T_a, h_c, eps):
@@ -14,11 +22,29 @@ def surface_power(T, area, T_a, h_c, eps):
     return area * loss, area * slope, area * loss
 
 
-def evaporating_power(T, area, T_a, h_c, eps, p_b, T_b, L_b, T_c, R_s):
+def evaporating_power(
+    T, area, T_a, h_c, eps, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes
+):
     """As `surface_power` with evaporation; also its power [W] and the mass flux [kg/(m^2 s)]."""
     loss, slope = surface_loss(T, T_a, h_c, eps)
-    heat, heat_slope, mass = evaporation_loss(T, p_b, T_b, L_b, T_c, R_s)
+    heat, heat_slope, mass = evaporation_loss(
+        T, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes
+    )
     return area * (loss + heat), area * (slope + heat_slope), area * loss, area * heat, mass
+
+
+def accumulate_evaporated_mass(evaporated, mass_flux, step):
+    """Mass per area that has evaporated [kg/m^2]."""
+    return evaporated + step * mass_flux
+
+
+def same(T):
+    """Argument."""
+    return T
+
+
+class SupercriticalSurface(StepFailed):
+    """The surface is hotter than the critical temperature of the metal."""
 
 
 class SurfaceExchange:
@@ -31,28 +57,78 @@ class SurfaceExchange:
         is_idle: no loss of any kind.
     """
 
-    def __init__(self, body: Body, *, evaporates: bool) -> None:
+    def __init__(self, body: Body, *, evaporates: bool, ambient_pressure: float) -> None:
+        """`ambient_pressure` [Pa]: against which vapor leaves, 0 for vacuum."""
         backend, count = body.backend, body.count
         self.body, self.evaporates = body, evaporates
         self.power, self.slope, self.mass_flux = (backend.zeros(count) for _ in range(3))
         self._lattice = backend.asarray(body.filling.surface, "index"), body.area
         self.rows, self.area = self._lattice
+        self._columns: SurfaceColumns | None = None
+        self._tables: dict[str, Array] = {}
         self.is_idle = not evaporates and not body.ambient["h_c"] and not body.ambient["eps"]
         self.constants: dict[str, float] = dict(body.ambient)
         vapor = body.material.vaporization
         if evaporates and vapor is not None:
-            self.constants |= vapor_constants(vapor)
+            ratio, flux, _ = outflow_tables()
+            self.constants |= vapor_constants(vapor) | {"p_e": ambient_pressure}
+            self._tables = {
+                "ratio_nodes": backend.asarray(ratio),
+                "flux_nodes": backend.asarray(flux),
+            }
 
     def rest(self) -> None:
         """Let the surface be that of the particles on their lattice, as at the start."""
-        self.follow(*self._lattice)
+        self._take(*self._lattice)
+        self._columns = None
 
-    def follow(self, rows: Rows, area: Array) -> None:
-        """Let the surface be that of the particles `rows`, with areas (n,) [m^(d-1)]."""
+    def follow(self, columns: SurfaceColumns) -> None:
+        """Let the surface be that of the particles that lie at it now (2-D)."""
+        self._take(columns.rows, columns.area)
+        self._columns = columns
+
+    def _take(self, rows: Rows, area: Array) -> None:
+        """Surface particles and their areas (n,) [m^(d-1)]; those before lose nothing any more."""
         backend, nothing = self.body.backend, self.body.backend.zeros(self.rows.shape[0])
         for quantity in (self.power, self.slope, self.mass_flux):
             backend.scatter(nothing, self.rows, quantity)
         self.rows, self.area = rows, area
+
+    def accumulate(self, evaporated: Array, step: float) -> None:
+        """Add what `step` [s] evaporates to (n,) [kg/m^2]: by column, whose entry is that of the
+        particle at its top on the lattice, since particles move on and the surface stays."""
+        flux = self.mass_flux
+        if self._columns is not None:
+            flux = self._columns.mean(self.mass_flux)
+            evaporated = self.body.backend.head(evaporated, flux.shape[0])
+        fields = {"evaporated": evaporated, "mass_flux": flux}
+        self.body.backend.pointwise(accumulate_evaporated_mass, fields, evaporated, step=step)
+
+    def refuse_supercritical(self, temperature: Array, position: Callable[[], np.ndarray]) -> None:
+        """Stop where the surface has no liquid any more.
+
+        Args:
+            temperature: (n,) [K]. position: returns those of the particles, (dim, n) [m].
+
+        Raises:
+            SupercriticalSurface: with the place.
+        """
+        backend, highest = self.body.backend, self.constants["T_c"]
+        (hottest,) = backend.pointwise(
+            same, {"T": temperature}, (None,), rows=self.rows, reduce=("max",)
+        )
+        if hottest <= highest:
+            return
+        rows = np.asarray(backend.to_host(self.rows), np.int64)
+        place = rows[int(np.argmax(backend.to_host(temperature)[rows]))]
+        x, where = "", position()
+        if where.shape[0] > 1:
+            x = f" at x = {format_quantity(float(where[0, place]), 'm')}"
+        raise SupercriticalSurface(
+            f"the surface{x} is at {hottest:.0f} K, above the critical temperature of "
+            f"{highest:.0f} K, where no liquid is left for vapor to leave; give less light "
+            "(laser.fluence) or longer pulses"
+        )
 
     def evaluate(self, temperature: Array) -> tuple[float, float]:
         """Set power and slope; returns the power lost and the power removed by vapor [W]."""
@@ -66,6 +142,12 @@ class SurfaceExchange:
             function, out = evaporating_power, (self.power, self.slope, None, None, self.mass_flux)
             reduce = (None, None, "sum", "sum", None)
         lost, *removed = self.body.backend.pointwise(
-            function, fields, out, rows=self.rows, reduce=reduce, **self.constants
+            function,
+            fields,
+            out,
+            rows=self.rows,
+            reduce=reduce,
+            **self.constants,
+            **self._tables,
         )
         return lost, sum(removed)

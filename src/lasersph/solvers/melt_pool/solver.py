@@ -160,7 +160,9 @@ class MeltPool:
             NotConverged: not even a 256th of the step succeeds, or the flow has become unstable;
                 the state is as before.
             PoolTooDeep: the melt reaches the graded layers.
+            SupercriticalSurface: the surface is above the critical temperature.
         """
+        self.heat.refuse_supercritical(lambda: self.backend.to_host(self.position))
         if self.flow.largest_speed * SHORTEST * self.heat.time_settings.end > self.domain.support:
             raise NotConverged(f"the flow has become unstable: {self.flow.largest_speed:.3g} m/s")
         self._keep()
@@ -238,7 +240,7 @@ class MeltPool:
         fields = {"depth": self._depth}
         backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
         columns.find(self.position, backend.rows_where(mark, 1.0))
-        exchange.follow(columns.rows, columns.area)
+        exchange.follow(columns)
         light.follow(self.position, self._depth, columns)
 
     def shift(self, step: float) -> None:

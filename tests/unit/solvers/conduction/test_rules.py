@@ -13,6 +13,8 @@ from two_particles import (
 
 from lasersph.boundaries import Boundaries
 from lasersph.lasers import Laser
+from lasersph.physics.evaporation import saturation_pressure, vapor_constants
+from lasersph.solvers.conduction.surface_exchange import SupercriticalSurface
 from lasersph.solvers.step_control import NotConverged, binding_limit, choose_step
 from lasersph.solvers.time_settings import TimeSettings
 
@@ -124,6 +126,49 @@ def test_evaporate_removes_latent_heat_from_the_surface():
     energy = solver.state.energy
     assert energy["removed"] == pytest.approx(flux * 10.53e6 * 1e-14, rel=1e-3)
     assert stored(solver) - before == pytest.approx(-energy["removed"], rel=1e-4)
+
+
+def test_flux_leaves_against_the_surroundings():
+    """In air nothing leaves at T_b, and 0.748 / 0.816 of what leaves into vacuum where p_sat is
+    2.393 atm (Mach 0.5, Knight 1979); into vacuum as much as under plateau = "evaporate"."""
+    evaporated = {}
+    vapor = vapor_constants(solver_of().body.material.vaporization)
+    grid = np.linspace(2730.0, 3100.0, 371)
+    pressures = [saturation_pressure(T, **vapor) for T in grid]
+    hot = float(np.interp(101325.0 / 0.41782981, pressures, grid))
+    for T in (2730.0, hot):
+        for rule, pressure in (("flux", 101325.0), ("flux", 0.0), ("evaporate", 0.0)):
+            words = {"vaporization": "flux"} if rule == "flux" else {"plateau": "evaporate"}
+            solver = solver_of(phase_change=True, ambient_pressure=pressure, **words)
+            h = float(solver.body.curve.enthalpy_at(T))
+            set_enthalpy(solver, [h, h])
+            before = stored(solver)
+            solver.step(1e-14)
+            mass = solver.body.backend.to_host(solver.particles["evaporated_mass"])
+            evaporated[T, rule, pressure] = mass[0]
+            assert stored(solver) - before == pytest.approx(
+                -solver.state.energy["removed"], rel=1e-4, abs=1e-12
+            )
+    assert evaporated[2730.0, "flux", 101325.0] == 0.0
+    for T in (2730.0, hot):
+        assert evaporated[T, "flux", 0.0] == evaporated[T, "evaporate", 0.0] > 0.0
+    share = evaporated[hot, "flux", 101325.0] / evaporated[hot, "flux", 0.0]
+    assert share == pytest.approx(0.74787297 / 0.81568064, rel=1e-3)
+
+
+def test_surface_above_the_critical_temperature_stops_the_run():
+    """Before the step, with the temperature, and the state as it was."""
+    solver = solver_of(phase_change=True, vaporization="flux", ambient_pressure=101325.0)
+    for T, stops in ((7990.0, False), (8010.0, True)):
+        h = float(solver.body.curve.enthalpy_at(T))
+        set_enthalpy(solver, [h, 0.0])
+        before, time = enthalpy_of(solver), solver.state.time
+        if not stops:
+            solver.step(1e-16)
+            continue
+        with pytest.raises(SupercriticalSurface, match="8010 K, above the critical temperature"):
+            solver.step(1e-16)
+        assert np.array_equal(enthalpy_of(solver), before) and solver.state.time == time
 
 
 def test_published_iteration_gives_the_step_of_newton():

@@ -73,7 +73,7 @@ def solver_of(
     """The solver of a case for particles that start where they have been laid out."""
     material = case.material
     curve = material.caloric_curve(
-        case.initial_temperature, settings.plateau, phase_change=has_latent_heats(case)
+        case.initial_temperature, settings.curve_plateau, phase_change=has_latent_heats(case)
     )
     shape = kernel(case.particles.kernel, geometry.dimension)
     ratio = case.particles.support_over_spacing

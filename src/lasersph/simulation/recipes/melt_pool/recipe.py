@@ -57,7 +57,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             fields["surface"] = np.flatnonzero(top)
         if flow.box:
             fields["melt_fraction"] = np.ones(solver.particle_count)
-        return View(**fields, evaporated=self.evaporated(solver, fields["surface"]))
+        return View(**fields, evaporated=self.evaporated(solver))
 
     def observers(self, iterations: Sequence[str]) -> Observers:
         """What observes a flow; a box has no pool, but center lines and heat through its walls."""

@@ -14,6 +14,7 @@ from lasersph.case import Case
 from lasersph.compute.array_types import Array
 from lasersph.observers.flow_view import FlowView
 from lasersph.physics.evaporation import recoil_pressure, saturation_pressure, vapor_constants
+from lasersph.physics.knudsen_layer import gauge_recoil_pressure, outflow_tables
 from lasersph.solvers.melt_pool.solver import MeltPool
 
 SIDES = ("left", "right", "bottom", "surface")
@@ -77,11 +78,13 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Array], np.ndarray])
 
 
 def _recoil(case: Case, temperature: np.ndarray) -> np.ndarray | None:
-    """0.54 p_sat(T) [Pa]."""
+    """0.54 p_sat(T) [Pa]; with a flux of vapor, what of it exceeds the surroundings."""
     vapor = case.material.vaporization
     if vapor is None or vapor.molar_mass is None or temperature.size == 0:
         return None
     constants = vapor_constants(vapor)
-    return np.array(
-        [recoil_pressure(saturation_pressure(float(T), **constants)) for T in temperature]
-    )
+    pressure = [saturation_pressure(float(T), **constants) for T in temperature]
+    if not case.solver.has_vapor_flux:
+        return np.array([recoil_pressure(p) for p in pressure])
+    ambient, (ratio, _, mach) = case.boundaries.pressure_of_surroundings, outflow_tables()
+    return np.array([gauge_recoil_pressure(p, ambient, ratio, mach) for p in pressure])
