@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from lasersph.input import CaseError
     from lasersph.output import open_run
     from lasersph.simulation import run
+    from lasersph.sweeps import sweep
 
 __version__ = "0.1.0"
-__all__ = ["Case", "CaseError", "__version__", "load_case", "open_run", "run"]
+__all__ = ["Case", "CaseError", "__version__", "load_case", "open_run", "run", "sweep"]
 
 _ROOMS = {
     "Case": "lasersph.case",
@@ -27,6 +28,7 @@ _ROOMS = {
     "load_case": "lasersph.case",
     "open_run": "lasersph.output",
     "run": "lasersph.simulation",
+    "sweep": "lasersph.sweeps",
 }
 
 

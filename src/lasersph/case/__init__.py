@@ -13,12 +13,13 @@ loading          files, shipped cases, new case files
 from lasersph.case.case import Case
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.contents import SCHEMA_VERSION
-from lasersph.case.loading import available_cases, case_file, load_case, write_new_case
+from lasersph.case.loading import CaseFile, available_cases, case_file, load_case, write_new_case
 from lasersph.case.size import estimate_count
 
 __all__ = [
     "SCHEMA_VERSION",
     "Case",
+    "CaseFile",
     "available_cases",
     "case_file",
     "estimate_count",

@@ -5,15 +5,17 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TypeVar
 
 from lasersph.case.case import Case
-from lasersph.case.contents import SCHEMA_VERSION
+from lasersph.case.contents import SCHEMA_VERSION, CaseContents
 from lasersph.case.conversion import convert
 from lasersph.case.other_words import OTHER_WORDS
 from lasersph.case.overrides import moved_settings, override
 from lasersph.case.quick import quick_settings
-from lasersph.input import CaseError, Document, build, nearest, read_toml
+from lasersph.input import CaseError, build, nearest, read_toml
 
+M = TypeVar("M", bound=CaseContents)
 LIBRARY = Path(__file__).parent / "cases"
 
 
@@ -45,15 +47,36 @@ def case_file(name_or_path: str | os.PathLike[str]) -> Path:
     raise CaseError(f'no case "{text}"', hint)
 
 
-def read_case(
-    name_or_path: str | os.PathLike[str], overrides: Sequence[str] = ()
-) -> tuple[Document, str]:
-    """The document of a case, not yet validated, with its keys at their present places and its
-    overrides applied, and what moved in words. Raises CaseError."""
-    document, moved = convert(read_toml(case_file(name_or_path), tolerant=True))
-    moved += moved_settings(overrides)
-    text = f"read as schema version {SCHEMA_VERSION}: {', '.join(moved)}" if moved else ""
-    return override(document, overrides), text
+class CaseFile:
+    """A case file or a shipped case, read once: cases of it differ by their overrides.
+
+    Attributes:
+        document: its data, not yet validated, keys at their present places.
+    """
+
+    def __init__(self, name_or_path: str | os.PathLike[str]) -> None:
+        self.document, moved = convert(read_toml(case_file(name_or_path), tolerant=True))
+        self._moved = moved
+
+    def contents(self, overrides: Sequence[str] = ()) -> CaseContents:
+        """The keys of a case, each right by itself, not checked together. Raises CaseError."""
+        return self._built(CaseContents, overrides)
+
+    def case(self, overrides: Sequence[str] = ()) -> Case:
+        """The case with overrides like "laser.fluence=0.8 J/cm^2"; later ones win.
+
+        Raises:
+            CaseError: every problem of the case in one line: file, line, key, what is wrong.
+        """
+        case = self._built(Case, overrides)
+        moved = [*self._moved, *moved_settings(overrides)]
+        note = f"read as schema version {SCHEMA_VERSION}: {', '.join(moved)}" if moved else ""
+        settings = "".join(f"# --set {setting}\n" for setting in overrides)
+        return case.named(Path(self.document.file).stem, settings + self.document.text, note)
+
+    def _built(self, model: type[M], overrides: Sequence[str]) -> M:
+        document = override(self.document, overrides)
+        return build(model, document, {"folder": Path(document.file).parent}, OTHER_WORDS)
 
 
 def load_case(
@@ -69,13 +92,10 @@ def load_case(
     Raises:
         CaseError: every problem of the case in one line: file, line, key, what is wrong.
     """
+    file = CaseFile(name_or_path)
     if quick:
-        overrides = [*quick_settings(load_case(name_or_path, overrides)), *overrides]
-    document, note = read_case(name_or_path, overrides)
-    file = Path(document.file)
-    case = build(Case, document, {"folder": file.parent}, OTHER_WORDS)
-    settings = "".join(f"# --set {setting}\n" for setting in overrides)
-    return case.named(file.stem, settings + document.text, note)
+        overrides = [*quick_settings(file.case(overrides)), *overrides]
+    return file.case(overrides)
 
 
 def write_new_case(name_or_path: str | os.PathLike[str], target: str | os.PathLike[str]) -> Path:

@@ -8,7 +8,7 @@ are SI numbers and not validated again.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from numbers import Real
 from typing import Annotated, Any, get_args
@@ -82,9 +82,15 @@ def _refusal(message: str) -> PydanticCustomError:
 def quantity_kind(model: type[BaseModel], name: str) -> str:
     """Kind of quantity that a field of a model reads ("density"); empty where it reads none."""
     field = model.model_fields[name]
-    parts = get_args(field.annotation)  # of an optional field
-    marks = [*field.metadata, *(m for part in parts for m in getattr(part, "__metadata__", ()))]
+    marks = [*field.metadata, *_marks(field.annotation)]
     return next((mark.kind for mark in marks if isinstance(mark, Quantity)), "")
+
+
+def _marks(annotation: Any) -> Iterator[Any]:
+    """What annotates a type or one of its alternatives, however deep."""
+    yield from getattr(annotation, "__metadata__", ())
+    for part in get_args(annotation):
+        yield from _marks(part)
 
 
 Length = Annotated[float, Quantity("length")]

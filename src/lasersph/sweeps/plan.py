@@ -1,0 +1,359 @@
+"""Plans of sweeps: TOML files that say which case is run, what varies, and how it is sampled.
+
+    case = "dlip-steel"                  # a shipped case or a file beside the plan
+    [set]                                # of every run
+    "solver.kind" = "conduction"
+    [vary]
+    "laser.fluence" = { from = "0.3 J/cm^2", to = "1 J/cm^2", count = 8 }    # scale = "log"
+    "laser.pulse.fwhm" = ["5 ns", "10 ns"]
+    [sampling]
+    kind = "grid"                        # grid, zip, sobol, latin-hypercube (runs, seed)
+    [table]
+    columns = ["melt.depth_max_m"]
+
+They are as strict as case files: every mistake is one line with file and line number.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import prod
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import Field
+
+from lasersph.case.conversion import present_place
+from lasersph.input import CaseError, Count, Document, Model, Problem, build, dotted, read_toml
+from lasersph.input.findings import steps_of
+from lasersph.input.model import did_you_mean
+from lasersph.input.schema import as_toml
+from lasersph.sweeps.folder import Study
+from lasersph.sweeps.points import CaseTemplate, Point, Value, as_override
+from lasersph.sweeps.sampling import Choices, Range, grid, latin_hypercube, sobol, together
+
+RANGE_KEYS = ("from", "to", "count", "scale")
+MOST_RUNS = 10_000
+"""Of one plan: listing and checking them takes half a minute."""
+KeyPath = tuple[str | int, ...]
+
+
+class Sampling(Model):
+    """How the points lie."""
+
+    kind: Literal["grid", "zip", "sobol", "latin-hypercube"] = "grid"
+    runs: Count | None = Field(default=None, description="of sobol and latin-hypercube")
+    seed: int = Field(default=0, ge=0, strict=True, description="of sobol and latin-hypercube")
+
+
+class TableChoice(Model):
+    """What the table shows."""
+
+    columns: tuple[str, ...] = Field(
+        default=(), description="numbers of summaries by key; empty for all of them"
+    )
+
+
+class PlanFile(Model):
+    """The keys of a plan, `set` and `vary` not yet compared with the case."""
+
+    schema_version: Literal[1] = 1
+    case: str = Field(examples=["dlip-steel"])
+    set: dict[str, Any] = Field(default_factory=dict)
+    vary: dict[str, Any]
+    sampling: Sampling = Sampling()
+    table: TableChoice = TableChoice()
+
+
+@dataclass(frozen=True)
+class SweepPlan:
+    """A plan whose keys and values the case takes.
+
+    Attributes:
+        text: the file as given. template: the case with `set`.
+        choices: values or a range by varied key, in the order of the file; SI.
+        sampling, columns: see the file.
+    """
+
+    text: str
+    template: CaseTemplate
+    choices: Choices
+    sampling: Sampling
+    columns: tuple[str, ...]
+
+    @property
+    def varied(self) -> dict[str, str]:
+        """SI unit of each varied key; empty where it has none."""
+        return {key: self.template.unit(key) for key in self.choices}
+
+    @property
+    def study(self) -> Study:
+        """What a folder must belong to for this plan to go on in it."""
+        return Study.of("sweep", self.template, self.choices)
+
+    def points(self) -> list[Point]:
+        """All points in their order, those that the case refuses with the reason."""
+        kind, runs, seed = self.sampling.kind, self.sampling.runs or 0, self.sampling.seed
+        if kind == "grid":
+            found = grid(self.choices)
+        elif kind == "zip":
+            found = together(self.choices)
+        else:
+            found = (sobol if kind == "sobol" else latin_hypercube)(self.choices, runs, seed)
+        return [self.template.point(values) for values in found]
+
+    def notes(self) -> Iterator[str]:
+        """What a user should know of the sampling, in lines."""
+        runs = self.sampling.runs or 0
+        if self.sampling.kind == "sobol" and runs & (runs - 1):
+            low = 1 << (runs.bit_length() - 1)
+            yield f"Sobol points fill space evenly for powers of two: {low} or {2 * low} runs"
+        if self.sampling.kind == "latin-hypercube":
+            yield (
+                "a Latin hypercube of other runs has other points, so that no run is found again; "
+                'kind = "sobol" keeps the first ones'
+            )
+
+
+def read_plan(file: str | PathLike[str]) -> SweepPlan:
+    """Read the plan of a sweep.
+
+    Raises:
+        CaseError: every mistake of the plan, or of its case, in one line with file and line.
+    """
+    document = read_toml(Path(file), tolerant=True)
+    return _plan(document, Path(document.file).parent)
+
+
+def build_plan(
+    case: str | PathLike[str],
+    vary: Mapping[str, Any],
+    *,
+    set: Mapping[str, Any] | None = None,
+    sampling: Mapping[str, Any] | None = None,
+    columns: Sequence[str] = (),
+) -> SweepPlan:
+    """The plan of a sweep from Python: `vary` has lists or {"from": ..., "to": ..., "count": ...}.
+
+    Raises:
+        CaseError: every mistake of the plan, or of its case.
+    """
+    tables = {
+        "set": dict(set or {}),
+        "vary": {
+            key: dict(one) if isinstance(one, Mapping) else list(one) for key, one in vary.items()
+        },
+        "sampling": dict(sampling or {}),
+        "table": {"columns": list(columns)},
+    }
+    lines = ["schema_version = 1", f"case = {as_toml(str(case))}"]
+    for name, table in tables.items():
+        lines += ["", f"[{name}]", *(f"{as_toml(k)} = {as_toml(v)}" for k, v in table.items())]
+    data = {"case": str(case), **tables}
+    return _plan(Document(data, text="\n".join(lines) + "\n"), Path())
+
+
+def _plan(document: Document, folder: Path) -> SweepPlan:
+    plan = build(PlanFile, document)
+    problems = _Problems(document)
+    settings, varied = _by_key(plan.set, ("set",)), _by_key(plan.vary, ("vary",))
+    if not varied:
+        problems.add(("vary",), "", "nothing varies", 'write e.g. "laser.fluence" = ["1 J/cm^2"]')
+    seen: dict[KeyPath, KeyPath] = {}
+    for key, path, _ in [*settings, *varied]:
+        place = present_place(steps_of(key))
+        if place in seen:
+            _, line = document.place(seen[place])
+            problems.add(path, key, f"given twice, in line {line} as well", "remove one")
+        seen[place] = path
+    for key, path, raw in varied:
+        for problem, hint, where in _mistakes(raw, plan.sampling.kind):
+            problems.add((*path, *where), key, problem, hint)
+    problems.extend(_sampling_mistakes(plan.sampling, varied))
+    problems.raise_any()
+    case = folder / plan.case if plan.case.endswith(".toml") or "/" in plan.case else plan.case
+    template = CaseTemplate(case, {key: raw for key, _, raw in settings})
+    _check_with_case(template, settings, varied, problems)
+    problems.raise_any()
+    choices: Choices = {}
+    for key, path, raw in varied:
+        if isinstance(raw, list):
+            choices[key] = tuple(template.to_si(key, value) for value in raw)
+            same = len(choices[key]) - len({str(value) for value in choices[key]})
+            if same:
+                problems.add(path, key, "a value is given twice", "remove one")
+        else:
+            choices[key] = _range(template, key, raw, path, problems)
+    problems.raise_any()
+    _refuse_uneven(choices, plan.sampling, problems)
+    problems.raise_any()
+    return SweepPlan(document.text, template, choices, plan.sampling, plan.table.columns)
+
+
+class _Problems:
+    """Mistakes of a plan, with their lines."""
+
+    def __init__(self, document: Document) -> None:
+        self.document, self.found = document, list[Problem]()
+
+    def add(self, path: KeyPath, key: str, problem: str, hint: str = "") -> None:
+        file, line = self.document.place(path)
+        self.found.append(Problem(problem, hint, key or dotted(path), file, line))
+
+    def extend(self, found: Iterator[tuple[KeyPath, str, str]]) -> None:
+        for path, problem, hint in found:
+            self.add(path, "", problem, hint)
+
+    def raise_any(self) -> None:
+        if self.found:
+            raise CaseError(sorted(self.found, key=lambda one: one.line or 0))
+
+
+def _by_key(table: Mapping[str, Any], path: KeyPath) -> list[tuple[str, KeyPath, Any]]:
+    """Key of the case, path in the plan and raw value, of keys written with quotes or without."""
+    found: list[tuple[str, KeyPath, Any]] = []
+    for name, raw in table.items():
+        here = (*path, name)
+        if isinstance(raw, dict) and not set(raw) & set(RANGE_KEYS):
+            found += [(f"{name}.{key}", below, one) for key, below, one in _by_key(raw, here)]
+        else:
+            found.append((name, here, raw))
+    return found
+
+
+def _mistakes(raw: Any, sampling: str) -> Iterator[tuple[str, str, KeyPath]]:
+    """What is wrong with a list or range before the case sees it: problem, hint, path below."""
+    is_random = sampling in ("sobol", "latin-hypercube")
+    example = '{ from = "0.3 J/cm^2", to = "1 J/cm^2"' + (" }" if is_random else ", count = 8 }")
+    if isinstance(raw, list):
+        if is_random:
+            yield f"{sampling} samples a range, not a list", f"write e.g. {example}", ()
+        elif not raw:
+            yield "an empty list", "write at least one value", ()
+        for number, value in enumerate(raw):
+            if isinstance(value, list | dict):
+                yield "a value must be a number, text with a unit or a word", "", (number,)
+        return
+    if not isinstance(raw, dict):
+        yield "must be a list or a range", f"write e.g. [{as_toml(raw)}] or {example}", ()
+        return
+    for name in raw:
+        if name not in RANGE_KEYS:
+            near = did_you_mean(name, RANGE_KEYS).strip(" ()")
+            yield f'unknown key "{name}"', near or f"write e.g. {example}", (name,)
+    for name in ("from", "to", *(() if is_random else ("count",))):
+        if name not in raw:
+            yield f'misses "{name}"', f"write e.g. {example}", ()
+    for name in ("from", "to"):
+        if isinstance(raw.get(name), bool | list | dict):
+            yield f'"{name}" must be a number or text with a unit', f"write e.g. {example}", (name,)
+    if "count" in raw and is_random:
+        yield f"count is for grid and zip; of {sampling} the number is runs in [sampling]", "", ()
+    elif "count" in raw and not (type(raw["count"]) is int and raw["count"] >= 2):
+        yield "count must be a whole number of at least 2", "", ("count",)
+    if raw.get("scale", "linear") not in ("linear", "log"):
+        yield 'scale must be "linear" or "log"', "", ("scale",)
+
+
+def _sampling_mistakes(
+    sampling: Sampling, varied: list[tuple[str, KeyPath, Any]]
+) -> Iterator[tuple[KeyPath, str, str]]:
+    is_random = sampling.kind in ("sobol", "latin-hypercube")
+    if is_random and sampling.runs is None:
+        yield ("sampling",), f"{sampling.kind} misses runs", "write e.g. runs = 32"
+    if not is_random and sampling.runs is not None:
+        yield (
+            ("sampling", "runs"),
+            f"runs is for sobol and latin-hypercube, not {sampling.kind}",
+            "",
+        )
+    if (sampling.runs or 0) > MOST_RUNS:
+        yield ("sampling", "runs"), f"more than {MOST_RUNS} runs", "write fewer"
+    counts = [
+        len(raw) if isinstance(raw, list) else raw.get("count", 1)
+        for _, _, raw in varied
+        if isinstance(raw, list | dict)
+    ]
+    is_grid = sampling.kind == "grid" and all(type(count) is int for count in counts)
+    if is_grid and prod(counts) > MOST_RUNS:
+        yield ("vary",), f"{prod(counts)} runs, more than {MOST_RUNS}", "vary fewer values"
+
+
+def _check_with_case(
+    template: CaseTemplate,
+    settings: list[tuple[str, KeyPath, Any]],
+    varied: list[tuple[str, KeyPath, Any]],
+    problems: _Problems,
+) -> None:
+    """Try every value by itself: its key, unit and limits, not what contradicts other keys.
+
+    Raises:
+        CaseError: the case file itself is wrong.
+    """
+    ends = {
+        key: [((n,), value) for n, value in enumerate(raw)]
+        if isinstance(raw, list)
+        else [((name,), raw[name]) for name in ("from", "to")]
+        for key, _, raw in varied
+    }
+    places = {key: path for key, path, _ in [*settings, *varied]}
+    firsts: dict[str, Value] = {key: values[0][1] for key, values in ends.items()}
+    known = [as_override(key, value) for key, value in template.settings.items()]
+    try:
+        template.learn_kinds(firsts)
+    except CaseError as error:
+        own = list[Problem]()
+        for one in error.problems:
+            key = next((key for key in places if _concerns(one.key, key)), None)
+            if key is None:
+                own.append(one)
+            elif key in template.settings:
+                problems.add(places[key], key, one.problem, one.hint)
+        if own and not problems.found:
+            raise CaseError(own) from None
+    for key, values in ends.items():
+        others = [as_override(k, v) for k, v in firsts.items() if k != key]
+        for below, value in values:
+            try:
+                template.file.contents([*known, *others, as_override(key, value)])
+            except CaseError as error:
+                one = next((p for p in error.problems if _concerns(p.key, key)), None)
+                if one is not None:
+                    hint = one.hint
+                    if one.problem == "unknown key":  # plans write keys in full
+                        table = key.rpartition(".")[0]
+                        hint = re.sub(r'^(do you mean ")(\w+"\?)$', rf"\1{table}.\2", hint)
+                    problems.add((*places[key], *below), key, one.problem, hint)
+
+
+def _concerns(place: str, key: str) -> bool:
+    """Whether a problem at `place` is about a key or about something in it."""
+    present = dotted(present_place(steps_of(key)))
+    return place == present or place.startswith((f"{present}.", f"{present}["))
+
+
+def _range(
+    template: CaseTemplate, key: str, raw: dict[str, Any], path: KeyPath, problems: _Problems
+) -> Range:
+    first, last = (template.to_si(key, raw[name]) for name in ("from", "to"))
+    scale = raw.get("scale", "linear")
+    if isinstance(first, str) or isinstance(last, str):
+        problems.add(path, key, "a range needs numbers", "write a list of values instead")
+        return Range(0.0, 1.0)
+    if first == last:
+        problems.add(path, key, "from and to are the same", "write a list of one value instead")
+    if scale == "log" and min(first, last) <= 0.0:
+        problems.add(path, key, "a log scale needs from and to above 0", 'write scale = "linear"')
+    is_whole = isinstance(first, int) and isinstance(last, int)
+    return Range(float(first), float(last), raw.get("count", 0), scale, is_whole)
+
+
+def _refuse_uneven(choices: Choices, sampling: Sampling, problems: _Problems) -> None:
+    """Lists that are zipped have one length."""
+    counts = {key: len(values) for key, values in choices.items()}
+    if sampling.kind == "zip" and len(set(counts.values())) > 1:
+        shown = ", ".join(f"{key} has {count}" for key, count in counts.items())
+        problems.add(("vary",), "", f"zip needs as many values of each key: {shown}")

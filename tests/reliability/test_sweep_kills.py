@@ -1,0 +1,166 @@
+"""Sweeps by real processes: nothing is lost and nothing is computed twice, whatever is killed."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+from reliability_runs import LONGEST_WAIT, wait_until
+from sweep_runs import SETTINGS
+
+from lasersph.sweeps import LocalEngine, Table, build_plan, make_runs
+from lasersph.sweeps.local import _Pool
+
+FLUENCES = ["0.5 J/cm^2", "0.6 J/cm^2", "0.7 J/cm^2"]
+NEVER = {"output.checkpoint_every": 100000}
+
+
+def plan_of(more=None):
+    """Three coarse runs of a second."""
+    return build_plan("dlip-steel", {"laser.fluence": FLUENCES}, set={**SETTINGS, **(more or {})})
+
+
+def make(folder, engine, plan=None, **more):
+    """The table of the sweep."""
+    plan = plan or plan_of()
+    return make_runs(
+        plan.points(), folder, study=plan.study, units=plan.varied, engine=engine, **more
+    )
+
+
+def contents(folder, table):
+    """What each run gave: histories as bytes, and summaries without the clock."""
+    found = []
+    for row in table.rows:
+        run = folder / "runs" / row.run
+        summary = json.loads((run / "summary.json").read_text())
+        summary.pop("wall_time_s")
+        found.append((row.run, summary, (run / "history.csv").read_bytes()))
+    return found
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """Folder and table of the sweep that nothing disturbs, by one worker."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    return folder, make(folder, LocalEngine(workers=1, threads=1))
+
+
+def events_of(folder):
+    """Run and event of each line of the log."""
+    lines = (folder / "sweep.jsonl").read_text().splitlines()
+    return [(entry["run"], entry["event"]) for entry in map(json.loads, lines)]
+
+
+def test_undisturbed(undisturbed):
+    """Every run is started once, by one warm worker, and complete."""
+    folder, table = undisturbed
+    assert table.status == ("complete",) * 3
+    assert [event for _, event in events_of(folder)] == ["started", "complete"] * 3
+    assert len(set(table.values("melt.depth_max_m"))) > 1
+
+
+def test_killed_workers_are_replaced(undisturbed, tmp_path, monkeypatch):
+    """Two workers die by SIGKILL in the middle of runs; the table and histories are the same."""
+    killed = []
+    tell = _Pool._tell
+
+    def kill_and_tell(pool, worker, event):
+        if event.kind == "progress" and len(killed) < 2 and worker.name not in killed:
+            killed.append(worker.name)
+            worker.process.kill()
+        tell(pool, worker, event)
+
+    monkeypatch.setattr(_Pool, "_tell", kill_and_tell)
+    table = make(tmp_path, LocalEngine(workers=2, threads=1))
+    assert len(killed) == 2 and table.status == ("complete",) * 3
+    retries = [run for run, event in events_of(tmp_path) if event == "retry"]
+    assert len(retries) == 2
+    assert contents(tmp_path, table) == contents(*undisturbed)
+
+
+def test_a_worker_that_always_dies(tmp_path, monkeypatch):
+    """Its run fails with what was said, after the retries, and the others are complete."""
+    tell, plan = _Pool._tell, plan_of()
+    doomed = plan.points()[0].hash
+
+    def kill_and_tell(pool, worker, event):
+        if event.run.endswith(doomed):
+            worker.process.kill()
+        tell(pool, worker, event)
+
+    monkeypatch.setattr(_Pool, "_tell", kill_and_tell)
+    table = make(tmp_path, LocalEngine(workers=2, threads=1, retries=1), plan)
+    assert table.status == ("failed", "complete", "complete")
+    assert table.rows[0].reason == "its worker ended with signal 9 (tried 2 times)"
+
+
+def test_asked_to_stop(undisturbed, tmp_path):
+    """Runs end with a checkpoint, and go on from there."""
+    seen = []
+
+    def note(event, table):
+        seen.append(event.kind)
+
+    plan = plan_of()
+    stopped = make(
+        tmp_path,
+        LocalEngine(workers=2, threads=1),
+        plan,
+        report=note,
+        should_stop=lambda: "progress" in seen,
+    )
+    assert "stopped" in stopped.status and "complete" not in stopped.status
+    checkpoints = list(tmp_path.glob("runs/*/checkpoint/*"))
+    assert checkpoints
+    table = make(tmp_path, LocalEngine(workers=2, threads=1))
+    assert contents(tmp_path, table) == contents(*undisturbed)
+
+
+SCRIPT = """
+import sys
+from sweep_runs import SETTINGS
+import lasersph
+lasersph.sweep("dlip-steel", sys.argv[1], vary={{"laser.fluence": {fluences!r}}},
+               set=SETTINGS, workers=2, threads=1)
+"""
+"""Without `if __name__ == "__main__"`."""
+
+
+def children(process):
+    """Processes that it started."""
+    with open(f"/proc/{process.pid}/task/{process.pid}/children") as file:
+        return [int(pid) for pid in file.read().split()]
+
+
+def is_alive(pid):
+    """Whether a process computes still; one that nobody waits for is none."""
+    try:
+        with open(f"/proc/{pid}/stat") as file:
+            return file.read().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
+def test_killed_driver_leaves_nobody(undisturbed, tmp_path):
+    """Its workers end by themselves, with checkpoints; the same call again completes the table."""
+    here = os.pathsep.join([os.path.dirname(os.path.dirname(__file__)), *sys.path])
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT.format(fluences=FLUENCES))
+    folder = tmp_path / "runs"
+    command = [sys.executable, str(script), str(folder)]
+    process = subprocess.Popen(command, env={**os.environ, "PYTHONPATH": here})
+    wait_until(process, lambda: list(folder.glob("runs/*/checkpoint/*")))
+    workers = children(process)
+    process.send_signal(signal.SIGKILL)
+    process.wait(timeout=LONGEST_WAIT)
+    assert len(workers) == 2
+    again = subprocess.run(command, env={**os.environ, "PYTHONPATH": here}, timeout=LONGEST_WAIT)
+    assert again.returncode == 0
+    assert not any(map(is_alive, workers))
+    table = Table.read(folder)
+    assert table.status == ("complete",) * 3
+    assert contents(folder, table) == contents(*undisturbed)
