@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.settings import DIRICHLET
@@ -21,6 +22,7 @@ from lasersph.case.size import (
 from lasersph.case.solver_choice import SELECTIVE_KEYS, reader_of
 from lasersph.input import CaseError, format_quantity
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
+from lasersph.materials import NoOptics
 from lasersph.output.settings import SnapshotSchedule
 
 if TYPE_CHECKING:
@@ -186,14 +188,18 @@ def _laser(case: CaseContents) -> Iterator[tuple[str, str]]:
             "boundaries.surface",
             f'a laser heats the surface, "{surface}" {what}; remove one of the two',
         )
-    try:
-        laser.absorption_coefficient(case.material)
-    except ValueError as error:
-        yield "laser.absorption.absorption_coefficient", str(error)
-    try:
-        laser.reflectivity_table(case.material, 1.0, 1e4)
-    except ValueError as error:
-        yield "laser.reflectivity", str(error)
+    found: dict[str, str] = {}
+    for key, ask in (
+        ("laser.absorption.absorption_coefficient", laser.absorption_coefficient),
+        ("laser.reflectivity", partial(laser.reflectivity_table, lower=1.0, upper=1e4)),
+    ):
+        try:
+            ask(case.material)
+        except NoOptics as error:
+            found["laser.wavelength"] = str(error)
+        except ValueError as error:
+            found[key] = str(error)
+    yield from found.items()
     yield from _beam(case, laser)
 
 

@@ -27,6 +27,8 @@ SET_HERE = "set in the case"
 UNNAMED = "of the case"
 SECTIONS = ("melting", "vaporization", "optics")
 UNSOURCED = ("source", "note", "uncertainty")
+SOURCED_BELOW = ("reflectivity", "by_wavelength")
+"""Keys of optics whose laws and tables have sources of their own."""
 PLAIN = ("name", "title", "composition", "note", "reference_temperature", "sulfur")
 
 
@@ -107,7 +109,7 @@ def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[s
     merged = dict(section)
     source = merged.get("source", {})
     sources = source if isinstance(source, dict) else dict.fromkeys(merged, source)
-    sources = {key: sources[key] for key in sources if key not in UNSOURCED}
+    sources = {key: sources[key] for key in sources if key not in UNSOURCED + SOURCED_BELOW}
     stated = {key: u for key, u in merged.get("uncertainty", {}).items() if key not in changes}
     merged["uncertainty"] = stated  # that of the base says nothing about a changed number
     for key, value in changes.items():
@@ -115,7 +117,11 @@ def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[s
             continue
         if key == "reflectivity":
             merged[key] = _sourced(value)
-            sources.pop(key, None)
+        elif key == "by_wavelength" and isinstance(value, dict):
+            tables = {name: _sourced(table) for name, table in value.items()}
+            for table in (tables[name] for name in tables if "reflectivity" in tables[name]):
+                table["reflectivity"] = _sourced(table["reflectivity"])
+            merged[key] = merged.get(key, {}) | tables
         elif key in UNSOURCED:
             merged[key] = value
         else:

@@ -31,7 +31,7 @@ OTHER_WORDS = {
     "absorptivity": "; write reflectivity = 1 - absorptivity in [laser]",
     "absorptance": "; write reflectivity = 1 - absorptance in [laser]",
     # laser
-    "wavelength": "; leave it out: light enters by reflectivity and absorption_coefficient alone",
+    "wavelength": "laser.wavelength",
     "energy": "laser.pulse_energy",
     "energy_per_pulse": "laser.pulse_energy",
     "repetition_rate": "; write count and period in laser.pulse",

@@ -114,4 +114,24 @@ def _rows(material: Material) -> list[tuple[str, str, str, str]]:
             if number is not None:
                 source = section.source_of(name)
                 rows.append((f"{group}, {name}", f"{number:.5g} {unit}".strip(), "", source))
+    rows += _spectral_rows(material)
     return [tuple(" ".join(cell.split()) for cell in row) for row in rows]  # pyright: ignore[reportReturnType]
+
+
+def _spectral_rows(material: Material) -> list[tuple[str, str, str, str]]:
+    """What follows from n and k at each wavelength; the sources of R begin with them."""
+    from lasersph.input import format_quantity
+    from lasersph.materials.optics import in_nanometers
+
+    rows = []
+    for wavelength in material.optics.wavelengths() if material.optics else ():
+        optics = material.optics.at(wavelength) if material.optics else None
+        if optics is None or optics is material.optics or optics.reflectivity is None:
+            continue
+        where = f"optics at {in_nanometers(wavelength)}"
+        cold = float(optics.reflectivity.at(material.reference_temperature))
+        rows.append((f"{where}, reflectivity", f"{cold:.4g}", "", optics.reflectivity.source))
+        if (alpha := optics.absorption_coefficient) is not None:
+            depth = f"{alpha:.4g} 1/m, depth {format_quantity(1.0 / alpha, 'm', 3)}"
+            rows.append((f"{where}, absorption", depth, "", optics.source_of("wavelength")))
+    return rows

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.input import Energy, Fluence, Intensity, Length, Model, Power
+from lasersph.input import Energy, Fluence, Intensity, Length, Model, Power, refusal
 from lasersph.lasers.absorption import Absorption
 from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
 from lasersph.lasers.interference import InterferenceBeam
@@ -60,6 +60,12 @@ class Laser(Model):
     )
     power: Annotated[Power, Field(gt=0)] | None = Field(
         default=None, description="of square pulses, or of the value 1 of a tabulated one"
+    )
+    wavelength: Annotated[Length, Field(gt=0)] | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="chooses the optics of a metal that has them for several wavelengths",
+        examples=["1064 nm"],
     )
     beam: Beam = Field(default_factory=UniformBeam)
     pulse: Pulse
@@ -114,6 +120,13 @@ class Laser(Model):
         tabulated = self.path is not None and not isinstance(self.path, LinearPath)
         if tabulated and self.position != (0.0, 0.0):
             raise ValueError("a tabulated path holds the positions already; leave position out")
+        return self
+
+    @model_validator(mode="after")
+    def _check_wavelength(self) -> Laser:
+        waves = self.beam.wavelength if isinstance(self.beam, InterferenceBeam) else None
+        if None not in (self.wavelength, waves) and self.wavelength != waves:
+            raise refusal(("wavelength", "is not that of [laser.beam]; leave it out here"))
         return self
 
     @property
@@ -216,17 +229,34 @@ class Laser(Model):
         """Surface temperatures [K] and R for linear interpolation: given here, else the metal's.
 
         Raises:
+            NoOptics: the material has no optics for this light.
             ValueError: neither the laser nor the material has a reflectivity.
         """
-        return reflectivity_nodes(self.reflectivity, material, lower, upper)
+        metal = self._lit(material) if self.reflectivity is None else material
+        return reflectivity_nodes(self.reflectivity, metal, lower, upper)
 
     def absorption_coefficient(self, material: Material) -> float:
         """alpha [1/m]: given here, else the metal's; inf for surface absorption.
 
         Raises:
+            NoOptics: the material has no optics for this light.
             ValueError: Beer-Lambert absorption with no coefficient given anywhere.
         """
         if self.absorption.kind == "surface":
             return np.inf
-        of_material = material.optics.absorption_coefficient if material.optics else None
-        return self.absorption.coefficient(of_material)
+        if self.absorption.absorption_coefficient is not None:
+            return self.absorption.absorption_coefficient
+        optics = self._lit(material).optics
+        return self.absorption.coefficient(optics.absorption_coefficient if optics else None)
+
+    def _lit(self, material: Material) -> Material:
+        """The metal with its optics for this light.
+
+        Without a wavelength of the laser that of interfering waves chooses, but only where there
+        is a choice: a metal with optics at one wavelength has them for any light not named here.
+        """
+        wavelength = self.wavelength
+        has_choice = material.optics is not None and material.optics.by_wavelength
+        if wavelength is None and has_choice and isinstance(self.beam, InterferenceBeam):
+            wavelength = self.beam.wavelength
+        return material.in_light(wavelength)

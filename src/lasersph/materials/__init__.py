@@ -4,8 +4,9 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.materials.checking import Finding, check_material
 from lasersph.materials.loading import available_materials, load_material, material_file
 from lasersph.materials.material import Material
+from lasersph.materials.optics import NoOptics, Optics
 from lasersph.materials.property import Law, Property
-from lasersph.materials.sections import Melting, Optics, Vaporization
+from lasersph.materials.sections import Melting, Vaporization
 
 __all__ = [
     "CaloricCurve",
@@ -13,6 +14,7 @@ __all__ = [
     "Law",
     "Material",
     "Melting",
+    "NoOptics",
     "Optics",
     "Property",
     "Vaporization",

@@ -88,8 +88,9 @@ def check_material(material: Material) -> list[Finding]:
 
 def _completeness(material: Material) -> list[Finding]:
     found = []
+    spectral = material.optics.by_wavelength if material.optics else {}
     for name, purpose in WANTED.items():
-        if name not in material.properties():
+        if name not in material.properties() and not (name == "reflectivity" and spectral):
             found.append(Finding("note", name, f"not given; needed for {purpose}"))
     if material.surface_tension is None and material.surface_tension_slope is None:
         found.append(
@@ -101,7 +102,7 @@ def _completeness(material: Material) -> list[Finding]:
         found.append(Finding("note", "vaporization", "not given; nothing boils or ablates"))
     elif material.vaporization.molar_mass is None:
         found.append(Finding("note", "molar_mass", "not given; needed for evaporation"))
-    if material.optics is None or material.optics.absorption_coefficient is None:
+    if not spectral and (material.optics is None or material.optics.absorption_coefficient is None):
         found.append(
             Finding("note", "absorption_coefficient", "not given; needed for Beer-Lambert")
         )

@@ -24,8 +24,9 @@ from lasersph.input import (
 )
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.materials.enthalpy import build_curve
+from lasersph.materials.optics import NoOptics, Optics
 from lasersph.materials.property import Law, Property
-from lasersph.materials.sections import Melting, Optics, Vaporization
+from lasersph.materials.sections import Melting, Vaporization
 from lasersph.materials.surface_tension import SurfaceTensionLaw
 
 Array = NDArray[np.float64]
@@ -88,7 +89,7 @@ class Material(Model):
         gamma = self.surface_tension
         if self.sulfur > 0.0 and (gamma is None or gamma.adsorption is None):
             raise refusal(("sulfur", NO_ADSORPTION))
-        for name, property_ in self.properties().items():
+        for name, property_ in (self.properties() | self._spectral_reflectivities()).items():
             for phase, law in property_.laws().items():
                 values = law.at(sample_temperatures(law))
                 where = name if phase == "all" else f"{name}.{phase}"
@@ -96,7 +97,7 @@ class Material(Model):
                     raise ValueError(f"{where} is not finite everywhere in its range")
                 if name in POSITIVE and np.any(values <= 0.0):
                     raise ValueError(f"{where} must be positive everywhere in its range")
-                if name == "reflectivity" and (values.min() < 0.0 or values.max() > 1.0):
+                if name.endswith("reflectivity") and (values.min() < 0.0 or values.max() > 1.0):
                     raise ValueError(f"{where} must lie between 0 and 1 everywhere in its range")
         boiling = self.vaporization.temperature if self.vaporization else float("inf")
         if self.liquidus is not None and boiling <= self.liquidus:
@@ -115,6 +116,28 @@ class Material(Model):
         if self.optics is not None and self.optics.reflectivity is not None:
             found["reflectivity"] = self.optics.reflectivity
         return found
+
+    def _spectral_reflectivities(self) -> dict[str, Property[Any]]:
+        """Reflectivities given for single wavelengths, by their key."""
+        given = self.optics.by_wavelength if self.optics else {}
+        return {
+            f"optics.by_wavelength.{name}.reflectivity": one.reflectivity
+            for name, one in given.items()
+            if one.reflectivity is not None
+        }
+
+    def in_light(self, wavelength: float | None) -> Material:
+        """The same metal with its optics at a wavelength [m]; None where that is not known.
+
+        Raises:
+            NoOptics: it has none for this light; see `Optics.at`.
+        """
+        if self.optics is None:
+            return self
+        try:
+            return self.model_copy(update={"optics": self.optics.at(wavelength)})
+        except NoOptics as error:
+            raise NoOptics(f"material {self.name!r} {error}") from None
 
     def uncertainties(self) -> dict[str, tuple[float, str]]:
         """By key ("density.liquid", "melting.latent_heat"): relative standard uncertainty and who

@@ -1,4 +1,4 @@
-"""Groups of single numbers of a material: melting, vaporization, optics, each number sourced."""
+"""Groups of single numbers of a material: melting and vaporization, each number sourced."""
 
 from __future__ import annotations
 
@@ -7,9 +7,6 @@ from typing import Any
 from pydantic import Field, model_validator
 
 from lasersph.input import (
-    AbsorptionCoefficient,
-    Fraction,
-    Length,
     Model,
     MolarMass,
     SpecificEnergy,
@@ -17,7 +14,6 @@ from lasersph.input import (
     quantity_kind,
     refusal,
 )
-from lasersph.materials.property import Property
 from lasersph.materials.uncertainty import Uncertainty, checked_uncertainty
 
 GAS_CONSTANT = 8.314462618
@@ -121,14 +117,3 @@ class Vaporization(Sourced):
         if self.molar_mass is None:
             raise ValueError("evaporation needs vaporization.molar_mass of the material")
         return GAS_CONSTANT / self.molar_mass
-
-
-class Optics(Sourced):
-    """How the surface takes up light and radiates, at one wavelength and normal incidence."""
-
-    reflectivity: Property[Fraction] | None = None
-    absorption_coefficient: AbsorptionCoefficient | None = Field(default=None, gt=0)
-    wavelength: Length | None = Field(default=None, gt=0, description="for which the numbers hold")
-    emissivity: Fraction | None = Field(
-        default=None, ge=0, le=1, description="total, of the surface"
-    )

@@ -13,6 +13,7 @@ import numpy as np
 
 from lasersph.input import format_quantity
 from lasersph.materials import Law, Material
+from lasersph.materials.optics import in_nanometers
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -145,6 +146,12 @@ def _write_numbers(axes: Axes, material: Material) -> None:
             rows.append(("optics hold at", format_quantity(optics.wavelength, "m", 6)))
         if optics.emissivity is not None:
             rows.append(("emissivity", f"{optics.emissivity:g}"))
+        for wavelength in optics.wavelengths() if optics.by_wavelength else ():
+            light = optics.at(wavelength)
+            R, alpha = light.reflectivity, light.absorption_coefficient
+            value = f"{float(R.at(material.reference_temperature)):.3f}" if R is not None else "–"
+            depth = f", {1e9 / alpha:.1f} nm" if alpha is not None else ""
+            rows.append((f"R, depth at {in_nanometers(wavelength)}", value + depth))
     for number, (name, value) in enumerate(rows):
         y = 0.97 - 0.098 * number
         axes.text(0.0, y, name, fontsize=9, color="0.35", va="top", transform=axes.transAxes)
