@@ -1,11 +1,12 @@
-"""The times of the README: runs that anyone can repeat, recorded with date, commit and machine.
+"""Times of the README and docs/speed.md: runs to repeat, recorded with date, commit and machine.
 
     python benchmarks/readme_times.py [ROW ...] [--list]
 
 It runs the named rows (all without names) from the command to the end, figures and report included,
-one after another, and writes what they took into docs/times.json and the table of README.md, which
+one after another, and writes what they took into docs/times.json and the table of both pages, which
 is made from that file alone. A row that is not run keeps what it had, with its date and commit.
 Loops are compiled before by a short copy of each run. Nothing else should run on the machine.
+Ratios beside other programs are entered there by hand, as `benchmarks/peers/run.py` prints them.
 """
 
 from __future__ import annotations
@@ -22,10 +23,12 @@ from pathlib import Path
 from time import perf_counter
 
 ROOT = Path(__file__).resolve().parent.parent
-RECORD, README = ROOT / "docs" / "times.json", ROOT / "README.md"
+RECORD = ROOT / "docs" / "times.json"
+PAGES = (ROOT / "README.md", ROOT / "docs" / "speed.md")
 MOST_SETTINGS = 3
 """A row with more settings than these does not print them; they stand in the record."""
-BEGIN, END = "<!-- times: begin -->\n", "<!-- times: end -->\n"
+BEGIN, END = "<!-- {}: begin -->\n", "<!-- {}: end -->\n"
+"""Marks of the tables "times" and "peers" in a page."""
 
 
 def lasersph(arguments: list[str]) -> tuple[float, int]:
@@ -74,7 +77,7 @@ def words_of_time(seconds: float) -> str:
 
 
 def table(rows: list[dict]) -> str:
-    """The table of the README."""
+    """The table of the pages."""
     lines = ["| `lasersph run` | particles | time | memory | measured |", "|---|---|---|---|---|"]
     for row in rows:
         command = " ".join([row["case"], *(f'--set "{s}"' for s in row["set"])])
@@ -88,14 +91,30 @@ def table(rows: list[dict]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def with_table(text: str, rows: list[dict]) -> str:
-    """The text with the table between its two marks made anew."""
-    before, rest = text.split(BEGIN)
-    return before + BEGIN + table(rows) + END + rest.split(END)[1]
+def peer_table(peers: list[dict]) -> str:
+    """The table of speeds beside other programs, which `benchmarks/peers/run.py` measures."""
+    lines = ["| beside | what | times as fast | measured |", "|---|---|---|---|"]
+    for one in peers:
+        ends = dict.fromkeys((one["least"], one["largest"]))
+        when = f"{one['date']}, {one['commit']}, {one['machine']}"
+        ratio = " to ".join(f"{x:g}" for x in ends)
+        lines.append(f"| {one['peer']} | {one['what']} | {ratio} | {when} |")
+    return "\n".join(lines) + "\n"
+
+
+def with_tables(text: str, record: dict) -> str:
+    """The text with the tables between its marks made anew."""
+    for name, made in (("times", table(record["runs"])), ("peers", peer_table(record["peers"]))):
+        begin, end = BEGIN.format(name), END.format(name)
+        if begin in text:
+            before, rest = text.split(begin)
+            text = before + begin + made + end + rest.split(end)[1]
+    return text
 
 
 def main() -> None:
-    rows = json.loads(RECORD.read_text(encoding="utf-8"))
+    record = json.loads(RECORD.read_text(encoding="utf-8"))
+    rows = record["runs"]
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("rows", nargs="*", metavar="ROW", help="default: all")
     parser.add_argument("--list", action="store_true", help="say which rows there are")
@@ -110,10 +129,11 @@ def main() -> None:
         if not chosen.rows or row["name"] in chosen.rows:
             rows[number] = measure(row)
             RECORD.write_text(
-                json.dumps(rows, indent=2, ensure_ascii=False) + "\n", encoding="utf-8"
+                json.dumps(record, indent=2, ensure_ascii=False) + "\n", encoding="utf-8"
             )
-            text = README.read_text(encoding="utf-8")
-            README.write_text(with_table(text, rows), encoding="utf-8")
+            for page in PAGES:
+                text = page.read_text(encoding="utf-8")
+                page.write_text(with_tables(text, record), encoding="utf-8")
     print(table(rows))
 
 

@@ -9,7 +9,8 @@ import pytest
 from lasersph.case import load_case
 
 ROOT = Path(__file__).resolve().parents[3]
-ROWS = json.loads((ROOT / "docs" / "times.json").read_text(encoding="utf-8"))
+RECORD = json.loads((ROOT / "docs" / "times.json").read_text(encoding="utf-8"))
+ROWS = RECORD["runs"]
 
 
 @pytest.fixture
@@ -22,12 +23,16 @@ def times(monkeypatch):
     sys.modules.pop("readme_times")
 
 
-def test_readme_holds_the_record(times):
-    """A time changed by hand in either is seen."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert times.with_table(text, ROWS) == text
-    changed = [ROWS[0] | {"seconds": 2.0 * ROWS[0]["seconds"]}, *ROWS[1:]]
-    assert times.with_table(text, changed) != text
+@pytest.mark.parametrize("page", ["README.md", "docs/speed.md"])
+def test_pages_hold_the_record(times, page):
+    """A time or a ratio changed by hand in either is seen."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    assert times.with_tables(text, RECORD) == text
+    slower = [ROWS[0] | {"seconds": 2.0 * ROWS[0]["seconds"]}, *ROWS[1:]]
+    assert times.with_tables(text, RECORD | {"runs": slower}) != text
+    if page == "README.md":
+        peers = [RECORD["peers"][0] | {"largest": 9.0}, *RECORD["peers"][1:]]
+        assert times.with_tables(text, RECORD | {"peers": peers}) != text
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row["name"])
