@@ -14,12 +14,11 @@ from lasersph.sweeps import LocalEngine, Table, build_plan, make_runs
 from lasersph.sweeps.local import _Pool
 
 FLUENCES = ["0.5 J/cm^2", "0.6 J/cm^2", "0.7 J/cm^2"]
-NEVER = {"output.checkpoint_every": 100000}
 
 
-def plan_of(more=None):
+def plan_of():
     """Three coarse runs of a second."""
-    return build_plan("dlip-steel", {"laser.fluence": FLUENCES}, set={**SETTINGS, **(more or {})})
+    return build_plan("dlip-steel", {"laser.fluence": FLUENCES}, set=SETTINGS)
 
 
 def make(folder, engine, plan=None, **more):
@@ -97,26 +96,22 @@ def test_a_worker_that_always_dies(tmp_path, monkeypatch):
     assert table.rows[0].reason == "its worker ended with signal 9 (tried 2 times)"
 
 
-def test_asked_to_stop(undisturbed, tmp_path):
-    """Runs end with a checkpoint, and go on from there."""
-    seen = []
-
-    def note(event, table):
-        seen.append(event.kind)
-
-    plan = plan_of()
-    stopped = make(
-        tmp_path,
-        LocalEngine(workers=2, threads=1),
-        plan,
-        report=note,
-        should_stop=lambda: "progress" in seen,
-    )
-    assert "stopped" in stopped.status and "complete" not in stopped.status
-    checkpoints = list(tmp_path.glob("runs/*/checkpoint/*"))
-    assert checkpoints
-    table = make(tmp_path, LocalEngine(workers=2, threads=1))
-    assert contents(tmp_path, table) == contents(*undisturbed)
+def test_interrupted_command(undisturbed, tmp_path):
+    """Ctrl-C ends all runs with checkpoints and says how to go on; the same command does."""
+    plan, folder = tmp_path / "plan.toml", tmp_path / "out"
+    plan.write_text(plan_of().text)
+    command = [sys.executable, "-m", "lasersph", "sweep", str(plan), "--out", str(folder)]
+    command += ["--workers", "2", "--threads", "1"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    wait_until(process, lambda: list(folder.glob("runs/*/checkpoint/*")))
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=LONGEST_WAIT)
+    assert process.returncode == 130 and f"continue with: lasersph sweep {plan} --out" in said
+    assert not list(folder.glob("runs/*/.lock"))
+    again = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST_WAIT)
+    assert again.returncode == 0, again.stderr
+    assert "3 of 3 runs complete" in again.stdout
+    assert contents(folder, Table.read(folder)) == contents(*undisturbed)
 
 
 SCRIPT = """

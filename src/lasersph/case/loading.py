@@ -104,11 +104,15 @@ def write_new_case(name_or_path: str | os.PathLike[str], target: str | os.PathLi
     Raises:
         CaseError: no such case, the target exists already or cannot be written.
     """
-    document = read_toml(case_file(name_or_path))
+    return write_new_file(read_toml(case_file(name_or_path)).text, target)
+
+
+def write_new_file(text: str, target: str | os.PathLike[str]) -> Path:
+    """Write a file that must not exist yet. Raises CaseError."""
     path = Path(target).expanduser()
     try:
         with path.open("x", encoding="utf-8") as stream:
-            stream.write(document.text)
+            stream.write(text)
     except FileExistsError:
         raise CaseError("exists already", "choose another name", file=str(target)) from None
     except (OSError, ValueError) as error:

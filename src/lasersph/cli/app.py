@@ -10,7 +10,10 @@ from importlib import import_module
 
 VERBS = {
     "Cases": {
-        "new": ("cases.new", "Write a commented case file to start from."),
+        "new": (
+            "cases.new",
+            "Write a commented case file, or a plan for many runs, to start from.",
+        ),
         "check": (
             "cases.check",
             "Say what a run would need, before anything runs: particles, memory, steps, warnings.",
@@ -43,6 +46,10 @@ VERBS = {
         ),
     },
     "Many runs": {
+        "sweep": (
+            "sweeping.sweep",
+            "Run a case with many settings by a plan; the same command again goes on.",
+        ),
         "converge": (
             "studies.converge",
             "Run a case at several spacings: order and uncertainty of every number of its summary.",

@@ -16,17 +16,35 @@ from lasersph.cli.arguments import (
     refuse_backend,
     say_what_moved,
 )
+from lasersph.cli.failures import WrongCommand
 from lasersph.cli.tables import aligned
 
 if TYPE_CHECKING:
     from lasersph.case import Case
     from lasersph.simulation import Forecast
 
-NewFile = Annotated[str, typer.Argument(metavar="FILE", help="The file to write; must be new.")]
+NewFile = Annotated[
+    str | None, typer.Argument(metavar="FILE", help="The file to write; must be new.")
+]
+PlanKind = Annotated[
+    str | None,
+    typer.Option(
+        "--plan", metavar="KIND", help="Write a plan for many runs of the case instead: sweep."
+    ),
+]
 
 
-def new(case: CaseName, file: NewFile) -> None:
-    """Write a commented case file to start from."""
+def new(case: CaseName, file: NewFile = None, plan: PlanKind = None) -> None:
+    """Write a commented case file, or a plan for many runs, to start from."""
+    if plan is not None:
+        from lasersph.sweeps.plan import write_new_plan
+
+        case, target = ("dlip-steel", case) if file is None else (case, file)
+        path = write_new_plan(plan, case, target)
+        print(f"wrote {path}: edit it, then lasersph {plan} {path} --dry-run")
+        return
+    if file is None:
+        raise WrongCommand("new wants a case and a file: lasersph new dlip-steel my-case.toml")
     from lasersph.case import write_new_case
 
     path = write_new_case(case, file)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import shutil
 import sys
 import time
-from typing import TYPE_CHECKING, Self
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Generic, Protocol, Self, TypeVar
 
 if TYPE_CHECKING:
     from lasersph.simulation import RunProgress
@@ -19,10 +20,27 @@ REDRAW = 0.1
 CLEAR = "\r\x1b[K"
 
 
-class ProgressDisplay:
-    """Shows the progress of one run on standard error; a callback of the time loop."""
+class Status(Protocol):
+    """How far something is."""
 
-    def __init__(self, *, is_terminal: bool | None = None) -> None:
+    @property
+    def work_done(self) -> float:
+        """Part of the work that is done, 0 to 1."""
+        ...
+
+
+S = TypeVar("S", bound=Status)
+
+
+class ProgressDisplay(Generic[S]):
+    """Shows progress on standard error; a callback of the time loop, or of many runs.
+
+    Args:
+        describe: how far it is, in one line.
+    """
+
+    def __init__(self, describe: Callable[[S], str], *, is_terminal: bool | None = None) -> None:
+        self._describe = describe
         self.is_terminal = sys.stderr.isatty() if is_terminal is None else is_terminal
         self._line = ""
         self._drawn_at = float("-inf")
@@ -37,8 +55,8 @@ class ProgressDisplay:
         if self._line:
             _write(f"{CLEAR}{self._line}\n")
 
-    def __call__(self, status: RunProgress) -> None:
-        """Show how far the run is, after each step."""
+    def __call__(self, status: S) -> None:
+        """Show how far it is."""
         if self.is_terminal:
             self._draw(status)
         else:
@@ -46,26 +64,29 @@ class ProgressDisplay:
 
     def compiling(self) -> None:
         """The first loop that no earlier run has left is about to be compiled."""
-        text = "compiling loops as they are needed, about a minute in all; later runs find them"
+        self.say("compiling loops as they are needed, about a minute in all; later runs find them")
+
+    def say(self, text: str) -> None:
+        """Show a line above the progress."""
         _write(f"{CLEAR if self._line else ''}{text}\n{self._line}")
 
-    def _draw(self, status: RunProgress) -> None:
+    def _draw(self, status: S) -> None:
         done = BAR * min(status.work_done, 1.0)
         bar = ("=" * int(done)).ljust(BAR)
         # longer than the terminal, the line could not be drawn over
-        self._line = f"[{bar}] {describe(status)}"[: shutil.get_terminal_size().columns - 1]
+        self._line = f"[{bar}] {self._describe(status)}"[: shutil.get_terminal_size().columns - 1]
         now = time.monotonic()
         if now - self._drawn_at >= REDRAW:
             self._drawn_at = now
             _write(CLEAR + self._line)
 
-    def _print(self, status: RunProgress) -> None:
+    def _print(self, status: S) -> None:
         lines = int(LINES * min(status.work_done, 1.0))
         if self._lines_shown is None:  # a resumed run does not repeat what it has shown
             self._lines_shown = lines
         if lines > self._lines_shown:
             self._lines_shown = lines
-            _write(f"{describe(status)}\n")
+            _write(f"{self._describe(status)}\n")
 
 
 def describe(status: RunProgress) -> str:

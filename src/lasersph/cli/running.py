@@ -184,11 +184,11 @@ def _compute(
 ) -> Result:
     """Run with progress; a signal ends it with a checkpoint and the way to go on."""
     from lasersph import simulation
-    from lasersph.cli.progress import ProgressDisplay
+    from lasersph.cli.progress import ProgressDisplay, describe
     from lasersph.compute.compiling import Compiling
     from lasersph.simulation.time_loop import Stopped
 
-    with ProgressDisplay() as progress:
+    with ProgressDisplay(describe) as progress:
         try:
             with Compiling(progress.compiling) as compiling:
                 result = simulation.run(

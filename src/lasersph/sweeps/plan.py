@@ -26,7 +26,9 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from lasersph.case import CaseFile
 from lasersph.case.conversion import present_place
+from lasersph.case.loading import write_new_file
 from lasersph.input import CaseError, Count, Document, Model, Problem, build, dotted, read_toml
 from lasersph.input.findings import steps_of
 from lasersph.input.model import did_you_mean
@@ -35,6 +37,7 @@ from lasersph.sweeps.folder import Study
 from lasersph.sweeps.points import CaseTemplate, Point, Value, as_override
 from lasersph.sweeps.sampling import Choices, Range, grid, latin_hypercube, sobol, together
 
+LIBRARY = Path(__file__).parent / "plans"
 RANGE_KEYS = ("from", "to", "count", "scale")
 MOST_RUNS = 10_000
 """Of one plan: listing and checking them takes half a minute."""
@@ -116,6 +119,26 @@ class SweepPlan:
                 "a Latin hypercube of other runs has other points, so that no run is found again; "
                 'kind = "sobol" keeps the first ones'
             )
+
+
+def available_plans() -> dict[str, Path]:
+    """Files of commented plans to start from, by kind."""
+    return {path.stem: path for path in sorted(LIBRARY.glob("*.toml"))}
+
+
+def write_new_plan(kind: str, case: str, target: str | PathLike[str]) -> Path:
+    """Write a commented plan of a kind ("sweep") for a case.
+
+    Raises:
+        CaseError: no such kind or case, the target exists already or cannot be written.
+    """
+    if kind not in available_plans():
+        shown = ", ".join(available_plans())
+        raise CaseError(f'no kind of plan "{kind}"', f"write one of {shown}", file="--plan")
+    CaseFile(case)
+    text = available_plans()[kind].read_text(encoding="utf-8")
+    text = re.sub(r'^case = "[^"]*"', f"case = {as_toml(case)}", text, flags=re.MULTILINE)
+    return write_new_file(text, target)
 
 
 def read_plan(file: str | PathLike[str]) -> SweepPlan:

@@ -36,7 +36,7 @@ def test_words_of_progress(changes, text):
 
 def test_plain_progress_off_a_terminal(capsys):
     """One line for each tenth of the work, and no escape codes."""
-    with ProgressDisplay(is_terminal=False) as progress:
+    with ProgressDisplay(describe, is_terminal=False) as progress:
         for step in range(1, 101):
             progress(RunProgress(step * 1e-9, 1e-7, step, 300.0 + step, step / 100, 100.0 - step))
     lines = capsys.readouterr().err.splitlines()
@@ -48,7 +48,7 @@ def test_plain_progress_off_a_terminal(capsys):
 
 def test_resumed_run_shows_what_is_new(capsys):
     """What was done before the first step of this process is not said again."""
-    with ProgressDisplay(is_terminal=False) as progress:
+    with ProgressDisplay(describe, is_terminal=False) as progress:
         for percent in (50, 55, 60):
             progress(replace(STATUS, work_done=percent / 100))
     assert len(capsys.readouterr().err.splitlines()) == 1
@@ -57,7 +57,7 @@ def test_resumed_run_shows_what_is_new(capsys):
 def test_line_on_a_terminal(capsys, monkeypatch):
     """One line with a bar, drawn over, no wider than the terminal, and left as it ends."""
     monkeypatch.setenv("COLUMNS", "60")
-    with ProgressDisplay(is_terminal=True) as progress:
+    with ProgressDisplay(describe, is_terminal=True) as progress:
         progress(replace(STATUS, work_done=0.5))
         progress(replace(STATUS, work_done=1.0, remaining_s=0.0))
     shown = capsys.readouterr().err
@@ -71,10 +71,10 @@ def test_line_on_a_terminal(capsys, monkeypatch):
 def test_compiling_is_said(capsys):
     """A line of its own, above the bar where there is one already."""
     text = "compiling loops as they are needed, about a minute in all; later runs find them\n"
-    with ProgressDisplay(is_terminal=False) as progress:
+    with ProgressDisplay(describe, is_terminal=False) as progress:
         progress.compiling()
     assert capsys.readouterr().err == text
-    with ProgressDisplay(is_terminal=True) as progress:
+    with ProgressDisplay(describe, is_terminal=True) as progress:
         progress(STATUS)
         progress.compiling()
     assert f"\r\x1b[K{text}[=====" in capsys.readouterr().err

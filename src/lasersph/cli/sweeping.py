@@ -1,0 +1,193 @@
+"""`lasersph sweep`: many runs of one case by a plan."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lasersph.cli.arguments import Out
+from lasersph.cli.failures import DONE, FAILED, StoppedBySignal, WrongCommand
+from lasersph.cli.tables import aligned
+
+if TYPE_CHECKING:
+    from lasersph.sweeps import Engine, Event, SweepPlan, Table
+    from lasersph.sweeps.progress import SweepStatus
+
+PlanName = Annotated[
+    Path, typer.Argument(metavar="PLAN", help="A plan file; with --table the folder of a sweep.")
+]
+Workers = Annotated[
+    int | None,
+    typer.Option("--workers", min=1, metavar="N", help="Processes; default: all processors."),
+]
+WorkerThreads = Annotated[
+    int | None,
+    typer.Option(
+        "--threads", min=1, metavar="N", help="Of each worker; default: processors over workers."
+    ),
+]
+Retries = Annotated[
+    int,
+    typer.Option("--retries", min=0, metavar="N", help="Of a run whose worker died or failed."),
+]
+DryRun = Annotated[
+    bool,
+    typer.Option(
+        "--dry-run", help="Say how many runs, how long, and what is refused; compute nothing."
+    ),
+]
+OnlyTable = Annotated[
+    bool, typer.Option("--table", help="Make table.csv of a folder anew; compute nothing.")
+]
+MOST_SHOWN = 20
+"""Failures and refusals that are listed; the table has all of them."""
+
+
+def sweep(
+    plan: PlanName,
+    out: Out = None,
+    workers: Workers = None,
+    threads: WorkerThreads = None,
+    retries: Retries = 2,
+    dry_run: DryRun = False,
+    table: OnlyTable = False,
+) -> int:
+    """Run a case with many settings by a plan; the same command again goes on."""
+    if table:
+        return _remake(plan)
+    from lasersph.sweeps import LocalEngine, read_plan
+
+    if plan.is_dir():
+        raise WrongCommand(
+            f"{plan} is a folder: give the plan, {plan / 'plan.toml'} if it is of a sweep, or add "
+            "--table"
+        )
+    loaded = read_plan(plan)
+    for note in loaded.notes():
+        _say(f"note: {note}")
+    if dry_run:
+        _forecast(loaded, workers, threads)
+        return DONE
+    folder = out or Path("runs") / plan.stem
+    words = ["lasersph", "sweep", str(plan), "--out", str(folder)]
+    made = make(loaded, folder, LocalEngine(workers, threads, retries), shlex.join(words))
+    return tell(made)
+
+
+def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
+    """Make the runs with progress; a signal ends them with checkpoints and the way to go on."""
+    from lasersph.cli.progress import ProgressDisplay
+    from lasersph.cli.running import StopSignals
+    from lasersph.sweeps import make_runs
+    from lasersph.sweeps.progress import SweepProgress
+
+    progress = SweepProgress()
+    with StopSignals() as signals, ProgressDisplay(describe) as display:
+
+        def report(event: Event, table: Table) -> None:
+            status = progress.step(event, table)
+            if event.kind in ("failed", "wrong", "retry"):
+                word = "tried again" if event.kind == "retry" else event.kind
+                display.say(f"{event.run} {word}: {event.message}")
+            display(status)
+
+        table = make_runs(
+            plan.points(),
+            folder,
+            study=plan.study,
+            units=plan.varied,
+            columns=plan.columns,
+            plan=plan.text,
+            engine=engine,
+            report=report,
+            should_stop=signals.asked,
+        )
+    if signals.code and not table.is_complete.all():
+        raise StoppedBySignal(
+            f"stopped with {table.count('complete')} of {len(table.rows)} runs complete; continue "
+            f"with: {again}",
+            signals.code,
+        )
+    return table
+
+
+def describe(status: SweepStatus) -> str:
+    """Part of the work, runs complete and in hand, failures, and the time left if known."""
+    from lasersph.input import format_duration
+
+    left = status.remaining_s
+    return ", ".join(
+        [
+            f"{100 * min(status.work_done, 1.0):3.0f} %  {status.complete} of {status.total} runs",
+            *([f"{status.running} running"] if status.running else []),
+            *([f"{status.failed} failed"] if status.failed else []),
+            *([] if left is None else [f"{format_duration(left)} left"]),
+        ]
+    )
+
+
+def tell(table: Table) -> int:
+    """Say what is complete and what is not, and why; the exit code."""
+    from lasersph.sweeps.folder import RUNS, TABLE
+
+    for line in table.unknown_columns():
+        _say(f"warning: {line}")
+    others = [row for row in table.rows if row.status != "complete"]
+    print(f"{table.count('complete')} of {len(table.rows)} runs complete: {table.path / TABLE}")
+    shown = [(row.run, row.status, row.reason) for row in others[:MOST_SHOWN]]
+    if shown:
+        print(aligned(shown))
+    if len(others) > MOST_SHOWN:
+        print(f"and {len(others) - MOST_SHOWN} more, see {table.path / TABLE}")
+    failed = next((row for row in others if row.status == "failed"), None)
+    if failed is not None:
+        print(f"look at one with: lasersph info {table.path / RUNS / failed.run}")
+    return FAILED if others else DONE
+
+
+def _remake(folder: Path) -> int:
+    from lasersph.output import OutputError
+    from lasersph.sweeps import Table
+
+    try:
+        found = Table.read(folder)
+    except OutputError as error:
+        raise WrongCommand(str(error)) from None
+    found.write()
+    return tell(found)
+
+
+def _forecast(plan: SweepPlan, workers: int | None, threads: int | None) -> None:
+    from lasersph.compute.threads import available
+    from lasersph.input import format_duration
+    from lasersph.sweeps.forecast import forecast_seconds
+
+    points = plan.points()
+    right = [point for point in points if point.case is not None]
+    count = min(workers or available(), max(1, len(right)))
+    of_each = threads or max(1, available() // count)
+    seconds, sampled = forecast_seconds(right, of_each)
+    source = "" if sampled == len(right) else f", estimated from {sampled} of them"
+    rows = [
+        ("runs", f"{len(right)} of {plan.template.file.document.file}"),
+        ("varied", ", ".join(plan.choices)),
+        ("one after the other", f"roughly {format_duration(seconds)}{source}"),
+        (
+            "together",
+            f"roughly {format_duration(seconds / count)} by {count} workers with "
+            f"{of_each} thread{'s' * (of_each > 1)} each",
+        ),
+    ]
+    print(aligned(rows))
+    refused = [point for point in points if point.case is None]
+    for point in refused:
+        values = ", ".join(f"{key} = {value}" for key, value in point.settings.items())
+        print(f"refused: {values}: {point.reason}")
+
+
+def _say(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
