@@ -42,7 +42,7 @@ VERBS = {
         ),
         "export": (
             "results.export",
-            "Write the height map of a crater to DIR/crater.FORMAT.",
+            "Write the surface of a crater or a relief as CSV, STL or PLY.",
         ),
     },
     "Many runs": {

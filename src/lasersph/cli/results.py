@@ -108,17 +108,23 @@ def summary_rows(
 
 
 def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> None:
-    """Write the height map of a crater to DIR/crater.FORMAT."""
+    """Write the surface of a crater or a relief as CSV, STL or PLY.
+
+    A crater goes to DIR/crater.FORMAT, a surface that moved to DIR/surface-profile.FORMAT: as CSV
+    its profile, else extruded along the lines by its width.
+    """
     from lasersph.output import OutputError
-    from lasersph.output.height_map import height_map
+    from lasersph.output.height_map import extruded_map, height_map
 
     run = opened(folder)
     if not len(run.snapshots):
         raise WrongCommand(f"{folder} has no snapshots yet")
     time = None if at is None else read_quantity("--at", at, "time")
-    step = run.snapshots[-1] if time is None else run.snapshots.nearest(time)
+    moves = len(run.surface) > 0
+    steps = run.surface if moves else run.snapshots
+    step = steps[-1] if time is None else steps.nearest(time)
     try:
-        surface = height_map(step)
+        surface = extruded_map(step, 1 if format == "csv" else 2) if moves else height_map(step)
     except OutputError as error:
         raise WrongCommand(f"{folder}: {error}") from None
-    print(surface.write(Path(folder) / f"crater.{format}"))
+    print(surface.write(Path(folder) / f"{'surface-profile' if moves else 'crater'}.{format}"))

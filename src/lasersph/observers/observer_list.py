@@ -20,6 +20,7 @@ from lasersph.observers.steps import Steps
 from lasersph.observers.surface_pressure import SurfacePressure
 from lasersph.observers.surface_speed import SurfaceSpeed
 from lasersph.observers.surface_temperature import SurfaceTemperature
+from lasersph.observers.topography import Topography
 from lasersph.observers.traces import Traces
 from lasersph.observers.vaporization import Vaporization
 from lasersph.observers.view import View
@@ -39,6 +40,7 @@ OBSERVERS: tuple[type[Observer], ...] = (
     SurfaceSpeed,
     FlowExtrema,
     SurfacePressure,
+    Topography,
     BoxFlow,
     WallExchange,
     EnergyBudget,

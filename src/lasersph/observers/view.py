@@ -8,6 +8,7 @@ import numpy as np
 
 from lasersph.observers.ablation_view import AblationView
 from lasersph.observers.flow_view import FlowView
+from lasersph.observers.relief import Relief
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class View:
             plateau holds it below.
         evaporated: (columns,) thickness that has evaporated from each column of cells [m], where
             the run follows it.
+        relief: heights of the surface; None where it stays flat.
         flow: velocity, pressure and what belongs to them; None in a run without flow.
         ablation: crater and ejecta; None in a run without ablation.
     """
@@ -64,6 +66,7 @@ class View:
     vaporization: float | None = None
     critical: float | None = None
     evaporated: np.ndarray | None = None
+    relief: Relief | None = None
     flow: FlowView | None = None
     ablation: AblationView | None = None
 

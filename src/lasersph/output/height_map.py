@@ -1,4 +1,4 @@
-"""The surface of a crater as a height map, and as files for other programs: CSV, STL, PLY.
+"""The surface of a crater or a relief as a height map, and as files for others: CSV, STL, PLY.
 
 A height map holds, for each column of one particle's width, the upper face of the uppermost
 condensed particle. CSV gives it in meters, one line a column. STL (binary) [StlFormat] and PLY
@@ -59,7 +59,7 @@ class HeightMap:
             replace_text(path, self.as_csv())
             return path
         if min(self.z.shape) < 2:
-            raise OutputError(f"a 2-D crater is a line and has no {kind.upper()} surface; take csv")
+            raise OutputError(f"a profile is a line and has no {kind.upper()} surface; take csv")
         if kind == "stl":
             replace_file(path, lambda stream: stream.write(self.as_stl()))
         else:
@@ -96,14 +96,14 @@ class HeightMap:
         layout = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
         facets = np.zeros(len(corners), layout)
         facets["normal"], facets["corners"] = normal, corners
-        head = f"lasersph crater at {self.time:.6g} s, unit um".encode().ljust(80)
+        head = f"lasersph surface at {self.time:.6g} s, unit um".encode().ljust(80)
         return head + np.uint32(len(corners)).tobytes() + facets.tobytes()
 
     def as_ply(self) -> str:
         """ASCII PLY of vertices and triangles."""
         vertices, triangles = self.vertices(), self.triangles()
         head = (
-            f"ply\nformat ascii 1.0\ncomment lasersph crater at {self.time:.6g} s, unit um\n"
+            f"ply\nformat ascii 1.0\ncomment lasersph surface at {self.time:.6g} s, unit um\n"
             f"element vertex {len(vertices)}\n"
             "property float x\nproperty float y\nproperty float z\n"
             f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header"
@@ -138,6 +138,18 @@ def height_map(step: Mapping[str, Any]) -> HeightMap:
     z = np.where(top >= 0, position[-1, top] + 0.5 * step["width"][-1, top], np.nan)
     shape = (y.size, x.size)
     return HeightMap(x, y, z.reshape(shape), top.reshape(shape), float(step["time"]))
+
+
+def extruded_map(step: Mapping[str, Any], rows: int) -> HeightMap:
+    """Height map of a line of a surface: the profile, or extruded along y by its width.
+
+    Args:
+        step: of `Run.surface`. rows: number of rows along y, 1 for the profile.
+    """
+    x, z = step["position"]
+    y = np.linspace(0.0, float(x[-1] - x[0]), rows) if rows > 1 else np.zeros(1)
+    z = np.broadcast_to(z, (rows, x.size)).copy()
+    return HeightMap(x, y, z, np.full(z.shape, -1), float(step["time"]))
 
 
 def bins(values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:

@@ -1,6 +1,7 @@
 """Snapshots of all particles in one transient VTKHDF file, which ParaView opens as it is.
 
-The layout is VTKHDF 2.0, type PolyData, with one vertex cell per particle [VTKHDF]: arrays of
+The layout is VTKHDF 2.0, type PolyData, with one vertex cell per particle, or one line through all
+points for a surface [VTKHDF]: arrays of
 all steps lie end to end, and the group `Steps` says where each step begins. An array that did
 not change since the step before (positions of a solid, cell widths) is not written again: its
 offset points to the old block. Blocks are compressed (gzip 1, shuffle), one chunk a block, so
@@ -19,7 +20,7 @@ import hashlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -35,9 +36,13 @@ FILTERS: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffl
 class ParticleFile:
     """Appends steps to a VTKHDF file and cuts it back; nothing stays open in between."""
 
-    def __init__(self, path: Path) -> None:
-        """Continue the file at `path`, or start it with the first step."""
-        self.path = path
+    def __init__(self, path: Path, cells: Literal["Vertices", "Lines"] = "Vertices") -> None:
+        """Continue the file at `path`, or start it with the first step.
+
+        Args:
+            cells: a vertex for each point, or one line through all of them in their order.
+        """
+        self.path, self.cells = path, cells
 
     @property
     def steps(self) -> int:
@@ -79,13 +84,17 @@ class ParticleFile:
             steps = root["Steps"]
             number = int(steps.attrs["NSteps"])
             point_offset = store_block(root["Points"], to_three_axes(position))
-            part, cells = store_cells(root, count)
+            part, first_cell, first_point = store_cells(root, count, self.cells)
+            place = CELL_KINDS.index(self.cells)
             extend(steps["Values"], [time])
             extend(steps["PartOffsets"], [part])
             extend(steps["NumberOfParts"], [1])
             extend(steps["PointOffsets"], [point_offset])
-            extend(steps["CellOffsets"], [[cells, 0, 0, 0]])
-            extend(steps["ConnectivityIdOffsets"], [[cells, 0, 0, 0]])
+            for name, first in (
+                ("CellOffsets", first_cell),
+                ("ConnectivityIdOffsets", first_point),
+            ):
+                extend(steps[name], [[first if k == place else 0 for k in range(4)]])
             for name, array in fields.items():
                 block = to_three_axes(array) if array.ndim == 2 else array
                 offset = store_block(root["PointData"][name], block)
@@ -231,27 +240,31 @@ def store_block(dataset: Any, block: np.ndarray) -> int:
     return offset
 
 
-def store_cells(root: Any, count: int) -> tuple[int, int]:
-    """Vertex cells of `count` particles, written once as long as the number stays the same.
+def store_cells(root: Any, count: int, cells: str) -> tuple[int, int, int]:
+    """Cells of `count` points, written once as long as the number stays the same.
+
+    Args:
+        cells: "Vertices", one for each point, or "Lines", one through all.
 
     Returns:
-        Number of the part, and of the first vertex cell and connectivity entry in it.
+        Number of the part, and of the first cell and connectivity entry in it.
     """
-    numbers = root["NumberOfPoints"]
+    numbers, group = root["NumberOfPoints"], root[cells]
+    ends = np.arange(count + 1) if cells == "Vertices" else np.array([0, count])
     part = numbers.shape[0] - 1
-    vertices = root["Vertices"]
     if part >= 0 and int(numbers[part]) == count:
-        return part, vertices["Connectivity"].shape[0] - count
+        written = int(np.sum(group["NumberOfCells"][:]))
+        return part, written - (ends.size - 1), group["Connectivity"].shape[0] - count
     extend(numbers, [count])
-    first = extend(vertices["Connectivity"], np.arange(count))
-    extend(vertices["Offsets"], np.arange(count + 1))
+    first_cell = int(np.sum(group["NumberOfCells"][:]))
+    first = extend(group["Connectivity"], np.arange(count))
+    extend(group["Offsets"], ends)
     for kind in CELL_KINDS:
-        size = count if kind == "Vertices" else 0
-        extend(root[kind]["NumberOfCells"], [size])
-        extend(root[kind]["NumberOfConnectivityIds"], [size])
-        if kind != "Vertices":
+        extend(root[kind]["NumberOfCells"], [ends.size - 1 if kind == cells else 0])
+        extend(root[kind]["NumberOfConnectivityIds"], [count if kind == cells else 0])
+        if kind != cells:
             extend(root[kind]["Offsets"], [0])
-    return part + 1, first
+    return part + 1, first_cell, first
 
 
 def cut_steps(root: Any, count: int) -> None:
@@ -270,7 +283,8 @@ def cut_steps(root: Any, count: int) -> None:
         for name in ("NumberOfCells", "NumberOfConnectivityIds"):
             group[name].resize(part + 1, axis=0)
         cells = int(np.sum(group["NumberOfCells"][:]))
-        group["Connectivity"].resize(cells, axis=0)
+        ids = int(np.sum(group["NumberOfConnectivityIds"][:]))
+        group["Connectivity"].resize(ids, axis=0)
         group["Offsets"].resize(cells + part + 1, axis=0)
     for name in ("Values", "PartOffsets", "NumberOfParts", "PointOffsets"):
         steps[name].resize(count, axis=0)

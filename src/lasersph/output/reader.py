@@ -84,6 +84,11 @@ class Run:
         """The particle snapshots, read one by one when asked for."""
         return Snapshots(self.path / "particles.vtkhdf")
 
+    @cached_property
+    def surface(self) -> Snapshots:
+        """The line of a surface that moves, at the times of the snapshots; none of a flat one."""
+        return Snapshots(self.path / "surface.vtkhdf")
+
     def history_frame(self) -> pandas.DataFrame:
         """The history as a pandas table, indexed by time_s.
 

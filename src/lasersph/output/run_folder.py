@@ -7,6 +7,7 @@
     history.csv      one row per time step
     summary.json     the results; appears only when the run is complete
     particles.vtkhdf snapshots, for ParaView
+    surface.vtkhdf   the surface at the same times, where it moves; surface.csv at the end
     uncertainty.json errors of the results, from the runs in companions/ (`run --uncertainty`)
     checkpoint/      what a resumed run starts from
     figures/, report.html
@@ -90,6 +91,7 @@ class RunFolder:
         self.history = History(path / "history.csv")
         self.events = Events(path / "events.jsonl")
         self.particles = ParticleFile(path / "particles.vtkhdf")
+        self.surface = ParticleFile(path / "surface.vtkhdf", "Lines")
         self._lock = lock
 
     @classmethod
@@ -247,12 +249,15 @@ class RunFolder:
         )
 
     def cut_snapshots(self, found: Checkpoint) -> None:
-        """Drop later snapshots; a damaged particle file is set aside and a new one begun."""
-        try:
-            self.particles.cut(found.meta["snapshots"])
-        except OutputError as error:
-            aside = rename_damaged(self.particles.path)
-            self.warn(found, f"{error}; it is kept as {aside.name}, snapshots go to a new file")
+        """Drop later snapshots; a damaged file of them is set aside and a new one begun."""
+        for file in (self.particles, self.surface):
+            if file is self.surface and not file.path.exists():  # one that stays flat
+                continue
+            try:
+                file.cut(found.meta["snapshots"])
+            except OutputError as error:
+                aside = rename_damaged(file.path)
+                self.warn(found, f"{error}; it is kept as {aside.name}, snapshots go to a new file")
 
     def warn(self, found: Checkpoint, message: str) -> None:
         """Log a warning and record it as an event. Raises OutputError."""
@@ -264,6 +269,15 @@ class RunFolder:
         self.history.cut(0)
         self.events.cut(0)
         self.particles.cut(0)
+        self.surface.cut(0)
+
+    def write_profile(self, x: np.ndarray, height: np.ndarray) -> None:
+        """Write surface.csv: x and height of a surface at the end (columns,) [m].
+
+        Raises OutputError.
+        """
+        rows = (f"{a:.9g},{b:.9g}" for a, b in zip(x, height, strict=True))
+        replace_text(self.path / "surface.csv", "\n".join(["x_m,height_m", *rows, ""]))
 
     def finish(self, summary: Mapping[str, Any]) -> None:
         """Write summary.json: the run is complete. Raises OutputError.

@@ -17,6 +17,12 @@ from lasersph.plots.flow_fields import is_box
 from lasersph.plots.flow_history import center_line_figure
 from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
 from lasersph.plots.particle_map import arrangement, particle_map
+from lasersph.plots.relief import (
+    final_relief,
+    relief_map,
+    relief_profiles,
+    topography_history,
+)
 from lasersph.plots.surface_profiles import surface_flow_profiles, surface_profiles
 from lasersph.plots.uncertainty import tornado_chart
 
@@ -140,6 +146,24 @@ DRAWINGS = (
         "Pressure with which the flat surface holds the liquid, whose mean over the liquid is"
         " zero, beside the recoil pressure that a free surface would feel.",
         flow_history.surface_pressure_history,
+    ),
+    Drawing(
+        "relief",
+        "The surface at several times. It counts from the original surface.",
+        relief_profiles,
+    ),
+    Drawing(
+        "relief-section",
+        "The surface at the end over the metal, colored by how far it has ever been molten; the"
+        " height is drawn larger than the width. Dashed: the original surface.",
+        final_relief,
+    ),
+    Drawing("relief-map", "Height of the surface over place and time.", relief_map),
+    Drawing(
+        "topography",
+        "Depth of the lowest point and height of the rim over time (above); arithmetic and root"
+        " mean square height of the profile, Pa and Pq (below).",
+        topography_history,
     ),
     Drawing(
         "box-flow",

@@ -85,10 +85,14 @@ def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Fig
 def steps_at(run: Run, times: Sequence[float]) -> tuple[list[Snapshot], list[dict[str, Any]]]:
     """The snapshots closest to some times in order, and color and label of each."""
     steps = {step["time"]: step for step in (run.snapshots.nearest(time) for time in times)}
-    colors = style.color_scale("viridis", len(steps))
-    texts = (format_quantity(time, "s", typographic=True) for time in sorted(steps))
-    looks = [{"color": c, "label": text} for c, text in zip(colors, texts, strict=True)]
-    return [steps[time] for time in sorted(steps)], looks
+    return [steps[time] for time in sorted(steps)], looks_of(sorted(steps))
+
+
+def looks_of(times: Sequence[float]) -> list[dict[str, Any]]:
+    """Color and label of each time [s]."""
+    colors = style.color_scale("viridis", len(times))
+    texts = (format_quantity(float(time), "s", typographic=True) for time in times)
+    return [{"color": c, "label": text} for c, text in zip(colors, texts, strict=True)]
 
 
 def profile(step: Snapshot, symmetry: int, name: str) -> tuple[np.ndarray, np.ndarray]:

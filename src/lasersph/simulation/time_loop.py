@@ -14,6 +14,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from lasersph import __version__, compute
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
@@ -227,6 +229,9 @@ class _Loop:
             **self.recipe.summary(),
         }
         summary["numerical_sd"] = numerical_sd(summary)
+        relief = self._view().relief
+        if relief is not None:
+            self.folder.write_profile(relief.x, relief.height)
         self.folder.events.append("finished", time=state.time, step=self.steps)
         self.folder.log(f"finished after {self.steps} steps, {summary['wall_time_s']:.1f} s")
         self.folder.finish(summary)
@@ -246,6 +251,9 @@ class _Loop:
 
     def _snapshot(self, view: View) -> None:
         self.folder.particles.append(view.time, view.position, snapshot_fields(view), units=UNITS)
+        if view.relief is not None:
+            line = np.array([view.relief.x, view.relief.height])
+            self.folder.surface.append(view.time, line, {})
 
     def _save(self) -> None:
         state, backend = self.solver.state, self._backend

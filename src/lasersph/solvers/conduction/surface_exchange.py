@@ -57,7 +57,7 @@ class SurfaceExchange:
         is_idle: no loss of any kind.
     """
 
-    def __init__(self, body: Body, *, evaporates: bool, ambient_pressure: float) -> None:
+    def __init__(self, body: Body, *, evaporates: bool, ambient_pressure: float = 0.0) -> None:
         """`ambient_pressure` [Pa]: against which vapor leaves, 0 for vacuum."""
         backend, count = body.backend, body.count
         self.body, self.evaporates = body, evaporates

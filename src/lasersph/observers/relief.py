@@ -1,0 +1,63 @@
+"""`Relief`: the heights of a surface that moves, by columns; host arrays, SI."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+WHOLE = 1e-6
+"""Rounding of lengths that must fit a whole number of times."""
+
+
+@dataclass(frozen=True, eq=False)
+class Relief:
+    """Heights of a surface, by columns of equal width.
+
+    Attributes:
+        x: (columns,) centers, rising [m]. height: (columns,) z [m]. beyond: what lies beyond both
+            ends: its mirror image, itself again, or a wall at which it is pinned.
+    """
+
+    x: np.ndarray
+    height: np.ndarray
+    beyond: Literal["mirror", "periodic", "pinned"] = "mirror"
+
+    def __post_init__(self) -> None:
+        """Raises ValueError where the columns are fewer than three, or not equally wide."""
+        if self.x.size < 3 or self.x.shape != self.height.shape:
+            raise ValueError("a relief needs three columns or more, each with its height")
+        if np.ptp(np.diff(self.x)) > WHOLE * abs(self.spacing):
+            raise ValueError("the columns of a relief must be equally wide")
+
+    @property
+    def spacing(self) -> float:
+        """Width of a column [m]."""
+        return float(self.x[-1] - self.x[0]) / (self.x.size - 1)
+
+    @property
+    def width(self) -> float:
+        """Of all columns [m]."""
+        return self.spacing * self.x.size
+
+    def highest(self) -> tuple[float, float]:
+        """Place and height of the highest point [m]."""
+        return self._vertex(int(np.argmax(self.height)))
+
+    def lowest(self) -> tuple[float, float]:
+        """Place and height of the lowest point [m]."""
+        return self._vertex(int(np.argmin(self.height)))
+
+    def _vertex(self, column: int) -> tuple[float, float]:
+        """Vertex of the parabola through a column and its neighbors [m]."""
+        z, last = self.height, self.x.size - 1
+        beyond = {"mirror": (z[0], z[-1]), "periodic": (z[-1], z[0])}.get(self.beyond)
+        if beyond is None and column in (0, last):
+            return float(self.x[column]), float(z[column])
+        left = z[column - 1] if column > 0 else beyond[0] if beyond else z[0]
+        right = z[column + 1] if column < last else beyond[1] if beyond else z[-1]
+        bend, rise = left - 2.0 * z[column] + right, 0.5 * (right - left)
+        share = float(np.clip(-rise / bend, -0.5, 0.5)) if bend else 0.0
+        height = z[column] + share * rise + 0.5 * share**2 * bend
+        return float(self.x[column]) + share * self.spacing, float(height)

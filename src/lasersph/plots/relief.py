@@ -1,0 +1,128 @@
+"""The relief of a surface that moves, from surface.vtkhdf: profiles, the section below, a map."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lasersph.output import Run
+from lasersph.plots import style
+from lasersph.plots.curves import draw_columns, symmetry_of
+from lasersph.plots.particle_map import cells_of_cut
+from lasersph.plots.surface_profiles import looks_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+PROFILES = 7
+SECTION = 1.6
+"""The section is shown this many times as deep as the melt was, or as the relief is."""
+
+
+def lines_of(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times (t,) [s], places (columns,) and heights (t, columns) [m]; half a period is mirrored."""
+    steps = list(run.surface)
+    x = np.array(steps[0]["position"][0])
+    height = np.array([step["position"][1] for step in steps])
+    if symmetry_of(run) == 2:
+        x, height = np.concatenate([-x[::-1], x]), np.hstack([height[:, ::-1], height])
+    return run.surface.times, x, height
+
+
+def relief_profiles(run: Run) -> Figure | None:
+    """The surface at several times, evenly over the run; None where it stays flat."""
+    if len(run.surface) < 2:
+        return None
+    times, x, height = lines_of(run)
+    shown = np.unique(np.linspace(0, times.size - 1, min(PROFILES, times.size)).round().astype(int))
+    figure, (axes,) = style.new_figure(height=3.6)
+    length, up = (
+        style.fitting_unit("m", np.max(np.abs(x))),
+        style.fitting_unit("m", largest(height)),
+    )
+    for number, look in zip(shown, looks_of(times[shown]), strict=True):
+        axes.plot(x * length.factor, height[number] * up.factor, lw=1.2, **look)
+    axes.set_xlim(x[0] * length.factor, x[-1] * length.factor)
+    style.label(axes, f"x [{length.name}]", f"height of the surface [{up.name}]")
+    style.legend_above(figure, axes, columns=7)
+    return figure
+
+
+def relief_map(run: Run) -> Figure | None:
+    """Height of the surface over place and time; None where it stays flat."""
+    if len(run.surface) < 3:
+        return None
+    times, x, height = lines_of(run)
+    length, time = style.fitting_unit("m", np.max(np.abs(x))), style.fitting_unit("s", times[-1])
+    up = style.fitting_unit("m", largest(height))
+    figure, (axes,) = style.new_figure(height=3.6)
+    axes.grid(False)
+    limit = largest(height) * up.factor
+    image = axes.pcolormesh(
+        x * length.factor,
+        times * time.factor,
+        height * up.factor,
+        cmap="RdBu_r",
+        vmin=-limit,
+        vmax=limit,
+        shading="nearest",
+        rasterized=True,
+    )
+    style.label(axes, f"x [{length.name}]", f"time [{time.name}]")
+    style.color_bar(axes, image, f"height of the surface [{up.name}]")
+    return figure
+
+
+def final_relief(run: Run) -> Figure | None:
+    """The surface at the end over the particles, which tell how far each has ever been molten."""
+    if not len(run.surface) or not len(run.snapshots) or run.snapshots.dimension != 2:
+        return None
+    last = run.snapshots[-1]
+    if any(step["melt_fraction"].size != last["melt_fraction"].size for step in run.snapshots):
+        return None
+    molten = np.max([step["melt_fraction"] for step in run.snapshots], axis=0)
+    _, x, height = lines_of(run)
+    surface = height[-1]
+    deepest = -np.min(np.where(molten > 0.5, last["position"][1], 0.0))
+    depth = SECTION * max(deepest, largest(surface))
+    cells = cells_of_cut(last, depth)
+    cells = cells.mirrored() if symmetry_of(run) == 2 else cells
+    unit = style.fitting_unit("m", np.max(np.abs(x)))
+    figure, (axes,) = style.new_figure(height=3.2)
+    picture = cells.picture()
+    values = np.where(picture < 0, np.nan, molten[picture])
+    image = style.paint(
+        axes, values, cells.frame, unit, cmap=style.FRACTION_COLORS, vmin=0.0, vmax=1.0
+    )
+    style.color_bar(axes, image, "largest melt fraction [1]")
+    axes.plot(x * unit.factor, surface * unit.factor, color=style.COLORS[1], lw=1.6)
+    axes.axhline(0.0, color=style.GRAY, lw=0.8, ls="--")
+    axes.set_aspect("auto")
+    axes.set_ylim(
+        -depth * unit.factor, 1.5 * max(float(np.max(surface)), 0.1 * depth) * unit.factor
+    )
+    axes.set_title(style.time_text(last["time"]), fontsize=10, loc="left")
+    return figure
+
+
+def largest(height: np.ndarray) -> float:
+    """Largest distance of a surface from z = 0 [m]; of a flat one a nanometer."""
+    return float(np.max(np.abs(height))) or 1e-9
+
+
+def topography_history(run: Run) -> Figure | None:
+    """Depth and rim over time, and mean heights of the profile; None where the surface is flat."""
+    if not np.any(run.history.get("topography.peak_to_valley_m", 0.0)):
+        return None
+    figure, all_axes = style.new_figure(2, height=4.6, share_x=True)
+    extremes = {
+        "topography.depth_m": "depth of the lowest point",
+        "topography.rim_height_m": "height of the rim",
+    }
+    draw_columns(all_axes[0], run, extremes, label="distance")
+    means = {"topography.Pa_m": "Pa", "topography.Pq_m": "Pq"}
+    draw_columns(all_axes[1], run, means, label="mean height")
+    for axes in all_axes:
+        style.legend(axes)
+    return figure
