@@ -5,7 +5,7 @@ import pytest
 from lasersph.case import load_case
 from lasersph.cli import main
 from lasersph.input import CaseError
-from lasersph.materials import available_materials
+from lasersph.materials import available_materials, load_material
 from lasersph.simulation import forecast, run
 
 CASE = """
@@ -31,6 +31,9 @@ sides = "periodic"
 [time]
 end = "0.1 ns"
 step = "0.05 ns"
+
+[output.snapshots]
+interval = "0.1 ns"
 
 [solver]
 kind = "{solver}"
@@ -66,7 +69,8 @@ def case_of(folder, material, solver, settings=()):
     text = text.replace("@", given) if "[" not in given else text.replace("@", "") + given
     file = folder / "case.toml"
     file.write_text(text, encoding="utf-8")
-    return load_case(file, settings)
+    has_choice = "[" not in given and load_material(material).optics.by_wavelength
+    return load_case(file, [*settings, *(["laser.wavelength=1064 nm"] if has_choice else [])])
 
 
 REFUSED = {

@@ -43,6 +43,8 @@ UNITS = {
     "reflectivity": "",
 }
 """Of every property, as shown to a user."""
+FROM_MEMORY = "[M]"
+"""Mark of a source whose text was not at hand when its numbers were written down."""
 ROUNDING = 0.02
 """Relative difference that rounding of printed numbers explains."""
 
@@ -76,6 +78,7 @@ def missing_surface_tension(material: Material) -> str | None:
 def check_material(material: Material) -> list[Finding]:
     """All findings about a material, warnings first."""
     found = [
+        *_sources(material),
         *_completeness(material),
         *_ranges(material),
         *_consistency(material),
@@ -84,6 +87,20 @@ def check_material(material: Material) -> list[Finding]:
     ]
     order = {"warning": 0, "note": 1, "ok": 2}
     return sorted(found, key=lambda finding: order[finding.level])
+
+
+def _sources(material: Material) -> list[Finding]:
+    """How many sources nobody has compared with their text."""
+    laws = (
+        law for property_ in material.properties().values() for law in property_.laws().values()
+    )
+    sources = [law.source for law in laws]
+    for section in (material.melting, material.vaporization):
+        given = section.source if section else ""
+        sources += given.values() if isinstance(given, dict) else [given]
+    count = sum(FROM_MEMORY in source for source in sources)
+    text = f"{count} marked {FROM_MEMORY}: from memory, not checked against the text of the source"
+    return [Finding("note", "sources", text)] if count else []
 
 
 def _completeness(material: Material) -> list[Finding]:
