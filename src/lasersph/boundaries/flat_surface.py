@@ -21,7 +21,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries.settings import TemperatureWave
-from lasersph.boundaries.surface import PressureCondition, SurfaceNeighbors, upward
+from lasersph.boundaries.surface import (
+    PressureCondition,
+    SurfaceGhosts,
+    SurfaceNeighbors,
+    SurfaceStep,
+    upward,
+)
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, interpolate
@@ -108,6 +114,8 @@ class FlatSurface:
         self.normal, self.tangent, self.has_stress = upward(2), (1.0, 0.0), has_stress
         self.normal_velocity = self.heat_flux = 0.0
         self.pressure: PressureCondition | None = None
+        self.ghosts: SurfaceGhosts | None = None
+        self.arrays: dict[str, Array] = {}
         self._place = {"n": self.normal, "plane": plane, "near": spacing, "far": support}
         self.at_surface, self.near_surface, self.depth = (backend.zeros(count) for _ in range(3))
         self.temperature, self.gradient, self.stress = (backend.zeros(count) for _ in range(3))
@@ -127,23 +135,22 @@ class FlatSurface:
         place = {"n": self.normal, "plane": self._place["plane"]}
         self.backend.pointwise(depth_below, {"x": position}, out, **place)
 
-    def update_stress(
-        self, T: Array, position: Array, neighbors: SurfaceNeighbors, active: Array
-    ) -> None:
+    def update_stress(self, now: SurfaceStep, neighbors: SurfaceNeighbors, active: Array) -> None:
         """Set temperature, gradient, stress and jump from temperatures (n,) [K]; see `Surface`."""
         backend = self.backend
         rows = self._rows(self.at_surface, active)
         # temperature of the surface: that of the particles at it, or a given one
-        backend.copy(T, self.temperature)
+        backend.copy(now.T, self.temperature)
         if self.given is not None:
             wave = self.given.wave
+            amplitude = wave.share_of(*now.interval) * wave.amplitude if wave else 0.0
             backend.pointwise(
                 imposed_temperature,
-                {"x": position},
+                {"x": now.position},
                 self.temperature,
                 along=self.tangent,
                 mean=self.given.mean,
-                amplitude=wave.amplitude if wave else 0.0,
+                amplitude=amplitude,
                 wave_number=2.0 * np.pi / wave.period if wave else 0.0,
             )
         mark = neighbors.gather(self.at_surface)
@@ -162,8 +169,24 @@ class FlatSurface:
         fields = {"tau": self.stress, "depth": self.depth}
         backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
 
-    def move(self, step: float, velocity: Array, evaporated_mass: Array) -> None:
+    def move(self, now: SurfaceStep) -> None:
         """It stays where it is."""
+
+    def confine(self, position: Array, flows: Array) -> None:
+        """The domain's face does that."""
+
+    def save(self) -> None:
+        """There is nothing to remember."""
+
+    def go_back(self) -> None:
+        """There is nothing to take back."""
+
+    def restore_arrays(self, arrays: Mapping[str, np.ndarray]) -> None:
+        """There is nothing to restore."""
+
+    def trouble(self) -> str:
+        """Nothing can be wrong with it."""
+        return ""
 
     def time_step_limits(self) -> dict[str, float]:
         """None: it has no waves."""

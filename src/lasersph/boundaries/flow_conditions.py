@@ -5,25 +5,42 @@
     free-slip      nothing crosses, no stress: v n = 0, d(v t)/dn = 0
     symmetry       the same; also heat and pressure are mirrored
     periodic       what leaves at one face enters at the other
-    free-surface   flat: v n = 0, and the tangential gradient of surface tension is the stress
+    flat           v n = 0, and the tangential gradient of surface tension is the stress
                    eta d(v t)/dn (top only)                            [Demuth2020, eq. (15)]
+    free-surface   the same
+    moving         moves with the liquid, under surface tension and its gradient (top only)
 
 n is the normal of a face and t its tangent: x along surface and bottom, z along left and right.
-Without a `[solver.flow]` table what is molten flows in the block below the flat surface.
+Without a `[solver.flow]` table, or with one that names the surface of a metal that melts, what is
+molten flows in the block below the surface.
 """
 
 from __future__ import annotations
 
 from typing import Annotated, Any, Literal, get_args
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, model_validator
 from pydantic_core import CoreSchema
 
 from lasersph.boundaries.initial_flow import InitialFlow, RestingFlow
-from lasersph.input import Model, Velocity, refusal
+from lasersph.input import Length, Model, Velocity, refusal
 from lasersph.particles.faces import PLANE, face_pairs
 
-FlowKind = Literal["no-slip", "moving-wall", "free-slip", "symmetry", "periodic", "free-surface"]
+Array = NDArray[np.float64]
+FlowKind = Literal[
+    "no-slip",
+    "moving-wall",
+    "free-slip",
+    "symmetry",
+    "periodic",
+    "free-surface",
+    "flat",
+    "moving",
+]
+FREE = ("free-surface", "flat", "moving")
+"""Kinds of surfaces that are driven by surface tension."""
 WALLS = ("no-slip", "moving-wall")
 
 
@@ -77,6 +94,18 @@ AT_REST = FlowCondition.model_validate({})
 Condition = Annotated[FlowCondition, BeforeValidator(_from_word)]
 
 
+class InitialSurface(Model):
+    """Height of the surface at the start: amplitude cos(2 pi x / period)."""
+
+    amplitude: Length = Field(description="at x = 0")
+    period: Annotated[Length, Field(gt=0)]
+
+    def at(self, x: Array, width: float = 0.0) -> Array:
+        """Height [m] at x [m]; mean over columns of a width [m] around x."""
+        wave = np.cos(2.0 * np.pi * np.asarray(x, float) / self.period)
+        return self.amplitude * np.sinc(width / self.period) * wave
+
+
 class FlowConditions(Model):
     """A closed box that is all fluid: what holds for the flow at its faces, and how it starts."""
 
@@ -85,6 +114,9 @@ class FlowConditions(Model):
     bottom: Condition = AT_REST
     surface: Condition = Field(default=AT_REST, description="at z = 0")
     initial: InitialFlow = Field(default=RestingFlow(), description="velocity at the start")
+    initial_surface: InitialSurface | None = Field(
+        default=None, description="height of a surface that moves at the start"
+    )
 
     @model_validator(mode="after")
     def _check_pairs(self) -> FlowConditions:
@@ -102,13 +134,25 @@ class FlowConditions(Model):
                     )
                 )
         for side in PLANE[:3]:
-            if getattr(self, side).kind == "free-surface":
-                problems.append(
-                    (side, 'a free surface lies at the top; write surface = "free-surface"')
+            if (kind := getattr(self, side).kind) in FREE:
+                problems.append((side, f'a free surface lies at the top; write surface = "{kind}"'))
+        if self.initial_surface is not None and self.surface.kind != "moving":
+            problems.append(
+                (
+                    "initial_surface",
+                    f'says nothing where surface = "{self.surface.kind}"; write surface = "moving"',
                 )
+            )
         if problems:
             raise refusal(*problems)
         return self
+
+    @property
+    def names_surface_only(self) -> bool:
+        """Whether it says nothing but what kind of free surface there is."""
+        others = (self.left, self.right, self.bottom, self.initial)
+        is_named = self.surface.kind in ("flat", "moving")
+        return is_named and others == (AT_REST, AT_REST, AT_REST, RestingFlow())
 
     @property
     def faces(self) -> dict[str, FlowCondition]:

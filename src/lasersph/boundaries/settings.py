@@ -25,10 +25,12 @@ from lasersph.input import (
     HeatFlux,
     HeatTransferCoefficient,
     Length,
+    MassFlux,
     Model,
     Pressure,
     Temperature,
     TemperatureDifference,
+    Time,
     refusal,
 )
 from lasersph.materials import Material
@@ -46,15 +48,52 @@ KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left
 """Each face and how the keys of its temperature and flux begin."""
 
 
-class TemperatureWave(Model):
-    """What a given temperature of the surface varies by: amplitude cos(2 pi x / period)."""
+class SurfaceWave(Model):
+    """What acts on the surface as amplitude cos(2 pi x / period), from `start` to `end`."""
 
-    amplitude: TemperatureDifference = Field(description="at x = 0")
+    amplitude: float = Field(description="at x = 0")
     period: Annotated[Length, Field(gt=0)]
+    start: Annotated[Time, Field(ge=0)] = 0.0
+    end: Annotated[Time, Field(gt=0)] | None = Field(default=None, description="default: never")
+
+    @model_validator(mode="after")
+    def _check_times(self) -> SurfaceWave:
+        if self.end is not None and self.end <= self.start:
+            raise refusal(("end", "is not after start; give a later end, or none"))
+        return self
 
     def at(self, x: Array) -> Array:
-        """Temperature above the mean [K] at x [m], any shape."""
+        """The wave at x [m] while it acts, any shape."""
         return self.amplitude * np.cos(2.0 * np.pi * np.asarray(x, float) / self.period)
+
+    def share_of(self, begin: float, end: float) -> float:
+        """Part of the time from `begin` to `end` [s] in which it acts; of an instant 0 or 1."""
+        last = np.inf if self.end is None else self.end
+        if end <= begin:
+            return float(self.start <= begin < last)
+        return max(min(end, last) - max(begin, self.start), 0.0) / (end - begin)
+
+    def mean_over(self, x: Array, begin: float, end: float) -> Array:
+        """The wave at x [m], averaged over the time from `begin` to `end` [s]."""
+        return self.share_of(begin, end) * self.at(x)
+
+
+class TemperatureWave(SurfaceWave):
+    """What a given temperature of the surface varies by."""
+
+    amplitude: TemperatureDifference = Field(description="at x = 0")
+
+
+class PressureWave(SurfaceWave):
+    """A pressure on a surface that moves."""
+
+    amplitude: Pressure = Field(description="at x = 0")
+
+
+class MassFluxWave(SurfaceWave):
+    """Mass that leaves a surface that moves, per its true area."""
+
+    amplitude: MassFlux = Field(description="at x = 0")
 
 
 class Boundaries(Model):
@@ -66,6 +105,13 @@ class Boundaries(Model):
     surface_temperature: Temperature | None = None
     surface_temperature_wave: TemperatureWave | None = Field(
         default=None, description="added to surface_temperature"
+    )
+    surface_pressure_wave: PressureWave | None = Field(
+        default=None, description="a pressure on a surface that moves"
+    )
+    surface_mass_flux_wave: MassFluxWave | None = Field(
+        default=None,
+        description="mass that leaves a surface that moves, per its true area",
     )
     surface_flux: HeatFlux | None = Field(default=None, description="into the body")
     bottom: Face = "adiabatic"
@@ -169,11 +215,18 @@ class Boundaries(Model):
         given = self._given(face, "temperature")
         return initial if given is None else given
 
-    def temperature_along(self, face: str, x: Array, initial: float) -> Array:
-        """Given temperature of a face [K] at places x along it [m], any shape."""
+    def temperature_along(
+        self, face: str, x: Array, initial: float, interval: tuple[float, float] = (0.0, 0.0)
+    ) -> Array:
+        """Given temperature of a face [K] at places x along it [m], any shape.
+
+        Averaged over an interval of time [s].
+        """
         mean = np.full(np.shape(x), self.temperature_of(face, initial))
         wave = self.surface_temperature_wave
-        return mean + wave.at(x) if wave is not None and face == SURFACE else mean
+        if wave is None or face != SURFACE:
+            return mean
+        return mean + wave.mean_over(x, *interval)
 
     def flux_of(self, face: str) -> float:
         """Heat flux into the body through a face of prescribed flux [W/m^2], 0 at others."""

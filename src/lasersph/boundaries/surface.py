@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple, Protocol
 
+import numpy as np
+
 from lasersph.compute.array_types import Array
 from lasersph.particles.neighbor_lists import NeighborList
 
@@ -33,11 +35,44 @@ class PressureCondition(NamedTuple):
     flux: Array | None = None
 
 
+class SurfaceGhosts(NamedTuple):
+    """Ghosts across the local tangent of a surface that is no plane, by their sources.
+
+    normal: (2, n) of the surface, outward. distance: (n,) from the tangent [m]. shift: (2, n) from
+    source to ghost [m]. jump: (2, n) velocity of the ghost over its source [m/s]. pressure: (n,)
+    p_b at the surface [Pa].
+    """
+
+    normal: Array
+    distance: Array
+    shift: Array
+    jump: Array
+    pressure: Array
+
+
+class SurfaceStep(NamedTuple):
+    """The particles below a surface in a step: temperature [K], position [m], velocity [m/s],
+    volume [m^2], 1 where they flow, all (..., n); begin and end of the step [s]."""
+
+    T: Array
+    position: Array
+    velocity: Array
+    volume: Array
+    flows: Array
+    interval: tuple[float, float]
+
+
 class SurfaceNeighbors(Protocol):
-    """The particles below a surface with their ghosts and pairs."""
+    """The particles below a surface with their ghosts and pairs.
+
+    Attributes:
+        V: (M,) [m^2]. weights: (pairs,) g_ij. across: (M,) 1 for ghosts beyond the surface.
+    """
 
     pairs: NeighborList
     V: Array
+    weights: Array
+    across: Array
 
     def gather(self, field: Array) -> Array:
         """A field of all particles on those of the pairs."""
@@ -53,7 +88,8 @@ class Surface(Protocol):
             surface, within its support of it. depth: (n,) below the surface along the beam [m].
             temperature: (n,) of the surface above a particle at it [K]. gradient: (n,) of that
             along the surface [K/m]. stress: (n,) tau [Pa]. ghost_velocity_jump: (n,) by how much a
-            ghost beyond the surface is faster than its source, 2 d tau / eta [m/s].
+            ghost beyond the surface is faster than its source, 2 d tau / eta [m/s]. ghosts: what
+            those beyond a surface that is no plane have; None for a plane.
     """
 
     normal: Vector
@@ -69,6 +105,16 @@ class Surface(Protocol):
     ghost_velocity_jump: Array
 
     @property
+    def ghosts(self) -> SurfaceGhosts | None:
+        """None for a plane."""
+        ...
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """Arrays that survive a step and are no fields of the particles, by name."""
+        ...
+
+    @property
     def pressure(self) -> PressureCondition | None:
         """Condition for the pressure; None for dp/dn = 0."""
         ...
@@ -81,26 +127,40 @@ class Surface(Protocol):
         """Depth below the surface along the beam [m] of particles at `position` [m]."""
         ...
 
-    def update_stress(
-        self, T: Array, position: Array, neighbors: SurfaceNeighbors, active: Array
-    ) -> None:
-        """Set temperature, gradient, stress and jump from temperatures (n,) [K].
+    def update_stress(self, now: SurfaceStep, neighbors: SurfaceNeighbors, active: Array) -> None:
+        """Set temperature, gradient, stress, jump and pressure at the advected positions.
 
         Args:
             active: (n,) 1 for particles within the support of fluid; elsewhere there is no stress.
         """
         ...
 
-    def move(self, step: float, velocity: Array, evaporated_mass: Array) -> None:
-        """Follow the melt for `step` [s].
+    def move(self, now: SurfaceStep) -> None:
+        """Follow the melt, whose positions and velocities are those at the end of the step."""
+        ...
 
-        Args:
-            velocity: (dim, n) [m/s]. evaporated_mass: (n,) since the start [kg/m^2].
-        """
+    def confine(self, position: Array, flows: Array) -> None:
+        """Keep particles that flow, (n,) 1, below a surface that is not the domain's face."""
+        ...
+
+    def trouble(self) -> str:
+        """Why the run cannot go on: "what, where; what to change"; empty where it can."""
         ...
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]."""
+        ...
+
+    def save(self) -> None:
+        """Remember `arrays`, for `go_back`."""
+        ...
+
+    def go_back(self) -> None:
+        """Take the arrays that `save` remembered."""
+        ...
+
+    def restore_arrays(self, arrays: Mapping[str, np.ndarray]) -> None:
+        """Continue from the arrays of a checkpoint."""
         ...
 
     def checkpoint_scalars(self) -> dict[str, float]:

@@ -20,6 +20,7 @@ from lasersph.case.size import (
     size_of,
 )
 from lasersph.case.solver_choice import SELECTIVE_KEYS, reader_of
+from lasersph.case.surface_checks import surface_problems
 from lasersph.input import CaseError, format_quantity
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
 from lasersph.materials import NoOptics
@@ -42,6 +43,7 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         *_laser(case),
         *_unread_keys(case),
         *flow_problems(case),
+        *surface_problems(case),
         *motion_problems(case),
         *_size(case),
         *_probes(case),

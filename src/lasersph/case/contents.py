@@ -48,8 +48,22 @@ class CaseContents(Model):
 
     @property
     def flow(self) -> FlowConditions | None:
-        """`solver.flow`: a closed box that is all fluid; None without."""
-        return getattr(self.solver, "flow", None)
+        """`solver.flow`: a closed box that is all fluid; None for a pool in a block."""
+        flow = getattr(self.solver, "flow", None)
+        return None if self.has_pool else flow
+
+    @property
+    def has_pool(self) -> bool:
+        """Whether `solver.flow` only names the surface of a pool in a metal that melts."""
+        flow = getattr(self.solver, "flow", None)
+        melts = self.material.melting is not None and getattr(self.solver, "phase_change", False)
+        return flow is not None and flow.names_surface_only and melts
+
+    @property
+    def surface_moves(self) -> bool:
+        """Whether the surface of a flow moves."""
+        flow = getattr(self.solver, "flow", None)
+        return flow is not None and flow.surface.kind == "moving"
 
     @property
     def vessel(self) -> Vessel | None:

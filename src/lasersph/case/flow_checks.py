@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.boundaries.flow_conditions import FlowConditions
+from lasersph.boundaries.flow_conditions import FREE, FlowConditions
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.size import LARGEST_STEPS
@@ -50,7 +50,7 @@ def _liquid(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str,
             f'"5 mPa s" {base}in [material], or kind = "conduction" in [solver]',
         )
     has_slope = "surface_tension" in given or "surface_tension_slope" in given
-    pulls = case.flow is None or case.flow.surface.kind == "free-surface"
+    pulls = case.flow is None or case.flow.surface.kind in FREE
     if solver.marangoni and pulls and not has_slope:
         yield (
             "material",

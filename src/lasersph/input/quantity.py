@@ -141,6 +141,7 @@ _ALL = (
     Kind("surface_concentration", "mol/m^2", "1.3e-5 mol/m^2", dimension(m=-2, mol=1)),
     Kind("velocity", "m/s", "10 m/s", dimension(m=1, s=-1)),
     Kind("acceleration", "m/s^2", "9.81 m/s^2", dimension(m=1, s=-2)),
+    Kind("mass_flux", "kg/(m^2 s)", "10 kg/(m^2 s)", dimension(m=-2, kg=1, s=-1)),
     Kind("pressure", "Pa", "101325 Pa", dimension(m=-1, kg=1, s=-2), refuses=frozenset({ENERGY})),
     Kind("heat_transfer_coefficient", "W/(m^2 K)", "20 W/(m^2 K)", dimension(kg=1, s=-3, K=-1)),
     Kind("frequency", "Hz", "10 kHz", dimension(s=-1)),

@@ -139,6 +139,7 @@ def flow_observers(
     dimension: int,
     *,
     box: bool = False,
+    topography: Topography | None = None,
     probes: Sequence[Probe] = (),
     iterations: Sequence[str] = (),
 ) -> Observers:
@@ -148,9 +149,12 @@ def flow_observers(
         dimension, probes, iterations: as of `heat_observers`.
         box: a closed box that is all liquid has no melt pool, but center lines and heat through
             its walls.
+        topography: of a surface that moves; None where it is flat.
     """
     heat = heat_observers(dimension, probes=probes, iterations=iterations).members
-    flow = (FlowSpeed(dimension), SurfaceSpeed(), SurfacePressure())
+    flow: tuple[Observer, ...] = (FlowSpeed(dimension), SurfaceSpeed(), SurfacePressure())
+    if topography is not None:
+        flow = (*flow, topography)
     if box:
         here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
         return Observers([*here, *flow, BoxFlow(), WallExchange()])

@@ -24,15 +24,21 @@ from numpy.typing import NDArray
 from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
 
-MIRROR, PERIODIC, OPEN = "mirror", "periodic", "open"
+MIRROR, PERIODIC, OPEN, TANGENT = "mirror", "periodic", "open", "tangent"
 LOWER, UPPER = 1, 2
+SLANTED = 2.5
+"""Search radii beside a lateral face within which ghosts across a tangent are mirrored: one, and
+the way across twice one, 2 sin 45 degrees."""
 BOTH = 3
 """What `near_faces` says of a particle close to both faces of an axis, LOWER + UPPER."""
 
 
 @dataclass(frozen=True)
 class FacePair:
-    """Faces of the box along one axis: kinds MIRROR, PERIODIC (both) or OPEN, and places [m]."""
+    """Faces of the box along one axis: kinds MIRROR, PERIODIC (both) or OPEN, and places [m].
+
+    Ghosts beyond a TANGENT face lie across the local tangent of a surface, which shifts them.
+    """
 
     lower_kind: str
     upper_kind: str
@@ -46,6 +52,8 @@ class FacePair:
         )
         if kind == OPEN:
             return 1.0, 0.0, np.inf
+        if kind == TANGENT:
+            return 1.0, 0.0, plane
         if kind == MIRROR:
             return -1.0, 2.0 * plane, plane
         # the ghost beyond one face of a period belongs to a particle near the other
@@ -106,6 +114,21 @@ def near_faces(x, search_radius, low_0, high_0, low_1, high_1):
     return int(across), int(along), min(across + along, 1.0)
 
 
+def near_surface(x, distance, search_radius, low_0, high_0, low_1, high_1):
+    """`near_faces` below a surface at a distance, instead of an upper face of z.
+
+    Ghosts across an inclined tangent are seen beyond a lateral face though their source is not
+    within the radius of it.
+    """
+    wide, _lowest, _is_wide = near_faces(x, SLANTED * search_radius, low_0, high_0, low_1, low_1)
+    narrow, below, _is_near = near_faces(x, search_radius, low_0, high_0, low_1, low_1)
+    along = 2.0 if distance < search_radius else 0.0
+    if below > 0:
+        along += 1.0
+    across = wide if along > 1.0 else narrow
+    return across, int(along), min(across + along, 1.0)
+
+
 def makes_ghost(near, face):
     """Whether a particle that is near some faces of an axis has ghosts beyond one, or beyond 0."""
     return face == 0 or near == face or near >= BOTH
@@ -136,7 +159,7 @@ class GhostParticles:
     Attributes:
         source, ghost_type: (M,) kind "index", particle behind each and its type; a particle is
             its own source, of type 0. total: M. near: numbers of the particles near a face, which
-            may have ghosts as neighbors; is_near: (n,) 1 for them.
+            may have ghosts as neighbors; is_near: (n,) 1 for them; all_rows: (n,) 1 for all.
     """
 
     source: Array
@@ -155,16 +178,26 @@ class GhostParticles:
             for name, row in zip(("crossed_x", "crossed_z"), ghost_types.crossed, strict=True)
         }
         self._faces = tuple(backend.zeros(count, "index") for _ in range(2))
-        self.is_near = backend.zeros(count)
+        self.is_near, self.all_rows = backend.zeros(count), backend.zeros(count)
+        backend.fill(self.all_rows, 1.0)
         self._numbers = backend.zeros(0, "index")
         self.total = 0
 
-    def find(self, position: Array) -> None:
-        """Find the ghosts of the particles at `position`, shape (2, n) [m]."""
+    def find(self, position: Array, distance: Array | None = None) -> None:
+        """Find the ghosts of the particles at `position`, shape (2, n) [m].
+
+        Args:
+            distance: (n,) from a surface that is the upper TANGENT face [m].
+        """
         backend, count = self.backend, self.count
         # particles near a face, and the faces that they are near
         fields = {"x": backend.head(position, count)}
-        backend.pointwise(near_faces, fields, (*self._faces, self.is_near), **self._near)
+        out = (*self._faces, self.is_near)
+        if distance is None:
+            backend.pointwise(near_faces, fields, out, **self._near)
+        else:
+            fields["distance"] = backend.head(distance, count)
+            backend.pointwise(near_surface, fields, out, **self._near)
         near = self.near = backend.rows_where(self.is_near, 1.0)
         across, along = (self._gather(face, near) for face in self._faces)
         # which pairs of a type and such a particle make a ghost

@@ -10,8 +10,8 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 NAMES = (
     "ablation-aluminium", "ablation-depth", "dam-break", "dlip-aluminium", "dlip-steel",
-    "hydrostatic-column", "lid-driven-cavity", "marangoni-layer", "natural-convection",
-    "pulsed-heating", "sound-wave", "stefan", "taylor-green",
+    "hydrostatic-column", "lid-driven-cavity", "marangoni-layer", "moving-film",
+    "natural-convection", "pulsed-heating", "sound-wave", "stefan", "taylor-green",
 )  # fmt: skip
 
 

@@ -17,18 +17,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lasersph.boundaries.surface import Surface
-from lasersph.compute.array_types import Array, Constants, Rows
+from lasersph.boundaries.surface_loops import inner_weight as weight_within
+from lasersph.boundaries.surface_loops import mean_weight
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
-from lasersph.compute.launch import Launch
 from lasersph.compute.search import Room
 from lasersph.compute.vectors import dot, element
-from lasersph.particles.faces import LEFT
-from lasersph.particles.ghosts import LOWER, UPPER, GhostParticles, ghost_types_of
+from lasersph.particles.faces import LEFT, PLANE, SURFACE
+from lasersph.particles.ghosts import LOWER, SLANTED, UPPER, GhostParticles, ghost_types_of
 from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
 from lasersph.particles.support import common
 from lasersph.solvers.conduction.body import Weighing
 from lasersph.solvers.melt_pool import ghost_fields
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
+from lasersph.solvers.melt_pool.ghost_extension import GhostExtension
 from lasersph.solvers.melt_pool.near_melt import NearMelt
 from lasersph.solvers.melt_pool.pair_geometry import PairGeometry, distance_square
 
@@ -51,6 +53,11 @@ def wall_terms(g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, 
 def inner_weight(g_ij, dirichlet_j):
     """Weight of a pair that conducts between particles: 0 toward ghosts beyond a Dirichlet face."""
     return g_ij * (1.0 - dirichlet_j)
+
+
+def is_near(distance, has_row, radius):
+    """1 for a particle within a radius of the surface whose pairs were found."""
+    return has_row if distance < radius else 0.0 * has_row
 
 
 def both(a, b):
@@ -79,7 +86,7 @@ class StaticParticleData:
     weighing: Weighing
 
 
-class Block:
+class Block(GhostExtension):
     """Particles 0 ... count - 1 with their ghosts and pairs.
 
     Args:
@@ -92,16 +99,14 @@ class Block:
         potential, enthalpy: heat potential [W/m] and enthalpy [J/kg] of a wall's temperature [K].
 
     Attributes:
-        source: (M,) particle behind each of the block with ghosts. sources: these and the types,
-            the fields of `ghost_fields`; signs: tables of its arguments sign_x and sign_z. rules:
-            (M,) what faces mean to heat, by the names of `ghost_walls`. heat_face, wall: tables
-            of these by type, see `GhostRules`.
+        rules: (M,) what faces mean to heat, by the names of `ghost_walls`. heat_face, wall: tables
+            of these by type, see `GhostRules`. across: (M,) 1 beyond a surface that is no plane.
         pairs: NeighborList with the rows of the block, among all M.
         weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
             there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1].
         moving_support: of the particles that move, the finest [m]. search_radius: largest of
             the block [m].
-        ghosts: of its particles. rows: numbers of the particles whose pairs were found, None for
+        rows: numbers of the particles whose pairs were found, None for
             all of the block; has_row: (count,) 1 for them, or None. rows_near_faces: those, of
             complete rows, that may have ghosts as neighbors.
     """
@@ -122,25 +127,26 @@ class Block:
         potential: Callable[[np.ndarray], np.ndarray],
         enthalpy: Callable[[np.ndarray], np.ndarray],
     ) -> None:
-        self.backend, self.lattice, self.conditions = backend, lattice, conditions
-        self.layers, self.complete_rows, self.count = layers, complete_rows, count
-        self.has_bottom, self.surface = has_bottom, surface
-        self._tangent = (1.0, 0.0) if surface is None else surface.tangent
-        self.potential, self.enthalpy = potential, enthalpy
-        self.volume = backend.asarray(lattice.volume[:count])
         support = lattice.support[:count]
         self.moving_support, largest = float(support.min()), float(support.max())
         self.search_radius = SKIN * largest
+        types = ghost_types_of(conditions.ghost_faces(surface, has_bottom=has_bottom))
+        ghosts = GhostParticles(backend, count, self.search_radius, types)
+        super().__init__(backend, ghosts, surface)
+        self.lattice, self.conditions = lattice, conditions
+        self.layers, self.complete_rows, self.count = layers, complete_rows, count
+        self.has_bottom, self.surface = has_bottom, surface
+        self.potential, self.enthalpy = potential, enthalpy
+        self.volume = backend.asarray(lattice.volume[:count])
         self._mean = common if self.moving_support == largest else lattice.weighing.mean
         self._own = {"V": self.volume, "support": backend.asarray(support)}
         self._own["radius"] = backend.asarray(SKIN * support)
         (x, z), repeats = conditions.box, conditions.flow_kind(LEFT) == "periodic"
-        self._bounds = x, (max(z[0], bottom), z[1])
+        top = z[1] if self._beyond is None else z[1] + fine_depth
+        self._bounds = x, (max(z[0], bottom), top)
         near = SKIN * float(lattice.weighing.mean(self.moving_support, largest))
         self._even_above = near - fine_depth
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
-        types = ghost_types_of(conditions.ghost_faces(has_bottom=has_bottom))
-        self.ghosts = GhostParticles(backend, count, self.search_radius, types)
         self._set_rules()
         self._set_factors()
         self._geometry, self._room = PairGeometry(backend, lattice.weighing), Room()
@@ -150,13 +156,7 @@ class Block:
         ghosts, types = self.ghosts, self.ghosts.ghost_types
         rules = self.conditions.rules(types, self.surface)
         self.has_walls = bool(rules.dirichlet.any() or rules.flux.any())
-        self.signs = ghosts.tables("sign_x", "sign_z", types.sign)
-        self._offsets = ghosts.tables("offset_x", "offset_z", types.offset)
-        slope = {"slope": ghosts.table(rules.slope), "along": self._tangent}
-        self._factors = ghosts.tables("factor_x", "factor_z", rules.factor)
-        self._velocity = self._factors | ghosts.tables("added_x", "added_z", rules.added) | slope
-        self._mirror = ghosts.tables("factor_x", "factor_z", types.sign) | slope
-        self._mirror |= ghosts.tables("added_x", "added_z", 0.0 * rules.added)
+        self._set_tables(rules)
         self._walls = ghosts.tables("normal_x", "normal_z", rules.normal)
         for name in ("dirichlet", "flux", "plane"):
             self._walls[name] = ghosts.table(getattr(rules, name))
@@ -196,24 +196,6 @@ class Block:
         }
         self._own |= {name: backend.asarray(values) for name, values in factors.items()}
 
-    def gather(self, field: Array) -> Array:
-        """The field of all particles on the block with ghosts: (..., n) to (..., M)."""
-        out = self.backend.zeros((*field.shape[:-1], self.total))
-        self.backend.gather(field, self.source, out)
-        return out
-
-    def of_type(self, table: Array) -> Array:
-        """(M,) values by the type of each particle."""
-        out, fields = self.backend.zeros(self.total), {"place": self.ghosts.ghost_type}
-        self.backend.pointwise(element, fields, out, table=table)
-        return out
-
-    def extend(self, function: Callable, tables: Constants) -> Array:
-        """Vectors (2, M) by a function of `ghost_fields`."""
-        out = self.backend.zeros((2, self.total))
-        self.backend.pointwise(function, self.sources, out, **tables)
-        return out
-
     def find_pairs(
         self, position: Array, has_row: Array | None, *, has_kernel: bool = False
     ) -> None:
@@ -230,7 +212,7 @@ class Block:
         backend, ghosts = self.backend, self.ghosts
         self.has_row = has_row
         self.rows = None if has_row is None else backend.rows_where(has_row, 1.0)
-        ghosts.find(position)
+        ghosts.find(position, None if self._beyond is None else self._beyond.distance)
         self.total, self.source = ghosts.total, ghosts.source
         self.sources = {"source": ghosts.source, "ghost_type": ghosts.ghost_type}
         names: tuple[str, ...] = ("V", "support", "radius", "layer", "normal", "lateral")
@@ -242,6 +224,7 @@ class Block:
         self._find_rows_near_faces()
         place = self._place(position)
         self._find_wall_rules(place)
+        self._find_tangent_planes(place)
         corners = (self._corner(0), self._corner(1), (0.0, 0.0))
         self.pairs = find_neighbors(
             backend,
@@ -259,8 +242,39 @@ class Block:
         geometry.begin(self.pairs, has_row, self._even_above)
         geometry.find(self.pairs, self._layers, has_kernel=has_kernel)
         self.weights, self.gradient, self.kernel = geometry.arrays
+        self._average_weights(position)
         self._folded = backend.zeros(neighbor.shape[0], "index")
         backend.pointwise(element, {"place": neighbor}, self._folded, table=self.source)
+
+    def _average_weights(self, position: Array) -> None:
+        """Make the weights toward ghosts across a tangent symmetric.
+
+        Where the surface bends, the ghost of j is not as far from i as that of i from j: both
+        distances count, the second found with the ghosts in the place of their sources.
+        """
+        if self._beyond is None:
+            return
+        backend, ghosts = self.backend, self.ghosts
+        self.across = self.of_type(self._across["across"])
+        near = backend.zeros(self.count)
+        fields = {"distance": backend.head(self._beyond.distance, self.count)}
+        fields["has_row"] = self.has_row if self.has_row is not None else ghosts.all_rows
+        backend.pointwise(is_near, fields, near, radius=self.search_radius)
+        rows = backend.rows_where(near, 1.0)
+        swapped = backend.zeros(self.weights.shape[0])
+        pairs = replace(self.pairs, position=self._place(position, self._within), mean=common)
+        self._geometry.find_weights(pairs, self._layers, swapped, rows)
+        fields = {"g_ij": self.weights, "swapped_ij": swapped, "across": self.across}
+        backend.pair_values(mean_weight, self.pairs, fields, self.weights, rows=rows)
+
+    def weights_within(self) -> Array:
+        """(pairs,) weights that are 0 toward ghosts across the surface."""
+        if self._beyond is None:
+            return self.weights
+        found = self.backend.zeros(self.weights.shape[0])
+        fields = {"g_ij": self.weights, "across": self.across}
+        self.backend.pair_values(weight_within, self.pairs, fields, found, rows=self.rows)
+        return found
 
     def _find_rows_near_faces(self) -> None:
         """Numbers of the particles with complete pairs that may have ghosts among them."""
@@ -298,51 +312,38 @@ class Block:
         for name, values in self._wall_state(T).items():
             backend.scatter(backend.asarray(values), rows, self.rules[name])
 
+    def _find_tangent_planes(self, place: Array) -> None:
+        """Where the surface lies between ghosts and their sources, for heat."""
+        if self._beyond is None or not self.has_walls:
+            return
+        backend, beyond = self.backend, self._beyond
+        n_x, n_z = (backend.component(beyond.normal, k) for k in (0, 1))
+        fields = self.sources | {"x": place}
+        fields |= {name: self.rules[name] for name in ("normal", "plane")}
+        backend.pointwise(
+            ghost_fields.tangent_plane,
+            fields,
+            (self.rules["normal"], self.rules["plane"]),
+            n_x=n_x,
+            n_z=n_z,
+            distance=beyond.distance,
+            sign_x=self.signs["sign_x"],
+            heat_face=self.heat_face,
+            surface=1.0 + PLANE.index(SURFACE),
+            **self._across,
+        )
+
     def move(self, position: Array) -> None:
         """The same pairs at other positions."""
-        self.pairs = replace(self.pairs, position=self._place(position))
+        place = self._place(position)
+        self.pairs = replace(self.pairs, position=place)
         self._geometry.find(self.pairs, self._layers)
+        self._average_weights(position)
+        self._find_tangent_planes(place)
 
     def without_ghosts(self) -> NeighborList:
         """The pairs with every ghost replaced by its source."""
         return self.pairs.with_neighbors(self.backend, self._folded)
-
-    def extend_velocity(self, v: Array, jump: Array) -> Array:
-        """Velocities (2, M) from those of the particles (2, n) [m/s].
-
-        Args:
-            jump: (n,) 2 d tau / eta [m/s].
-        """
-        return self._extended_velocity(v, jump, self._velocity)
-
-    def mirror_velocity(self, v: Array, jump: Array) -> Array:
-        """Velocities (2, n) on the block with ghosts as mirrors at the walls show them [m/s].
-
-        Beyond a stressed surface they continue the profile: mirrored, it would bend there, and its
-        divergence with it. Args as of `extend_velocity`.
-        """
-        return self._extended_velocity(v, jump, self._mirror)
-
-    def _extended_velocity(self, v: Array, jump: Array, rules: Constants) -> Array:
-        v_x, v_z = (self.backend.component(v, k) for k in (0, 1))
-        tables = {"v_x": v_x, "v_z": v_z, "jump": jump, **rules}
-        return self.extend(ghost_fields.extended_velocity, tables)
-
-    def prepare_velocity_change(self, d: Array, out: Array, again: Launch | None) -> Launch:
-        """Loop that extends a change (2, n) of velocities, where walls and stress stay the same."""
-        d_x, d_z = (self.backend.component(d, k) for k in (0, 1))
-        tables: Constants = {"d_x": d_x, "d_z": d_z, **self._factors}
-        function = ghost_fields.velocity_change
-        return self.backend.prepare(function, self.sources, out, again=again, **tables)
-
-    def extend_tensor(self, M: Array) -> Array:
-        """Tensors (2, 2, count) of the block on the block with ghosts."""
-        backend, names = self.backend, ("M_xx", "M_xz", "M_zx", "M_zz")
-        tables = {name: backend.component(M, k) for k, name in enumerate(names)}
-        out = backend.zeros((2, 2, self.total))
-        function = ghost_fields.extended_tensor
-        backend.pointwise(function, self.sources, out, **tables, **self.signs)
-        return out
 
     def find_near_fluid(self, position: Array, fluid: Array) -> Array:
         """(count,) 1 for particles within the support of a fluid one, or nearly; see `near_melt`.
@@ -363,12 +364,8 @@ class Block:
         )
         return least**0.5
 
-    def _place(self, position: Array) -> Array:
-        x, z = (self.backend.component(position, k) for k in (0, 1))
-        tables = {"x": x, "z": z, **self.signs, **self._offsets}
-        return self.extend(ghost_fields.ghost_position, tables)
-
     def _corner(self, end: int) -> tuple[float, ...]:
         """Box that no particle and no ghost may leave [m]."""
         outward = -1.0 if end == 0 else 1.0
-        return tuple(pair[end] + outward * self.search_radius for pair in self._bounds)
+        room = self.search_radius if self._beyond is None else 2.0 * SLANTED * self.search_radius
+        return tuple(pair[end] + outward * room for pair in self._bounds)

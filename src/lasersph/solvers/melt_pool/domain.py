@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 
 import numpy as np
 
@@ -75,6 +76,13 @@ class PoolDomain:
         self._starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
         self.block_layers = 0
         self._block: Block | None = None
+
+    @property
+    def room(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The box with no upper end where the surface moves [m]."""
+        x, (bottom, top) = self.box
+        moves = self.surface is not None and self.surface.ghosts is not None
+        return x, (bottom, inf if moves else top)
 
     @property
     def width(self) -> float:

@@ -21,15 +21,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
-from lasersph.boundaries.flow_conditions import FlowConditions
+from lasersph.boundaries.flow_conditions import FREE, FlowConditions
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.boundaries.surface import Surface
 from lasersph.particles.faces import BOTTOM, PLANE, SURFACE, face_pairs
-from lasersph.particles.ghosts import LOWER, MIRROR, OPEN, PERIODIC, UPPER, FacePair, GhostTypes
+from lasersph.particles.ghosts import (
+    LOWER,
+    MIRROR,
+    OPEN,
+    PERIODIC,
+    TANGENT,
+    UPPER,
+    FacePair,
+    GhostTypes,
+)
 
 Array = NDArray[np.float64]
 FACES = face_pairs(2)
 ENDS = (LOWER, UPPER)
+
+
+def _across(face: str, surface: Surface | None) -> bool:
+    """Whether ghosts beyond a face lie across the local tangent of a surface."""
+    return face == SURFACE and surface is not None and surface.ghosts is not None
 
 
 @dataclass(frozen=True)
@@ -65,6 +79,9 @@ class FaceConditions:
     Args:
         box: ((x0, x1), (z0, z1)) [m]. flow: None for a pool in a block: its lateral faces mirror or
             repeat as the heat does, its surface is free, its bottom rests.
+
+    Attributes:
+        interval: begin and end of the step, for what varies with time [s].
     """
 
     def __init__(
@@ -76,6 +93,7 @@ class FaceConditions:
     ) -> None:
         self.box, self.boundaries, self.flow = box, boundaries, flow
         self.initial_temperature = initial_temperature
+        self.interval = (0.0, 0.0)
 
     def flow_kind(self, face: str) -> str:
         """Kind of a face for the flow."""
@@ -87,14 +105,17 @@ class FaceConditions:
             return "no-slip"
         return "periodic" if self.boundaries.kind_of(face) == "periodic" else "symmetry"
 
-    def ghost_faces(self, *, has_bottom: bool) -> tuple[FacePair, FacePair]:
+    def ghost_faces(
+        self, surface: Surface | None, *, has_bottom: bool
+    ) -> tuple[FacePair, FacePair]:
         """Faces beyond which ghosts lie; without the bottom where particles go on below."""
         pairs = []
-        for (lower, _upper), (low, high) in zip(FACES, self.box, strict=True):
+        for (lower, upper), (low, high) in zip(FACES, self.box, strict=True):
             is_periodic = self.flow_kind(lower) == "periodic"
             kind = PERIODIC if is_periodic else MIRROR
             below = OPEN if lower == BOTTOM and not has_bottom else kind
-            pairs.append(FacePair(below, kind, low, high))
+            above = TANGENT if _across(upper, surface) else kind
+            pairs.append(FacePair(below, above, low, high))
         return pairs[0], pairs[1]
 
     def wall_velocity(self, face: str) -> float:
@@ -116,7 +137,7 @@ class FaceConditions:
             wall[chosen] = np.where(wall[chosen] == 0.0, 1.0 + PLANE.index(face), np.nan)
             # the first Dirichlet face in a corner, else the first Neumann face
             mine = chosen & (heat_face == 0.0)
-            if surface is not None and self.flow_kind(face) == "free-surface":
+            if surface is not None and self.flow_kind(face) in FREE:
                 slope[chosen] = ghost_types.sign[1 - axis, chosen]
                 flux[mine] = surface.heat_flux
             if kind in DIRICHLET:
@@ -150,8 +171,9 @@ class FaceConditions:
         )
 
     def varying_temperature(self, x: Array) -> Array:
-        """Temperature of a face that varies along it, at places x [m], [K]."""
-        return self.boundaries.temperature_along(SURFACE, x, self.initial_temperature)
+        """Temperature of a face that varies along it, at places x [m] in the `interval`, [K]."""
+        T_0 = self.initial_temperature
+        return self.boundaries.temperature_along(SURFACE, x, T_0, self.interval)
 
     def _crossings(
         self, ghost_types: GhostTypes
@@ -177,9 +199,11 @@ class FaceConditions:
             if self.flow_kind(face) in ("no-slip", "moving-wall"):
                 factor[1 - axis, chosen] = -1.0
                 added[1 - axis, chosen] = 2.0 * self.wall_velocity(face)
-        for axis, _, chosen, _, _ in crossings:
+        for axis, face, chosen, _, _ in crossings:
+            if _across(face, surface):  # no component is turned around across a tangent
+                continue
             factor[axis, chosen] *= -1.0
             added[axis, chosen] = 0.0
-            if surface is not None and self.flow_kind(face) == "free-surface":
+            if surface is not None and self.flow_kind(face) in FREE:
                 added[axis, chosen] = 2.0 * surface.normal_velocity
         return factor, added

@@ -203,8 +203,14 @@ class Flow:
         return self._block
 
     def ghost_velocity_jump(self) -> Array:
-        """(n,) by how much the surface makes ghosts faster than their sources [m/s]."""
-        return self._nothing if self.surface is None else self.surface.ghost_velocity_jump
+        """By how much the surface makes ghosts faster than their sources [m/s].
+
+        (n,) along a plane, (2, n) across the tangents of a surface that is none.
+        """
+        if self.surface is None:
+            return self._nothing
+        beyond = self.surface.ghosts
+        return self.surface.ghost_velocity_jump if beyond is None else beyond.jump
 
     def settle_jump(self, step: float) -> None:
         """Let the divergence see the stress of the surface as fast as viscosity spreads it.
@@ -212,8 +218,11 @@ class Flow:
         Ghosts beyond a stressed surface continue the profile of u, and where they do so unevenly
         their divergence is that of the profile. A stress that changes at once has no profile yet:
         its divergence would have to be undone within the step, by a pressure that grows as 1 / dt.
-        So the jump follows within the time l^2 / nu in which momentum crosses a support.
+        So the jump follows within the time l^2 / nu in which momentum crosses a support. Under a
+        given pressure at the surface nothing of this is to be undone, and it is seen at once.
         """
+        if self._has_tangents:
+            return
         time = self.block.moving_support**2 / self.liquid.viscosity
         fields = {"settled": self.particles["settled_jump"], "jump": self.ghost_velocity_jump()}
         share = 1.0 - exp(-step / time)
@@ -275,8 +284,8 @@ class Flow:
         else:
             given = None if self.surface is None else self.surface.pressure
             coefficient, value, flux = given or (None, None, None)
-            pairs = block.without_ghosts()
-            self.equation.set_operator(pairs, block.weights, mask, self._V, coefficient)
+            pairs, weights = block.without_ghosts(), block.weights_within()
+            self.equation.set_operator(pairs, weights, mask, self._V, coefficient)
             outcome = self.equation.solve(self._rhs, self._p, value=value, flux=flux)
         if not outcome.residual <= ACCEPTED * self.settings.pressure_tolerance:
             raise NotConverged(
@@ -293,12 +302,14 @@ class Flow:
             NotConverged: the velocity is not finite.
         """
         backend, block = self.backend, self.block
-        (lowest,) = backend.pointwise(
-            pressure_of, {"p": self.pressure}, (None,), rows=kinds.unknown_rows, reduce=("min",)
-        )
-        p, C = backend.zeros(block.total), block.extend_tensor(self._C)
-        ghosts = {"source": block.source}
-        backend.pointwise(pressure_over_lowest, ghosts, p, p=self.pressure, lowest=lowest)
+        C = block.extend_tensor(self._C)
+        p = block.pressure_over_lowest(self.pressure, kinds.unknown)
+        if p is None:
+            (lowest,) = backend.pointwise(
+                pressure_of, {"p": self.pressure}, (None,), rows=kinds.unknown_rows, reduce=("min",)
+            )
+            p, ghosts = backend.zeros(block.total), {"source": block.source}
+            backend.pointwise(pressure_over_lowest, ghosts, p, p=self.pressure, lowest=lowest)
         (square,) = backend.pair_sum(
             corrected_symmetric_term,
             block.pairs,
@@ -348,8 +359,15 @@ class Flow:
 
     def _divergence_fields(self) -> dict[str, Array]:
         block = self.block
-        v = block.mirror_velocity(self.velocity, self.particles["settled_jump"])
+        settled = self.particles["settled_jump"]
+        jump = self.ghost_velocity_jump() if self._has_tangents else settled
+        v = block.mirror_velocity(self.velocity, jump)
         return {"v": v, "C": self._C, "G_ij": block.gradient}
+
+    @property
+    def _has_tangents(self) -> bool:
+        """Whether the surface is no plane."""
+        return self.surface is not None and self.surface.ghosts is not None
 
     def _set_dummy_pressure(self, kinds: ParticleKinds) -> None:
         """Give dummies the pressure of the edge."""

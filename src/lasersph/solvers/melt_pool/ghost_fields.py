@@ -7,7 +7,8 @@ particle of the block is its own source and of type 0. So one loop fills a field
 
 from __future__ import annotations
 
-from lasersph.compute.vectors import outer, vector
+from lasersph.boundaries.surface_loops import reflected
+from lasersph.compute.vectors import dot, identity, matmul, outer, vector
 
 
 def ghost_position(source, ghost_type, x, z, sign_x, sign_z, offset_x, offset_z):
@@ -15,6 +16,17 @@ def ghost_position(source, ghost_type, x, z, sign_x, sign_z, offset_x, offset_z)
     return vector(
         sign_x[ghost_type] * x[source] + offset_x[ghost_type],
         sign_z[ghost_type] * z[source] + offset_z[ghost_type],
+    )
+
+
+def position_across(
+    source, ghost_type, x, z, shift_x, shift_z, sign_x, sign_z, offset_x, offset_z, across
+):
+    """`ghost_position` of the source, shifted across the tangent of the surface if so."""
+    a = across[ghost_type]
+    return vector(
+        sign_x[ghost_type] * (x[source] + a * shift_x[source]) + offset_x[ghost_type],
+        sign_z[ghost_type] * (z[source] + a * shift_z[source]) + offset_z[ghost_type],
     )
 
 
@@ -72,6 +84,57 @@ def extended_velocity(
     )
 
 
+def velocity_across(
+    source,
+    ghost_type,
+    v_x,
+    v_z,
+    jump_x,
+    jump_z,
+    factor_x,
+    factor_z,
+    added_x,
+    added_z,
+    across,
+):
+    """`ghost_velocity` where a jump (jump_x, jump_z) carries it on across a tangent [m/s]."""
+    a = across[ghost_type]
+    return vector(
+        factor_x[ghost_type] * (v_x[source] + a * jump_x[source]) + added_x[ghost_type],
+        factor_z[ghost_type] * (v_z[source] + a * jump_z[source]) + added_z[ghost_type],
+    )
+
+
+def mirrored_vector(source, ghost_type, v_x, v_z, sign_x, sign_z):
+    """A vector of the source as the faces between mirror it."""
+    return vector(sign_x[ghost_type] * v_x[source], sign_z[ghost_type] * v_z[source])
+
+
+def vector_across(source, ghost_type, v_x, v_z, n_x, n_z, sign_x, sign_z, across):
+    """`mirrored_vector` where the surface's tangent is one of the mirrors."""
+    n = vector(n_x[source], n_z[source])
+    v = reflected(vector(v_x[source], v_z[source]), n, across[ghost_type])
+    return vector(sign_x[ghost_type] * v[0], sign_z[ghost_type] * v[1])
+
+
+def tangent_plane(
+    source, ghost_type, x, normal, plane, n_x, n_z, distance, sign_x, across, heat_face, surface
+):
+    """Normal and place of the face between a ghost and its source for heat: of the surface where
+    that is what lies between, else as they were."""
+    if across[ghost_type] <= 0.0 or heat_face[ghost_type] != surface:
+        return 1.0 * normal, plane
+    n = vector(sign_x[ghost_type] * n_x[source], n_z[source])
+    return n, dot(x, n) - distance[source]
+
+
+def pressure_across(source, ghost_type, p, p_b, unknown, across):
+    """Pressure [Pa]: that of the source, beyond the surface carried on through p_b there; and that
+    where it counts for the lowest."""
+    value = p[source] + 2.0 * across[ghost_type] * (p_b[source] - p[source])
+    return value, value if unknown[source] > 0.0 else 1.0e300
+
+
 def velocity_change(source, ghost_type, d_x, d_z, factor_x, factor_z):
     """S d of the source: what remains of its velocity where walls rest and no stress acts [m/s]."""
     return vector(factor_x[ghost_type] * d_x[source], factor_z[ghost_type] * d_z[source])
@@ -80,6 +143,17 @@ def velocity_change(source, ghost_type, d_x, d_z, factor_x, factor_z):
 def ghost_tensor(M, sign):
     """Tensor of a ghost, S M S with the signs on the diagonal of S."""
     return outer(sign, sign) * M
+
+
+def tensor_across(source, ghost_type, M_xx, M_xz, M_zx, M_zz, n_x, n_z, sign_x, sign_z, across):
+    """`extended_tensor` where the surface's tangent is one of the mirrors."""
+    M = outer(vector(1.0, 0.0), vector(M_xx[source], M_xz[source])) + outer(
+        vector(0.0, 1.0), vector(M_zx[source], M_zz[source])
+    )
+    n = vector(n_x[source], n_z[source])
+    mirror = identity(2) - 2.0 * across[ghost_type] * outer(n, n)
+    seen = matmul(mirror, matmul(M, mirror))
+    return ghost_tensor(seen, vector(sign_x[ghost_type], sign_z[ghost_type]))
 
 
 def extended_tensor(source, ghost_type, M_xx, M_xz, M_zx, M_zz, sign_x, sign_z):

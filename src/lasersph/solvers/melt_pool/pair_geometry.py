@@ -108,6 +108,13 @@ class PairGeometry:
             for mean, mark in zip((common, pairs.mean), marks, strict=True)
         ]
 
+    def find_weights(
+        self, pairs: NeighborList, fields: Mapping[str, Array], out: Array, rows: Rows
+    ) -> None:
+        """Weights alone of some rows into `out` (pairs,)."""
+        function, constants = GEOMETRY[self.weighing.function], self.weighing.constants
+        self.backend.pair_values(function, pairs, fields, (out, None, None), rows=rows, **constants)
+
     def find(
         self, pairs: NeighborList, fields: Mapping[str, Array], *, has_kernel: bool = False
     ) -> None:

@@ -64,10 +64,9 @@ def range_enthalpy(h, dirichlet, wall_enthalpy):
     return h + dirichlet * (wall_enthalpy - h)
 
 
-def what_is_exchanged(source, ghost_type, h, fluid, f_v, shift_x, shift_z, sign_x, sign_z):
-    """Enthalpy [J/kg], phase and mirrored displacement [m] of a ghost; see `ghost_fields`."""
-    across, along = sign_x[ghost_type] * shift_x[source], sign_z[ghost_type] * shift_z[source]
-    return h[source], phase_of(fluid[source], f_v[source]), vector(across, along)
+def what_is_exchanged(source, h, fluid, f_v):
+    """Enthalpy [J/kg] and phase of a ghost."""
+    return h[source], phase_of(fluid[source], f_v[source])
 
 
 def shares_of(source, up, down):
@@ -219,12 +218,9 @@ class ParticleShifting:
             return 0.0
         backend, pairs, rows = self.backend, block.pairs, kinds.fluid_rows
         heat, phase, up, down = (backend.zeros(block.total) for _ in range(4))
-        shift = backend.zeros((2, block.total))
-        tables = {"h": h, "fluid": kinds.fluid, "f_v": f_v} | block.signs
-        tables["shift_x"], tables["shift_z"] = (
-            backend.component(self.displacement, k) for k in (0, 1)
-        )
-        backend.pointwise(what_is_exchanged, block.sources, (heat, phase, shift), **tables)
+        shift = block.mirror(self.displacement)
+        tables, sources = {"h": h, "fluid": kinds.fluid, "f_v": f_v}, {"source": block.source}
+        backend.pointwise(what_is_exchanged, sources, (heat, phase), **tables)
         if block.has_walls:
             backend.pointwise(range_enthalpy, {"h": heat} | block.rules, heat)
         fields = {"h": heat, "phase": phase, "shift": shift, "G_ij": block.gradient}

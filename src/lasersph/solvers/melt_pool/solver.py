@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from lasersph.boundaries.surface import SurfaceStep
 from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array
 from lasersph.physics.flow_limits import flow_limits
@@ -26,7 +27,7 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.particle_shifting import ParticleShifting
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
-from lasersph.solvers.step_control import NotConverged, retry_step
+from lasersph.solvers.step_control import NotConverged, StepFailed, retry_step
 
 SHORTEST = 1e-9
 """Time in which the fastest particle crosses its support, over the time to compute: in a flow that
@@ -41,6 +42,10 @@ def larger(a, b):
 def lies_at_surface(depth, spacing):
     """1 for a particle of the uppermost row, else 0."""
     return 1.0 if depth < spacing else 0.0
+
+
+class SurfaceTrouble(StepFailed):
+    """A surface that moves cannot be computed any further."""
 
 
 class MeltPool:
@@ -66,7 +71,7 @@ class MeltPool:
         self._advected, self._depth = backend.zeros((2, count)), backend.zeros(count)
         self.kinds = ParticleKinds(self.particles, domain.spacing, is_box=domain.is_box)
         self.shifting = ParticleShifting(
-            backend, count, settings.shifting, domain.spacing, domain.box, domain.periods
+            backend, count, settings.shifting, domain.spacing, domain.room, domain.periods
         )
         self.pairs, self.exchange = HeatPairs(heat.body), FaceExchange(backend, count)
         self.steadiness = Steadiness(settings.steady, domain.width)
@@ -92,7 +97,8 @@ class MeltPool:
     @property
     def fields(self) -> dict[str, Array]:
         """Arrays of a checkpoint by name."""
-        return self.particles.kept
+        surface = self.domain.surface
+        return self.particles.kept | ({} if surface is None else surface.arrays)
 
     @property
     def iterations(self) -> dict[str, int]:
@@ -124,6 +130,8 @@ class MeltPool:
         """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
         backend = self.backend
         self.heat.restore(arrays, numbers)
+        if self.domain.surface is not None:
+            self.domain.surface.restore_arrays(arrays)
         self._restore_numbers(numbers)
         if backend.rows_where(self.particles["has_moving_pairs"], 1.0).shape[0]:
             block, has_row = self.domain.block_for(self.position, self.kinds), None
@@ -159,16 +167,20 @@ class MeltPool:
         Raises:
             NotConverged: not even a 256th of the step succeeds, or the flow has become unstable;
                 the state is as before.
-            PoolTooDeep: the melt reaches the graded layers.
-            SupercriticalSurface: the surface is above the critical temperature.
+            PoolTooDeep: the melt reaches the graded layers. SupercriticalSurface: the surface is
+                above the critical temperature. SurfaceTrouble: it cannot be computed any further.
         """
         self.heat.refuse_supercritical(lambda: self.backend.to_host(self.position))
+        surface = self.domain.surface
+        if surface is not None and (trouble := surface.trouble()):
+            raise SurfaceTrouble(trouble)
         if self.flow.largest_speed * SHORTEST * self.heat.time_settings.end > self.domain.support:
             raise NotConverged(f"the flow has become unstable: {self.flow.largest_speed:.3g} m/s")
         self._keep()
         return retry_step(self._advance, step, unclipped_step, undo=self._return)
 
     def _advance(self, step: float, unclipped_step: float | None) -> None:
+        self.domain.conditions.interval = (self.state.time, self.state.time + step)
         if not self._melt():
             self._update_resting_pairs()
             self.illuminate(step)
@@ -203,12 +215,13 @@ class MeltPool:
         if block is not flow.current_block:
             flow.enter(block, domain.periods)
         has_row = self._rows_to_find(block, self._advected)
+        if domain.surface is not None:
+            domain.surface.find(self._advected)
         block.find_pairs(self._advected, has_row, has_kernel=True)
         self.kinds.find_walls(block)
         if domain.surface is not None:
-            domain.surface.find(self._advected)
-            temperature, active = self.particles["temperature"], self.kinds.active
-            domain.surface.update_stress(temperature, self._advected, block, active)
+            now = self._surface_step(self._advected, step)
+            domain.surface.update_stress(now, block, self.kinds.active)
         flow.correct_kernel(self.kinds.active_rows)
 
     def update_positions(self, step: float) -> None:
@@ -217,8 +230,7 @@ class MeltPool:
         fields = {"x": self.position, "v_old": self.flow.before, "v": self.flow.velocity}
         self.backend.pointwise(move, fields, self.position, step=step)
         if self.domain.surface is not None:
-            mass = self.particles["evaporated_mass"]
-            self.domain.surface.move(step, self.flow.velocity, mass)
+            self.domain.surface.move(self._surface_step(self.position, step))
         block.move(self.position)
         self.flow.correct_kernel(self.kinds.fluid_rows)
         if self.domain.is_box:
@@ -243,10 +255,18 @@ class MeltPool:
         exchange.follow(columns)
         light.follow(self.position, self._depth, columns)
 
+    def _surface_step(self, position: Array, step: float) -> SurfaceStep:
+        """What the surface reads of the particles in a step [s]."""
+        time, fluid = self.state.time, self.kinds.fluid
+        T, V = self.particles["temperature"], self.particles["volume"]
+        return SurfaceStep(T, position, self.flow.velocity, V, fluid, (time, time + step))
+
     def shift(self, step: float) -> None:
         """Displacements that keep the density of particles even (73)."""
         surface = self.domain.surface
-        at_face = self.kinds.dummy if surface is None else surface.at_surface
+        at_face = self.kinds.dummy
+        if surface is not None and surface.ghosts is None:
+            at_face = surface.at_surface
         speed = max(self.flow.largest_speed, self.domain.conditions.largest_wall_speed())
         self.shifting.shift(self.flow.block, self.kinds, at_face, speed, step)
 
@@ -262,6 +282,8 @@ class MeltPool:
             block, self.kinds, h, vapor, m
         )
         self.shifting.move(self.position, self.kinds)
+        if self.domain.surface is not None:
+            self.domain.surface.confine(self.position, self.kinds.fluid)
         self.body.update_temperature()
 
     def _melt(self) -> bool:
@@ -307,11 +329,15 @@ class MeltPool:
     def _keep(self) -> None:
         """Remember the state, for a step that fails."""
         self.particles.save()
+        if self.domain.surface is not None:
+            self.domain.surface.save()
         self._numbers = self.checkpoint_scalars()
 
     def _return(self) -> None:
         """Go back to the state that was kept."""
         self.particles.go_back()
+        if self.domain.surface is not None:
+            self.domain.surface.go_back()
         self.body.update_temperature()
         self.state.restore(self._numbers)
         self._restore_numbers(self._numbers)

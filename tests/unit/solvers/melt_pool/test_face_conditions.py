@@ -14,7 +14,7 @@ from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 BOX = ((0.0, 1.0), (-1.0, 0.0))
 V = np.array([2.0, 3.0])
 """Velocity of the source in all tests [m/s]."""
-FLAT = SimpleNamespace(normal_velocity=0.0, heat_flux=0.0)
+FLAT = SimpleNamespace(normal_velocity=0.0, heat_flux=0.0, ghosts=None)
 NEAR = {"left": [(1, 0)], "right": [(2, 0)], "bottom": [(0, 1)], "surface": [(0, 2)]}
 """Types of the ghosts of a particle near one face: faces crossed of either axis."""
 
@@ -33,7 +33,7 @@ def corner_of(across, along):
 
 def rules_at(conditions, chosen):
     """Rules of ghosts of the chosen types, and the faces that each of them crossed."""
-    ghost_types = ghost_types_of(conditions.ghost_faces(has_bottom=True))
+    ghost_types = ghost_types_of(conditions.ghost_faces(None, has_bottom=True))
     columns = [ghost_types.crossed.T.tolist().index(list(ghost_type)) for ghost_type in chosen]
     few = replace(
         ghost_types, sign=ghost_types.sign[:, columns], offset=ghost_types.offset[:, columns],
@@ -112,8 +112,8 @@ def test_pool_in_a_block():
     assert [conditions.flow_kind(s) for s in ("left", "bottom", "surface")] == [
         "symmetry", "no-slip", "free-surface",
     ]  # fmt: skip
-    x, z = conditions.ghost_faces(has_bottom=False)
-    _, deep = conditions.ghost_faces(has_bottom=True)
+    x, z = conditions.ghost_faces(None, has_bottom=False)
+    _, deep = conditions.ghost_faces(None, has_bottom=True)
     assert (x.lower_kind, z.lower_kind, z.upper_kind) == (MIRROR, OPEN, MIRROR)
     assert deep.lower_kind == MIRROR
     assert conditions.largest_wall_speed() == 0.0
@@ -122,7 +122,7 @@ def test_pool_in_a_block():
 def test_periodic_pool():
     """A block that repeats for heat repeats for the flow."""
     conditions = FaceConditions(BOX, Boundaries(sides="periodic"), None, 300.0)
-    assert conditions.ghost_faces(has_bottom=False)[0].lower_kind == PERIODIC
+    assert conditions.ghost_faces(None, has_bottom=False)[0].lower_kind == PERIODIC
 
 
 def test_largest_wall_speed():

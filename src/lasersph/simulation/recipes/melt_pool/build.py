@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from lasersph.boundaries.flat_surface import FlatSurface, ImposedTemperature
+from lasersph.boundaries.flow_conditions import FREE
+from lasersph.boundaries.moving_surface import Drives, MovingSurface, SurfaceLiquid
 from lasersph.boundaries.settings import DIRICHLET
+from lasersph.boundaries.surface import Surface
+from lasersph.boundaries.surface_line import End, SurfaceLine, cutoff_of
 from lasersph.case import Case
 from lasersph.particles.layers import Layers
-from lasersph.solvers.conduction.body import weighing_of
+from lasersph.solvers.conduction.body import Body, weighing_of
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.walls import wall_enthalpy, wall_potential
 from lasersph.solvers.melt_pool.block import StaticParticleData
@@ -27,7 +33,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     )
     static = StaticParticleData(
         support=weighing.ratio * filling.width[-1, :count],
-        volume=filling.volume[:count],
+        volume=filling.volume[:count].copy(),
         layer=filling.layer[:count],
         layers=layers.thickness.size,
         weighing=weighing,
@@ -36,14 +42,33 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     box = (x, (-float(layers.thickness.sum()), 0.0))
     conditions = FaceConditions(box, case.boundaries, case.flow, case.initial_temperature)
     liquid = liquid_of(case, settings)
-    surface = None
-    if conditions.flow_kind("surface") == "free-surface":
+    surface: Surface | None = None
+    support = float(static.support.min())
+    if case.surface_moves:
+        line = _surface_line(case, conditions, filling.surface.size)
+        _raise_particles(case, body, static, line)
+        surface = MovingSurface(
+            backend,
+            count,
+            line=line,
+            bottom=box[1][0],
+            spacing=layers.spacing,
+            support=support,
+            liquid=SurfaceLiquid(liquid.density, liquid.viscosity * liquid.density, case.material),
+            has_stress=settings.marangoni,
+            drives=Drives(
+                _given_temperature(case),
+                case.boundaries.surface_pressure_wave,
+                case.boundaries.surface_mass_flux_wave,
+            ),
+        )
+    elif conditions.flow_kind("surface") in FREE:
         surface = FlatSurface(
             backend,
             count,
             plane=0.0,
             spacing=layers.spacing,
-            support=float(static.support.min()),
+            support=support,
             material=case.material,
             viscosity=liquid.viscosity * liquid.density,
             has_stress=settings.marangoni,
@@ -64,6 +89,36 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.begin(start)
     return MeltPool(heat, flow, domain, settings)
+
+
+def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> SurfaceLine:
+    """The line of a surface that moves, at its heights at the start.
+
+    It goes on as the flow does beyond its ends; at walls it is pinned at its height there.
+    """
+    x, _ = conditions.box
+    width = (x[1] - x[0]) / columns
+    kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}
+    left, right = (kinds.get(conditions.flow_kind(side), "pinned") for side in ("left", "right"))
+    line = SurfaceLine(x[0], width, columns, (left, right), cutoff_of(width))
+    wave = None if case.flow is None else case.flow.initial_surface
+    if wave is not None:
+        line.height = wave.at(line.x, width)
+        line.pins = (float(wave.at(np.array(x[0]))), float(wave.at(np.array(x[1]))))
+    return line
+
+
+def _raise_particles(case: Case, body: Body, static: StaticParticleData, line: SurfaceLine) -> None:
+    """Stretch the columns of particles of a box to the surface at the start."""
+    wave = None if case.flow is None else case.flow.initial_surface
+    if wave is None:
+        return
+    count, depth = body.count, case.domain.depth
+    x, z = body.filling.position[:, :count]
+    stretch = 1.0 + wave.at(x, line.width) / depth
+    z[:] = stretch * (z + depth) - depth
+    static.volume[:] *= stretch
+    body.particles.set("mass", body.backend.to_host(body.particles["mass"]) * stretch)
 
 
 def liquid_of(case: Case, settings: MeltPoolSettings) -> Liquid:

@@ -12,8 +12,11 @@ from __future__ import annotations
 from math import pi, sqrt
 
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
+from lasersph.boundaries.flow_conditions import FREE
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
+from lasersph.boundaries.moving_surface import surface_limits
 from lasersph.boundaries.settings import DIRICHLET
+from lasersph.boundaries.surface_line import cutoff_of
 from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.lasers import GaussianBeam, InterferenceBeam
@@ -39,7 +42,7 @@ def flow_forecast(case: Case, solver: MeltPoolSettings, spacing: float) -> FlowF
     else:
         layer, gradient, duration = None, _imposed_gradient(case), case.time.end
         speed = _box_speed(case, solver.gravity, nu, density, slope)
-        if case.flow.surface.kind != "free-surface":
+        if case.flow.surface.kind not in FREE:
             gradient = 0.0
     lift = solver.gravity * float(material.expansion_at(T)) * _temperature_range(case)
     acceleration = max(slope * gradient / (density * spacing), lift)
@@ -55,6 +58,9 @@ def flow_forecast(case: Case, solver: MeltPoolSettings, spacing: float) -> FlowF
         surface_tension=float(material.surface_tension_at(T)) if has_gamma else 0.0,
         is_implicit=solver.viscosity == "implicit",
     )
+    if case.surface_moves and has_gamma:
+        gamma = float(material.surface_tension_at(T))
+        limits |= surface_limits(gamma, density, nu, cutoff_of(spacing))
     return FlowForecast(speed, layer, duration, limits, tuple(_warnings(layer, spacing)))
 
 
@@ -118,7 +124,7 @@ def _box_speed(case: Case, gravity: float, viscosity: float, density: float, slo
     lift = gravity * float(case.material.expansion_at(T)) * difference
     speeds.append(BUOYANT_SHARE * sqrt(lift * case.domain.depth))
     wave = case.boundaries.surface_temperature_wave
-    if case.flow.surface.kind == "free-surface" and slope:
+    if case.flow.surface.kind in FREE and slope:
         eta = viscosity * density
         if wave is not None:
             layer = ThermocapillaryLayer(

@@ -6,9 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lasersph.boundaries.moving_surface import MovingSurface
 from lasersph.case import Case
 from lasersph.compute.backend import Backend
 from lasersph.observers import Observers, flow_observers
+from lasersph.observers.relief import WHOLE, Relief
+from lasersph.observers.topography import Topography
 from lasersph.observers.view import View
 from lasersph.simulation.recipes.conduction import HeatRecipe
 from lasersph.simulation.recipes.melt_pool.build import with_flow
@@ -57,6 +60,9 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             fields["surface"] = np.flatnonzero(top)
         if flow.box:
             fields["melt_fraction"] = np.ones(solver.particle_count)
+        if isinstance(surface := solver.domain.surface, MovingSurface):
+            line = surface.line
+            fields["relief"] = Relief(line.x, line.height.copy(), line.ends[0])
         return View(**fields, evaporated=self.evaporated(solver))
 
     def observers(self, iterations: Sequence[str]) -> Observers:
@@ -64,9 +70,27 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         return flow_observers(
             self.settings.dimensions,
             box=self.case.flow is not None,
+            topography=self._topography(),
             probes=self.case.probes,
             iterations=iterations,
         )
+
+    def _topography(self) -> Topography | None:
+        """What observes a surface that moves; its first harmonic where whole half periods fit."""
+        if not self.case.surface_moves:
+            return None
+        faces, flow = self.case.boundaries, self.case.flow
+        waves = (
+            faces.surface_temperature_wave,
+            faces.surface_pressure_wave,
+            faces.surface_mass_flux_wave,
+            None if flow is None else flow.initial_surface,
+        )
+        period = next((wave.period for wave in waves if wave is not None), None)
+        (x,) = self.case.domain.lateral(2)
+        halves = 0.0 if period is None else 2.0 * (x[1] - x[0]) / period
+        is_whole = halves > 0.5 and abs(halves - round(halves)) <= WHOLE * halves
+        return Topography(period if is_whole else None)
 
     def products_of(self, phase: str) -> float:
         """Cost of a step, see `Phase`."""

@@ -1,0 +1,273 @@
+"""What a moving surface computes in loops: from its line to the particles, and back.
+
+The line is given at nodes in the middle of its columns, two more at either end: tables, with the
+place of the first column `start`, 1/width `inverse` and the number of columns. Places are counted
+in columns from the left end of the line. Beyond an end the line goes on as its kind says: PINNED
+(not at all), MIRROR, PERIODIC; what particles give to columns comes from there in the same way.
+"""
+
+from __future__ import annotations
+
+from math import floor, sqrt
+
+from lasersph.compute.vectors import dot, vector
+
+PINNED, MIRROR, PERIODIC = 0.0, 1.0, 2.0
+"""Kinds of ends in loops."""
+ROW = 1.5
+"""Particles whose velocity is that of the surface lie within as many spacings of it."""
+LEAST_SHARE = 0.05
+"""Least weight of such a particle, which falls with its distance from the surface."""
+WINDOW = 2.5
+"""Columns at either side from which a column takes values of particles."""
+
+
+def node_place(x, start, inverse):
+    """Place among the nodes, of which two lie before the first column."""
+    return (x - start) * inverse + 1.5
+
+
+def node_before(place, nodes):
+    """Number of the node before a place; the first and the last segment go on beyond the ends."""
+    return int(min(max(floor(place), 0.0), nodes - 2.0))
+
+
+def linear(place, low, values):
+    """Value between the nodes `low` and the next."""
+    share = place - low
+    return (1.0 - share) * values[low] + share * values[low + 1]
+
+
+def line_height(place, low, width, height, slope):
+    """Height of the line [m]: cubic with the heights and slopes of two nodes."""
+    s, a, b = place - low, height[low], height[low + 1]
+    m, n = width * slope[low], width * slope[low + 1]
+    return a + s * (m + s * (3.0 * (b - a) - 2.0 * m - n + s * (2.0 * (a - b) + m + n)))
+
+
+def line_slope(place, low, width, height, slope):
+    """Slope of `line_height`."""
+    s, a, b = place - low, height[low], height[low + 1]
+    m, n = width * slope[low], width * slope[low + 1]
+    return (m + s * (2.0 * (3.0 * (b - a) - 2.0 * m - n) + 3.0 * s * (2.0 * (a - b) + m + n))) / (
+        width
+    )
+
+
+def below_line(x, start, inverse, nodes, height, slope):
+    """Depth of a particle below the line, along z [m]."""
+    place = node_place(x[0], start, inverse)
+    low = node_before(place, nodes)
+    return line_height(place, low, 1.0 / inverse, height, slope) - x[1]
+
+
+def surface_geometry(x, start, inverse, nodes, height, slope, near, far, closest):
+    """Marks, depth along z, normal, distance from the tangent, and the way to the ghost across it.
+
+    Args:
+        near, far: depths that are at and near the surface [m]. closest: least distance [m], for
+            particles that have just come out.
+    """
+    place = node_place(x[0], start, inverse)
+    low = node_before(place, nodes)
+    inclination = line_slope(place, low, 1.0 / inverse, height, slope)
+    depth = line_height(place, low, 1.0 / inverse, height, slope) - x[1]
+    S = sqrt(1.0 + inclination * inclination)
+    distance = max(depth / S, closest)
+    n = vector(-inclination / S, 1.0 / S)
+    return (
+        (1.0 if depth < near else 0.0),
+        (1.0 if depth < far else 0.0),
+        depth,
+        n,
+        distance,
+        2.0 * distance * n,
+    )
+
+
+def surface_values(x, n, distance, start, inverse, nodes, shear, stretch, p_b, T_line, gradient):
+    """Velocity of a ghost over its source, its tangential part, pressure, temperature, gradient.
+
+    2 d (du_t/dn t + du_n/dn n) [m/s] with du_n/dn = -du_t/ds, since nothing is compressed.
+    """
+    place = node_place(x[0], start, inverse)
+    low = node_before(place, nodes)
+    a, b = linear(place, low, shear), linear(place, low, stretch)
+    jump = 2.0 * distance * vector(a * n[1] - b * n[0], -a * n[0] - b * n[1])
+    return (
+        jump,
+        2.0 * distance * a,
+        linear(place, low, p_b),
+        linear(place, low, T_line),
+        linear(place, low, gradient),
+    )
+
+
+def column_of(x, flows, start, inverse, columns):
+    """Column of a particle that flows; `columns` for others."""
+    if flows <= 0.0:
+        return int(columns)
+    return int(min(max(floor((x[0] - start) * inverse), 0.0), columns - 1.0))
+
+
+def source_column(c, columns, low_end, high_end):
+    """Column whose particles are seen in column c, which may lie beyond an end; -1 for none."""
+    if c < 0:
+        if low_end == PERIODIC:
+            return c + columns
+        return -1 - c if low_end == MIRROR else -1
+    if c >= columns:
+        if high_end == PERIODIC:
+            return c - columns
+        return 2 * columns - 1 - c if high_end == MIRROR else -1
+    return c
+
+
+def seen_place(place, c, columns, low_end, high_end):
+    """Place at which a particle of `source_column` is seen."""
+    if c < 0:
+        return place - columns if low_end == PERIODIC else -place
+    if c >= columns:
+        return place + columns if high_end == PERIODIC else 2.0 * columns - place
+    return place
+
+
+def seen_sign(c, columns, low_end, high_end):
+    """Sign of a velocity along x that is seen there."""
+    if c < 0:
+        return -1.0 if low_end == MIRROR else 1.0
+    if c >= columns:
+        return -1.0 if high_end == MIRROR else 1.0
+    return 1.0
+
+
+def b_spline(distance):
+    """Quadratic B-spline of a distance in columns, which has the integral 1."""
+    if distance < 0.5:
+        return 0.75 - distance * distance
+    if distance < 1.5:
+        return 0.5 * (1.5 - distance) * (1.5 - distance)
+    return 0.0
+
+
+def mean_velocity(k, row_start, member, x, u, V, start, inverse, columns, low_end, high_end):
+    """Mean u of the particles around the k-th side of the columns [m/s], and their volume.
+
+    Args:
+        k: 0 for the left end. row_start, member: particles of each column. x, u: [m], [m/s].
+        V: volume [m^2].
+    """
+    side = int(k)
+    flow, volume = 0.0, 0.0
+    for c in range(side - 2, side + 2):
+        column = source_column(c, columns, low_end, high_end)
+        if column >= 0:
+            sign = seen_sign(c, columns, low_end, high_end)
+            for p in range(row_start[column], row_start[column + 1]):
+                j = member[p]
+                place = seen_place((x[j] - start) * inverse, c, columns, low_end, high_end)
+                share = b_spline(abs(place - side)) * V[j]
+                flow += sign * share * u[j]
+                volume += share
+    return flow / max(volume, 1.0e-300), volume * inverse
+
+
+def surface_velocity(
+    k,
+    row_start,
+    member,
+    x,
+    depth,
+    u,
+    w,
+    jump_x,
+    jump_z,
+    T,
+    start,
+    inverse,
+    columns,
+    low_end,
+    high_end,
+    spacing,
+):
+    """Velocity [m/s] and temperature [K] of the surface in the middle of a column, and a weight.
+
+    A line fitted to what the particles near the surface have, their velocity carried on to it by
+    half their ghosts' jump. 0 and the weight 0 where there are none.
+    """
+    center, middle = int(k), k + 0.5
+    s_0, s_1, s_2, u_0, u_1, w_0, w_1, T_0, T_1 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for c in range(center - 2, center + 3):
+        column = source_column(c, columns, low_end, high_end)
+        if column >= 0:
+            sign = seen_sign(c, columns, low_end, high_end)
+            for p in range(row_start[column], row_start[column + 1]):
+                j = member[p]
+                part = depth[j] / (ROW * spacing)
+                if part < 1.0:
+                    place = seen_place((x[j] - start) * inverse, c, columns, low_end, high_end)
+                    r = place - middle
+                    near = max(1.0 - r * r / (WINDOW * WINDOW), 0.0)
+                    share = max(1.0 - part, LEAST_SHARE) * near * near
+                    u_j, w_j = sign * (u[j] + 0.5 * jump_x[j]), w[j] + 0.5 * jump_z[j]
+                    s_0 += share
+                    s_1 += share * r
+                    s_2 += share * r * r
+                    u_0 += share * u_j
+                    u_1 += share * r * u_j
+                    w_0 += share * w_j
+                    w_1 += share * r * w_j
+                    T_0 += share * T[j]
+                    T_1 += share * r * T[j]
+    det = s_0 * s_2 - s_1 * s_1
+    if det <= 1.0e-9 * s_0 * s_0:
+        whole = max(s_0, 1.0e-300)
+        return u_0 / whole, w_0 / whole, T_0 / whole, s_0
+    return (
+        (s_2 * u_0 - s_1 * u_1) / det,
+        (s_2 * w_0 - s_1 * w_1) / det,
+        (s_2 * T_0 - s_1 * T_1) / det,
+        s_0,
+    )
+
+
+def below_surface(x, flows, start, inverse, nodes, height, slope, gap):
+    """Place of a particle [m] that flows, at least `gap` below the line."""
+    if flows <= 0.0:
+        return 1.0 * x
+    place = node_place(x[0], start, inverse)
+    low = node_before(place, nodes)
+    top = line_height(place, low, 1.0 / inverse, height, slope) - gap
+    return vector(x[0], min(x[1], top))
+
+
+def inner_weight(g_ij, across_j):
+    """Weight of a pair for the pressure: 0 toward ghosts across the surface."""
+    return g_ij * (1.0 - across_j)
+
+
+def mean_weight(g_ij, swapped_ij, across_j):
+    """Weight of a pair: toward a ghost across the surface the mean of both ways, so that it is
+    symmetric."""
+    if across_j > 0.0:
+        return 0.5 * (g_ij + swapped_ij)
+    return 1.0 * g_ij
+
+
+def given_pressure(g_ij, across_j, distance_i, distance_j, p_b_j):
+    """Boundary coefficient of a pair toward a ghost across the surface, and that times p_b.
+
+    The ghost's pressure continues the line from particle i through p_b at the surface.
+    """
+    a = across_j * g_ij * (distance_i + distance_j) / distance_i
+    return a, a * p_b_j
+
+
+def given_pressure_of_row(total_0, total_1):
+    """Boundary coefficient of a particle, and the mean of p_b [Pa]."""
+    return total_0, total_1 / max(total_0, 1.0e-300)
+
+
+def reflected(a, n, across):
+    """Vector mirrored across the tangent whose normal is n, where `across` is 1."""
+    return a - 2.0 * across * dot(a, n) * n

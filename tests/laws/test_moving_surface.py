@@ -1,0 +1,130 @@
+"""A film with a moving surface against its exact linear response, and what must not change it."""
+
+import numpy as np
+import pytest
+from flow_boxes import host_fields
+from reliability_runs import assert_same
+
+from lasersph import compute
+from lasersph.analytic.liquid_film import Drive, LiquidFilm
+from lasersph.boundaries import moving_surface
+from lasersph.boundaries.surface_line import SurfaceLine
+from lasersph.case import load_case
+from lasersph.simulation import run
+from lasersph.simulation.recipes import recipe_of
+from lasersph.simulation.time_loop import Stopped
+from lasersph.solvers.step_control import binding_limit
+
+FILM = LiquidFilm(280e-9, 5.05e-6, 6863.0, 7e-3, 1.6, -4.3e-4)
+COARSE = "particles.spacing=56nm"
+
+
+def film(*settings, backend=None, boundaries=None):
+    """Solver of the film, five rows of particles thick; with other boundaries where given."""
+    case = load_case("moving-film", (COARSE, *settings))
+    if boundaries is not None:
+        case = type(case).model_validate(case.resolved() | {"boundaries": boundaries})
+    return recipe_of(case).build(backend or compute.cpu(threads=1))
+
+
+def go(solver, end):
+    """Step to `end` [s]; returns the first harmonic of the surface there [m]."""
+    while solver.state.time < end * (1.0 - 1e-12):
+        limits = solver.time_step_limits() | {"mark": end - solver.state.time, "case": 5e-10}
+        solver.step(binding_limit(limits)[1])
+    return solver.domain.surface.line.first_harmonic(FILM.period)
+
+
+def error(amplitude, time, drive):
+    """Deviation from the exact amplitude over the largest one."""
+    largest = np.abs(FILM.amplitude(np.arange(10, 201, 10) * 1e-9, drive)).max()
+    return abs(amplitude - FILM.amplitude([time], drive)[0]) / largest
+
+
+HEATED = Drive(temperature=100.0, end=20e-9)
+
+
+@pytest.mark.parametrize("end", [20e-9, 80e-9])
+def test_film_that_its_temperature_drives(end):
+    """Within 2 % of the largest height while it is heated, and after."""
+    assert error(go(film(), end), end, HEATED) < 0.02
+
+
+MISTAKES = {
+    "no normal stress": ("normal_stress", lambda viscosity, along: 0.0 * along),
+    "its sign": ("normal_stress", lambda viscosity, along: 2.0 * viscosity * along),
+    "no dw/dx in the shear": ("shear_rate", lambda tau, viscosity, across: tau / viscosity),
+    "sign of the stress": ("shear_rate", lambda tau, mu, across: -tau / mu - across),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_mistakes_are_seen(name, monkeypatch):
+    """Each term dropped or turned around is more than 2 % off after 80 ns."""
+    monkeypatch.setattr(moving_surface, *MISTAKES[name])
+    assert error(go(film(), 80e-9), 80e-9, HEATED) > 0.02
+
+
+def test_surface_tension_is_seen(monkeypatch):
+    """Without it the hollow is too deep, by more than 2 % after 80 ns."""
+    flat = property(lambda line: np.zeros(line.count))
+    monkeypatch.setattr(SurfaceLine, "curvature", flat)
+    assert error(go(film(), 80e-9), 80e-9, HEATED) > 0.02
+
+
+def test_pressure_wave():
+    """A pressure on the surface: within 2 % of the largest height at ten rows."""
+    wave = {"amplitude": 20e3, "period": FILM.period, "end": 20e-9}
+    solver = film("particles.spacing=28nm", boundaries={"surface_pressure_wave": wave})
+    assert error(go(solver, 40e-9), 40e-9, Drive(pressure=20e3, end=20e-9)) < 0.02
+
+
+def test_half_and_full_and_periodic():
+    """Half a period between planes of symmetry, a whole one, and one that repeats."""
+    end = 10e-9
+    half = film()
+    full = film("domain.extent=full")
+    around = film(
+        "domain.extent=full",
+        "solver.flow.left=periodic",
+        "solver.flow.right=periodic",
+        "boundaries.sides=periodic",
+    )
+    expected = go(half, end)
+    assert go(full, end) == pytest.approx(expected, rel=1e-3)
+    assert go(around, end) == pytest.approx(expected, rel=1e-3)
+
+
+def test_volume():
+    """What flows makes none, to 1e-10 of what is displaced."""
+    solver = film()
+    go(solver, 10e-9)
+    height = solver.domain.surface.line.height
+    assert abs(height.sum()) < 1e-10 * np.abs(height).sum()
+
+
+def test_same_bits():
+    """Arrays that refuse NumPy, and two threads, give the same bits as one."""
+    made = (compute.cpu(threads=1), compute.strict(threads=1), compute.cpu(threads=2))
+    first, *others = (film(backend=backend) for backend in made)
+    for solver in (first, *others):
+        go(solver, 1e-9)
+    for other in others:
+        assert other.checkpoint_scalars() == first.checkpoint_scalars()
+        fields = host_fields(other)
+        for name, values in host_fields(first).items():
+            assert np.array_equal(values, fields[name]), name
+
+
+def test_stopped_and_resumed(tmp_path):
+    """While the surface moves: the same bits at the end."""
+    case = load_case("moving-film", (COARSE, "time.end=4ns"))
+    whole = run(case, tmp_path / "whole", threads=1)
+    left = iter([False] * 8 + [True])
+    with pytest.raises(Stopped):
+        run(case, tmp_path / "parts", threads=1, should_stop=lambda: next(left))
+    parts = run(case, tmp_path / "parts", threads=1, resume=True)
+    assert_same(tmp_path / "whole", tmp_path / "parts")
+    found = parts.summary["topography"]
+    assert found == whole.summary["topography"]
+    assert found["first_harmonic_m"] < 0.0 < found["depth_m"]
