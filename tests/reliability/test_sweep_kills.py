@@ -159,3 +159,24 @@ def test_killed_driver_leaves_nobody(undisturbed, tmp_path):
     table = Table.read(folder)
     assert table.status == ("complete",) * 3
     assert contents(folder, table) == contents(*undisturbed)
+
+
+def test_studies_are_made_by_workers(tmp_path, capfd):
+    """Several runs at a time give what one after the other gives, and are found when their turn
+    comes."""
+    from lasersph.cli import main
+
+    command = ["converge", "dlip-steel", "--spacing", "200nm,150nm,100nm", "--threads", "1"]
+    for key, value in {**SETTINGS, "time.end": "50 ns"}.items():
+        if key != "particles.spacing":
+            command += ["--set", f"{key}={value}"]
+    answers = []
+    for workers in ("1", "2"):
+        folder, answer = tmp_path / workers, tmp_path / f"{workers}.json"
+        out = ["--out", str(folder), "--json", str(answer), "--workers", workers]
+        assert main([*command, *out]) == 0
+        answers.append(json.loads(answer.read_text()))
+        logs = [file.read_text().count("finished") for file in folder.glob("*/run.log")]
+        assert logs == [1, 1, 1]
+    assert answers[0] == answers[1]
+    assert "spacing-150nm: complete" in capfd.readouterr().err

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import shlex
-import signal
 import sys
-import threading
 from collections.abc import Sequence
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
@@ -25,7 +21,9 @@ from lasersph.cli.arguments import (
     refuse_backend,
     say_what_moved,
 )
-from lasersph.cli.failures import INTERRUPTED, TERMINATED, StoppedBySignal, WrongCommand
+from lasersph.cli.failures import StoppedBySignal, WrongCommand
+from lasersph.cli.side_by_side import Workers, preparation, refuse_workers
+from lasersph.cli.stop_signals import StopSignals
 
 if TYPE_CHECKING:
     from lasersph.case import Case
@@ -70,45 +68,6 @@ LONGEST_WAIT = 120.0
 checkpoint into the folder [s]: twice `output.folder_lock.SILENCE`."""
 
 
-class StopSignals:
-    """Notes Ctrl-C, SIGTERM and the end of standard input, so that a run stops between two steps.
-
-    A second Ctrl-C stops at once.
-    """
-
-    def __init__(self, *, until_stdin_closes: bool = False) -> None:
-        self.code = 0
-        if until_stdin_closes:
-            threading.Thread(target=self._note_end_of_stdin, daemon=True).start()
-        self._before: dict[int, Any] = {}
-
-    def __enter__(self) -> StopSignals:
-        """Listen."""
-        for number in (signal.SIGINT, signal.SIGTERM):
-            self._before[number] = signal.signal(number, self._note)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Leave the signals as they were."""
-        for number, handler in self._before.items():
-            signal.signal(number, handler)
-
-    def _note(self, number: int, _frame: FrameType | None) -> None:
-        if self.code and number == signal.SIGINT:
-            raise KeyboardInterrupt
-        self.code = INTERRUPTED if number == signal.SIGINT else TERMINATED
-
-    def _note_end_of_stdin(self) -> None:
-        # not sys.stdin: a thread that waits in its buffer aborts the interpreter at its end
-        while os.read(0, 1):
-            pass
-        self.code = TERMINATED
-
-    def asked(self) -> bool:
-        """Whether a signal has come, or the end of standard input."""
-        return self.code != 0
-
-
 def run(
     case: CaseName,
     out: Out = None,
@@ -120,6 +79,7 @@ def run(
     backend: Backend = "cpu",
     uncertainty: Uncertainty = False,
     uncertain: Uncertain = None,
+    workers: Workers = 1,
     figures: Figures = True,
     until_stdin_closes: UntilStdinCloses = False,
 ) -> None:
@@ -132,6 +92,11 @@ def run(
     say_what_moved(loaded)
     if not_shown := what_is_not_shown(loaded):
         print(f"warning: {not_shown}", file=sys.stderr)
+    if workers > 1 and not uncertainty:
+        raise WrongCommand(
+            "--workers is for the companions of --uncertainty; one run has --threads"
+        )
+    refuse_workers(workers, backend, precision)
     inputs = _uncertain_inputs(loaded, uncertain or (), wanted=uncertainty)
     folder = out or RUNS / loaded.name
     command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
@@ -141,6 +106,7 @@ def run(
     command += ["--backend", backend] if backend != "cpu" else []
     command += ["--uncertainty"] if uncertainty else []
     command += [word for given in uncertain or () for word in ("--uncertain", given)]
+    command += ["--workers", str(workers)] if workers != 1 else []
     options = {"threads": threads, "precision": precision, "backend": backend}
     options |= {"wait": LONGEST_WAIT if until_stdin_closes else 0.0}
 
@@ -152,7 +118,8 @@ def run(
     if uncertainty:
         from lasersph.studies import assess_uncertainty
 
-        assess_uncertainty(loaded, folder, inputs=inputs, run=make, report=_say)
+        prepare = preparation(workers, threads, shlex.join(command))
+        assess_uncertainty(loaded, folder, inputs=inputs, run=make, prepare=prepare, report=_say)
     else:
         make(loaded, folder)
     _tell(folder)

@@ -19,7 +19,9 @@ from lasersph.cli.arguments import (
     read_quantities,
     refuse_backend,
 )
-from lasersph.cli.failures import WrongCommand
+from lasersph.cli.failures import StoppedBySignal, WrongCommand
+from lasersph.cli.side_by_side import Workers, preparation, refuse_workers
+from lasersph.cli.stop_signals import StopSignals
 from lasersph.cli.tables import aligned
 
 Spacings = Annotated[
@@ -43,6 +45,7 @@ Fluences = Annotated[
         "--fluence", metavar="A,B,...", help="Peak fluences, e.g. 5J/cm2,10J/cm2,20J/cm2."
     ),
 ]
+AGAIN = "the same command and --resume"
 Json = Annotated[
     Path | None, typer.Option("--json", metavar="FILE", help="Write the answer as JSON as well.")
 ]
@@ -55,6 +58,7 @@ def converge(
     settings: Settings = None,
     resume: Resume = False,
     threads: Threads = None,
+    workers: Workers = 1,
     backend: Backend = "cpu",
     json_file: Json = None,
 ) -> None:
@@ -63,13 +67,21 @@ def converge(
     from lasersph.case import load_case
 
     refuse_backend(backend, threads)
+    refuse_workers(workers, backend)
     wanted = read_quantities("--spacing", spacing, "length")
     if len(set(wanted)) < 3:
         raise WrongCommand("--spacing: an order needs three different spacings, e.g. 32nm,16nm,8nm")
     loaded = load_case(case, settings or ())
     _refuse_missing_folder(json_file)
     folder = _folder(out or Path("runs") / f"{loaded.name}-converge", resume)
-    found = studies.converge(loaded, wanted, folder, run=_runner(threads, backend), report=_report)
+    found = studies.converge(
+        loaded,
+        wanted,
+        folder,
+        run=_runner(threads, backend),
+        prepare=preparation(workers, threads, AGAIN),
+        report=_report,
+    )
     print(aligned(found.table(), header=True))
     _write(json_file, found.as_dict())
 
@@ -118,6 +130,7 @@ def spot(
     resume: Resume = False,
     quick: Quick = False,
     threads: Threads = None,
+    workers: Workers = 1,
     backend: Backend = "cpu",
     json_file: Json = None,
 ) -> None:
@@ -128,13 +141,19 @@ def spot(
     from lasersph.plots.spot_threshold import spot_threshold_figure
 
     refuse_backend(backend, threads)
+    refuse_workers(workers, backend)
     wanted = read_quantities("--fluence", fluence, "fluence")
     loaded = load_case(case, settings or (), quick=quick)
     if reason := studies.no_spot(loaded, wanted):
         raise WrongCommand(f"{loaded.name}: {reason}")
     folder = _folder(out or Path("runs") / f"{loaded.name}-spot", resume)
     found = studies.spot_threshold(
-        loaded, wanted, folder, run=_runner(threads, backend), report=_report
+        loaded,
+        wanted,
+        folder,
+        run=_runner(threads, backend),
+        prepare=preparation(workers, threads, AGAIN),
+        report=_report,
     )
     print(aligned(found.table(), header=True))
     print(found.answer())
@@ -168,9 +187,17 @@ def _refuse_missing_folder(file: Path | None) -> None:
 
 
 def _runner(threads: int | None, backend: str) -> Any:
-    from lasersph.simulation import run
+    from lasersph.simulation import Stopped, run
 
-    return lambda case, folder: run(case, folder, resume=True, threads=threads, backend=backend)
+    def make(case: Any, folder: Path) -> Any:
+        options = {"resume": True, "threads": threads, "backend": backend}
+        with StopSignals() as signals:
+            try:
+                return run(case, folder, should_stop=signals.asked, **options)
+            except Stopped as stopped:
+                raise StoppedBySignal(f"{stopped}; continue with {AGAIN}", signals.code) from None
+
+    return make
 
 
 def _report(line: str) -> None:

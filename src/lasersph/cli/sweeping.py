@@ -81,7 +81,7 @@ def sweep(
 def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
     """Make the runs with progress; a signal ends them with checkpoints and the way to go on."""
     from lasersph.cli.progress import ProgressDisplay
-    from lasersph.cli.running import StopSignals
+    from lasersph.cli.stop_signals import StopSignals
     from lasersph.sweeps import make_runs
     from lasersph.sweeps.progress import SweepProgress
 

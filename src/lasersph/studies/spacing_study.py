@@ -20,7 +20,7 @@ from typing import Any
 from lasersph.analytic.convergence import Convergence, assess
 from lasersph.input import format_quantity
 from lasersph.observers.energy_budget import NUMERICAL
-from lasersph.studies.variation import Run, changed, simulate
+from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
 NOT_ANSWERS = re.compile(
     r"(dimensions|particles|schema_version|spacing_m|spacing_requested_m|steps|threads|time_s"
@@ -90,6 +90,7 @@ def converge(
     out: Path,
     *,
     run: Run = simulate,
+    prepare: Prepare = prepare_nothing,
     report: Callable[[str], None] | None = None,
 ) -> SpacingStudy:
     """Run a case at each spacing [m] and assess its summary.
@@ -99,7 +100,8 @@ def converge(
         spacings: three or more, in any order. A run may round them: what counts is the spacing
             that its summary reports ("spacing_m"), else the one asked for.
         out: folder that receives one run folder for each spacing.
-        run: how a case is run. report: called with one line before each run.
+        run: how a case is run. prepare: makes several runs at a time before their turn.
+        report: called with one line before each run.
 
     Raises:
         ValueError: fewer than three different spacings, or two that a run rounds to the same.
@@ -110,11 +112,13 @@ def converge(
             f"an order needs three different spacings, got {len(wanted)}; give e.g. 32nm,16nm,8nm"
         )
     used, summaries = [], []
-    for number, spacing in enumerate(reversed(wanted), start=1):
+    folders = {spacing: out / f"spacing-{1e9 * spacing:.4g}nm" for spacing in reversed(wanted)}
+    cases = {spacing: changed(case, "particles.spacing", spacing) for spacing in folders}
+    prepare({folders[spacing]: each for spacing, each in cases.items()})
+    for number, (spacing, folder) in enumerate(folders.items(), start=1):
         if report:
             report(f"run {number} of {len(wanted)}: spacing {format_quantity(spacing, 'm')}")
-        folder = out / f"spacing-{1e9 * spacing:.4g}nm"
-        summary = run(changed(case, "particles.spacing", spacing), folder).summary
+        summary = run(cases[spacing], folder).summary
         used.insert(0, float(summary.get("spacing_m", spacing)))
         summaries.insert(0, summary)
     return assess_summaries(summaries, used)

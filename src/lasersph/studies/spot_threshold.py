@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.lasers import GaussianBeam
-from lasersph.studies.variation import Run, changed, simulate
+from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
 LEAST = 2
 CUBIC_MICROMETERS_PER_MICROJOULE = 1e12
@@ -118,6 +118,7 @@ def spot_threshold(
     out: Path,
     *,
     run: Run = simulate,
+    prepare: Prepare = prepare_nothing,
     report: Callable[[str], None] | None = None,
 ) -> SpotThreshold:
     """Run a case with a Gaussian spot at each peak fluence [J/m^2] and fit D^2 over ln F.
@@ -125,7 +126,8 @@ def spot_threshold(
     Args:
         case: the case; its laser.fluence is replaced. fluences: two or more, in any order.
         out: folder that receives one run folder for each fluence.
-        run: how a case is run. report: called with one line after each run.
+        run: how a case is run. prepare: makes several runs at a time before their turn.
+        report: called with one line after each run.
 
     Raises:
         ValueError: the case has no such spot, or fewer than two of the runs left a crater.
@@ -133,9 +135,13 @@ def spot_threshold(
     if reason := no_spot(case, fluences):
         raise ValueError(reason)
     craters = []
-    for number, fluence in enumerate(sorted(set(fluences)), start=1):
-        folder = out / f"{number:02d}-fluence-{fluence:.6g}"
-        summary = run(changed(case, "laser.fluence", fluence), folder).summary
+    cases = {
+        out / f"{number:02d}-fluence-{fluence:.6g}": changed(case, "laser.fluence", fluence)
+        for number, fluence in enumerate(sorted(set(fluences)), start=1)
+    }
+    prepare(cases)
+    for number, (folder, each) in enumerate(cases.items(), start=1):
+        fluence, summary = each.laser.fluence, run(each, folder).summary
         craters.append(crater_of(fluence, summary))
         if report:
             report(f"run {number}: {1e-4 * fluence:.5g} J/cm2: {craters[-1].diameter * 1e6:.4g} um")

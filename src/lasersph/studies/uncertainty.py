@@ -33,6 +33,7 @@ from typing import Any
 from lasersph.analytic.convergence import ROUNDING
 from lasersph.case import Case
 from lasersph.input import format_quantity
+from lasersph.output import open_run
 from lasersph.output.atomic import replace_json
 from lasersph.simulation.layers import expected_melt
 from lasersph.solvers.step_control import StepFailed
@@ -44,7 +45,7 @@ from lasersph.studies.companions import (
     with_fixed_layers,
 )
 from lasersph.studies.spacing_study import StudyRow, assess_summaries, numbers_of
-from lasersph.studies.variation import Run, simulate
+from lasersph.studies.variation import Prepare, Run, prepare_nothing, simulate
 
 FILE = "uncertainty.json"
 SCHEMA = 1
@@ -59,6 +60,7 @@ def assess_uncertainty(
     *,
     inputs: Sequence[Input] = (),
     run: Run = simulate,
+    prepare: Prepare = prepare_nothing,
     report: Callable[[str], None] | None = None,
 ) -> dict[str, Any]:
     """Run a case and its companions and write what they say to uncertainty.json.
@@ -66,7 +68,8 @@ def assess_uncertainty(
     Args:
         folder: run folder of the case; its companions go into `companions` inside.
         inputs: beside those whose uncertainty the material states, or in place of them.
-        run: makes a run folder exist. report: called with one line before each companion.
+        run: makes a run folder exist. prepare: makes several at a time before their turn.
+        report: called with one line before each companion.
 
     Returns:
         The content of uncertainty.json, see docs/results.md.
@@ -80,6 +83,7 @@ def assess_uncertainty(
     if isinstance(coarser, str):  # said before hours of runs, not after
         study.note(f"no numerical part: {coarser}")
     main = run(case, folder).summary
+    study.prepare(prepare, fixed, () if isinstance(coarser, str) else coarser, chosen, main)
     rows: dict[str, StudyRow] = {}
     spacings: list[float] = []
     if not isinstance(coarser, str):
@@ -130,6 +134,29 @@ class _Companions:
             self.note(f"companion {name} failed: {error}")
             return None
 
+    def prepare(
+        self,
+        prepare: Prepare,
+        case: Case,
+        coarser: Sequence[Case],
+        inputs: Sequence[Input],
+        main: dict[str, Any],
+    ) -> None:
+        """Make companions several at a time: coarser ones and those with a higher input, then those
+        with a lower one, but for inputs that change none of the numbers."""
+        cases = {self.folder / _name_of_spacing(each): each for each in coarser}
+        higher = {one: self.folder / _name_of_shift(one, 1) for one in inputs}
+        others = {folder: shifted(case, one, 1) for one, folder in higher.items()}
+        prepare(cases | {path: each for path, each in others.items() if isinstance(each, Case)})
+        numbers, lower = numbers_of(main), dict[Path, Case]()
+        for one, folder in higher.items():
+            is_made = (folder / "summary.json").exists()
+            other = shifted(case, one, -1)
+            is_same = is_made and numbers_of(open_run(folder).summary) == numbers
+            if not is_same and isinstance(other, Case):
+                lower[self.folder / _name_of_shift(one, -1)] = other
+        prepare(lower)
+
     def both_sides(
         self, case: Case, one: Input, numbers: Numbers
     ) -> tuple[Numbers | None, Numbers | None]:
@@ -142,19 +169,26 @@ class _Companions:
             if found == [numbers]:
                 self.count += 1
                 return numbers, numbers
-            share = f"{100.0 * sign * one.relative:+.4g}%"
             other = shifted(case, one, sign)
             if isinstance(other, str):
-                self.note(f"{one.key} {share}: {other}")
+                self.note(f"{one.key} {_share(one, sign)}: {other}")
                 found.append(None)
                 continue
-            summary = self.make(f"{one.key}{share}", other)
+            summary = self.make(_name_of_shift(one, sign), other)
             found.append(None if summary is None else numbers_of(summary))
         return found[0], found[1]
 
 
 def _name_of_spacing(case: Case) -> str:
     return f"spacing-{format_quantity(case.particles.spacing, 'm').replace(' ', '')}"
+
+
+def _share(one: Input, sign: int) -> str:
+    return f"{100.0 * sign * one.relative:+.4g}%"
+
+
+def _name_of_shift(one: Input, sign: int) -> str:
+    return f"{one.key}{_share(one, sign)}"
 
 
 def _oscillating_share(rows: dict[str, StudyRow]) -> float | None:

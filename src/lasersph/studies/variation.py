@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -22,6 +22,15 @@ class Finished(Protocol):
 
 Run = Callable[[Any, Path], Finished]
 """Makes the run folder of a case exist."""
+
+
+Prepare = Callable[[Mapping[Path, Any]], None]
+"""Makes run folders of cases that do not wait for each other exist, several at a time. What it
+leaves, because it fails or was not asked to, `Run` makes when its turn comes."""
+
+
+def prepare_nothing(cases: Mapping[Path, Any]) -> None:
+    """Leave all runs to their turn, one after the other."""
 
 
 def simulate(case: Any, folder: Path) -> Finished:

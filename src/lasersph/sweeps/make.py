@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from lasersph.case import Case
 from lasersph.output.atomic import replace_text
 from lasersph.sweeps.engine import Engine, Event, Task
 from lasersph.sweeps.folder import PLAN, RUNS, Study, SweepFolder
@@ -84,6 +85,21 @@ def make_runs(
         table = Table.read(path, table)
         table.write()
     return table
+
+
+def make_folders(
+    cases: Mapping[Path, Case],
+    engine: Engine,
+    report: Callable[[Event], None],
+    should_stop: Callable[[], bool],
+) -> None:
+    """Make run folders anywhere exist, without a table: those of studies, by the names they give.
+
+    A run that fails stops no other. Arguments as those of `make_runs`.
+    """
+    waiting = {path: case for path, case in cases.items() if not (path / "summary.json").exists()}
+    tasks = [Task(path.name, case, path) for path, case in waiting.items()]
+    engine.make(tasks, report, should_stop)
 
 
 def sweep(

@@ -114,6 +114,11 @@ def test_new_then_check(capsys):
         (["converge", "stefan", "--spacing", "1um,2um,3"], '"3" has no unit'),
         (["converge", "stefan", "--spacing", "1um,2um,-3um"], "must be greater than 0"),
         (["converge", "stefan", "--spacing", "1um,2um,4um", "--json", "no/a.json"], "no folder no"),
+        (["run", "stefan", "--workers", "2"], "--workers is for the companions of --uncertainty"),
+        (
+            ["run", "stefan", "--uncertainty", "--workers", "2", "--precision", "float32"],
+            "--workers is for --backend cpu in float64",
+        ),
         (["threshold", "dlip-steel", "--of", "melt", "--json", "no/a.json"], "no folder no"),
         (["threshold", "stefan", "--of", "melt"], "stefan has no laser"),
         (["threshold", "dlip-steel", "--of", "boil"], "boil"),

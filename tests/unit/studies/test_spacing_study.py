@@ -122,3 +122,19 @@ def test_changed_case_is_checked_again():
         changed(case, "particles.rows", "many")
     with pytest.raises(KeyError, match="no key 'widths'"):
         changed(case, "particles.widths", 1)
+
+
+def test_runs_are_prepared_together(tmp_path):
+    """All of them before the first has its turn."""
+    prepared, made = [], []
+
+    def remember(case, folder):
+        made.append(folder)
+        return run(case, folder)
+
+    def prepare(cases):
+        assert not made
+        prepared.append({folder: case.particles.spacing for folder, case in cases.items()})
+
+    converge(CASE, [4e-9, 16e-9, 8e-9], tmp_path, run=remember, prepare=prepare)
+    assert prepared == [dict(zip(made, (16e-9, 8e-9, 4e-9), strict=True))]

@@ -73,6 +73,28 @@ def test_bent_number_counts_its_larger_change(tmp_path):
     assert (part["standard"], part["is_linear"]) == (0.0, True)
 
 
+def test_companions_are_prepared_in_two_rounds(tmp_path):
+    """Coarser ones and higher inputs; then lower ones, but where higher changed nothing."""
+    rounds = []
+
+    def run(case, folder):
+        found = formula(case, folder)
+        (folder / "resolved.json").write_text("{}")
+        (folder / "summary.json").write_text(json.dumps(found.summary))
+        return found
+
+    def prepare(cases):
+        rounds.append([folder.name for folder in cases])
+        for folder, case in cases.items():
+            run(case, folder)
+
+    inputs = [*INPUTS, Input("initial_temperature", 0.01, "z")]
+    assess_uncertainty(heating(), tmp_path, inputs=inputs, run=run, prepare=prepare)
+    higher = ["laser.fluence+4%", "material.conductivity+5%", "initial_temperature+1%"]
+    assert rounds[0] == ["spacing-4um", "spacing-8um", *higher]
+    assert rounds[1:] == [["laser.fluence-4%", "material.conductivity-5%"]]
+
+
 def test_side_that_the_case_refuses_is_left_out(tmp_path):
     """A reflectivity of 0.99 cannot be 5 % higher: one run, said in the notes."""
     case = heating("laser.reflectivity=0.99")
