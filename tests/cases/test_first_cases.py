@@ -51,8 +51,8 @@ OWN_TABLE_AND_WORDS_OF_OTHER_PROGRAMS_SAYS = """\
 """
 
 NO_SUCH_METAL_WRONG_KINDS = """\
-title = "bronze"
-material = "bronze"
+title = "zinc"
+material = "zinc"
 temperature = "300 K"
 
 [laser]
@@ -74,7 +74,7 @@ end = "50 ns"
 """
 NO_SUCH_METAL_WRONG_KINDS_SAYS = """\
 : particles: missing; write [particles] with spacing = "100 nm"
-:2: material: no material "bronze"; known: KNOWN; or describe it in the case: write [material] with density, heat_capacity and conductivity
+:2: material: no material "zinc"; known: KNOWN; or describe it in the case: write [material] with density, heat_capacity and conductivity
 :3: temperature: unknown key; do you mean "initial_temperature"?
 :5: laser.absorption: missing; write absorption = { kind = "surface" }
 :5: laser: fluence of a gaussian beam may be its mean or its peak (twice the mean); write fluence_kind = "peak" or "mean"
@@ -146,7 +146,7 @@ TABLES_AT_THE_TOP = """\
 title = "copper spot"
 
 [material]
-base = "bronze"
+base = "zinc"
 
 [beam]
 kind = "gaussian"
@@ -171,7 +171,7 @@ end = "100"
 TABLES_AT_THE_TOP_SAYS = """\
 : laser.absorption: missing; write absorption = { kind = "surface" }
 : laser: a laser needs one statement of its energy, got none; write e.g. pulse_energy = "10 uJ" (one of fluence, intensity, pulse_energy, power)
-:3: material: no material "bronze"; known: KNOWN; or describe it in the case: write [material] with density, heat_capacity and conductivity
+:3: material: no material "zinc"; known: KNOWN; or describe it in the case: write [material] with density, heat_capacity and conductivity
 :6: beam: unknown key; do you mean "laser.beam"?
 :10: pulse: unknown key; do you mean "laser.pulse"?
 :14: domain.width: missing for 3-D; write e.g. width = "5 um"

@@ -16,6 +16,8 @@ from lasersph.materials.material import Material
 
 LIBRARY = Path(__file__).parent / "library"
 FOLDER_VARIABLE = "LASERSPH_MATERIALS"
+NEAR_NAME = 0.7
+"""Likeness (difflib) of names taken for misspelt: steel and steel-304, not tin and iron."""
 
 
 KNOWN = (
@@ -54,7 +56,7 @@ def material_file(name_or_path: str | os.PathLike[str]) -> Path:
     known = available_materials()
     if text in known:
         return known[text]
-    near = difflib.get_close_matches(text, known, n=1, cutoff=0.5)
+    near = difflib.get_close_matches(text, known, n=1, cutoff=NEAR_NAME)
     hint = f'do you mean "{near[0]}"?' if near else KNOWN.format(", ".join(known))
     raise CaseError(f'no material "{text}"', hint, key="material")
 
