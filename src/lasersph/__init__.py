@@ -17,16 +17,27 @@ if TYPE_CHECKING:
     from lasersph.input import CaseError
     from lasersph.output import open_run
     from lasersph.simulation import run
+    from lasersph.studies import process_map
     from lasersph.sweeps import sweep
 
 __version__ = "0.1.0"
-__all__ = ["Case", "CaseError", "__version__", "load_case", "open_run", "run", "sweep"]
+__all__ = [
+    "Case",
+    "CaseError",
+    "__version__",
+    "load_case",
+    "open_run",
+    "process_map",
+    "run",
+    "sweep",
+]
 
 _ROOMS = {
     "Case": "lasersph.case",
     "CaseError": "lasersph.input",
     "load_case": "lasersph.case",
     "open_run": "lasersph.output",
+    "process_map": "lasersph.studies",
     "run": "lasersph.simulation",
     "sweep": "lasersph.sweeps",
 }

@@ -14,9 +14,10 @@ def test_names_come_from_their_rooms():
     from lasersph.input import CaseError
     from lasersph.output import open_run
     from lasersph.simulation import run
+    from lasersph.studies import process_map
     from lasersph.sweeps import sweep
 
-    assert lasersph.sweep is sweep
+    assert (lasersph.sweep, lasersph.process_map) == (sweep, process_map)
     assert (lasersph.Case, lasersph.load_case) == (Case, load_case)
     assert (lasersph.open_run, lasersph.run) == (open_run, run)
     assert lasersph.CaseError is CaseError

@@ -63,6 +63,16 @@ VERBS = {
             "Ablate with a Gaussian spot at several fluences: threshold from D^2 over ln F, "
             "efficiency.",
         ),
+        "map": (
+            "maps.draw_map",
+            "Draw a number of a sweep over its keys, with the lines of melting, boiling and "
+            "ablation.",
+        ),
+        "sensitivity": (
+            "maps.sensitivity",
+            "Tell how much each key of a sweep changes a number: Sobol indices, or effects of "
+            "Morris.",
+        ),
         "validate": (
             "validating.validate",
             "Compute published cases; print published, reference and computed numbers with "

@@ -45,6 +45,8 @@ UNITS = {
     "m^3": (Unit(1e18, "µm$^3$"), Unit(1e9, "mm$^3$"), Unit(1.0, "m$^3$")),
     "Pa": (Unit(1.0, "Pa"), Unit(1e-3, "kPa"), Unit(1e-6, "MPa"), Unit(1e-9, "GPa")),
     "K/m": (Unit(1e-6, "K/µm"),),
+    "J/m^2": (Unit(1e-4, "J/cm$^2$"),),
+    "W/m^2": (Unit(1e-4, "W/cm$^2$"),),
     "": (Unit(1.0, "1"),),
 }
 """Units in which axes show quantities, the smallest first; others are shown as they are."""

@@ -4,12 +4,16 @@ uncertainty          how sure the numbers of one run are: discretization, uncert
 spacing_study        what the numbers of a case tend to as the particles get finer, and how surely
 fluence_threshold    the fluence at which melting, boiling or ablation begins
 emulator             a Gaussian process through some runs: a number at keys that none of them has
+sensitivity          which keys of a sweep a number depends on: Sobol indices, Morris screening
+maps                 a number of a sweep over its keys, and where metal melts, boils or is ablated
 spot_threshold       the same of a Gaussian spot from its craters, and how much they remove
 """
 
 from lasersph.studies.companions import Input, inputs_of, read_input
 from lasersph.studies.emulator import Box, Emulator, box_of, fit_emulator
 from lasersph.studies.fluence_threshold import Threshold, Trial, show_energy, threshold
+from lasersph.studies.maps import process_map
+from lasersph.studies.sensitivity import Sensitivity, assess_sensitivity
 from lasersph.studies.spacing_study import SpacingStudy, StudyRow, converge
 from lasersph.studies.spot_threshold import SpotCrater, SpotThreshold, no_spot, spot_threshold
 from lasersph.studies.uncertainty import assess_uncertainty
@@ -19,12 +23,14 @@ __all__ = [
     "Box",
     "Emulator",
     "Input",
+    "Sensitivity",
     "SpacingStudy",
     "SpotCrater",
     "SpotThreshold",
     "StudyRow",
     "Threshold",
     "Trial",
+    "assess_sensitivity",
     "assess_uncertainty",
     "box_of",
     "changed",
@@ -32,6 +38,7 @@ __all__ = [
     "fit_emulator",
     "inputs_of",
     "no_spot",
+    "process_map",
     "read_input",
     "show_energy",
     "spot_threshold",

@@ -7,8 +7,9 @@ logarithmically where asked [Rasmussen2006, eqs. 2.22-2.24, 4.17]:
     r^2 = 5 sum of (x_k - x'_k)^2 / l_k^2
 
 s is the standard deviation of the runs; v, the lengths l_k and the noise maximize the likelihood of
-the runs, by scikit-learn. Neighboring runs differ by whole cells as well as by their keys: the
-noise is never smaller than that numerical standard deviation.
+the runs, by scikit-learn. This covariance, of functions that bend but have no kinks, is surer of
+itself than it should be less often than the smooth exp(-r^2/2). Neighboring runs differ by whole
+cells as well as by their keys: the noise is never smaller than that numerical standard deviation.
 
 [Rasmussen2006] Rasmussen, Williams, Gaussian Processes for Machine Learning, MIT Press (2006).
 """
@@ -16,21 +17,19 @@ noise is never smaller than that numerical standard deviation.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import cho_solve, solve_triangular
 from scipy.spatial import Delaunay
+from scipy.spatial.distance import cdist
 
 from lasersph.output import OutputError
 from lasersph.output.reader import install_hint
-
-if TYPE_CHECKING:
-    from sklearn.gaussian_process.kernels import Kernel
 
 Array = NDArray[np.float64]
 VARIANCES = (1e-2, 1e3)
@@ -43,7 +42,7 @@ LEAST_NOISE = 1e-5
 """Standard deviation of the noise over that of the runs that keeps the matrix definite."""
 RESTARTS = 3
 """Starts of the maximization beside the first; more change no emulator of the tests."""
-FEATURES = 1024
+FEATURES = 512
 """Waves of a drawn function; its covariance errs by about their number to the power -1/2."""
 MOST_HULL_KEYS = 4
 """Keys up to which the hull of the runs is triangulated; its simplices grow as n^(keys/2)."""
@@ -83,14 +82,14 @@ class Box:
         return bent
 
 
-def box_of(low: ArrayLike, high: ArrayLike, logarithmic: Sequence[bool] | None = None) -> Box:
+def box_of(low: ArrayLike, high: ArrayLike, logarithmic: ArrayLike | None = None) -> Box:
     """The box between two corners (keys,) in SI.
 
     Raises:
         ValueError: a range is empty, or a logarithmic one reaches zero.
     """
     low, high = np.atleast_1d(np.asarray(low, float)), np.atleast_1d(np.asarray(high, float))
-    bent = np.zeros(low.size, bool) if logarithmic is None else np.array(logarithmic, bool)
+    bent = np.zeros(low.size, bool) if logarithmic is None else np.asarray(logarithmic, bool)
     if not low.shape == high.shape == bent.shape:
         raise ValueError("low, high and logarithmic need one entry for each key")
     if not np.all(high > low):
@@ -136,8 +135,8 @@ def fit_emulator(
     box = box or box_of(x.min(axis=0), x.max(axis=0))
     scaled, offset = box.scaled(x), float(np.mean(y))
     floor = np.maximum(np.broadcast_to(np.asarray(noise, float), y.shape) / scale, LEAST_NOISE) ** 2
-    kernel, fitted = _likeliest_kernel(scaled, (y - offset) / scale, floor, seed)
-    return Emulator(box, scaled, y, offset, scale, floor + fitted, kernel)
+    fit = _likeliest(scaled, (y - offset) / scale, floor, seed)
+    return Emulator(box, scaled, y, offset, scale, floor, *fit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +146,9 @@ class Emulator:
     Attributes:
         box: ranges of the keys. inputs: scaled keys of the runs (n, keys). outputs: (n,).
         offset, scale: mean and standard deviation of the outputs.
-        noise: variance of the noise of each run over scale^2 (n,). kernel: cov of g.
+        floor, noise: variance of the noise of each run over scale^2, as given and as fitted (n,).
+        variance: v. lengths: l_k (keys,), over how much of its range a key must change to change
+            the number.
     """
 
     box: Box
@@ -155,13 +156,20 @@ class Emulator:
     outputs: Array
     offset: float
     scale: float
+    floor: Array
     noise: Array
-    kernel: Kernel
+    variance: float
+    lengths: Array
 
     @cached_property
     def _factor(self) -> Array:
         """Lower Cholesky factor of the covariance of the runs, over scale^2."""
-        return np.linalg.cholesky(self.kernel(self.inputs) + np.diag(self.noise))
+        return np.linalg.cholesky(self._covariance(self.inputs) + np.diag(self.noise))
+
+    def _covariance(self, x: Array) -> Array:
+        """cov[g] of scaled points (m, keys) with the runs, (m, n)."""
+        r = np.sqrt(5.0) * cdist(x / self.lengths, self.inputs / self.lengths)
+        return np.asarray(self.variance * (1.0 + r + r**2 / 3.0) * np.exp(-r), dtype=np.float64)
 
     @cached_property
     def _weights(self) -> Array:
@@ -174,9 +182,9 @@ class Emulator:
         [Rasmussen2006, eqs. 2.25, 2.26].
         """
         x = self.box.scaled(points)
-        across = self.kernel(x, self.inputs)
+        across = self._covariance(x)
         explained = solve_triangular(self._factor, across.T, lower=True)
-        variance = self.kernel.diag(x) - np.sum(explained**2, axis=0)
+        variance = self.variance - np.sum(explained**2, axis=0)
         mean = self.offset + self.scale * (across @ self._weights)
         return mean, self.scale * np.sqrt(np.maximum(variance, 0.0))
 
@@ -193,6 +201,21 @@ class Emulator:
         """Share of the outputs' variance that the other runs predict: 1 less the mean square of the
         leave-one-out errors over the variance; 1 is perfect, 0 no better than the mean."""
         return 1.0 - float(np.mean(self.leave_one_out()[0] ** 2)) / self.scale**2
+
+    def without(self, left_out: NDArray[np.bool_]) -> Emulator:
+        """The emulator of the other runs: its covariance fitted anew from the present one.
+
+        Raises:
+            ValueError: fewer runs than keys + 2 are left.
+        """
+        x, y, floor = self.inputs[~left_out], self.outputs[~left_out], self.floor[~left_out]
+        if y.size < x.shape[1] + 2:
+            raise ValueError(f"{y.size} runs over {x.shape[1]} keys are too few")
+        scaled = (y - self.offset) / self.scale
+        noise, variance, lengths = _likeliest(x, scaled, floor, 1, (self.variance, self.lengths))
+        return replace(
+            self, inputs=x, outputs=y, floor=floor, noise=noise, variance=variance, lengths=lengths
+        )
 
     def is_inside(self, points: ArrayLike) -> NDArray[np.bool_]:
         """Whether points (m, keys) in SI lie in the convex hull of the runs, to rounding; with more
@@ -220,10 +243,9 @@ class Emulator:
         ICML (2020), arXiv:2002.09309.
         """
         rng = np.random.default_rng(seed)
-        variance, lengths = self._parameters
         stretch = np.sqrt(5.0 / rng.chisquare(5.0, (FEATURES, 1)))
-        waves = stretch * rng.standard_normal((FEATURES, lengths.size)) / lengths
-        weights = rng.standard_normal((2 * FEATURES, count)) * np.sqrt(variance / FEATURES)
+        waves = stretch * rng.standard_normal((FEATURES, self.lengths.size)) / self.lengths
+        weights = rng.standard_normal((2 * FEATURES, count)) * np.sqrt(self.variance / FEATURES)
 
         def prior(scaled: Array) -> Array:
             phase = scaled @ waves.T
@@ -235,40 +257,36 @@ class Emulator:
 
         def functions(points: ArrayLike) -> Array:
             x = self.box.scaled(points)
-            values = prior(x) + self.kernel(x, self.inputs) @ moves
+            values = prior(x) + self._covariance(x) @ moves
             return self.offset + self.scale * values.T
 
         return functions
 
-    @property
-    def _parameters(self) -> tuple[float, Array]:
-        """v and the lengths l_k (keys,)."""
-        values = self.kernel.get_params()
-        lengths = np.broadcast_to(values["k2__length_scale"], self.inputs.shape[1])
-        return float(values["k1__constant_value"]), lengths
 
-    @property
-    def lengths(self) -> Array:
-        """l_k (keys,): over how much of its range a key must change to change the number."""
-        return np.array(self._parameters[1])
+def _likeliest(
+    x: Array, y: Array, floor: Array, seed: int, start: tuple[float, Array] | None = None
+) -> tuple[Array, float, Array]:
+    """Variance of the noise (n,) above its floor (n,), v and l_k, all of largest likelihood.
 
-
-def _likeliest_kernel(x: Array, y: Array, floor: Array, seed: int) -> tuple[Kernel, float]:
-    """Kernel of g and variance of the noise beside its floor (n,), both of largest likelihood."""
+    With v and l_k to `start` from, only the nearest maximum is looked for.
+    """
     try:
         from sklearn.exceptions import ConvergenceWarning
         from sklearn.gaussian_process import GaussianProcessRegressor
         from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
     except ImportError as error:
         raise OutputError(install_hint("scikit-learn", "study")) from error
-    smooth = ConstantKernel(1.0, VARIANCES) * Matern(np.full(x.shape[1], 0.5), LENGTHS, nu=2.5)
-    process = GaussianProcessRegressor(
-        smooth + WhiteKernel(1e-4, NOISES),
-        alpha=floor,
-        n_restarts_optimizer=RESTARTS,
+    variance, lengths = start or (1.0, np.full(x.shape[1], 0.5))
+    untyped: dict[str, Any] = {"length_scale": lengths, "alpha": floor}  # scikit-learn says floats
+    smooth = Matern(untyped["length_scale"], LENGTHS, nu=2.5)
+    process: Any = GaussianProcessRegressor(
+        ConstantKernel(variance, VARIANCES) * smooth + WhiteKernel(1e-4, NOISES),
+        alpha=untyped["alpha"],
+        n_restarts_optimizer=RESTARTS if start is None else 0,
         random_state=seed,
     )
     with warnings.catch_warnings():  # parameters may end at their bounds
         warnings.simplefilter("ignore", ConvergenceWarning)
         process.fit(x, y)
-    return process.kernel_.k1, float(process.kernel_.k2.noise_level)
+    variance, *lengths, noise = np.exp(process.kernel_.theta)
+    return floor + noise, float(variance), np.array(lengths)

@@ -8,6 +8,7 @@
     "laser.pulse.fwhm" = ["5 ns", "10 ns"]
     [sampling]
     kind = "grid"                        # grid, zip, sobol, latin-hypercube (runs, seed)
+                                         # or morris (trajectories, seed)
     [table]
     columns = ["melt.depth_max_m"]
 
@@ -35,10 +36,12 @@ from lasersph.input.model import did_you_mean
 from lasersph.input.schema import as_toml
 from lasersph.sweeps.folder import Study
 from lasersph.sweeps.points import CaseTemplate, Point, Value, as_override
-from lasersph.sweeps.sampling import Choices, Range, grid, latin_hypercube, sobol, together
+from lasersph.sweeps.sampling import Choices, Range, grid, latin_hypercube, morris, sobol, together
 
 LIBRARY = Path(__file__).parent / "plans"
 RANGE_KEYS = ("from", "to", "count", "scale")
+NUMBERS = {"sobol": "runs", "latin-hypercube": "runs", "morris": "trajectories"}
+"""Key of [sampling] that says how many points a kind of sampling has."""
 MOST_RUNS = 10_000
 """Of one plan: listing and checking them takes half a minute."""
 KeyPath = tuple[str | int, ...]
@@ -47,9 +50,15 @@ KeyPath = tuple[str | int, ...]
 class Sampling(Model):
     """How the points lie."""
 
-    kind: Literal["grid", "zip", "sobol", "latin-hypercube"] = "grid"
+    kind: Literal["grid", "zip", "sobol", "latin-hypercube", "morris"] = "grid"
     runs: Count | None = Field(default=None, description="of sobol and latin-hypercube")
-    seed: int = Field(default=0, ge=0, strict=True, description="of sobol and latin-hypercube")
+    trajectories: Count | None = Field(default=None, description="of morris, keys + 1 runs each")
+    seed: int = Field(default=0, ge=0, strict=True, description="of all that is random")
+
+    @property
+    def is_random(self) -> bool:
+        """Whether the points are drawn from ranges."""
+        return self.kind not in ("grid", "zip")
 
 
 class TableChoice(Model):
@@ -104,6 +113,8 @@ class SweepPlan:
             found = grid(self.choices)
         elif kind == "zip":
             found = together(self.choices)
+        elif kind == "morris":
+            found = morris(self.choices, self.sampling.trajectories or 0, seed)
         else:
             found = (sobol if kind == "sobol" else latin_hypercube)(self.choices, runs, seed)
         return [self.template.point(values) for values in found]
@@ -193,7 +204,7 @@ def _plan(document: Document, folder: Path) -> SweepPlan:
             problems.add(path, key, f"given twice, in line {line} as well", "remove one")
         seen[place] = path
     for key, path, raw in varied:
-        for problem, hint, where in _mistakes(raw, plan.sampling.kind):
+        for problem, hint, where in _mistakes(raw, plan.sampling):
             problems.add((*path, *where), key, problem, hint)
     problems.extend(_sampling_mistakes(plan.sampling, varied))
     problems.raise_any()
@@ -247,13 +258,13 @@ def _by_key(table: Mapping[str, Any], path: KeyPath) -> list[tuple[str, KeyPath,
     return found
 
 
-def _mistakes(raw: Any, sampling: str) -> Iterator[tuple[str, str, KeyPath]]:
+def _mistakes(raw: Any, sampling: Sampling) -> Iterator[tuple[str, str, KeyPath]]:
     """What is wrong with a list or range before the case sees it: problem, hint, path below."""
-    is_random = sampling in ("sobol", "latin-hypercube")
+    is_random, kind = sampling.is_random, sampling.kind
     example = '{ from = "0.3 J/cm^2", to = "1 J/cm^2"' + (" }" if is_random else ", count = 8 }")
     if isinstance(raw, list):
         if is_random:
-            yield f"{sampling} samples a range, not a list", f"write e.g. {example}", ()
+            yield f"{kind} samples a range, not a list", f"write e.g. {example}", ()
         elif not raw:
             yield "an empty list", "write at least one value", ()
         for number, value in enumerate(raw):
@@ -274,7 +285,8 @@ def _mistakes(raw: Any, sampling: str) -> Iterator[tuple[str, str, KeyPath]]:
         if isinstance(raw.get(name), bool | list | dict):
             yield f'"{name}" must be a number or text with a unit', f"write e.g. {example}", (name,)
     if "count" in raw and is_random:
-        yield f"count is for grid and zip; of {sampling} the number is runs in [sampling]", "", ()
+        number = NUMBERS[kind]
+        yield f"count is for grid and zip; of {kind} the number is {number} in [sampling]", "", ()
     elif "count" in raw and not (type(raw["count"]) is int and raw["count"] >= 2):
         yield "count must be a whole number of at least 2", "", ("count",)
     if raw.get("scale", "linear") not in ("linear", "log"):
@@ -284,17 +296,16 @@ def _mistakes(raw: Any, sampling: str) -> Iterator[tuple[str, str, KeyPath]]:
 def _sampling_mistakes(
     sampling: Sampling, varied: list[tuple[str, KeyPath, Any]]
 ) -> Iterator[tuple[KeyPath, str, str]]:
-    is_random = sampling.kind in ("sobol", "latin-hypercube")
-    if is_random and sampling.runs is None:
-        yield ("sampling",), f"{sampling.kind} misses runs", "write e.g. runs = 32"
-    if not is_random and sampling.runs is not None:
-        yield (
-            ("sampling", "runs"),
-            f"runs is for sobol and latin-hypercube, not {sampling.kind}",
-            "",
-        )
-    if (sampling.runs or 0) > MOST_RUNS:
-        yield ("sampling", "runs"), f"more than {MOST_RUNS} runs", "write fewer"
+    wanted = NUMBERS.get(sampling.kind)
+    if wanted and getattr(sampling, wanted) is None:
+        yield ("sampling",), f"{sampling.kind} misses {wanted}", f"write e.g. {wanted} = 32"
+    for name in ("runs", "trajectories"):
+        if name != wanted and getattr(sampling, name) is not None:
+            kinds = " and ".join(kind for kind, number in NUMBERS.items() if number == name)
+            yield ("sampling", name), f"{name} is for {kinds}, not {sampling.kind}", ""
+    runs = (sampling.trajectories or 0) * (len(varied) + 1) or sampling.runs or 0
+    if wanted and runs > MOST_RUNS:
+        yield ("sampling", wanted), f"more than {MOST_RUNS} runs", "write fewer"
     counts = [
         len(raw) if isinstance(raw, list) else raw.get("count", 1)
         for _, _, raw in varied

@@ -1,4 +1,5 @@
-"""Where the points of a sweep lie: grids, lists side by side, Sobol sequences, Latin hypercubes.
+"""Where the points of a sweep lie: grids, lists side by side, Sobol sequences, Latin hypercubes,
+walks for screening.
 
 Values of ranges are rounded to 12 digits, so that a finer grid meets the points of a coarser one.
 """
@@ -85,6 +86,26 @@ def latin_hypercube(choices: Choices, runs: int, seed: int) -> list[dict[str, Va
 
     points = qmc.LatinHypercube(len(choices), seed=_generator(seed))  # pyright: ignore[reportCallIssue]
     return _in_box(choices, points.random(runs))
+
+
+def morris(choices: Choices, trajectories: int, seed: int) -> list[dict[str, Value]]:
+    """Walks through the box of the ranges, keys + 1 points each, for screening.
+
+    Each starts at random levels, 0, 1/3, 2/3 or 1 of every range, and moves one key after the
+    other, in random order, by 2/3 [Morris1991, section 3]. More trajectories keep the first ones.
+
+    [Morris1991] Morris, Technometrics 33, 161 (1991).
+    """
+    import numpy as np
+
+    rng, keys = _generator(seed), len(choices)
+    walks = np.empty((trajectories, keys + 1, keys))
+    for walk in walks:
+        low, is_high = rng.integers(2, size=keys) / 3.0, rng.random(keys) < 0.5
+        walk[:] = np.where(is_high, low + 2.0 / 3.0, low)
+        for place, key in enumerate(rng.permutation(keys), start=1):
+            walk[place:, key] = low[key] if is_high[key] else low[key] + 2.0 / 3.0
+    return _in_box(choices, walks.reshape(-1, keys))
 
 
 def _generator(seed: int) -> np.random.Generator:

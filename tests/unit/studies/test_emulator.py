@@ -1,6 +1,7 @@
 """Gaussian processes through some runs: known functions, errors, stairs, refusals."""
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,6 @@ from scipy.stats import qmc
 
 from lasersph.output import OutputError
 from lasersph.studies import box_of, fit_emulator
-from lasersph.studies.emulator import Emulator
 
 FLUENCES, DURATIONS = (3e3, 1.2e4), (1e-9, 50e-9)
 BOX = box_of((FLUENCES[0], DURATIONS[0]), (FLUENCES[1], DURATIONS[1]), (False, True))
@@ -62,19 +62,24 @@ def test_leave_one_out_is_what_a_fit_without_the_run_says():
     errors, deviations = found.leave_one_out()
     for k in range(8):
         others = np.arange(8) != k
-        reduced = Emulator(
-            BOX,
-            found.inputs[others],
-            y[others],
-            found.offset,
-            found.scale,
-            found.noise[others],
-            found.kernel,
-        )
+        kept = {"inputs": found.inputs[others], "outputs": y[others], "noise": found.noise[others]}
+        reduced = replace(found, **kept)
         mean, deviation = reduced.predict(x[k])
         assert_allclose(errors[k], y[k] - mean[0], rtol=1e-6)
         noisy = np.hypot(deviation[0], found.scale * np.sqrt(found.noise[k]))
         assert_allclose(deviations[k], noisy, rtol=1e-6)
+
+
+def test_without_some_runs():
+    """The other runs' own emulator; those left out are predicted as well as any."""
+    x, y = runs(16), depth(runs(16))
+    left_out = np.arange(16) % 4 == 0
+    found = fit_emulator(x, y, box=BOX).without(left_out)
+    assert found.outputs.size == 12
+    mean, deviation = found.predict(x[left_out])
+    assert np.all(np.abs(mean - y[left_out]) < 3.0 * deviation)
+    with pytest.raises(ValueError, match="too few"):
+        found.without(np.arange(12) > 2)
 
 
 def test_stairs_are_smoothed():

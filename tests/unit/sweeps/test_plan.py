@@ -76,6 +76,20 @@ def test_sobol_goes_on():
     assert all(5e-9 <= s["laser.pulse.fwhm"] <= 20e-9 for s in eight)
 
 
+def test_morris():
+    """Walks of one run more than there are keys, one key at a time; the log of a key by thirds."""
+    ranges = {
+        "laser.fluence": {"from": "0.4 J/cm^2", "to": "0.7 J/cm^2"},
+        "laser.pulse.fwhm": {"from": "1 ns", "to": "8 ns", "scale": "log"},
+    }
+    plan = build_plan("dlip-steel", ranges, sampling={"kind": "morris", "trajectories": 4})
+    found = [list(point.settings.values()) for point in plan.points()]
+    assert len(found) == 12
+    for first, second in zip(found[::3], found[1::3], strict=True):
+        assert sum(a != b for a, b in zip(first, second, strict=True)) == 1
+    assert {one[1] for one in found} <= {1e-9, 2e-9, 4e-9, 8e-9}
+
+
 def test_latin_hypercube():
     """Each eighth of a range is met once; a note says that it cannot be extended."""
     plan = build_plan("dlip-steel", BOX, sampling={"kind": "latin-hypercube", "runs": 8})
@@ -152,6 +166,10 @@ WRONG = {
     ),
     "sobol without runs": ('[sampling]\nkind = "sobol"\n', ":8: sampling: sobol misses runs"),
     "runs of a grid": ("[sampling]\nruns = 8\n", ":9: sampling.runs: runs is for sobol"),
+    "runs of morris": (
+        '[sampling]\nkind = "morris"\nruns = 8\n',
+        ":8: sampling: morris misses trajectories",
+    ),
     "kind of sampling": ('[sampling]\nkind = "random"\n', ':9: sampling.kind: must be "grid"'),
     "table": ("[tabel]\n", ":8: tabel: unknown key"),
     "too many": (

@@ -1,0 +1,212 @@
+"""Process map: a number of many runs over one or two keys of their case, and where metal melts,
+boils or is ablated."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.input import format_quantity
+from lasersph.observers.observer_list import RESULTS
+from lasersph.plots import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+LINE_LOOKS = {
+    "melts": (style.COLORS[5], "-"),
+    "boils": (style.COLORS[1], "--"),
+    "ablates": (style.COLORS[3], "-."),
+}
+"""Colors and dashes of the outlines that are clear on dark blue and on yellow."""
+TARGET_COLOR = "white"
+LEVELS = 9
+"""About as many steps of color as a reader can tell apart."""
+
+
+@dataclass(frozen=True)
+class MapAxis:
+    """One key: its name, SI unit, places of the field (m,), whether it counts logarithmically."""
+
+    key: str
+    unit: str
+    grid: Array
+    is_logarithmic: bool
+
+    @property
+    def words(self) -> str:
+        """The key as an axis shows it: laser pulse fwhm."""
+        return self.key.replace(".", " ").replace("_", " ")
+
+
+@dataclass(frozen=True, eq=False)
+class ProcessMap:
+    """What a process map shows, in SI.
+
+    Attributes:
+        axes: one or two keys.
+        column: key of the number. unit: its unit.
+        points: keys of each run (runs, axes). values: the number, NaN without one (runs,).
+        names, status: of each run.
+        field: the number over the first axis (m,), or over both (second, first); NaN where no run
+            tells it. deviation: its standard deviation, of an emulator; None without one.
+        allowed: deviations above this are hatched.
+        lines: where a region ends ("melts", "boils", "ablates") or a wanted value is reached
+            ("target"): lines (k, 2), or points (k, 1) over one axis.
+        target: the wanted value.
+        notes: what a reader should know, in sentences.
+    """
+
+    axes: tuple[MapAxis, ...]
+    column: str
+    unit: str
+    points: Array
+    values: Array
+    names: tuple[str, ...]
+    status: tuple[str, ...]
+    field: Array
+    lines: Mapping[str, tuple[Array, ...]]
+    deviation: Array | None = None
+    allowed: float = float("inf")
+    target: float | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def words(self) -> str:
+        """The number in words, as tables of a run say it; its key where no table does."""
+        known = RESULTS.get(self.column)
+        return known.words if known else self.column
+
+    @property
+    def is_usable(self) -> NDArray[np.bool_]:
+        """Which runs have the number (runs,)."""
+        return np.isfinite(self.values)
+
+    def line_words(self, name: str) -> str:
+        """What a line is, for legends."""
+        if name == "target" and self.target is not None:
+            return format_quantity(self.target, self.unit, typographic=True)
+        return {"melts": "melting", "boils": "boiling", "ablates": "ablation"}[name]
+
+
+def draw_process_map(shown: ProcessMap, levels: tuple[float, ...] = ()) -> Figure:
+    """The figure of a map: a line with its band over one key, contours over two.
+
+    Args:
+        levels: of the contours, in SI; default: round ones.
+    """
+    figure, (axes,) = style.new_figure(height=4.2)
+    units = [style.fitting_unit(axis.unit, float(np.max(axis.grid))) for axis in shown.axes]
+    value_unit = style.fitting_unit(shown.unit, float(np.nanmax(np.abs(shown.values))))
+    (_draw_line if len(shown.axes) == 1 else _draw_plane)(axes, shown, units, value_unit, levels)
+    bad = ~shown.is_usable
+    if np.any(bad):
+        places = [points * u.factor for points, u in zip(shown.points[bad].T, units, strict=True)]
+        if len(places) == 1:  # below the curve, where no value is
+            places.append(np.full(len(places[0]), 0.02))
+        axes.plot(
+            *places,
+            "x",
+            color=style.COLORS[1],
+            markersize=8,
+            markeredgewidth=2,
+            label="no result",
+            transform=axes.get_xaxis_transform() if len(shown.axes) == 1 else axes.transData,
+            clip_on=False,
+            zorder=5,
+        )
+    for axis, set_scale in zip(shown.axes, (axes.set_xscale, axes.set_yscale), strict=False):
+        if axis.is_logarithmic:
+            set_scale("log")
+    names = [f"{axis.words} [{u.name}]" for axis, u in zip(shown.axes, units, strict=True)]
+    value_name = f"{shown.words} [{value_unit.name}]"
+    style.label(axes, names[0], names[1] if len(names) == 2 else value_name)
+    _plain_ticks(axes)
+    style.legend_above(figure, axes, columns=5)
+    return figure
+
+
+def _draw_line(
+    axes: Axes, shown: ProcessMap, units: list[style.Unit], unit: style.Unit, levels: object
+) -> None:
+    x, y = shown.axes[0].grid * units[0].factor, shown.field * unit.factor
+    axes.plot(x, y, color=style.COLORS[0], linewidth=1.4)
+    if shown.deviation is not None:
+        band = 2.0 * shown.deviation * unit.factor
+        axes.fill_between(
+            x, y - band, y + band, color=style.COLORS[0], alpha=0.2, linewidth=0, label="95 %"
+        )
+    good = shown.is_usable
+    at = shown.points[good, 0] * units[0].factor
+    axes.plot(at, shown.values[good] * unit.factor, "o", color=style.COLORS[6], markersize=4)
+    for name, lines in shown.lines.items():
+        color, dash = LINE_LOOKS.get(name, (style.COLORS[2], ":"))
+        for k, place in enumerate(np.concatenate(lines)[:, 0] if lines else ()):
+            text = shown.line_words(name) if k == 0 else None
+            axes.axvline(place * units[0].factor, color=color, linestyle=dash, label=text)
+    if shown.target is not None:
+        axes.axhline(shown.target * unit.factor, color=style.COLORS[2], linewidth=0.8)
+
+
+def _draw_plane(
+    axes: Axes,
+    shown: ProcessMap,
+    units: list[style.Unit],
+    unit: style.Unit,
+    levels: tuple[float, ...],
+) -> None:
+    from matplotlib.patheffects import withStroke
+    from matplotlib.ticker import MaxNLocator
+
+    x, y = (axis.grid * u.factor for axis, u in zip(shown.axes, units, strict=True))
+    field = np.ma.masked_invalid(shown.field * unit.factor)
+    steps = [level * unit.factor for level in levels] or MaxNLocator(LEVELS).tick_values(
+        float(field.min()), float(field.max())
+    )
+    axes.grid(False)
+    beyond = "both" if levels else "neither"
+    image = axes.contourf(x, y, field, levels=steps, cmap=style.SPEED_COLORS, extend=beyond)
+    image.set_edgecolor("face")  # no pale seams between the colors in SVG
+    style.color_bar(axes, image, f"{shown.words} [{unit.name}]", aspect=22.0)
+    if shown.deviation is not None and np.any(shown.deviation > shown.allowed):
+        doubtful = np.ma.masked_invalid(np.where(shown.deviation > shown.allowed, 1.0, 0.0))
+        doubtful = np.ma.array(doubtful, mask=np.ma.getmaskarray(field))
+        axes.contourf(x, y, doubtful, levels=[0.5, 1.5], colors="none", hatches=["//"])
+        allowed = format_quantity(shown.allowed, shown.unit, 2, typographic=True)
+        axes.fill_between([], [], facecolor="none", hatch="///", label=f"sd above {allowed}")
+    for name, lines in shown.lines.items():
+        color, dash = LINE_LOOKS.get(name, (TARGET_COLOR, ":"))
+        for k, line in enumerate(lines):
+            at = [column * u.factor for column, u in zip(line.T, units, strict=True)]
+            text = shown.line_words(name) if k == 0 else None
+            edge = [withStroke(linewidth=3.6, foreground="0.15")]
+            axes.plot(*at, dash, color=color, linewidth=2.0, label=text, path_effects=edge)
+    good = [points * u.factor for points, u in zip(shown.points.T, units, strict=True)]
+    good = [points[shown.is_usable] for points in good]
+    axes.plot(
+        *good,
+        "o",
+        markerfacecolor="white",
+        markeredgecolor="0.2",
+        markersize=3.5,
+        label="run",
+        clip_on=False,
+        zorder=5,
+    )
+
+
+def _plain_ticks(axes: Axes) -> None:
+    """Logarithmic axes over a decade or two with numbers at 1, 2 and 5."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+    for axis in (axes.xaxis, axes.yaxis):
+        if axis.get_scale() == "log":
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            axis.set_minor_locator(NullLocator())

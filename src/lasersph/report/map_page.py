@@ -1,0 +1,127 @@
+"""The page of a process map: pictures, what they show in numbers, and the runs with links."""
+
+from __future__ import annotations
+
+import csv
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from lasersph.input import format_quantity
+from lasersph.output.atomic import replace_text
+from lasersph.output.errors import clear_errors
+from lasersph.plots import style
+from lasersph.plots.process_map import MapAxis, ProcessMap, draw_process_map
+from lasersph.report.page import figure, heading, page, paragraph
+
+RUNS = "runs"
+"""Folder of the runs beside the page."""
+
+
+def write_map(
+    shown: ProcessMap, folder: Path, title: str, *, levels: tuple[float, ...] = ()
+) -> list[Path]:
+    """Write a map into the folder of its sweep as PNG, SVG, CSV and one page.
+
+    Args:
+        title: of the page. levels: of the contours, SI.
+
+    Returns:
+        The files: picture, drawing, values, lines if there are any, page.
+
+    Raises:
+        OutputError: the folder cannot be written.
+    """
+    stem = folder / f"map-{shown.column}"
+    picture = draw_process_map(shown, levels)
+    with clear_errors("write", folder):
+        files = [style.save(picture, Path(f"{stem}.{kind}")) for kind in ("png", "svg")]
+        files.append(_write_rows(Path(f"{stem}.csv"), _field_rows(shown)))
+        if shown.lines:
+            files.append(_write_rows(Path(f"{stem}-lines.csv"), _line_rows(shown)))
+        body = _page_body(shown, title, files[0])
+        replace_text(Path(f"{stem}.html"), page(title, body))
+    return [*files, Path(f"{stem}.html")]
+
+
+def name_with_unit(axis: MapAxis) -> str:
+    """Column of a key in CSV files: laser.fluence [J/m^2]."""
+    return f"{axis.key} [{axis.unit}]" if axis.unit else axis.key
+
+
+def _write_rows(path: Path, rows: list[list[object]]) -> Path:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
+    return path
+
+
+def _field_rows(shown: ProcessMap) -> list[list[object]]:
+    """Header, and a row for each place of the field; empty where no run tells the number."""
+    head: list[object] = [*map(name_with_unit, shown.axes), shown.column]
+    columns = [*np.meshgrid(*(axis.grid for axis in shown.axes)), shown.field]
+    if shown.deviation is not None:
+        head.append("standard deviation")
+        columns.append(shown.deviation)
+    rows = np.stack([column.ravel() for column in columns], axis=1)
+    return [head, *([f"{one:.6g}" if np.isfinite(one) else "" for one in row] for row in rows)]
+
+
+def _line_rows(shown: ProcessMap) -> list[list[object]]:
+    """Header, and the points of each line; a line of several parts counts them."""
+    rows: list[list[object]] = [["line", "part", *map(name_with_unit, shown.axes)]]
+    for name, parts in shown.lines.items():
+        for number, part in enumerate(parts, start=1):
+            rows += [[name, number, *(f"{one:.6g}" for one in point)] for point in part]
+    return rows
+
+
+def _page_body(shown: ProcessMap, title: str, picture: Path) -> list[str]:
+    keys = " and ".join(axis.words for axis in shown.axes)
+    body = [
+        f"<h1>{escape(title)}</h1>",
+        paragraph(f"{len(shown.names)} runs over {keys}; each links to its folder", "about"),
+        *(paragraph(note, "warning") for note in shown.notes),
+        figure(picture, _caption(shown), 1),
+        heading("Runs"),
+        _runs_table(shown),
+    ]
+    return body
+
+
+def _caption(shown: ProcessMap) -> str:
+    how = "interpolated linearly between runs"
+    if shown.deviation is not None:
+        how = "as a Gaussian process through the runs gives it"
+    text = f"{shown.words[0].upper()}{shown.words[1:]}, {how}."
+    if shown.deviation is not None and len(shown.axes) == 2:
+        allowed = format_quantity(shown.allowed, shown.unit, 2, typographic=True)
+        text += f" Hatched: its standard deviation exceeds {allowed}."
+    events = [shown.line_words(name) for name in shown.lines if name != "target"]
+    if events:
+        text += f" Lines: onset of {', '.join(events)}."
+    if shown.target is not None:
+        text += f" Wanted: {format_quantity(shown.target, shown.unit, typographic=True)}."
+    return text
+
+
+def _runs_table(shown: ProcessMap) -> str:
+    """Runs with their keys and the number; each name links to the report or the folder."""
+    head = ["run", *(axis.words for axis in shown.axes), shown.words, "status"]
+    lines = ["<table>", "<tr>" + "".join(f"<th>{escape(one)}</th>" for one in head) + "</tr>"]
+    for name, point, value, status in zip(
+        shown.names, shown.points, shown.values, shown.status, strict=True
+    ):
+        cells = [in_field_units(at, axis.unit) for at, axis in zip(point, shown.axes, strict=True)]
+        cells += [in_field_units(value, shown.unit), status]
+        link = f'<a href="{RUNS}/{escape(name)}/">{escape(name)}</a>'
+        rest = "".join(f'<td class="number">{escape(cell)}</td>' for cell in cells)
+        lines.append(f"<tr><td>{link}</td>{rest}</tr>")
+    return "\n".join([*lines, "</table>"])
+
+
+def in_field_units(value: float, unit: str) -> str:
+    """A number with the unit in which users think of it: fluences per cm^2."""
+    if unit in ("J/m^2", "W/m^2") and np.isfinite(value):
+        return format_quantity(1e-4 * value, unit.replace("m^2", "cm^2"), typographic=True)
+    return format_quantity(value, unit, typographic=True)
