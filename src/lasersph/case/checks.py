@@ -159,7 +159,7 @@ def _evaporation(case: CaseContents) -> Iterator[tuple[str, str]]:
     """What vapor that leaves the surface needs."""
     vapor, has_flux = case.material.vaporization, case.solver.has_vapor_flux
     key, right = ("vaporization", "plateau") if has_flux else ("plateau", "hold")
-    if case.solver.evaporates and case.solver.phase_change:
+    if has_flux or (case.solver.evaporates and case.solver.phase_change):
         if vapor is None or vapor.molar_mass is None:
             yield (
                 f"solver.{key}",

@@ -67,6 +67,13 @@ HEAT = _table(
         is_kept=True,
     ),
     Field("evaporated_mass", "evaporated", "kg/m^2", "evaporated per area", is_kept=True),
+    Field(
+        "followed_mass",
+        "followed",
+        "kg/m^2",
+        "of it, what the metal below the surface has followed",
+        is_kept=True,
+    ),
     Field("absorbed_light", "E", "J", "light absorbed in the step"),
 )
 FLOW = _table(

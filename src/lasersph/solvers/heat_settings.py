@@ -46,8 +46,6 @@ class HeatSettings(SolverSettings):
                     f'"{self.plateau}" says nothing where vaporization = "flux"; leave it out',
                 )
             )
-        if self.has_vapor_flux and not self.phase_change:
-            raise refusal(("vaporization", "says nothing where phase_change = false; leave it out"))
         return self
 
     @property

@@ -35,8 +35,10 @@ LARGEST_STEPS = 10_000_000
 class HeatRecipe(Recipe[HeatT, SolverT]):
     """What runs share whose heat is conducted between particles of a body."""
 
-    def build_heat(self, backend: Backend, settings: ConductionSettings) -> Conduction:
-        """The solver of heat."""
+    def build_heat(
+        self, backend: Backend, settings: ConductionSettings, *, recedes: bool = False
+    ) -> Conduction:
+        """The solver of heat; `recedes`: whether the metal follows what has evaporated."""
         case = self.case
         body = assemble(
             backend,
@@ -49,7 +51,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             use_second_moment=settings.weights == "second-moment",
         )
         pressure = case.boundaries.pressure_of_surroundings if settings.has_vapor_flux else 0.0
-        return Conduction(body, settings, case.time, case.laser, pressure)
+        return Conduction(body, settings, case.time, case.laser, pressure, recedes=recedes)
 
     def heat_view(
         self, solver: Any, step: int, limit: str, take: Callable[[Array], np.ndarray]
@@ -155,7 +157,7 @@ class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
 
     def build(self, backend: Backend) -> Conduction:
         """The solver with its particles, at the start of the run."""
-        return self.build_heat(backend, self.settings)
+        return self.build_heat(backend, self.settings, recedes=self.settings.has_vapor_flux)
 
     def view(self, solver: Conduction, step: int, limit: str) -> View:
         """The state for observers."""

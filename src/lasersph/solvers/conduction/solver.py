@@ -15,6 +15,7 @@ from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.conduction.explicit import ExplicitStep
 from lasersph.solvers.conduction.implicit import ImplicitStep
 from lasersph.solvers.conduction.published.steepest_descent import PublishedStep
+from lasersph.solvers.conduction.recession import Recession
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
@@ -48,14 +49,18 @@ class Conduction:
         time: TimeSettings,
         laser: Laser | None,
         ambient_pressure: float = 0.0,
+        *,
+        recedes: bool = False,
     ) -> None:
-        """`ambient_pressure` [Pa]: against which vapor leaves the surface, 0 for vacuum."""
+        """`ambient_pressure` [Pa]: against which vapor leaves the surface, 0 for vacuum; `recedes`:
+        whether the metal follows what has evaporated."""
         self.body, self.settings, self.time_settings, self.laser = body, settings, time, laser
         self.particles, self.state = body.particles, HeatState()
         self.exchange = SurfaceExchange(
             body, evaporates=settings.evaporates, ambient_pressure=ambient_pressure
         )
         backend: Backend = body.backend
+        self.recession = Recession(body) if recedes else None
         self._before = backend.zeros(body.count)
         if settings.scheme == "explicit":
             self.scheme: ExplicitStep | ImplicitStep = ExplicitStep(body, self.exchange)
@@ -112,6 +117,8 @@ class Conduction:
         limits = common_limits(time, state.time, pulse)
         if time.fixed_step is not None:
             return limits
+        if self.recession is not None and state.recession > 0.0:
+            limits["recession"] = self.recession.longest_step(state.recession)
         name = name_of_longest(pulse is not None)
         if self.settings.scheme == "explicit":
             limits["conduction"] = self._stable
@@ -172,7 +179,7 @@ class Conduction:
     def conduct(self, step: float, unclipped_step: float | None = None) -> None:
         """Advance by `step` [s] under light that is fixed:
 
-        enthalpies (scheme) -> plateau rule -> temperatures and fractions -> energies.
+        recession -> enthalpies (scheme) -> plateau rule -> temperatures and fractions -> energies.
 
         Raises:
             NotConverged: the step is too large; the state is as before.
@@ -180,11 +187,15 @@ class Conduction:
         state, body, particles = self.state, self.body, self.particles
         backend, temperature = body.backend, particles["temperature"]
         backend.copy(temperature, self._before)
+        if self.recession is not None:  # of the last step; a step that fails keeps it
+            state.energy["removed"] += self.recession.advance()
         energy = self.scheme.advance(state, step, self._exchanged())
         discarded = self._discard()
         body.update_temperature()
         if self.settings.evaporates:
             self.exchange.accumulate(particles["evaporated_mass"], step)
+        if self.recession is not None:
+            state.recession = self.recession.speed(self.exchange.mass_flux)
         self._account(energy, discarded)
         fields = {"T": temperature, "T_old": self._before}
         (state.temperature_change,) = backend.pointwise(

@@ -21,6 +21,7 @@ class HeatState:
         time, time_step, time_step_before: [s]; the last steps, 0 before the first and second.
         temperature_change: largest in the last step [K]. lit_until: end of the last step with
             light [s]. unclipped_step: the last step, had no time been to be hit [s].
+        recession: largest speed of a surface that recedes, in the last step [m/s].
     """
 
     energy: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
@@ -30,6 +31,7 @@ class HeatState:
     temperature_change: float = 0.0
     lit_until: float = 0.0
     unclipped_step: float = 0.0
+    recession: float = 0.0
 
     def numbers(self) -> dict[str, float]:
         """All of them, for a checkpoint."""
