@@ -63,6 +63,11 @@ def depth_below(x, n, plane):
     return plane - dot(x, n)
 
 
+def mark_of(mark):
+    """The mark itself, for its sum."""
+    return 1.0 * mark
+
+
 def both(mark, active):
     """1 where both are."""
     return mark * active
@@ -168,6 +173,11 @@ class FlatSurface:
         backend.copy(found, self.stress)
         fields = {"tau": self.stress, "depth": self.depth}
         backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
+
+    def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
+        """All that is molten flows; their number."""
+        (count,) = self.backend.pointwise(mark_of, {"mark": flows}, (None,), reduce=("sum",))
+        return count
 
     def move(self, now: SurfaceStep) -> None:
         """It stays where it is."""

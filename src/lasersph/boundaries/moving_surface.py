@@ -24,7 +24,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -40,7 +39,9 @@ from lasersph.boundaries.surface import (
     SurfaceStep,
     upward,
 )
-from lasersph.boundaries.surface_line import EVEN, ODD, ORDER, SurfaceLine
+from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
+from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
+from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.input import format_quantity
@@ -56,10 +57,6 @@ STEEPEST = 1.0
 """Slope up to which the surface is computed."""
 FEWEST_ROWS = 3.0
 """Thickness of the liquid over the spacing, down to which it is."""
-CAPILLARY = 0.5
-"""omega dt of the fastest wave; below 2 waves are stable, below 1 tests with films are as well."""
-VISCOUS = 0.5
-"""Rate at which the normal stress slows the shortest wave, 4 nu k^2, times dt."""
 END_KINDS = {"pinned": loops.PINNED, "mirror": loops.MIRROR, "periodic": loops.PERIODIC}
 LINE = ("height", "shear", "stretch")
 """What of the line survives a step: eta [m], du_t/dn and du_t/ds [1/s]."""
@@ -73,31 +70,6 @@ def shear_rate(tau: HostArray | float, viscosity: float, across: HostArray) -> H
 def normal_stress(viscosity: float, along: HostArray) -> HostArray:
     """2 mu n . D . n [Pa], from t . dv/ds [1/s]."""
     return -2.0 * viscosity * along
-
-
-def fastest_wave(tension: float, density: float, cutoff: float) -> float:
-    """omega of the fastest wave that a smoothed line shows [1/s].
-
-    omega^2 = gamma k^3 F(k)/rho, F = 1/(1 + (k/k_c)^(2n)): largest at (k/k_c)^(2n) = 3/(2n - 3).
-    """
-    share = 3.0 / (2.0 * ORDER - 3.0)
-    k = 2.0 * pi / cutoff * share ** (1.0 / (2.0 * ORDER))
-    return sqrt(tension * k**3 / (1.0 + share) / density)
-
-
-def surface_limits(
-    tension: float, density: float, viscosity: float, cutoff: float
-) -> dict[str, float]:
-    """Limits of the step by capillary waves and by the viscous stress on the shortest [s].
-
-    Args:
-        tension: gamma [N/m]. density: [kg/m^3]. viscosity: kinematic [m^2/s]. cutoff: lambda_c [m].
-    """
-    k = 2.0 * pi / cutoff
-    return {
-        "capillary": CAPILLARY / fastest_wave(tension, density, cutoff),
-        "surface-stress": VISCOUS / (4.0 * viscosity * k**2),
-    }
 
 
 class SurfaceLiquid(NamedTuple):
@@ -166,7 +138,7 @@ class MovingSurface:
         self._columns = {"k": backend.asarray(np.arange(line.count + 1), "index")}
         if has_stress:
             self._gamma_table = surface_tension_table(liquid.material)
-        self.flux_loss = 0.0
+        self.flux_loss, self.segments = 0.0, SurfaceSegments(line)
         self._kept: dict[str, HostArray] = {}
         self._renew()
 
@@ -189,7 +161,7 @@ class MovingSurface:
 
     def update_stress(self, now: SurfaceStep, neighbors: SurfaceNeighbors, active: Array) -> None:
         """Set what the line gives the particles and their ghosts; see `Surface`."""
-        backend, line, liquid = self.backend, self.line, self.liquid
+        backend, line = self.backend, self.line
         self._set_values(now.position)
         # velocity and temperature along the line
         members = self._members(now.position, now.flows)
@@ -204,62 +176,116 @@ class MovingSurface:
             loops.surface_velocity, places, found, **tables, **self._ends, spacing=self.spacing
         )
         u_s, w_s, T_s, weight = (backend.to_host(values) for values in found)
-        if weight.min() <= 0.0:  # columns without a particle near the surface
-            full = weight > 0.0
+        full = weight > 0.0
+        if full.any() and not full.all():  # columns without melt near the surface
             u_s, w_s, T_s = (np.interp(line.x, line.x[full], f[full]) for f in (u_s, w_s, T_s))
-        u_s, w_s = line.smooth(u_s, ODD, 0.0), line.smooth(w_s, EVEN, 0.0)
-        # stress: derivatives along s of velocity and surface tension
-        slope = line.slope
-        S = np.sqrt(1.0 + slope**2)
-        u_x, w_x = line.derivative(u_s, ODD), line.derivative(w_s)
-        along = (u_x + slope * w_x) / S**2
-        across = (-slope * u_x + w_x) / S**2
-        self._line_temperature = self._temperature_at(now, T_s)
-        self._gradient = line.derivative(self._line_temperature) / S
-        tau = 0.0
-        if self.has_stress:
-            gamma = np.interp(self._line_temperature, *self._gamma_table)
-            tau = line.derivative(gamma) / S
-        self._shear = shear_rate(tau, liquid.viscosity, across)
-        self._stretch = along
-        tension = liquid.material.surface_tension_at(self._line_temperature)
-        self._tension = float(np.max(tension))
-        self._line_pressure = tension * line.curvature
-        self._line_pressure = self._line_pressure + normal_stress(liquid.viscosity, along)
-        if self.drives.pressure is not None:
-            wave = self.drives.pressure
-            self._line_pressure = self._line_pressure + wave.mean_over(line.x, *now.interval)
+        self._line_temperature = T_s
+        shape = line.count
+        self._shear, self._stretch, self._gradient = (np.zeros(shape) for _ in range(3))
+        self._line_pressure, largest = np.zeros(shape), 0.0
+        self.segments.follow()
+        for part in self.segments.parts:
+            largest = max(largest, self._set_part(part, now.interval, u_s, w_s, T_s))
+        self._tension = largest or self._tension
+        molten = self.segments.is_molten
+        if molten.any() and not molten.all():  # beside a pool what holds at its edge
+            self._line_pressure = np.interp(line.x, line.x[molten], self._line_pressure[molten])
         self._renew()
         self._set_values(now.position)
         self.pressure = self._pressure_condition(neighbors)
+
+    def _set_part(
+        self,
+        part: Segment,
+        interval: tuple[float, float],
+        u_s: HostArray,
+        w_s: HostArray,
+        T_s: HostArray,
+    ) -> float:
+        """Stress, strain rates and pressure along a part that moves; largest gamma there [N/m].
+
+        Args:
+            u_s, w_s, T_s: velocity [m/s] and temperature [K] of the whole line.
+        """
+        (columns, line), liquid = part, self.liquid
+        x = self.line.x[columns]
+        u, w = line.smooth(u_s[columns], ODD, 0.0), line.smooth(w_s[columns], EVEN, 0.0)
+        # stress: derivatives along s of velocity and surface tension
+        slope = line.slope
+        S = np.sqrt(1.0 + slope**2)
+        u_x, w_x = line.derivative(u, ODD), line.derivative(w)
+        along = (u_x + slope * w_x) / S**2
+        across = (-slope * u_x + w_x) / S**2
+        T = line.smooth(T_s[columns])
+        if (given := self.drives.temperature) is not None:
+            T = np.full(x.size, given.mean)
+            T = T if given.wave is None else T + given.wave.mean_over(x, *interval)
+        tau: HostArray | float = 0.0
+        if self.has_stress:
+            tau = line.derivative(np.interp(T, *self._gamma_table)) / S
+        tension = liquid.material.surface_tension_at(T)
+        pressure = tension * line.curvature + normal_stress(liquid.viscosity, along)
+        if (wave := self.drives.pressure) is not None:
+            pressure = pressure + wave.mean_over(x, *interval)
+        self._line_temperature[columns], self._gradient[columns] = T, line.derivative(T) / S
+        self._shear[columns] = shear_rate(tau, liquid.viscosity, across)
+        self._stretch[columns], self._line_pressure[columns] = along, pressure
+        return float(np.max(tension))
+
+    def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
+        """Let what is molten under too thin columns rest; returns how many particles flow."""
+        backend, line = self.backend, self.line
+        members = self._members(position, flows)
+        found = backend.zeros(line.count)
+        places = {"k": backend.head(self._columns["k"], line.count)}
+        tables = {"row_start": members.row_start, "member": members.neighbor, "V": volume}
+        inverse = self._grid["inverse"]
+        backend.pointwise(loops.thickness_of, places, found, **tables, inverse=inverse)
+        self.segments.choose(backend.to_host(found) >= FEWEST_ROWS * self.spacing)
+        is_molten = backend.asarray(self.segments.is_molten.astype(float))
+        grid = self._grid | {"columns": float(line.count), "is_molten": is_molten}
+        fields = {"x": position, "flows": flows}
+        (count,) = backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)
+        return count
 
     def move(self, now: SurfaceStep) -> None:
         """Move the line for a step with the velocity at its end, and find the particles again."""
         backend, line = self.backend, self.line
         begin, end = now.interval
-        members = self._members(now.position, now.flows)
+        key = backend.zeros(now.flows.shape[0], "index")
+        columns = self._grid | {"columns": float(line.count), "bottom": self.bottom}
+        backend.pointwise(loops.column_above, {"x": now.position}, key, **columns)
+        members = members_of(backend, key, line.count)
         x, u = backend.component(now.position, 0), backend.component(now.velocity, 0)
         found = backend.zeros(line.count + 1), backend.zeros(line.count + 1)
         tables = {"row_start": members.row_start, "member": members.neighbor, "V": now.volume}
-        backend.pointwise(
-            loops.mean_velocity, self._columns, found, x=x, u=u, **tables, **self._ends
-        )
-        mean = backend.to_host(found[0])
+        tables |= {"x": x, "u": u, "flows": now.flows}
+        backend.pointwise(loops.mean_velocity, self._columns, found, **tables, **self._ends)
+        mean, solid = (backend.to_host(values) for values in found)
         height = line.extend(line.height)[1:-1]
-        flux = mean * (0.5 * (height[1:] + height[:-1]) - self.bottom)
-        if line.ends[0] != "periodic":
-            flux[[0, -1]] = 0.0
-        loss: HostArray | float = 0.0
-        if self.drives.mass_flux is not None:
-            S = np.sqrt(1.0 + line.slope**2)
-            wave = self.drives.mass_flux
-            loss = wave.mean_over(line.x, begin, end) * S / self.liquid.density
-            self.flux_loss += (end - begin) * float(np.sum(loss)) * line.width
-        line.move(end - begin, flux, loss)
+        melt = np.maximum(0.5 * (height[1:] + height[:-1]) - self.bottom - solid, 0.0)
+        flux, moved = mean * melt, line.height.copy()
+        self.segments.follow()
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
-        line.damp_short_waves((end - begin) * rate)
+        for part, own in self.segments.parts:
+            sides = flux[np.append(part, (part[-1] + 1))]
+            if own.ends[0] != "periodic":
+                sides[[0, -1]] = 0.0
+            loss = self._loss(own, line.x[part], begin, end)
+            own.move(end - begin, sides, loss)
+            own.damp_short_waves((end - begin) * rate)
+            moved[part] = own.height
+        line.height = moved
         self._renew()
         self.find(now.position)
+
+    def _loss(self, part: SurfaceLine, x: HostArray, begin: float, end: float) -> HostArray | float:
+        """Speed at which mass that leaves lowers a part of the line [m/s]."""
+        if (wave := self.drives.mass_flux) is None:
+            return 0.0
+        loss = wave.mean_over(x, begin, end) * np.sqrt(1.0 + part.slope**2) / self.liquid.density
+        self.flux_loss += (end - begin) * float(np.sum(loss)) * part.width
+        return loss
 
     def confine(self, position: Array, flows: Array) -> None:
         """Keep particles that flow below the surface."""
@@ -320,16 +346,6 @@ class MovingSurface:
     def go_back(self) -> None:
         """Take the line that `save` remembered."""
         self.restore_arrays(self._kept)
-
-    def _temperature_at(self, now: SurfaceStep, found: HostArray) -> HostArray:
-        """Temperature along the line: imposed, or of the particles there [K]."""
-        given = self.drives.temperature
-        if given is None:
-            return self.line.smooth(found)
-        mean = np.full(self.line.count, given.mean)
-        return (
-            mean if given.wave is None else mean + given.wave.mean_over(self.line.x, *now.interval)
-        )
 
     def _members(self, position: Array, flows: Array) -> NeighborList:
         """The particles of each column."""

@@ -135,6 +135,14 @@ class Surface(Protocol):
         """
         ...
 
+    def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
+        """Set `flows` (n,) to 0 where the melt is too thin for this surface to move; their sum.
+
+        Args:
+            volume: (n,) [m^2].
+        """
+        ...
+
     def move(self, now: SurfaceStep) -> None:
         """Follow the melt, whose positions and velocities are those at the end of the step."""
         ...

@@ -19,6 +19,7 @@ smoothed line goes through the height there.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 from itertools import product
 from math import comb, pi, sqrt
@@ -111,6 +112,12 @@ class SurfaceLine:
         P = csc_matrix(np.array(rows).reshape(len(rows), self.count))
         both = vstack([D, P]).tocsc()
         return Smoothing(D, P, splu((identity(self.count) + both.T @ both).tocsc()))
+
+    def copy(self) -> SurfaceLine:
+        """Another line that shares what its smoothing takes."""
+        other = copy(self)
+        other.height = self.height.copy()
+        return other
 
     def smooth(self, values: Array, parity: float = EVEN, at_pins: float | None = None) -> Array:
         """F of values at the columns, shape (count,).

@@ -150,15 +150,15 @@ def b_spline(distance):
     return 0.0
 
 
-def mean_velocity(k, row_start, member, x, u, V, start, inverse, columns, low_end, high_end):
-    """Mean u of the particles around the k-th side of the columns [m/s], and their volume.
+def mean_velocity(k, row_start, member, x, u, V, flows, start, inverse, columns, low_end, high_end):
+    """Mean u of what flows around the k-th side of the columns [m/s]; how thick the rest is [m].
 
     Args:
         k: 0 for the left end. row_start, member: particles of each column. x, u: [m], [m/s].
-        V: volume [m^2].
+        V: volume [m^2]. flows: 1 or 0.
     """
     side = int(k)
-    flow, volume = 0.0, 0.0
+    flow, volume, rest = 0.0, 0.0, 0.0
     for c in range(side - 2, side + 2):
         column = source_column(c, columns, low_end, high_end)
         if column >= 0:
@@ -167,9 +167,30 @@ def mean_velocity(k, row_start, member, x, u, V, start, inverse, columns, low_en
                 j = member[p]
                 place = seen_place((x[j] - start) * inverse, c, columns, low_end, high_end)
                 share = b_spline(abs(place - side)) * V[j]
-                flow += sign * share * u[j]
-                volume += share
-    return flow / max(volume, 1.0e-300), volume * inverse
+                flow += flows[j] * sign * share * u[j]
+                volume += flows[j] * share
+                rest += (1.0 - flows[j]) * share
+    return flow / max(volume, 1.0e-300), rest * inverse
+
+
+def thickness_of(k, row_start, member, V, inverse):
+    """How thick the particles of a column are [m]."""
+    total = 0.0
+    for p in range(row_start[k], row_start[k + 1]):
+        total += V[member[p]]
+    return total * inverse
+
+
+def hold_column(x, flows, start, inverse, columns, is_molten):
+    """1 where a particle flows in a column that moves."""
+    return flows * is_molten[int(min(max(floor((x[0] - start) * inverse), 0.0), columns - 1.0))]
+
+
+def column_above(x, start, inverse, columns, bottom):
+    """Column of a particle above a height; `columns` for others."""
+    if x[1] <= bottom:
+        return int(columns)
+    return int(min(max(floor((x[0] - start) * inverse), 0.0), columns - 1.0))
 
 
 def surface_velocity(

@@ -47,6 +47,12 @@ class Layers:
         return float(self.thickness.min())
 
     @property
+    def fine_depth(self) -> float:
+        """Depth of the lower end of the layers as thin as the finest [m]."""
+        fine = self.thickness <= self.spacing * (1.0 + 1e-9)
+        return float(np.cumsum(self.thickness)[fine][-1])
+
+    @property
     def extents(self) -> tuple[tuple[float, float], ...]:
         """Lower and upper bound of the block along each axis, z last [m]."""
         return (*self.bounds, (-float(self.thickness.sum()), 0.0))

@@ -69,10 +69,8 @@ class PoolDomain:
             for names, (low, high) in zip(FACES, self.box, strict=True)
         )
         self.periods = across, along
-        thickness = layers.thickness
-        self._bottom = np.cumsum(thickness)
-        fine = thickness <= layers.spacing * (1.0 + 1e-9)
-        self.fine_depth = float(self._bottom[fine][-1])
+        self._bottom = np.cumsum(layers.thickness)
+        self.fine_depth = layers.fine_depth
         self._starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
         self.block_layers = 0
         self._block: Block | None = None

@@ -288,7 +288,7 @@ class MeltPool:
 
     def _melt(self) -> bool:
         """Whether anything flows."""
-        self.fluid_count = self.kinds.find_fluid(self.particles["melt_fraction"])
+        self._find_fluid()
         if self.fluid_count == 0.0:
             self.flow.rest()
         return self.fluid_count > 0.0
@@ -355,4 +355,12 @@ class MeltPool:
         if self.domain.surface is not None:
             self.domain.surface.restore(numbers)
         self._find_surface()
-        self.fluid_count = self.kinds.find_fluid(self.particles["melt_fraction"])
+        self._find_fluid()
+
+    def _find_fluid(self) -> None:
+        """What flows: what is molten, unless it is too thin under a surface that moves."""
+        kinds, surface = self.kinds, self.domain.surface
+        self.fluid_count = kinds.find_fluid(self.particles["melt_fraction"])
+        if surface is not None and not kinds.is_box:
+            volume = self.particles["volume"]
+            self.fluid_count = surface.hold_thin_melt(self.position, volume, kinds.fluid)

@@ -51,7 +51,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             backend,
             count,
             line=line,
-            bottom=box[1][0],
+            bottom=-layers.fine_depth,
             spacing=layers.spacing,
             support=support,
             liquid=SurfaceLiquid(liquid.density, liquid.viscosity * liquid.density, case.material),

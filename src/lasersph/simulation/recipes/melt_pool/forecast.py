@@ -14,9 +14,9 @@ from math import pi, sqrt
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.boundaries.flow_conditions import FREE
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
-from lasersph.boundaries.moving_surface import surface_limits
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.boundaries.surface_line import cutoff_of
+from lasersph.boundaries.surface_waves import surface_limits
 from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.lasers import GaussianBeam, InterferenceBeam

@@ -1,0 +1,85 @@
+"""Parts of a surface that move: the line above each pool, pinned where the pool ends.
+
+A column moves where the melt below it is thick enough; the others keep their heights. A line ends
+as the whole one does at the ends of the domain, and is pinned at the height of the solid beside it
+elsewhere, so that no slope is assumed there and nothing is smoothed across the edge of a pool.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.boundaries.surface_line import End, SurfaceLine
+
+FEWEST = 12
+"""Columns of a part that moves; fewer are held, since no curvature is seen over them."""
+
+
+class Segment(NamedTuple):
+    """Columns of the whole line in order, shape (m,), and their own line."""
+
+    columns: NDArray[np.int64]
+    line: SurfaceLine
+
+
+class SurfaceSegments:
+    """Segments of a line, made anew where what is molten changes.
+
+    Attributes:
+        parts: the segments. is_molten: (count,) whether a column belongs to one.
+    """
+
+    def __init__(self, whole: SurfaceLine) -> None:
+        self.whole = whole
+        self.is_molten = np.ones(whole.count, bool)
+        self.parts = [Segment(np.arange(whole.count), whole)]
+        self._lines: dict[tuple[int, tuple[End, End]], SurfaceLine] = {}
+
+    def choose(self, thick: NDArray[np.bool_]) -> None:
+        """Take the runs of columns under which the melt is thick, (count,), where long enough."""
+        whole, count = self.whole, self.whole.count
+        if thick.all():
+            self.is_molten = thick
+            self.parts = [Segment(np.arange(count), whole)]
+            return
+        repeats = whole.ends[0] == "periodic"
+        first = int(np.argmin(thick)) if repeats else 0  # of a solid column, to cut a period there
+        marks = np.concatenate([[False], np.roll(thick, -first), [False]]).astype(np.int8)
+        begins, ends = np.flatnonzero(np.diff(marks) == 1), np.flatnonzero(np.diff(marks) == -1)
+        self.parts, self.is_molten = [], np.zeros(count, bool)
+        for begin, end in zip(begins, ends, strict=True):
+            if end - begin < FEWEST:
+                continue
+            columns = (np.arange(begin, end) + first) % count
+            self.is_molten[columns] = True
+            left: End = whole.ends[0] if begin == 0 and not repeats else "pinned"
+            right: End = whole.ends[1] if end == count and not repeats else "pinned"
+            self.parts.append(
+                Segment(columns, self._line(columns.size, (left, right), len(self.parts)))
+            )
+
+    def follow(self) -> None:
+        """Give the segments the heights of the whole line, and of the solid beside them."""
+        whole = self.whole
+        for columns, line in self.parts:
+            if line is whole:
+                continue
+            line.height = whole.height[columns]
+            beside = (columns[0] - 1) % whole.count, (columns[-1] + 1) % whole.count
+            pins = (whole.height[beside[0]], whole.height[beside[1]])
+            at_ends = columns[0] == 0, columns[-1] == whole.count - 1
+            line.pins = tuple(  # type: ignore[assignment]
+                float(own if is_end and whole.ends[0] != "periodic" else height)
+                for own, is_end, height in zip(whole.pins, at_ends, pins, strict=True)
+            )
+
+    def _line(self, count: int, ends: tuple[End, End], part: int) -> SurfaceLine:
+        """A line of its own; smoothing is prepared once for each length and kind of ends."""
+        key = (count, ends)
+        if key not in self._lines:
+            width, cutoff = self.whole.width, self.whole.cutoff
+            self._lines[key] = SurfaceLine(0.0, width, count, ends, cutoff)
+        return self._lines[key].copy()

@@ -1,0 +1,61 @@
+"""Pools whose surface moves: pinned at the solid, the same bits, resumed, no volume made."""
+
+import numpy as np
+import pytest
+from flow_boxes import go, host_fields, pool, pool_case
+from reliability_runs import assert_same
+
+from lasersph import compute
+from lasersph.simulation import run
+from lasersph.simulation.time_loop import Stopped
+
+MOVING = (
+    "solver.flow.surface=moving",
+    "material.base=steel-304-demuth",
+    "material.surface_tension=1.6 N/m",
+)
+STEPS = 12
+EDGE = 2.1e-6
+
+
+def moving_pool(backend=None):
+    """A pool of 16 of 20 columns and six rows, hot in the middle, after some steps."""
+    solver = pool(lambda x, z: (x < EDGE) & (z > -7.5e-7), *MOVING, backend=backend, slope=-5e8)
+    go(solver, STEPS)
+    return solver
+
+
+def test_relief():
+    """Melt leaves the hot middle; columns of solid keep their height, and volume is conserved."""
+    line = moving_pool().domain.surface.line
+    assert line.height[0] < -1e-12
+    assert line.height.max() > 1e-12
+    assert not line.height[line.x > EDGE].any()
+    assert abs(line.height.sum()) < 1e-10 * np.abs(line.height).sum()
+
+
+def test_same_bits():
+    """Arrays that refuse NumPy, and two threads, give the same bits as one."""
+    first, *others = (
+        moving_pool(backend)
+        for backend in (compute.cpu(threads=1), compute.strict(threads=1), compute.cpu(threads=2))
+    )
+    for other in others:
+        assert other.checkpoint_scalars() == first.checkpoint_scalars()
+        fields = host_fields(other)
+        for name, values in host_fields(first).items():
+            assert np.array_equal(values, fields[name]), name
+
+
+def test_stopped_and_resumed(tmp_path):
+    """From light to relief, stopped while the surface moves: the same bits at the end."""
+    settings = ("particles.spacing=64nm", "particles.fine_depth=1um", "time.end=58ns")
+    case = pool_case(*MOVING, *settings, "time.step=200ps")
+    whole = run(case, tmp_path / "whole", threads=1)
+    steps = whole.summary["steps"]
+    left = iter([False] * (steps - 25) + [True])
+    with pytest.raises(Stopped):
+        run(case, tmp_path / "parts", threads=1, should_stop=lambda: next(left))
+    parts = run(case, tmp_path / "parts", threads=1, resume=True)
+    assert_same(tmp_path / "whole", tmp_path / "parts")
+    assert parts.summary["topography"]["peak_to_valley_m"] > 1e-9

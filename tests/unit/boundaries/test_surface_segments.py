@@ -1,0 +1,54 @@
+"""Which parts of a surface move, and how their lines end."""
+
+import numpy as np
+import pytest
+
+from lasersph.boundaries.surface_line import SurfaceLine
+from lasersph.boundaries.surface_segments import FEWEST, SurfaceSegments
+
+
+def segments(ends, molten):
+    """Segments of a line of columns whose heights are their numbers."""
+    whole = SurfaceLine(0.0, 1e-8, len(molten), ends, 3e-7)
+    whole.height = np.arange(len(molten), dtype=float)
+    found = SurfaceSegments(whole)
+    found.choose(np.array(molten, bool))
+    found.follow()
+    return found
+
+
+def test_all_molten():
+    """One part: the whole line itself."""
+    found = segments(("mirror", "mirror"), [1] * 40)
+    assert found.parts[0].line is found.whole and found.is_molten.all()
+
+
+def test_two_pools_and_a_spot_too_narrow():
+    """Pinned at the heights of the solid beside them; at the plane of symmetry mirrored."""
+    molten = [1] * 15 + [0] * 5 + [1] * (FEWEST - 1) + [0] * 3 + [1] * 20 + [0] * 2
+    found = segments(("mirror", "mirror"), molten)
+    first, second = found.parts
+    assert first.columns.tolist() == list(range(15)) and first.line.ends == ("mirror", "pinned")
+    assert first.line.pins[1] == 15.0
+    begin = 15 + 5 + FEWEST - 1 + 3
+    assert second.columns.tolist() == list(range(begin, begin + 20))
+    assert second.line.ends == ("pinned", "pinned")
+    assert second.line.pins == (begin - 1.0, begin + 20.0)
+    assert found.is_molten.sum() == 35
+
+
+def test_pool_across_a_period():
+    """One part, whose columns go on at the other end."""
+    found = segments(("periodic", "periodic"), [1] * 10 + [0] * 10 + [1] * 10)
+    (part,) = found.parts
+    assert part.columns.tolist() == [*range(20, 30), *range(10)]
+    assert part.line.ends == ("pinned", "pinned") and part.line.pins == (19.0, 10.0)
+    assert part.line.height == pytest.approx(part.columns)
+
+
+def test_lines_of_the_same_length_do_not_share_heights():
+    """What they share is the smoothing."""
+    found = segments(("mirror", "mirror"), [0] + [1] * 20 + [0] * 3 + [1] * 20 + [0])
+    first, second = found.parts
+    assert first.line is not second.line
+    assert first.line.height[0] == 1.0 and second.line.height[0] == 24.0
