@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from case_keys import case_keys
+from metals_table import metals_page
 from papers_page import papers_page, read_papers
 from result_keys import history_columns, summary_keys
 from validation_table import validation_table
@@ -41,6 +42,7 @@ def write_pages(_app: object) -> None:
         "summary_keys.md": summary_keys(),
         "history_columns.md": history_columns(),
         "examples.md": gallery(ROOT / "examples"),
+        "metals.md": metals_page(),
         "validation.md": validation_table(states, readmes),
         "papers.md": papers_page(read_papers(DOCS / "papers.toml"), by_name),
     }
