@@ -33,9 +33,9 @@ def metals_page() -> str:
         "## What is extrapolated\n\nWhere the value at the end of a range is held, up to the "
         "melting point in the solid and the boiling point in the melt; n and k are those of the "
         "cold metal everywhere.",
-        "\n".join(f"- **{metal.name}**: {_held(metal)}" for metal in metals),
+        "\n".join(f"- **{metal.name}**: {_extrapolated_ranges(metal)}" for metal in metals),
         "## All numbers of one metal",
-        f"```\n$ lasersph material show copper\n{_shown('copper')}```",
+        f"```\n$ lasersph material show copper\n{_show_output('copper')}```",
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -71,13 +71,13 @@ def _optics(metal: Material) -> Iterator[str]:
         yield f"{float(lit.reflectivity_at(300.0)):.3f}, {depth:.1f} nm"
 
 
-def _held(metal: Material) -> str:
+def _extrapolated_ranges(metal: Material) -> str:
     """Where values at the ends of ranges are held, as `material check` says it."""
     held = [f for f in check_material(metal) if f.level == "note" and f.text.endswith("is held")]
     return "; ".join(f"`{f.subject}` {WORDS.sub('', f.text)}" for f in held)
 
 
-def _shown(name: str) -> str:
+def _show_output(name: str) -> str:
     from lasersph.cli.material import show
 
     text = io.StringIO()
