@@ -1,7 +1,9 @@
 """Small sweeps for tests: a coarse case, and an engine that computes nothing."""
 
 import json
+from pathlib import Path
 
+from lasersph.input.schema import as_toml
 from lasersph.sweeps import Event
 
 SETTINGS = {
@@ -12,6 +14,13 @@ SETTINGS = {
     "output.checkpoint_every": 5,
 }
 """Of dlip-steel: 200 steps, a second."""
+
+
+def plan_text(fluences):
+    """A plan file of runs with these settings."""
+    settings = "".join(f'"{key}" = {as_toml(value)}\n' for key, value in SETTINGS.items())
+    vary = f'"laser.fluence" = {as_toml(list(fluences))}\n'
+    return f'case = "dlip-steel"\n[set]\n{settings}[vary]\n{vary}'
 
 
 class PretendingEngine:
@@ -43,3 +52,33 @@ class PretendingEngine:
             }
             (task.folder / "summary.json").write_text(json.dumps(summary))
             report(Event(task.run, "complete", exit_code=0))
+
+
+def contents(folder, table):
+    """What each run gave: histories as bytes, and summaries without the clock."""
+    found = []
+    for row in table.rows:
+        run = folder / "runs" / row.run
+        summary = json.loads((run / "summary.json").read_text())
+        summary.pop("wall_time_s")
+        found.append((row.run, summary, (run / "history.csv").read_bytes()))
+    return found
+
+
+def children(pid):
+    """Processes that a process, or one of its threads, started."""
+    files = Path(f"/proc/{pid}/task").glob("*/children")
+    return [int(child) for file in files for child in file.read_text().split()]
+
+
+def parent(pid):
+    """The process that started a process."""
+    return int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
+
+
+def is_alive(pid):
+    """Whether a process computes still; one that nobody waits for does not."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False

@@ -5,9 +5,11 @@ import signal
 
 import pytest
 from reliability_runs import assert_same, small_case
+from sweep_runs import SETTINGS, contents
 
 from lasersph.output import OutputError
 from lasersph.simulation import run
+from lasersph.sweeps import LocalEngine, build_plan, make_runs
 
 
 @pytest.fixture
@@ -54,3 +56,22 @@ def test_unwritable_folder(tmp_path):
     with pytest.raises(OutputError, match="is a file, not a folder"):
         run(small_case(), blocked, threads=2)
     assert blocked.read_text() == "mine"
+
+
+def test_sweep_on_a_full_disk(tmp_path, file_size_limit):
+    """Its runs fail with a line each; the same call with room again ends with the same table."""
+    plan = build_plan("dlip-steel", {"laser.fluence": ["0.5 J/cm^2", "0.6 J/cm^2"]}, set=SETTINGS)
+
+    def make(folder):
+        engine = LocalEngine(workers=1, threads=1, retries=0)
+        return make_runs(plan.points(), folder, study=plan.study, units=plan.varied, engine=engine)
+
+    file_size_limit(40 * 1024)
+    table = make(tmp_path / "full")
+    assert table.status == ("failed", "failed")
+    assert all("cannot write" in row.reason for row in table.rows)
+    file_size_limit(resource.RLIM_INFINITY)
+    tables = [(tmp_path / name, make(tmp_path / name)) for name in ("full", "alone")]
+    assert tables[0][1].status == ("complete", "complete")
+    assert contents(*tables[0]) == contents(*tables[1])
+    assert not list(tmp_path.glob("full/runs/*/.lock"))

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 from reliability_runs import LONGEST_WAIT, wait_until
-from sweep_runs import SETTINGS
+from sweep_runs import SETTINGS, children, contents, is_alive
 
 from lasersph.sweeps import LocalEngine, Table, build_plan, make_runs
 from lasersph.sweeps.local import _Pool
@@ -27,17 +27,6 @@ def make(folder, engine, plan=None, **more):
     return make_runs(
         plan.points(), folder, study=plan.study, units=plan.varied, engine=engine, **more
     )
-
-
-def contents(folder, table):
-    """What each run gave: histories as bytes, and summaries without the clock."""
-    found = []
-    for row in table.rows:
-        run = folder / "runs" / row.run
-        summary = json.loads((run / "summary.json").read_text())
-        summary.pop("wall_time_s")
-        found.append((row.run, summary, (run / "history.csv").read_bytes()))
-    return found
 
 
 @pytest.fixture(scope="module")
@@ -116,27 +105,12 @@ def test_interrupted_command(undisturbed, tmp_path):
 
 SCRIPT = """
 import sys
-from sweep_runs import SETTINGS
+from sweep_runs import SETTINGS, children, contents, is_alive
 import lasersph
 lasersph.sweep("dlip-steel", sys.argv[1], vary={{"laser.fluence": {fluences!r}}},
                set=SETTINGS, workers=2, threads=1)
 """
 """Without `if __name__ == "__main__"`."""
-
-
-def children(process):
-    """Processes that it started."""
-    with open(f"/proc/{process.pid}/task/{process.pid}/children") as file:
-        return [int(pid) for pid in file.read().split()]
-
-
-def is_alive(pid):
-    """Whether a process computes still; one that nobody waits for is none."""
-    try:
-        with open(f"/proc/{pid}/stat") as file:
-            return file.read().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
@@ -149,7 +123,7 @@ def test_killed_driver_leaves_nobody(undisturbed, tmp_path):
     command = [sys.executable, str(script), str(folder)]
     process = subprocess.Popen(command, env={**os.environ, "PYTHONPATH": here})
     wait_until(process, lambda: list(folder.glob("runs/*/checkpoint/*")))
-    workers = children(process)
+    workers = children(process.pid)
     process.send_signal(signal.SIGKILL)
     process.wait(timeout=LONGEST_WAIT)
     assert len(workers) == 2

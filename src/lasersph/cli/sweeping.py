@@ -10,6 +10,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lasersph.cli.arguments import Out
+from lasersph.cli.cluster import (
+    RunsInHand,
+    Scheduler,
+    SchedulerFile,
+    Slurm,
+    SlurmDask,
+    Tls,
+    dask_engine,
+    write_scripts,
+)
 from lasersph.cli.failures import DONE, FAILED, StoppedBySignal, WrongCommand
 from lasersph.cli.tables import aligned
 
@@ -53,6 +63,11 @@ def sweep(
     workers: Workers = None,
     threads: WorkerThreads = None,
     retries: Retries = 2,
+    scheduler_file: SchedulerFile = None,
+    scheduler: Scheduler = None,
+    tls: Tls = None,
+    slurm: Slurm = None,
+    slurm_dask: SlurmDask = None,
     dry_run: DryRun = False,
     table: OnlyTable = False,
 ) -> int:
@@ -73,8 +88,16 @@ def sweep(
         _forecast(loaded, workers, threads)
         return DONE
     folder = out or Path("runs") / plan.stem
+    if slurm is not None or slurm_dask is not None:
+        return write_scripts(loaded, plan, folder, slurm, slurm_dask)
+    distant = dask_engine(scheduler_file, scheduler, tls, threads, retries)
+    if distant is not None and workers is not None:
+        raise WrongCommand("--workers is for this machine: the scheduler has workers of its own")
     words = ["lasersph", "sweep", str(plan), "--out", str(folder)]
-    made = make(loaded, folder, LocalEngine(workers, threads, retries), shlex.join(words))
+    given = {"--scheduler-file": scheduler_file, "--scheduler": scheduler, "--tls": tls}
+    words += [text for name, value in given.items() if value for text in (name, str(value))]
+    engine = distant or LocalEngine(workers, threads, retries)
+    made = make(loaded, folder, engine, shlex.join(words))
     return tell(made)
 
 
@@ -82,13 +105,21 @@ def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
     """Make the runs with progress; a signal ends them with checkpoints and the way to go on."""
     from lasersph.cli.progress import ProgressDisplay
     from lasersph.cli.stop_signals import StopSignals
-    from lasersph.sweeps import make_runs
+    from lasersph.sweeps import DaskEngine, make_runs
     from lasersph.sweeps.progress import SweepProgress
 
     progress = SweepProgress()
     with StopSignals() as signals, ProgressDisplay(describe) as display:
+        in_hand = RunsInHand(display.say) if isinstance(engine, DaskEngine) else None
+
+        def should_stop() -> bool:
+            if in_hand is not None:
+                in_hand.say_if_due()
+            return signals.asked()
 
         def report(event: Event, table: Table) -> None:
+            if in_hand is not None:
+                in_hand.note(event)
             status = progress.step(event, table)
             if event.kind in ("failed", "wrong", "retry"):
                 word = "tried again" if event.kind == "retry" else event.kind
@@ -104,7 +135,7 @@ def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
             plan=plan.text,
             engine=engine,
             report=report,
-            should_stop=signals.asked,
+            should_stop=should_stop,
         )
     if signals.code and not table.is_complete.all():
         raise StoppedBySignal(

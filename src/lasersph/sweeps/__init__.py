@@ -3,11 +3,13 @@
 plan       the TOML file that says what varies; points and sampling beside it
 points     cases that differ in some keys, each with its hash or why it is refused
 engine     what computes many runs: tasks, events; local: worker processes on this machine
+dask_engine   the workers of a Dask scheduler; slurm: scripts for that batch system
 folder     the folder that holds the runs and is the truth
 table      one row a run; always made from the folders
 make       `make_runs`, which studies and `lasersph sweep` call
 """
 
+from lasersph.sweeps.dask_engine import DaskEngine
 from lasersph.sweeps.engine import Engine, Event, Task
 from lasersph.sweeps.folder import Study
 from lasersph.sweeps.local import LocalEngine
@@ -18,6 +20,7 @@ from lasersph.sweeps.table import Row, Table
 
 __all__ = [
     "CaseTemplate",
+    "DaskEngine",
     "Engine",
     "Event",
     "LocalEngine",

@@ -73,16 +73,23 @@ def test_wrong_commands_write_nothing(plan, tmp_path, capsys):
     """Exit code 2 and one line."""
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "file").touch()
+    new = [str(plan), "--out", str(tmp_path / "new")]
     for arguments, message in (
         ([str(tmp_path / "none.toml")], "none.toml: no such file"),
         ([str(tmp_path / "other")], "is a folder: give the plan"),
         ([str(tmp_path / "other"), "--table"], "holds no sweep"),
         ([str(plan), "--out", str(tmp_path / "other")], "is not empty and holds no sweep"),
+        ([*new, "--scheduler", "tcp://a:1", "--scheduler-file", "b"], "not both"),
+        ([*new, "--scheduler", "node1"], "is no address of a scheduler"),
+        ([*new, "--scheduler", "tls://a:1", "--tls", str(tmp_path)], "cert.pem: no such file"),
+        ([*new, "--scheduler", "tcp://a:1", "--workers", "2"], "has workers of its own"),
+        ([*new, "--tls", str(tmp_path)], "--tls is for"),
     ):
         assert main(["sweep", *arguments]) == 2
         (line,) = capsys.readouterr().err.splitlines()
         assert message in line
     assert [path.name for path in (tmp_path / "other").iterdir()] == ["file"]
+    assert not (tmp_path / "new").exists()
 
 
 def test_new_plan_can_be_run(tmp_path, capsys):

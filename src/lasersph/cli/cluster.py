@@ -1,0 +1,140 @@
+"""Options of verbs that make many runs on a cluster, and what they choose."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lasersph.cli.failures import DONE, WrongCommand
+
+if TYPE_CHECKING:
+    from lasersph.sweeps import DaskEngine, Event, SweepPlan
+
+SchedulerFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--scheduler-file",
+        metavar="FILE",
+        help="Use the workers of the Dask scheduler that wrote FILE.",
+    ),
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        "--scheduler", metavar="ADDRESS", help="Use those of the Dask scheduler at tcp://HOST:PORT."
+    ),
+]
+Tls = Annotated[
+    Path | None,
+    typer.Option(
+        "--tls", metavar="DIR", help="Folder with cert.pem and key.pem of the Dask scheduler."
+    ),
+]
+Slurm = Annotated[
+    Path | None,
+    typer.Option(
+        "--slurm", metavar="FILE", help="Write a script for sbatch, a task a run; compute nothing."
+    ),
+]
+SlurmDask = Annotated[
+    Path | None,
+    typer.Option(
+        "--slurm-dask",
+        metavar="FILE",
+        help="Write a script for sbatch that starts Dask and makes the runs; compute nothing.",
+    ),
+]
+LINE_EVERY = 10.0
+"""From one line of what runs where to the next [s]."""
+MOST_NAMED = 8
+"""Runs in such a line."""
+
+
+def dask_engine(
+    scheduler_file: Path | None,
+    scheduler: str | None,
+    tls: Path | None,
+    threads: int | None,
+    retries: int,
+) -> DaskEngine | None:
+    """The engine of a Dask scheduler; None where none is given.
+
+    Raises:
+        WrongCommand: two are given, a certificate for none, or one that `DaskEngine` refuses.
+    """
+    if scheduler_file is None and scheduler is None:
+        if tls is not None:
+            raise WrongCommand("--tls is for --scheduler-file or --scheduler")
+        return None
+    if scheduler_file is not None and scheduler is not None:
+        raise WrongCommand("give --scheduler-file or --scheduler, not both")
+    from lasersph.output import OutputError
+    from lasersph.sweeps import DaskEngine
+
+    try:
+        return DaskEngine(scheduler_file, scheduler, tls, threads, retries)
+    except OutputError as error:  # before anything is written
+        raise WrongCommand(str(error)) from None
+
+
+def write_scripts(
+    plan: SweepPlan, plan_file: Path, out: Path, slurm: Path | None, slurm_dask: Path | None
+) -> int:
+    """Write the scripts for Slurm that are asked for, and say what to do with them."""
+    from lasersph.sweeps.slurm import write_array_script, write_dask_script
+
+    if slurm is not None:
+        count = write_array_script(plan, out, slurm)
+        if count:
+            runs = f"{count} run{'s' * (count > 1)}"
+            print(f"{slurm}: {runs}. Set its #SBATCH lines, then: sbatch {slurm}")
+        else:
+            print(f"all runs are complete: {out / 'table.csv'}")
+    if slurm_dask is not None:
+        write_dask_script(plan_file, out, slurm_dask)
+        print(f"{slurm_dask}: set its #SBATCH lines, then: sbatch {slurm_dask}")
+    return DONE
+
+
+@dataclass
+class RunsInHand:
+    """Says every 10 s which worker makes which run, and since when.
+
+    Attributes:
+        say: shows a line.
+    """
+
+    say: Callable[[str], None]
+    _runs: dict[str, tuple[str, str, float]] = field(default_factory=dict)
+    """Worker, time of day at the start and part done, by run."""
+    _said: float = field(default_factory=time.monotonic)
+
+    def note(self, event: Event) -> None:
+        """Take in an event."""
+        from lasersph.sweeps.progress import ENDS
+
+        if event.kind in (*ENDS, "retry"):
+            self._runs.pop(event.run, None)
+            return
+        since = f"{datetime.now():%H:%M:%S}"
+        worker, before, _ = self._runs.get(event.run, (event.worker, since, 0.0))
+        since = before if worker == event.worker else since
+        self._runs[event.run] = (event.worker, since, event.work_done)
+
+    def say_if_due(self) -> None:
+        """Show a line if the last was shown long ago."""
+        if time.monotonic() - self._said < LINE_EVERY:
+            return
+        self._said = time.monotonic()
+        runs = [
+            f"{run.partition('-')[0]} on {worker} since {since} ({100 * done:.0f} %)"
+            for run, (worker, since, done) in sorted(self._runs.items())
+        ]
+        more = [f"and {len(runs) - MOST_NAMED} more"] if len(runs) > MOST_NAMED else []
+        self.say(", ".join(runs[:MOST_NAMED] + more) or "no run in hand: no worker is there yet")
