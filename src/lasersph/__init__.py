@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lasersph.input import CaseError
     from lasersph.output import open_run
     from lasersph.simulation import run
-    from lasersph.studies import process_map
+    from lasersph.studies import calibrate, process_map
     from lasersph.sweeps import sweep
 
 __version__ = "0.1.0"
@@ -25,6 +25,7 @@ __all__ = [
     "Case",
     "CaseError",
     "__version__",
+    "calibrate",
     "load_case",
     "open_run",
     "process_map",
@@ -35,6 +36,7 @@ __all__ = [
 _ROOMS = {
     "Case": "lasersph.case",
     "CaseError": "lasersph.input",
+    "calibrate": "lasersph.studies",
     "load_case": "lasersph.case",
     "open_run": "lasersph.output",
     "process_map": "lasersph.studies",

@@ -73,6 +73,10 @@ VERBS = {
             "Tell how much each key of a sweep changes a number: Sobol indices, or effects of "
             "Morris.",
         ),
+        "calibrate": (
+            "calibrating.calibrate",
+            "Find unknowns of a case from measured values, with their bands and what limits them.",
+        ),
         "validate": (
             "validating.validate",
             "Compute published cases; print published, reference and computed numbers with "

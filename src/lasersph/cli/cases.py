@@ -29,7 +29,9 @@ NewFile = Annotated[
 PlanKind = Annotated[
     str | None,
     typer.Option(
-        "--plan", metavar="KIND", help="Write a plan for many runs of the case instead: sweep."
+        "--plan",
+        metavar="KIND",
+        help="Write a plan for many runs of the case instead: sweep, calibrate.",
     ),
 ]
 

@@ -1,0 +1,84 @@
+"""`lasersph calibrate`: unknowns of a case from measured values."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lasersph.cli.arguments import Out
+from lasersph.cli.failures import StoppedBySignal
+from lasersph.cli.sweeping import DryRun, Retries, Workers, WorkerThreads
+from lasersph.cli.tables import aligned
+
+if TYPE_CHECKING:
+    from lasersph.studies.calibration_plan import CalibrationPlan
+
+PlanName = Annotated[
+    Path,
+    typer.Argument(metavar="PLAN", help="A plan file; lasersph new --plan calibrate writes one."),
+]
+
+
+def calibrate(
+    plan: PlanName,
+    out: Out = None,
+    workers: Workers = None,
+    threads: WorkerThreads = None,
+    retries: Retries = 2,
+    dry_run: DryRun = False,
+) -> None:
+    """Find unknowns of a case from measured values, with their bands and what limits them."""
+    from lasersph.cli.stop_signals import StopSignals
+    from lasersph.plots import style
+    from lasersph.plots.calibration import calibration_figure
+    from lasersph.simulation.time_loop import Stopped
+    from lasersph.studies import calibration_run
+    from lasersph.studies.calibration_reading import read_calibration_plan
+    from lasersph.sweeps import LocalEngine
+
+    loaded = read_calibration_plan(plan)
+    if dry_run:
+        print(aligned(_forecast(loaded)))
+        return
+    folder = out or Path("runs") / plan.stem
+    engine = LocalEngine(workers, threads, retries)
+    with StopSignals() as signals:
+        try:
+            found = calibration_run.calibrate(
+                loaded, folder, engine=engine, report=_say, should_stop=signals.asked
+            )
+        except Stopped as error:
+            again = f"lasersph calibrate {plan} --out {folder}"
+            raise StoppedBySignal(f"{error}; continue with: {again}", signals.code) from None
+    for line in calibration_run.answer_lines(found):
+        print(line)
+    content, points = calibration_run.read_answer(folder)
+    print(style.save(calibration_figure(content, points), folder / calibration_run.FIGURE))
+
+
+def _forecast(plan: CalibrationPlan) -> list[tuple[str, str]]:
+    from lasersph.input import format_duration
+    from lasersph.studies.calibration import first_settings
+    from lasersph.sweeps.forecast import forecast_seconds
+
+    points = [plan.template.point(dict(one)) for one in first_settings(plan)]
+    seconds, _ = forecast_seconds(points, 1)
+    share = plan.runs.most / len(points)
+    rows = zip(plan.keys, plan.units.values(), *plan.box(), strict=True)
+    return [
+        ("unknown", ", ".join(one.name for one in plan.unknowns)),
+        ("measured values", str(sum(len(one.values) for one in plan.conditions))),
+        *((key, f"{low:.6g} to {high:.6g} {unit}") for key, unit, low, high in rows),
+        ("runs", f"{len(points)} to {plan.runs.most}" + ", and two checks" * plan.runs.check),
+        (
+            "one after the other",
+            f"roughly {format_duration(seconds)} to {format_duration(share * seconds)}",
+        ),
+    ]
+
+
+def _say(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)

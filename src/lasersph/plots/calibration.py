@@ -1,0 +1,96 @@
+"""Measured values over bands of the calibrated model, and the posterior of the unknowns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lasersph.observers.quantity import suffix
+from lasersph.plots import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+
+BINS = 40
+"""Of the histograms of the posterior."""
+
+
+def calibration_figure(content: dict[str, Any], points: np.ndarray) -> Figure:
+    """Above: a panel for each measured number, data with standard errors over the computed values
+    and their errors. Below: the posterior of each unknown, and of each pair.
+
+    Args:
+        content: of calibration.json. points: unknowns and weights (n, p + 1) of posterior.csv.
+    """
+    from matplotlib.figure import Figure
+
+    columns = list(dict.fromkeys(one["number"] for one in content["data"]))
+    unknowns = content["unknowns"]
+    corner = 2.2 * len(unknowns) + 0.6
+    figure = Figure(figsize=(style.WIDTH, 3.0 + corner), layout="constrained")
+    above, below = np.ravel(figure.subfigures(2, 1, height_ratios=(3.0, corner)))
+    all_axes = above.subplots(1, len(columns), squeeze=False)[0]
+    for axes, column in zip(all_axes, columns, strict=True):
+        data = [one for one in content["data"] if one["number"] == column]
+        _draw_data(axes, data, content["units"])
+    style.legend(all_axes[0])
+    _draw_corner(below, unknowns, points)
+    return figure
+
+
+def _draw_data(axes: Axes, data: list[dict[str, Any]], units: dict[str, str]) -> None:
+    """Measured and computed values of one number over the setting that changes, or in order."""
+    settings = [one["settings"] for one in data]
+    varied = [key for key in settings[0] if len({one[key] for one in settings}) > 1]
+    x = np.array(
+        [one["settings"][varied[0]] if len(varied) == 1 else one["measurement"] for one in data]
+    )
+    order = np.argsort(x, kind="stable")
+    x = x[order]
+    names = ("measured", "standard_error", "computed", "emulator_sd", "numerical_sd")
+    value, error, mean, emulated, numerical = (
+        np.array([one[name] for one in data])[order] for name in names
+    )
+    number = data[0]["number"]
+    unit = style.fitting_unit(data[0]["unit"], float(np.max(np.abs(value))))
+    f, band = unit.factor, np.hypot(emulated, numerical)
+    axes.fill_between(x, f * (mean - band), f * (mean + band), color=style.COLORS[0], alpha=0.25,
+                      linewidth=0.0, label="model and its error")  # fmt: skip
+    axes.plot(x, f * mean, color=style.COLORS[0], linewidth=1.2)
+    axes.errorbar(x, f * value, f * error, fmt="o", color=style.COLORS[1], markersize=4,
+                  capsize=3, label="measured")  # fmt: skip
+    name = "measurement"
+    if len(varied) == 1:
+        name = f"{varied[0]} [{units.get(varied[0]) or '1'}]"
+    style.label(axes, name, f"{number.removesuffix(suffix(data[0]['unit']))} [{unit.name}]")
+    axes.yaxis.label.set_fontsize(8.5)
+
+
+def _draw_corner(figure: SubFigure, unknowns: dict[str, Any], points: np.ndarray) -> None:
+    """Histograms of the unknowns on the diagonal, of pairs below it."""
+    names, weights = list(unknowns), points[:, -1]
+    grid = figure.subplots(len(names), len(names), squeeze=False)
+    for row, below in enumerate(names):
+        for column, across in enumerate(names):
+            axes = grid[row, column]
+            if column > row:
+                axes.set_visible(False)
+                continue
+            x = points[:, column]
+            if column == row:
+                axes.hist(x, BINS, weights=weights, color=style.COLORS[0], alpha=0.6)
+                for end in ("low_95", "high_95"):
+                    axes.axvline(unknowns[across][end], color=style.GRAY, linestyle=":")
+                axes.axvline(unknowns[across]["mean"], color=style.GRAY)
+                axes.set_yticks([])
+            else:
+                axes.hist2d(x, points[:, row], BINS, weights=weights, cmap=style.FRACTION_COLORS)
+            is_lowest = row == len(names) - 1
+            style.label(axes, _named(across, unknowns) if is_lowest else "",
+                        _named(below, unknowns) if column == 0 and row > 0 else "")  # fmt: skip
+
+
+def _named(name: str, unknowns: dict[str, Any]) -> str:
+    return f"{name} [{unknowns[name]['unit'] or '1'}]"

@@ -1,0 +1,121 @@
+"""What a calibration has to find: unknowns of a case, what was measured, how many runs it may take.
+
+An unknown is a key of the case, a factor that `scales` a key, or `complements` a key: 1 less the
+key, such as the absorptivity of laser.reflectivity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from lasersph.input import Count, Model
+from lasersph.studies.measured_value import Measured
+from lasersph.sweeps import CaseTemplate, Study
+
+Array = NDArray[np.float64]
+Relation = Literal["key", "scales", "complements"]
+
+
+class RunBudget(Model):
+    """How many runs a calibration may take.
+
+    Attributes:
+        first: runs before the first look at the data; None for four more than twice the keys.
+        most: runs of the design at most. check: whether the best point is run, also at half the
+            spacing.
+    """
+
+    first: Count | None = None
+    most: Count = 32
+    seed: int = Field(default=1, ge=0, strict=True)
+    check: bool = True
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """Something that the data shall tell.
+
+    Attributes:
+        key: of the case. relation: whether the unknown is that key, scales it, or is 1 less it.
+        low, high: between which it lies, evenly probable, in SI. unit: SI, "" for a number.
+        known: what is known of it beside, a normal distribution.
+    """
+
+    name: str
+    key: str
+    relation: Relation
+    low: float
+    high: float
+    unit: str
+    known: Measured | None = None
+
+
+@dataclass(frozen=True)
+class Condition:
+    """Settings (SI, by key) of one measurement, and what was measured, by number of summaries."""
+
+    settings: Mapping[str, float]
+    values: Mapping[str, Measured]
+
+
+@dataclass(frozen=True)
+class CalibrationPlan:
+    """A plan that the case takes.
+
+    Attributes:
+        text: the file as given. template: the case with what all runs have in common.
+        units: SI unit of each key that varies from run to run.
+    """
+
+    text: str
+    template: CaseTemplate
+    unknowns: tuple[Unknown, ...]
+    conditions: tuple[Condition, ...]
+    units: Mapping[str, str]
+    runs: RunBudget
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """Keys that vary from run to run."""
+        return tuple(self.units)
+
+    @property
+    def study(self) -> Study:
+        """What a folder must belong to for this plan to go on in it."""
+        return Study.of("calibration", self.template, self.keys)
+
+    @property
+    def first_runs(self) -> int:
+        """Runs before the first look at the data."""
+        first = self.runs.first or 4 + 2 * len(self.units)
+        return min(max(first, len(self.units) + 2), self.runs.most)
+
+    def inputs(self, unknowns: Array, condition: Condition) -> Array:
+        """Keys of the runs (n, keys) in SI that a measurement is, were the unknowns (n, p) so."""
+        columns = []
+        for key in self.units:
+            column = np.full(len(unknowns), condition.settings.get(key, np.nan))
+            for unknown, values in zip(self.unknowns, unknowns.T, strict=True):
+                if unknown.key == key:
+                    column = _related(unknown.relation, column, values)
+            columns.append(column)
+        return np.column_stack(columns)
+
+    def box(self) -> tuple[Array, Array]:
+        """Lowest and highest keys (keys,) that the bounds of the unknowns reach, in SI."""
+        corners = np.array(list(product(*((one.low, one.high) for one in self.unknowns))))
+        reached = np.vstack([self.inputs(corners, one) for one in self.conditions])
+        return reached.min(axis=0), reached.max(axis=0)
+
+
+def _related(relation: Relation, setting: Array, unknown: Array) -> Array:
+    if relation == "scales":
+        return setting * unknown
+    return unknown if relation == "key" else 1.0 - unknown

@@ -1,0 +1,322 @@
+"""Plans of calibrations: TOML files that say what was measured and what of the case is unknown.
+
+    case = "dlip-steel"
+    [set]                                # of every run
+    "solver.kind" = "conduction"
+    [unknown]
+    factor = { scales = "laser.fluence", between = [0.7, 1.6] }
+    fwhm = { key = "laser.pulse.fwhm", between = ["8 ns", "12 ns"], known = "10 +- 0.5 ns" }
+    [[measured]]
+    set = { "laser.fluence" = "0.6 J/cm^2" }
+    values = { "melt.width_half_max_m" = "2.9 +- 0.1 um" }
+    [runs]
+    first = 8
+    most = 32
+
+An unknown is a key of the case, a factor that `scales` a key, or `complements` a key: 1 less the
+key, such as the absorptivity of laser.reflectivity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel, Field
+
+from lasersph.case.conversion import present_place
+from lasersph.input import (
+    CaseError,
+    Document,
+    Model,
+    Problem,
+    QuantityError,
+    build,
+    dotted,
+    parse_quantity,
+    read_toml,
+)
+from lasersph.input.findings import steps_of
+from lasersph.studies.calibration_plan import (
+    CalibrationPlan,
+    Condition,
+    Relation,
+    RunBudget,
+    Unknown,
+)
+from lasersph.studies.measured_value import kind_of_number, read_measured
+from lasersph.sweeps import CaseTemplate
+
+KeyPath = tuple[str | int, ...]
+
+
+class UnknownEntry(Model):
+    """What is unknown: one of key, scales and complements."""
+
+    key: str | None = None
+    scales: str | None = None
+    complements: str | None = None
+    between: tuple[float | str, float | str] = Field(examples=[[0.7, 1.6]])
+    known: str | None = None
+
+
+class MeasuredEntry(Model):
+    """What was measured at some settings."""
+
+    set: dict[str, Any] = Field(default_factory=dict)
+    values: dict[str, str]
+
+
+class PlanEntry(Model):
+    """The keys of a plan, not yet compared with the case."""
+
+    schema_version: Literal[1] = 1
+    case: str = Field(examples=["dlip-steel"])
+    set: dict[str, Any] = Field(default_factory=dict)
+    unknown: dict[str, UnknownEntry]
+    measured: tuple[MeasuredEntry, ...]
+    runs: RunBudget = RunBudget()
+
+
+def read_calibration_plan(file: str | PathLike[str]) -> CalibrationPlan:
+    """Read the plan of a calibration.
+
+    Raises:
+        CaseError: every mistake of the plan, or of its case, in one line with file and line.
+    """
+    document = read_toml(Path(file), tolerant=True)
+    return _Reader(document, build(PlanEntry, document)).plan()
+
+
+class _Reader:
+    """Compares a plan with its case."""
+
+    def __init__(self, document: Document, entry: PlanEntry) -> None:
+        self.document, self.entry = document, entry
+        self.problems: list[Problem] = []
+        folder, case = Path(document.file).parent, entry.case
+        is_file = case.endswith(".toml") or "/" in case
+        self.case = folder / case if is_file else case
+        self.template = CaseTemplate(self.case, _flat(entry.set))
+
+    def plan(self) -> CalibrationPlan:
+        """The plan. Raises CaseError."""
+        entry, sets = self.entry, [_flat(one.set) for one in self.entry.measured]
+        self._check_unknowns(sets)
+        self._raise_any()
+        contents = self.template.file.contents(self.template.overrides({}))
+        self._learn_kinds(sets)
+        unknowns = tuple(self._unknown(name, one) for name, one in entry.unknown.items())
+        conditions = [self._condition(number, sets[number]) for number in range(len(sets))]
+        self._raise_any()
+        self._complete(conditions, unknowns, contents)
+        count = sum(len(one.values) for one in conditions)
+        loose = [one for one in unknowns if one.known is None]
+        if count < len(loose):
+            self._add(
+                ("unknown",),
+                f"{len(loose)} unknowns need at least as many measured values, not {count}",
+                'measure more, or say what is known, e.g. known = "10 +- 0.5 ns"',
+            )
+        self._raise_any()
+        touched = {one.key for one in unknowns}
+        every = dict.fromkeys(key for one in conditions for key in one.settings)
+        seen = {key: {one.settings[key] for one in conditions} for key in every}
+        same = {
+            key: values.pop()
+            for key, values in seen.items()
+            if key not in touched and len(values) == 1
+        }
+        shared = {
+            key: f"{value!r} {self.template.unit(key)}".strip() for key, value in same.items()
+        }
+        fixed = CaseTemplate(self.case, {**self.template.settings, **shared})
+        units = {key: self.template.unit(key) for key in (*every, *touched) if key not in same}
+        plan = CalibrationPlan(
+            self.document.text, fixed, unknowns, tuple(conditions), dict(units), entry.runs
+        )
+        self._check_box(plan)
+        self._raise_any()
+        return plan
+
+    def _add(self, path: KeyPath, problem: str, hint: str = "") -> None:
+        file, line = self.document.place(path)
+        found = Problem(problem, hint, dotted(path), file, line)
+        if found not in self.problems:
+            self.problems.append(found)
+
+    def _raise_any(self) -> None:
+        if self.problems:
+            raise CaseError(sorted(self.problems, key=lambda one: one.line or 0))
+
+    def _check_unknowns(self, sets: list[dict[str, Any]]) -> None:
+        """What can be said without the case: how unknowns and settings name their keys."""
+        owners: dict[str, str] = {}
+        if not self.entry.unknown:
+            self._add(
+                ("unknown",),
+                "nothing is unknown",
+                'write e.g. factor = { scales = "laser.fluence", between = [0.7, 1.6] }',
+            )
+        if not self.entry.measured:
+            self._add((), "nothing is measured", "write a [[measured]] table")
+        for name, one in self.entry.unknown.items():
+            path = ("unknown", name)
+            named = [key for key in (one.key, one.scales, one.complements) if key is not None]
+            if len(named) != 1:
+                self._add(
+                    path,
+                    "needs one of key, scales and complements",
+                    'write e.g. scales = "laser.fluence"',
+                )
+                continue
+            if one.scales is None:
+                if named[0] in owners:
+                    self._add(
+                        path,
+                        f"{named[0]} is unknown twice, by {owners[named[0]]} as well",
+                        "remove one",
+                    )
+                owners[named[0]] = name
+                if named[0] in self.template.settings:
+                    self._add(path, f"{named[0]} is given in [set] as well", "remove one")
+        for number, settings in enumerate(sets):
+            if not self.entry.measured[number].values:
+                self._add(
+                    ("measured", number),
+                    "nothing is measured here",
+                    'write e.g. values = { "melt.depth_max_m" = "200 +- 20 nm" }',
+                )
+            for key in settings:
+                if key in owners or key in self.template.settings:
+                    other = f"unknown ({owners[key]})" if key in owners else "given in [set]"
+                    self._add(
+                        ("measured", number, "set"), f"{key} is {other} as well", "remove one"
+                    )
+        for name, one in self.entry.unknown.items():
+            if one.scales in owners:
+                self._add(
+                    ("unknown", name),
+                    f"{one.scales} is unknown itself, by {owners[one.scales]}",
+                    "remove one",
+                )
+
+    def _learn_kinds(self, sets: list[dict[str, Any]]) -> None:
+        """Which quantity each key reads; a key or value that the case refuses is said here."""
+        trials: list[tuple[KeyPath, dict[str, Any]]] = [
+            (("measured", number, "set", key), {key: value})
+            for number, settings in enumerate(sets)
+            for key, value in settings.items()
+        ]
+        for name, one in self.entry.unknown.items():
+            key = one.key or one.complements
+            for value in one.between if key else ():
+                if key == one.complements:
+                    value = 1.0 - value if isinstance(value, float) else value
+                trials.append((("unknown", name), {str(key): value}))
+        for path, values in trials:
+            try:
+                self.template.learn_kinds(values)
+            except CaseError as error:
+                first = error.problems[0]
+                self._add(path, f"{first.key}: {first.problem}", first.hint)
+        self._raise_any()
+
+    def _unknown(self, name: str, one: UnknownEntry) -> Unknown:
+        relation: Relation = "key" if one.key else "scales" if one.scales else "complements"
+        key = one.key or one.scales or one.complements or ""
+        kind = self.template.kind(key) if relation == "key" else ""
+        path, ends, known = ("unknown", name), [0.0, 1.0], None
+        try:
+            ends = [self._end(value, kind) for value in one.between]
+            known = None if one.known is None else read_measured(one.known, kind)
+        except QuantityError as error:
+            self._add(path, str(error))
+        if not ends[1] > ends[0]:
+            self._add((*path, "between"), "the range has no width", "write the lower value first")
+        if relation == "scales" and not ends[0] > 0.0:
+            self._add((*path, "between"), "a factor must be above zero")
+        if known is not None and not ends[0] < known.value < ends[1]:
+            self._add((*path, "known"), "what is known lies outside of between", "widen the range")
+        unit = self.template.unit(key) if relation == "key" else ""
+        return Unknown(name, key, relation, ends[0], ends[1], unit, known)
+
+    @staticmethod
+    def _end(value: float | str, kind: str) -> float:
+        if isinstance(value, str):
+            return parse_quantity(value, kind or "fraction")
+        if kind not in ("", "fraction"):
+            raise QuantityError(f"{value} has no unit; write between as text with units")
+        return float(value)
+
+    def _condition(self, number: int, settings: dict[str, Any]) -> Condition:
+        values, read = {}, {}
+        for key, value in settings.items():
+            si = self.template.to_si(key, value)
+            if isinstance(si, bool) or not isinstance(si, int | float):
+                self._add(
+                    ("measured", number, "set", key), "must be a number", "write words in [set]"
+                )
+                continue
+            read[key] = float(si)
+        for column, text in self.entry.measured[number].values.items():
+            try:
+                values[column] = read_measured(text, kind_of_number(column))
+            except QuantityError as error:
+                self._add(("measured", number, "values", column), str(error))
+        return Condition(read, values)
+
+    def _complete(
+        self, conditions: list[Condition], unknowns: tuple[Unknown, ...], contents: BaseModel
+    ) -> None:
+        """Give every condition a value of each key that another one sets or a factor scales."""
+        scaled = {one.key: one.name for one in unknowns if one.relation == "scales"}
+        wanted = dict.fromkeys([*(key for one in conditions for key in one.settings), *scaled])
+        nominal = {key: _number_at(contents, key) for key in wanted}
+        for number, one in enumerate(conditions):
+            for key in wanted:
+                if key in one.settings:
+                    continue
+                if nominal[key] is None:
+                    path = ("unknown", scaled[key]) if key in scaled else ("measured", number)
+                    self._add(path, f"the case gives no number at {key}", "set it in [[measured]]")
+            known = {key: value for key, value in nominal.items() if value is not None}
+            conditions[number] = Condition({**known, **one.settings}, one.values)
+
+    def _check_box(self, plan: CalibrationPlan) -> None:
+        """Refuse bounds that lead out of what the case takes."""
+        low, high = plan.box()
+        middle = dict(zip(plan.keys, (0.5 * (low + high)).tolist(), strict=True))
+        for number, key in enumerate(plan.keys):
+            if not high[number] > low[number]:
+                self._add(("unknown",), f"nothing changes {key}", "remove it")
+            for value in (low[number], high[number]):
+                point = plan.template.point({**middle, key: float(value)})
+                if point.reason:
+                    name = next((one.name for one in plan.unknowns if one.key == key), "")
+                    path: KeyPath = ("unknown", name) if name else ("measured",)
+                    self._add(
+                        path,
+                        f"reaches {key} = {value:.6g} {plan.units[key]}, which the case refuses: "
+                        f"{point.reason}",
+                    )
+
+
+def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Settings by dotted key, written with quotes or without."""
+    found: dict[str, Any] = {}
+    for name, value in table.items():
+        key = prefix + name
+        found |= _flat(value, f"{key}.") if isinstance(value, dict) else {key: value}
+    return found
+
+
+def _number_at(contents: BaseModel, key: str) -> float | None:
+    """The number at a key of a case, in SI; None where there is none."""
+    found: object = contents
+    for step in present_place(steps_of(key)):
+        found = getattr(found, step, None) if isinstance(step, str) else None
+    is_number = isinstance(found, int | float) and not isinstance(found, bool)
+    return float(found) if is_number else None  # pyright: ignore[reportArgumentType]
