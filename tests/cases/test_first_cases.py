@@ -185,7 +185,7 @@ title = "melt pool"
 material = "steel-304"
 [laser]
 fluence = "0.5 J/cm^2"
-wavelength = "1064 nm"
+wavelength = "800 nm"
 beam = { kind = "gaussian", radius_1e2 = "20 um", wavelength = "1064 nm"}
 pulse = { kind = "gaussian", fwhm = "10 ns" }
 absorption = { kind = "beer-lambert" }
@@ -205,7 +205,7 @@ model = "enthalpy"
 """
 A_MELT_POOL_SAYS = """\
 :3: laser: fluence of a gaussian beam may be its mean or its peak (twice the mean); write fluence_kind = "peak" or "mean"
-:5: laser.wavelength: material 'steel-304' has optics at "355 nm", not at "1064 nm"; write e.g. wavelength = "355 nm" in [laser], or reflectivity in [laser] and absorption_coefficient in [laser.absorption]
+:5: laser.wavelength: material 'steel-304' has optics at "1064 nm", "532 nm", "355 nm", not at "800 nm"; write e.g. wavelength = "1064 nm" in [laser], or reflectivity in [laser] and absorption_coefficient in [laser.absorption]
 :6: laser.beam.wavelength: unknown key; leave it out: laser.wavelength is given
 :7: laser.pulse.center: missing; write center = "30 ns"
 :9: domain.width: missing for 2-D; write e.g. width = "5 um"

@@ -252,11 +252,11 @@ class Laser(Model):
     def _lit(self, material: Material) -> Material:
         """The metal with its optics for this light.
 
-        Without a wavelength of the laser that of interfering waves chooses, but only where there
-        is a choice: a metal with optics at one wavelength has them for any light not named here.
+        Without a wavelength of the laser that of interfering waves chooses, but only where the
+        metal has no numbers for a light that is not named here.
         """
-        wavelength = self.wavelength
-        has_choice = material.optics is not None and material.optics.by_wavelength
-        if wavelength is None and has_choice and isinstance(self.beam, InterferenceBeam):
+        wavelength, optics = self.wavelength, material.optics
+        must_choose = optics is not None and optics.by_wavelength and optics.wavelength is None
+        if wavelength is None and must_choose and isinstance(self.beam, InterferenceBeam):
             wavelength = self.beam.wavelength
         return material.in_light(wavelength)
