@@ -12,6 +12,7 @@ import matplotlib.pyplot
 import pytest
 
 import lasersph
+from lasersph.cli import main
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = sorted((ROOT / "examples").glob("*/case.toml"))
@@ -43,6 +44,16 @@ def test_every_example_explains_itself():
         assert case.with_name("expected.toml").exists()
         assert case.with_name("figure.png").exists()
         assert case.with_name("README.md").read_text(encoding="utf-8").startswith("# ")
+
+
+def test_plan_of_a_process_map(capsys):
+    """The plan of an example is forecast: every point is a case, and nothing is refused."""
+    (plan,) = (ROOT / "examples").glob("*/plan.toml")
+    assert main(["sweep", str(plan), "--dry-run"]) == 0
+    said = capsys.readouterr().out
+    assert "40 of " in said and "refused" not in said
+    assert plan.with_name("figure.png").exists()
+    assert plan.with_name("README.md").read_text(encoding="utf-8").startswith("# ")
 
 
 def test_notebook_runs(tmp_path, monkeypatch):

@@ -14,9 +14,9 @@ ROOT = DOCS.parent
 
 
 def gallery(folder: Path) -> str:
-    """Every example's own README and case file."""
+    """Every example's own README and its case file or plan."""
     parts = []
-    for case in sorted(folder.glob("*/case.toml")):
+    for case in sorted([*folder.glob("*/case.toml"), *folder.glob("*/plan.toml")]):
         readme = case.with_name("README.md").read_text(encoding="utf-8")
         title, _, text = readme.partition("\n")
         picture = f"../examples/{case.parent.name}/figure.png"

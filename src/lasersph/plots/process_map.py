@@ -3,6 +3,7 @@ boils or is ablated."""
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -125,11 +126,16 @@ def draw_process_map(shown: ProcessMap, levels: tuple[float, ...] = ()) -> Figur
         if axis.is_logarithmic:
             set_scale("log")
     names = [f"{axis.words} [{u.name}]" for axis, u in zip(shown.axes, units, strict=True)]
-    value_name = f"{shown.words} [{value_unit.name}]"
+    value_name = _value_words(shown, value_unit)
     style.label(axes, names[0], names[1] if len(names) == 2 else value_name)
     _plain_ticks(axes)
     style.legend_above(figure, axes, columns=5)
     return figure
+
+
+def _value_words(shown: ProcessMap, unit: style.Unit) -> str:
+    """The number with its unit, in lines that an axis holds."""
+    return textwrap.fill(f"{shown.words} [{unit.name}]", 40)
 
 
 def _draw_line(
@@ -173,7 +179,7 @@ def _draw_plane(
     beyond = "both" if levels else "neither"
     image = axes.contourf(x, y, field, levels=steps, cmap=style.SPEED_COLORS, extend=beyond)
     image.set_edgecolor("face")  # no pale seams between the colors in SVG
-    style.color_bar(axes, image, f"{shown.words} [{unit.name}]", aspect=22.0)
+    style.color_bar(axes, image, _value_words(shown, unit), aspect=22.0)
     if shown.deviation is not None and np.any(shown.deviation > shown.allowed):
         doubtful = np.ma.masked_invalid(np.where(shown.deviation > shown.allowed, 1.0, 0.0))
         doubtful = np.ma.array(doubtful, mask=np.ma.getmaskarray(field))

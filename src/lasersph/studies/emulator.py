@@ -164,7 +164,8 @@ class Emulator:
     @cached_property
     def _factor(self) -> Array:
         """Lower Cholesky factor of the covariance of the runs, over scale^2."""
-        return np.linalg.cholesky(self._covariance(self.inputs) + np.diag(self.noise))
+        covariance = self._covariance(self.inputs) + np.diag(self.noise)
+        return np.asarray(np.linalg.cholesky(covariance), dtype=np.float64)
 
     def _covariance(self, x: Array) -> Array:
         """cov[g] of scaled points (m, keys) with the runs, (m, n)."""

@@ -5,14 +5,18 @@ runs (Delaunay), both linearly in the keys or their logarithms, or by an emulato
 outside the runs' hull, nor across a run without a result.
 
 Sizes in whole cells jump; where melting begins they say only to a cell. The lines of melting and
-boiling interpolate what does not jump, the enthalpy of the hottest spot over that of the event,
+boiling interpolate what does not jump, the highest temperature of each run, on the scale
 
-    ln [h(T_max) / h_event],   h = int c_p dT + latent heat, from the initial temperature
+    ln [E(T_max) / E(T_event)],   E(T) = int sqrt(k rho c_p) dT   from the initial temperature,
 
-linearly over the logarithms of the keys: the enthalpy grows almost in proportion to the fluence and
-falls almost with a power of the duration. Runs that boil, whose T_max rests at the boiling point,
-are given what colder runs extrapolate to. The line of ablation lies halfway between runs that eject
-matter and runs that do not.
+linearly over the logarithms of the keys. E is the effusivity times the rise of temperature: the
+surface of a half-space reaches it in proportion to the flux and to the root of the time
+[Carslaw1959, 2.9], which holds nearly for properties that change. The latent heat is left out, of
+which the thin layer that melts first takes little. Runs that boil, whose T_max rests at the boiling
+point, are given what colder runs extrapolate to. The line of ablation lies halfway between runs
+that eject matter and runs that do not.
+
+[Carslaw1959] Carslaw, Jaeger, Conduction of Heat in Solids, Oxford (1959).
 """
 
 from __future__ import annotations
@@ -28,7 +32,7 @@ from scipy.interpolate import LinearNDInterpolator, RegularGridInterpolator
 from scipy.spatial import Delaunay
 
 from lasersph.input import did_you_mean
-from lasersph.materials import CaloricCurve, Material
+from lasersph.materials import Material
 from lasersph.observers.observer_list import RESULTS
 from lasersph.observers.quantity import unit_in
 from lasersph.output import open_run
@@ -54,7 +58,7 @@ TOLERANCE = 0.05
 HELD = 1e-9
 """Relative distance from the boiling point at which a temperature rests there: rounding."""
 ROUNDING = 1e-6
-"""Of enthalpies, far below a kelvin: it decides on no side of a line."""
+"""Of relative rises, far below a kelvin: it decides on no side of a line."""
 COLDEST = -7.0
 """ln of a thousandth: a run that is hardly heated at all."""
 
@@ -231,32 +235,36 @@ def _event_heats(table: Table, layout: _Layout) -> list[tuple[str, Array]]:
         if name == "ablates":
             heat = np.where(complete, happened - 0.5, np.nan)
         else:
-            heat = _relative_enthalpies(table, hottest)[place]
+            heat = _relative_rises(table, hottest)[place]
             heat = np.where(happened, np.maximum(heat, ROUNDING), np.minimum(heat, -ROUNDING))
             heat = _raised(heat, boiling, layout)
         found.append((name, heat))
     return found
 
 
-def _relative_enthalpies(table: Table, hottest: Array) -> Array:
-    """ln(h / h_event) of the hottest spot of each run, for melting and for boiling (2, runs); NaN
+def _relative_rises(table: Table, hottest: Array) -> Array:
+    """ln(E / E_event) of the hottest spot of each run, for melting and for boiling (2, runs); NaN
     without a result or such an event."""
-    curves: dict[str, tuple[CaloricCurve, float, float]] = {}
+    scales: dict[str, tuple[Array, Array, Array]] = {}
     found = np.full((2, len(table.rows)), np.nan)
     for k, row in enumerate(table.rows):
         if row.status != "complete":
             continue
         case: dict[str, Any] = open_run(table.path / RUNS / row.run).resolved["case"]
         text = json.dumps([case["material"], case["initial_temperature"]])
-        if text not in curves:
+        if text not in scales:
             metal = Material.model_validate(case["material"])
             curve = metal.caloric_curve(case["initial_temperature"], "evaporate")
-            liquid = curve.enthalpy[np.argmax(curve.melt_fraction >= 1.0 - ROUNDING)]
+            latent = curve.latent_heats[0] * curve.melt_fraction
+            # between nodes k and c_p are constant: sqrt(k c_p) dT = sqrt(dP dh); rho cancels
+            steps = np.sqrt(np.diff(curve.potential) * np.diff(curve.enthalpy - latent).clip(0.0))
+            rise = np.concatenate([[0.0], np.cumsum(steps)])
             boiling = metal.vaporization and metal.vaporization.temperature
-            curves[text] = curve, liquid, float(curve.enthalpy_at(boiling or np.inf))
-        curve, *events = curves[text]
+            events = np.array([metal.liquidus or np.nan, boiling or np.nan])
+            scales[text] = curve.temperature, rise, np.interp(events, curve.temperature, rise)
+        temperature, rise, events = scales[text]
         with np.errstate(divide="ignore"):  # a run that is not heated at all
-            found[:, k] = np.log(curve.enthalpy_at(hottest[k]) / np.array(events))
+            found[:, k] = np.log(np.interp(hottest[k], temperature, rise) / events)
     return np.maximum(found, COLDEST)
 
 

@@ -3,85 +3,25 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy.stats import qmc
+from sobol_intervals import (
+    CUBE,
+    KEYS,
+    exact_indices,
+    ishigami,
+    ishigami_indices,
+    melt_depth,
+    points_in,
+)
 from synthetic_sweep import grid_points, made_up_sweep
 
-from lasersph.analytic.half_space import ablated_depth
 from lasersph.studies import box_of, fit_emulator
 from lasersph.studies.sensitivity import assess_sensitivity, screen, sobol_indices
 from lasersph.sweeps.sampling import Range, morris
 
 
-def ishigami(x):
-    """sin x_1 + 7 sin^2 x_2 + 0.1 x_3^4 sin x_1 over -pi..pi (Ishigami and Homma 1990)."""
-    return np.sin(x[:, 0]) + 7.0 * np.sin(x[:, 1]) ** 2 + 0.1 * x[:, 2] ** 4 * np.sin(x[:, 0])
-
-
-def ishigami_indices():
-    """Closed form: V = a^2/8 + b pi^4/5 + b^2 pi^8/18 + 1/2 with a = 7, b = 0.1."""
-    a, b = 7.0, 0.1
-    first = 0.5 * (1.0 + b * np.pi**4 / 5.0) ** 2
-    second, both = a**2 / 8.0, b**2 * np.pi**8 * (1.0 / 18.0 - 1.0 / 50.0)
-    whole = first + second + both
-    return (
-        np.array([first, second, 0.0]) / whole,
-        np.array([first + both, second, both]) / whole,
-    )
-
-
-KEYS = box_of((2e3, 2e-9, 0.3), (1e4, 50e-9, 0.5), (False, True, False))
-"""Fluence [J/m^2], duration [s], absorptivity."""
-
-
-def melt_depth(points):
-    """Depth [m] that a pulse melts by its balance of energy; zero below the threshold."""
-    return np.array(
-        [
-            ablated_depth(
-                share * fluence,
-                duration,
-                density=7900.0,
-                heat_capacity=500.0,
-                diffusivity=4e-6,
-                rise=1400.0,
-                latent_heat=2.6e5,
-            )
-            for fluence, duration, share in np.atleast_2d(points)
-        ]
-    )
-
-
-def exact_indices(function, box, order=40):
-    """First-order and total indices of a function of three keys by Gauss quadrature."""
-    node, weight = np.polynomial.legendre.leggauss(order)
-    node, weight = 0.5 * (node + 1.0), 0.5 * weight
-    grid = np.stack(np.meshgrid(node, node, node, indexing="ij"), axis=-1).reshape(-1, 3)
-    y = function(box.restored(grid)).reshape((order,) * 3)
-
-    def mean_over(values, axes):
-        for axis in sorted(axes, reverse=True):
-            values = np.tensordot(values, weight, axes=(axis, 0))
-        return values
-
-    mean = mean_over(y, (0, 1, 2))
-    variance = mean_over(y**2, (0, 1, 2)) - mean**2
-    others = [tuple(j for j in range(3) if j != k) for k in range(3)]
-    first = [weight @ mean_over(y, others[k]) ** 2 - mean**2 for k in range(3)]
-    total = []
-    for k in range(3):
-        left = mean_over(y, (k,))
-        total.append(variance - (weight @ left**2 @ weight - mean**2))
-    return np.array(first) / variance, np.array(total) / variance
-
-
-def points_in(box, count, seed):
-    """Points of a Sobol sequence."""
-    return box.restored(qmc.Sobol(box.low.size, rng=seed).random(count))
-
-
 @pytest.mark.parametrize(
     ("function", "box", "count"),
-    [(ishigami, box_of([-np.pi] * 3, [np.pi] * 3), 128), (melt_depth, KEYS, 32)],
+    [(ishigami, CUBE, 128), (melt_depth, KEYS, 32)],
     ids=["ishigami", "melt depth"],
 )
 def test_indices_lie_in_their_intervals(function, box, count):
@@ -97,7 +37,7 @@ def test_indices_lie_in_their_intervals(function, box, count):
 
 def test_quadrature_knows_ishigami():
     """The exact indices of the melt depth are trusted because those of a known function agree."""
-    found = exact_indices(ishigami, box_of([-np.pi] * 3, [np.pi] * 3))
+    found = exact_indices(ishigami, CUBE)
     for one, other in zip(found, ishigami_indices(), strict=True):
         assert_allclose(one, other, atol=1e-9)
 
