@@ -42,7 +42,7 @@ class Vapor(NamedTuple):
 
     Attributes:
         temperature, density, pressure: [1]. recoil: momentum given to the surface, over p_sat [1].
-        flux: over the Hertz-Knudsen flux p_sat / sqrt(2 pi R_s T_s) [1].
+            flux: over the Hertz-Knudsen flux p_sat / sqrt(2 pi R_s T_s) [1].
     """
 
     temperature: float
