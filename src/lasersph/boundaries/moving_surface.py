@@ -23,15 +23,13 @@ Waves shorter than the smoothing length are damped within the time of that wave.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries import surface_loops as loops
-from lasersph.boundaries.flat_surface import ImposedTemperature, surface_tension_table
-from lasersph.boundaries.settings import SurfaceWave
+from lasersph.boundaries.flat_surface import surface_tension_table
 from lasersph.boundaries.surface import (
     PressureCondition,
     SurfaceGhosts,
@@ -39,6 +37,7 @@ from lasersph.boundaries.surface import (
     SurfaceStep,
     upward,
 )
+from lasersph.boundaries.surface_drives import Drives
 from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
 from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
 from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
@@ -58,8 +57,9 @@ STEEPEST = 1.0
 FEWEST_ROWS = 3.0
 """Thickness of the liquid over the spacing, down to which it is."""
 END_KINDS = {"pinned": loops.PINNED, "mirror": loops.MIRROR, "periodic": loops.PERIODIC}
-LINE = ("height", "shear", "stretch")
-"""What of the line survives a step: eta [m], du_t/dn and du_t/ds [1/s]."""
+LINE = ("height", "shear", "stretch", "followed")
+"""What of the line survives a step: eta [m], du_t/dn and du_t/ds [1/s], and the evaporated mass per
+area that it has followed [kg/m^2]."""
 
 
 def shear_rate(tau: HostArray | float, viscosity: float, across: HostArray) -> HostArray:
@@ -78,16 +78,6 @@ class SurfaceLiquid(NamedTuple):
     density: float
     viscosity: float
     material: Material
-
-
-@dataclass(frozen=True)
-class Drives:
-    """What a case imposes on the surface: temperature [K], pressure [Pa], mass flux [kg/(m^2 s)]
-    that leaves; the last two as waves."""
-
-    temperature: ImposedTemperature | None = None
-    pressure: SurfaceWave | None = None
-    mass_flux: SurfaceWave | None = None
 
 
 class MovingSurface:
@@ -127,7 +117,7 @@ class MovingSurface:
         self.pressure: PressureCondition | None = None
         self._shear, self._stretch = np.zeros(line.count), np.zeros(line.count)
         self._line_pressure, self._line_temperature = np.zeros(line.count), np.zeros(line.count)
-        self._gradient = np.zeros(line.count)
+        self._gradient, self._followed = np.zeros(line.count), np.zeros(line.count)
         T = liquid.material.flow_temperature
         self._tension = float(liquid.material.surface_tension_at(T))
         low, high = (END_KINDS[kind] for kind in line.ends)
@@ -146,6 +136,7 @@ class MovingSurface:
     def arrays(self) -> dict[str, Array]:
         """Arrays of a checkpoint by name."""
         host = {"height": self.line.height, "shear": self._shear, "stretch": self._stretch}
+        host["followed"] = self._followed
         return {f"surface_{name}": self.backend.asarray(host[name]) for name in LINE}
 
     def find(self, position: Array) -> None:
@@ -227,6 +218,8 @@ class MovingSurface:
         pressure = tension * line.curvature + normal_stress(liquid.viscosity, along)
         if (wave := self.drives.pressure) is not None:
             pressure = pressure + wave.mean_over(x, *interval)
+        if self.drives.recoil is not None:
+            pressure = pressure + self.drives.recoil(T)
         self._line_temperature[columns], self._gradient[columns] = T, line.derivative(T) / S
         self._shear[columns] = shear_rate(tau, liquid.viscosity, across)
         self._stretch[columns], self._line_pressure[columns] = along, pressure
@@ -271,7 +264,7 @@ class MovingSurface:
             sides = flux[np.append(part, (part[-1] + 1))]
             if own.ends[0] != "periodic":
                 sides[[0, -1]] = 0.0
-            loss = self._loss(own, line.x[part], begin, end)
+            loss = self._loss(own, part, now)
             own.move(end - begin, sides, loss)
             own.damp_short_waves((end - begin) * rate)
             moved[part] = own.height
@@ -279,11 +272,20 @@ class MovingSurface:
         self._renew()
         self.find(now.position)
 
-    def _loss(self, part: SurfaceLine, x: HostArray, begin: float, end: float) -> HostArray | float:
+    def _loss(self, part: SurfaceLine, columns: NDArray[np.int64], now: SurfaceStep) -> HostArray:
         """Speed at which mass that leaves lowers a part of the line [m/s]."""
-        if (wave := self.drives.mass_flux) is None:
-            return 0.0
-        loss = wave.mean_over(x, begin, end) * np.sqrt(1.0 + part.slope**2) / self.liquid.density
+        begin, end = now.interval
+        loss = np.zeros(columns.size)
+        if (wave := self.drives.mass_flux) is not None:
+            S = np.sqrt(1.0 + part.slope**2)
+            loss = wave.mean_over(self.line.x[columns], begin, end) * S / self.liquid.density
+        if self.drives.recoil is not None:
+            # of the steps of heat before this one, per area of the surface seen from above
+            gone = self.backend.to_host(self.backend.head(now.evaporated, self.line.count))[columns]
+            followed = self._followed.copy()
+            loss = loss + (gone - followed[columns]) / (self.liquid.density * (end - begin))
+            followed[columns] = gone
+            self._followed = followed
         self.flux_loss += (end - begin) * float(np.sum(loss)) * part.width
         return loss
 
@@ -331,7 +333,8 @@ class MovingSurface:
 
     def restore_arrays(self, arrays: Mapping[str, np.ndarray]) -> None:
         """Continue from the arrays of a checkpoint."""
-        height, self._shear, self._stretch = (np.array(arrays[f"surface_{n}"]) for n in LINE)
+        found = [np.array(arrays[f"surface_{name}"]) for name in LINE]
+        height, self._shear, self._stretch, self._followed = found
         self.line.height = height
         self._renew()
 
@@ -341,6 +344,7 @@ class MovingSurface:
             "surface_height": self.line.height,
             "surface_shear": self._shear,
             "surface_stretch": self._stretch,
+            "surface_followed": self._followed,
         }
 
     def go_back(self) -> None:

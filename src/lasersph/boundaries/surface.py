@@ -52,7 +52,8 @@ class SurfaceGhosts(NamedTuple):
 
 class SurfaceStep(NamedTuple):
     """The particles below a surface in a step: temperature [K], position [m], velocity [m/s],
-    volume [m^2], 1 where they flow, all (..., n); begin and end of the step [s]."""
+    volume [m^2], 1 where they flow, all (..., n); begin and end of the step [s]; what has
+    evaporated since the start [kg/m^2], in the first entries by column."""
 
     T: Array
     position: Array
@@ -60,6 +61,7 @@ class SurfaceStep(NamedTuple):
     volume: Array
     flows: Array
     interval: tuple[float, float]
+    evaporated: Array
 
 
 class SurfaceNeighbors(Protocol):

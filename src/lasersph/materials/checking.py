@@ -62,19 +62,6 @@ class Finding:
         return f"{self.level}: {self.subject}: {self.text}"
 
 
-def missing_surface_tension(material: Material) -> str | None:
-    """What a material without gamma lacks for a surface that moves, and what to write; None where
-    it has gamma. Of surface tension, a flat surface needs no more than the slope."""
-    if material.surface_tension is not None:
-        return None
-    return (
-        f'"{material.name}" has no surface_tension, which holds a moving surface together; write '
-        'e.g. surface_tension = "1.6 N/m" (liquid steel 1.6 to 1.9 N/m, aluminium 0.87 N/m with '
-        f'an oxide and 1.05 N/m without) beside base = "{material.name}" in [material], or '
-        'surface = "flat"'
-    )
-
-
 def check_material(material: Material) -> list[Finding]:
     """All findings about a material, warnings first."""
     found = [

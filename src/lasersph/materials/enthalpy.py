@@ -174,7 +174,8 @@ def build_curve(
         raise ValueError(f'plateau must be "hold", "clip" or "evaporate", got {plateau!r}')
     if initial_temperature <= 0.0:
         raise ValueError(f"the initial temperature must be positive, got {initial_temperature} K")
-    top = melting.solidus if melting else vaporization.temperature if vaporization else None
+    boiling = vaporization.temperature if vaporization and holds else None
+    top = melting.solidus if melting else boiling
     if top is not None and initial_temperature >= top:
         raise ValueError(
             f"the initial temperature {initial_temperature:g} K is not below {top:g} K, "

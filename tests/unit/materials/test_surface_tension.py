@@ -10,7 +10,6 @@ import pytest
 from lasersph.case import load_case
 from lasersph.input import CaseError
 from lasersph.materials import load_material
-from lasersph.materials.checking import missing_surface_tension
 
 R = 8.314462618
 
@@ -75,11 +74,3 @@ def test_content_is_a_key_of_the_material():
     with pytest.raises(CaseError, match=r"surface_tension\.adsorption") as refused:
         load_case("dlip-aluminium", ["material=aluminium", "material.sulfur=50 ppm"])
     assert "sulfur" in str(refused.value)
-
-
-def test_a_surface_that_moves_asks_for_gamma():
-    """By key and with a typical value, where only the slope is known."""
-    text = missing_surface_tension(load_material("steel-304-demuth")) or ""
-    assert 'surface_tension = "1.6 N/m"' in text and "steel-304-demuth" in text
-    for name in ("steel-304", "aluminium"):
-        assert missing_surface_tension(load_material(name)) is None

@@ -259,7 +259,8 @@ class MeltPool:
         """What the surface reads of the particles in a step [s]."""
         time, fluid = self.state.time, self.kinds.fluid
         T, V = self.particles["temperature"], self.particles["volume"]
-        return SurfaceStep(T, position, self.flow.velocity, V, fluid, (time, time + step))
+        gone, times = self.particles["evaporated_mass"], (time, time + step)
+        return SurfaceStep(T, position, self.flow.velocity, V, fluid, times, gone)
 
     def shift(self, step: float) -> None:
         """Displacements that keep the density of particles even (73)."""

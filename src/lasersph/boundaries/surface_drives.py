@@ -1,0 +1,28 @@
+"""What acts on a surface that moves, beside the melt below it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.boundaries.flat_surface import ImposedTemperature
+from lasersph.boundaries.settings import SurfaceWave
+
+
+@dataclass(frozen=True)
+class Drives:
+    """What a case imposes on the surface, and the push of its vapor.
+
+    Attributes:
+        temperature: [K]. pressure: [Pa]. mass_flux: that leaves [kg/(m^2 s)].
+        recoil: gauge recoil [Pa] of vapor at temperatures [K], any shape, where vapor leaves; what
+            heat has evaporated then leaves the surface as well.
+    """
+
+    temperature: ImposedTemperature | None = None
+    pressure: SurfaceWave | None = None
+    mass_flux: SurfaceWave | None = None
+    recoil: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None
