@@ -203,8 +203,11 @@ def _forecast(plan: SweepPlan, workers: int | None, threads: int | None) -> None
     of_each = threads or max(1, available() // count)
     seconds, sampled = forecast_seconds(right, of_each)
     source = "" if sampled == len(right) else f", estimated from {sampled} of them"
+    refused = [point for point in points if point.case is None]
+    more = f", and {len(refused)} points that the case refuses" if refused else ""
     rows = [
-        ("runs", f"{len(right)} of {plan.template.file.document.file}"),
+        ("case", Path(plan.template.file.document.file).stem),
+        ("runs", f"{len(right)}{more}"),
         ("varied", ", ".join(plan.choices)),
         ("one after the other", f"roughly {format_duration(seconds)}{source}"),
         (
@@ -214,7 +217,6 @@ def _forecast(plan: SweepPlan, workers: int | None, threads: int | None) -> None
         ),
     ]
     print(aligned(rows))
-    refused = [point for point in points if point.case is None]
     for point in refused:
         values = ", ".join(f"{key} = {value}" for key, value in point.settings.items())
         print(f"refused: {values}: {point.reason}")

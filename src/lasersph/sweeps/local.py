@@ -19,6 +19,8 @@ from pathlib import Path
 from typing import Any
 
 import lasersph.sweeps
+from lasersph.case.checks import LARGEST_COST_SHARE
+from lasersph.case.size import machine_memory, size_of
 from lasersph.compute.threads import available
 from lasersph.sweeps.engine import STOPPED, Event, Report, Task
 
@@ -104,7 +106,7 @@ class LocalEngine:
     """Runs on this machine.
 
     Attributes:
-        workers: processes; None for as many as there are processors.
+        workers: processes; None for `most_workers`.
         threads: of each worker; None for the processors over the workers.
         retries: how often a run is tried again whose worker died or that failed for a reason that
             may pass; a wrong case and steps that do not converge are not.
@@ -116,15 +118,22 @@ class LocalEngine:
 
     def make(self, tasks: Sequence[Task], report: Report, should_stop: Callable[[], bool]) -> None:
         """Make the folders of all tasks exist; see `Engine.make`."""
-        count = min(self.workers or available(), len(tasks))
-        if count == 0:
+        if not tasks:
             return
+        count = min(self.workers or most_workers(tasks), len(tasks))
         pool = _Pool(count, self.threads or max(1, available() // count), self.retries, report)
         pool.waiting.extend((task, 0) for task in tasks)
         try:
             pool.go(should_stop)
         finally:
             pool.close()
+
+
+def most_workers(tasks: Sequence[Task]) -> int:
+    """As many as there are processors, fewer where that many of the largest case need more memory
+    than this machine has."""
+    largest = max(size_of(task.case).bytes for task in tasks)
+    return max(1, int(min(available(), LARGEST_COST_SHARE * machine_memory() / largest)))
 
 
 @dataclass

@@ -28,7 +28,8 @@ def test_dry_run_counts_forecasts_and_refuses(plan, capsys):
     """And writes nothing."""
     assert main(["sweep", str(plan), "--dry-run", "--workers", "2", "--threads", "1"]) == 0
     said = capsys.readouterr().out
-    assert "2 of " in said and "by 2 workers with 1 thread each" in said
+    assert "2, and 2 points that the case refuses" in said
+    assert "by 2 workers with 1 thread each" in said
     refused = [line for line in said.splitlines() if line.startswith("refused: ")]
     assert len(refused) == 2 and "particles.coarsest = 1e-08" in refused[0]
     assert "finer than the spacing" in refused[0]

@@ -1,5 +1,8 @@
 """Plans of sweeps: what they mean, and every mistake in one line with its place."""
 
+import re
+from pathlib import Path
+
 import pytest
 
 from lasersph.input import CaseError
@@ -206,3 +209,12 @@ def test_case_beside_the_plan(tmp_path):
     write_new_case("dlip-steel", tmp_path / "mine.toml")
     plan = read_plan(written(tmp_path, PLAN.replace('"dlip-steel"', '"mine.toml"')))
     assert plan.points()[0].case.name == "mine"
+
+
+def test_plan_of_the_docs_can_be_read(tmp_path):
+    """The plan of the page on many runs."""
+    page = (Path(__file__).parents[3] / "docs" / "sweeps.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"^```toml\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
+    plan = read_plan(written(tmp_path, text))
+    assert len(plan.points()) == 24 and plan.points()[0].case is not None
+    assert plan.columns == ("melt.depth_max_m", "melt.width_half_max_m")
