@@ -105,7 +105,7 @@ def test_interrupted_command(undisturbed, tmp_path):
 
 SCRIPT = """
 import sys
-from sweep_runs import SETTINGS, children, contents, is_alive
+from sweep_runs import SETTINGS
 import lasersph
 lasersph.sweep("dlip-steel", sys.argv[1], vary={{"laser.fluence": {fluences!r}}},
                set=SETTINGS, workers=2, threads=1)
