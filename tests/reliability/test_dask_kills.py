@@ -8,10 +8,11 @@ import sys
 import time
 
 import pytest
-from reliability_runs import LONGEST_WAIT, wait_until
+from reliability_runs import LONGEST_WAIT, POLL, wait_until
 from sweep_runs import SETTINGS, children, contents, is_alive, parent, plan_text
 
 from lasersph.output import OutputError
+from lasersph.output.folder_lock import read_owner
 from lasersph.sweeps import LocalEngine, Table, build_plan, make_runs
 
 pytest.importorskip("distributed")
@@ -129,6 +130,43 @@ def test_killed_driver(cluster, undisturbed, tmp_path):
     again = subprocess.run(command, env=environment, timeout=LONGEST_WAIT, check=False)
     assert again.returncode == 0
     assert_same_and_clean(folder, undisturbed, [])
+
+
+def wait_for(ready):
+    """What `ready()` gives once it is true. Raises TimeoutError where it never is."""
+    for _ in range(round(LONGEST_WAIT / POLL)):
+        if found := ready():
+            return found
+        time.sleep(POLL)
+    raise TimeoutError("what was waited for did not come")
+
+
+def owner(folder, but=0):
+    """The process that computes in the one run of a sweep; 0 where none does, or only `but`."""
+    for lock in folder.glob("runs/*/.lock"):
+        pid = read_owner(lock).get("process", 0)
+        return pid if pid != but and list(folder.glob(CHECKPOINTS)) else 0
+    return 0
+
+
+def test_nothing_is_computed_for_nobody(cluster, tmp_path):
+    """A run without end ends with its Dask worker, and where it goes on, with the driver."""
+    plan = plan_text(["0.5 J/cm^2"]).replace('"60 ns"', '"90 us"')
+    (tmp_path / "plan.toml").write_text(plan)
+    folder = tmp_path / "out"
+    command = [sys.executable, "-m", "lasersph", "sweep", str(tmp_path / "plan.toml")]
+    command += ["--out", str(folder), "--scheduler-file", str(cluster.file), "--threads", "1"]
+    process = subprocess.Popen(command, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+    first = wait_for(lambda: owner(folder))
+    os.kill(parent(first), signal.SIGKILL)
+    wait_for(lambda: not is_alive(first))
+    second = wait_for(lambda: owner(folder, but=first))
+    process.kill()
+    process.wait(timeout=LONGEST_WAIT)
+    wait_for(lambda: not list(folder.glob("runs/*/.lock")))
+    (checkpoint, *_) = folder.glob(CHECKPOINTS)
+    assert second != first and checkpoint.exists()
+    assert not list(folder.glob("runs/*/summary.json"))
 
 
 def test_certificate(tmp_path):

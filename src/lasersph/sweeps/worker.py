@@ -61,7 +61,7 @@ def make_run(
             report(Event(task.run, "progress", work_done=done, remaining_s=left))
 
     report(Event(task.run, "started"))
-    patience = time.monotonic() + LOCK_WAIT
+    patience, is_waiting = time.monotonic() + LOCK_WAIT, False
     ended = Event(task.run, "failed", exit_code=FAILED)
     while True:
         try:
@@ -81,7 +81,9 @@ def make_run(
                 return Event(task.run, "stopped", message=str(error), exit_code=STOPPED)
             if time.monotonic() > patience:
                 return replace(ended, message=str(error), exit_code=WRONG, is_final=True)
-            report(Event(task.run, "waiting", message=str(error)))
+            if not is_waiting:
+                report(Event(task.run, "waiting", message=str(error)))
+            is_waiting = True
             time.sleep(LOCK_POLL)
         except CaseError as error:
             return Event(task.run, "wrong", message=_one_line(error), exit_code=WRONG)
