@@ -77,6 +77,10 @@ VERBS = {
             "calibrating.calibrate",
             "Find unknowns of a case from measured values, with their bands and what limits them.",
         ),
+        "find": (
+            "calibrating.find",
+            "Find settings of a sweep that reach wanted values inside limits, and how probably.",
+        ),
         "validate": (
             "validating.validate",
             "Compute published cases; print published, reference and computed numbers with "

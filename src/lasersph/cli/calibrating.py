@@ -1,4 +1,4 @@
-"""`lasersph calibrate`: unknowns of a case from measured values."""
+"""`lasersph calibrate` and `find`: unknowns from measured values, settings for wanted ones."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lasersph.cli.arguments import Out
-from lasersph.cli.failures import StoppedBySignal
+from lasersph.cli.failures import StoppedBySignal, WrongCommand
 from lasersph.cli.sweeping import DryRun, Retries, Workers, WorkerThreads
 from lasersph.cli.tables import aligned
 
@@ -19,6 +19,19 @@ if TYPE_CHECKING:
 PlanName = Annotated[
     Path,
     typer.Argument(metavar="PLAN", help="A plan file; lasersph new --plan calibrate writes one."),
+]
+SweepFolder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of a sweep.")]
+Wants = Annotated[
+    list[str],
+    typer.Option(
+        "--want",
+        metavar="WISH",
+        help='"melt.depth_interpolated_max_m = 200 +- 10 nm", "temperature_max_K < 3000 K".',
+    ),
+]
+Calibration = Annotated[
+    Path | None,
+    typer.Option("--under", metavar="DIR", help="A calibration, over whose posterior to average."),
 ]
 
 
@@ -57,6 +70,34 @@ def calibrate(
         print(line)
     content, points = calibration_run.read_answer(folder)
     print(style.save(calibration_figure(content, points), folder / calibration_run.FIGURE))
+
+
+def find(folder: SweepFolder, want: Wants, under: Calibration = None) -> None:
+    """Find settings of a sweep that reach wanted values inside limits, and how probably."""
+    from lasersph.input import QuantityError
+    from lasersph.output import OutputError
+    from lasersph.studies.calibration_run import read_answer
+    from lasersph.studies.find_settings import find_settings, read_wish
+    from lasersph.sweeps import Table
+    from lasersph.sweeps.table import name_with_unit
+
+    try:
+        wishes = [read_wish(text) for text in want]
+        table = Table.read(folder)
+        known = None if under is None else read_answer(under)
+        found = find_settings(table, wishes, calibration=known)
+    except (QuantityError, OutputError, ValueError, KeyError) as error:
+        raise WrongCommand(str(error.args[0])) from None
+    if not found:
+        raise WrongCommand(f"no settings inside the runs of {folder} do all of this")
+    names = [name_with_unit(key, unit) for key, unit in table.units.items()]
+    rows = [["probability", *names, *found[0].numbers]]
+    for one in found:
+        numbers = (*one.settings.values(), *one.numbers.values())
+        rows.append([f"{100.0 * one.probability:.3g} %", *(f"{value:.5g}" for value in numbers)])
+    print(aligned(rows, header=True))
+    if found[0].probability < 0.5:
+        _say("note: none of these is likelier than not; more runs of the sweep near them may help")
 
 
 def _forecast(plan: CalibrationPlan) -> list[tuple[str, str]]:

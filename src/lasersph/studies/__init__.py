@@ -4,6 +4,7 @@ uncertainty          how sure the numbers of one run are: discretization, uncert
 spacing_study        what the numbers of a case tend to as the particles get finer, and how surely
 fluence_threshold    the fluence at which melting, boiling or ablation begins
 calibration_run      unknowns of a case from measured values, with honest bands
+find_settings        settings of a sweep that reach wanted values
 emulator             a Gaussian process through some runs: a number at keys that none of them has
 sensitivity          which keys of a sweep a number depends on: Sobol indices, Morris screening
 maps                 a number of a sweep over its keys, and where metal melts, boils or is ablated
@@ -16,6 +17,7 @@ from lasersph.studies.calibration_reading import read_calibration_plan
 from lasersph.studies.calibration_run import calibrate
 from lasersph.studies.companions import Input, inputs_of, read_input
 from lasersph.studies.emulator import Box, Emulator, box_of, fit_emulator
+from lasersph.studies.find_settings import FoundSettings, Wish, find_settings, read_wish
 from lasersph.studies.fluence_threshold import Threshold, Trial, show_energy, threshold
 from lasersph.studies.maps import process_map
 from lasersph.studies.sensitivity import Sensitivity, assess_sensitivity
@@ -29,6 +31,7 @@ __all__ = [
     "Calibration",
     "CalibrationPlan",
     "Emulator",
+    "FoundSettings",
     "Input",
     "NoCalibration",
     "Sensitivity",
@@ -38,6 +41,7 @@ __all__ = [
     "StudyRow",
     "Threshold",
     "Trial",
+    "Wish",
     "assess_sensitivity",
     "assess_uncertainty",
     "box_of",
@@ -45,12 +49,14 @@ __all__ = [
     "calibrate_with",
     "changed",
     "converge",
+    "find_settings",
     "fit_emulator",
     "inputs_of",
     "no_spot",
     "process_map",
     "read_calibration_plan",
     "read_input",
+    "read_wish",
     "show_energy",
     "spot_threshold",
     "threshold",

@@ -104,7 +104,7 @@ class CalibrationPlan:
             column = np.full(len(unknowns), condition.settings.get(key, np.nan))
             for unknown, values in zip(self.unknowns, unknowns.T, strict=True):
                 if unknown.key == key:
-                    column = _related(unknown.relation, column, values)
+                    column = related(unknown.relation, column, values)
             columns.append(column)
         return np.column_stack(columns)
 
@@ -115,7 +115,8 @@ class CalibrationPlan:
         return reached.min(axis=0), reached.max(axis=0)
 
 
-def _related(relation: Relation, setting: Array, unknown: Array) -> Array:
+def related(relation: Relation, setting: Array, unknown: Array) -> Array:
+    """What a key of the case is with some setting and unknown."""
     if relation == "scales":
         return setting * unknown
     return unknown if relation == "key" else 1.0 - unknown

@@ -1,0 +1,176 @@
+"""Settings that reach wanted values inside limits, and how probably they do.
+
+Numbers of a sweep are emulated over its keys. With means m_j and standard deviations s_j (of the
+emulators and of sizes in cells), wanted between a_j and b_j, settings do it with the probability
+
+    P = product over j of [Phi((b_j - m_j) / s_j) - Phi((a_j - m_j) / s_j)]
+
+averaged over the posterior of a calibration where one is given: the settings of a machine then
+reach the metal by its unknowns. Settings outside the hull of the runs count as impossible. Errors
+of different numbers count as independent.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtr
+from scipy.stats import qmc
+
+from lasersph.input import QuantityError, parse_quantity
+from lasersph.studies.calibration_plan import related
+from lasersph.studies.emulator import Emulator, fit_emulator
+from lasersph.studies.measured_value import kind_of_number, read_measured
+from lasersph.studies.sweep_numbers import box_of_runs, numerical_deviation, sizes_of
+from lasersph.sweeps import Table
+
+Array = NDArray[np.float64]
+LOOKS, NARROWER = 1024, 0.15
+"""Settings of a first look, and of a second one around each of the best, in how small a part of
+the ranges."""
+DRAWS = 32
+"""Points of a posterior over which probabilities are averaged."""
+APART = 0.1
+"""Least distance of two answers, in ranges of their keys."""
+_WISH = re.compile(r"\s*([\w.]+)\s*(=|<=?|>=?)\s*(.+)")
+
+
+@dataclass(frozen=True)
+class Wish:
+    """A number of summaries that shall lie between low and high, in SI."""
+
+    column: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class FoundSettings:
+    """Settings by key, their probability, and the numbers expected there, all in SI."""
+
+    settings: dict[str, float]
+    probability: float
+    numbers: dict[str, float]
+
+
+def read_wish(text: str) -> Wish:
+    """A wish from "melt.depth_max_m = 200 +- 10 nm" or "temperature_max_K < 3000 K".
+
+    Raises:
+        QuantityError: no such number, no such unit, neither = with +- nor < nor >.
+    """
+    match = _WISH.fullmatch(text)
+    if match is None:
+        raise QuantityError(
+            f'"{text}" is no wish; write e.g. "melt.depth_max_m = 200 +- 10 nm" or '
+            '"temperature_max_K < 3000 K"'
+        )
+    column, sign, wanted = match.groups()
+    kind = kind_of_number(column)
+    if sign == "=":
+        value = read_measured(wanted, kind)
+        return Wish(column, value.value - value.sd, value.value + value.sd)
+    limit = parse_quantity(wanted, kind) if kind else float(wanted)
+    return Wish(column, -math.inf, limit) if "<" in sign else Wish(column, limit, math.inf)
+
+
+def find_settings(
+    table: Table,
+    wishes: Sequence[Wish],
+    *,
+    calibration: tuple[dict[str, Any], Array] | None = None,
+    count: int = 5,
+    seed: int = 1,
+) -> list[FoundSettings]:
+    """The most probable settings of a sweep for some wishes, the best first; none where all are
+    impossible.
+
+    Args:
+        calibration: what `calibration_run.read_answer` gives. count: answers at most.
+
+    Raises:
+        ValueError: too few runs, a number that none of them has, an unknown of the calibration at
+            a key that the sweep does not vary.
+    """
+    points = np.column_stack([table.values(key) for key in table.varied])
+    box = box_of_runs(points)
+    emulators: dict[str, Emulator] = {}
+    numerical = {wish.column: numerical_deviation(table, wish.column) for wish in wishes}
+    for column, noise in numerical.items():
+        values = sizes_of(table, column)
+        has = np.isfinite(values)
+        emulators[column] = fit_emulator(points[has], values[has], box=box, noise=noise, seed=seed)
+    worlds = _worlds(table.varied, calibration, seed)
+
+    def probabilities(scaled: Array) -> Array:
+        settings = box.restored(scaled)
+        total = np.zeros(len(settings))
+        for world in worlds:
+            reached = settings.copy()
+            for place, relation, value in world:
+                reached[:, place] = related(
+                    relation, reached[:, place], np.full(len(settings), value)
+                )
+            part = next(iter(emulators.values())).is_inside(reached).astype(float)
+            for wish in wishes:
+                mean, sd = emulators[wish.column].predict(reached)
+                sd = np.hypot(sd, max(numerical[wish.column], 1e-9 * abs(float(np.max(mean)))))
+                part *= ndtr((wish.high - mean) / sd) - ndtr((wish.low - mean) / sd)
+            total += part
+        return total / len(worlds)
+
+    candidates = qmc.Sobol(points.shape[1], seed=seed).random(LOOKS)  # pyright: ignore[reportCallIssue]
+    first = _best(candidates, probabilities(candidates), count)
+    steps = NARROWER * (candidates[: LOOKS // 8] - 0.5)
+    near = [np.clip(candidates[number] + steps, 0.0, 1.0) for number in first]
+    every = np.vstack([candidates, *near])
+    chance = probabilities(every)
+    found = []
+    for number in _best(every, chance, count):
+        settings = box.restored(every[number : number + 1])
+        numbers = {name: float(one.predict(settings)[0][0]) for name, one in emulators.items()}
+        by_key = dict(zip(table.varied, settings[0].tolist(), strict=True))
+        found.append(FoundSettings(by_key, float(chance[number]), numbers))
+    return found
+
+
+def _best(candidates: Array, chance: Array, count: int) -> list[int]:
+    """Places of the most probable candidates that lie apart, and are possible at all."""
+    chosen: list[int] = []
+    for number in np.argsort(-chance, kind="stable"):
+        if chance[number] < 1e-6 or len(chosen) == count:
+            break
+        gaps = (np.max(np.abs(candidates[number] - candidates[one])) for one in chosen)
+        if all(gap >= APART for gap in gaps):
+            chosen.append(int(number))
+    return chosen
+
+
+def _worlds(
+    keys: Sequence[str], calibration: tuple[dict[str, Any], Array] | None, seed: int
+) -> list[list[tuple[int, Any, float]]]:
+    """What unknowns may be: for each draw, place of the key, relation and value of each."""
+    if calibration is None:
+        return [[]]
+    content, points = calibration
+    unknowns = content["unknowns"]
+    for name, one in unknowns.items():
+        if one["key"] not in keys:
+            raise ValueError(
+                f"{name} of the calibration belongs to {one['key']}, which the sweep does not vary"
+            )
+    weights = points[:, -1] / np.sum(points[:, -1])
+    drawn = np.random.default_rng(seed).choice(len(weights), DRAWS, p=weights)
+    return [
+        [
+            (list(keys).index(one["key"]), one["relation"], float(value))
+            for one, value in zip(unknowns.values(), points[row], strict=False)
+        ]
+        for row in drawn
+    ]

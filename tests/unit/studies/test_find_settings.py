@@ -1,0 +1,88 @@
+"""Settings for wanted values, from the emulated runs of a made-up sweep."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lasersph.cli import main
+from lasersph.input import QuantityError
+from lasersph.studies import Wish, find_settings, read_wish
+from lasersph.sweeps import Row, Table
+
+
+@pytest.fixture
+def table():
+    """Depth 500 nm times the fluence in J/cm^2, at most 4000 K times it, over 8 runs."""
+    rows = []
+    for number, fluence in enumerate(np.linspace(3000.0, 10000.0, 8)):
+        numbers = {
+            "melt.depth_max_m": 5e-11 * fluence,
+            "temperature_max_K": 0.4 * fluence,
+            "numerical_sd.melt.depth_max_m": 2e-9,
+        }
+        rows.append(Row(f"{number:04d}-a", "complete", {"laser.fluence": fluence}, numbers))
+    return Table(Path("made-up"), tuple(rows), {"laser.fluence": "J/m^2"}, ())
+
+
+def test_wishes():
+    """A band, and limits from above and below, in SI."""
+    wish = read_wish("melt.depth_max_m = 200 +- 10 nm")
+    assert (wish.low, wish.high) == pytest.approx((190e-9, 210e-9))
+    assert read_wish("temperature_max_K<3000 K").high == 3000.0
+    assert read_wish("temperature_max_K > 300 K").low == 300.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["200 nm", "melt.depth_mx_m < 2 nm", "melt.depth_max_m < 2 s", "melt.depth_max_m = 2 nm"],
+)
+def test_bad_wishes(text):
+    """No sign, no such number, another unit, no width."""
+    with pytest.raises(QuantityError):
+        read_wish(text)
+
+
+def test_settings_by_hand(table):
+    """200 nm need 0.4 J/cm^2, where the depth is within +- 10 nm nearly surely."""
+    found = find_settings(table, [Wish("melt.depth_max_m", 190e-9, 210e-9)])
+    assert found[0].settings["laser.fluence"] == pytest.approx(4000.0, rel=0.03)
+    assert found[0].probability > 0.99
+    assert found[0].numbers["melt.depth_max_m"] == pytest.approx(200e-9, rel=0.03)
+
+
+def test_limits_exclude(table):
+    """As deep and as cold as wanted do not go together: 300 nm are 2400 K."""
+    deep = Wish("melt.depth_max_m", 300e-9, np.inf)
+    assert find_settings(table, [deep, Wish("temperature_max_K", -np.inf, 2000.0)]) == []
+    found = find_settings(table, [deep, Wish("temperature_max_K", -np.inf, 2800.0)])
+    assert 6000.0 < found[0].settings["laser.fluence"] < 7000.0
+
+
+def test_under_a_calibration(table):
+    """A factor of 1.25 +- 0.04 on the fluence: 0.32 J/cm^2 act as 0.4; 3 % of 200 nm are 6 nm, so
+    that +- 10 nm hold about 88 % of the time."""
+    factor = np.linspace(1.09, 1.41, 201)
+    weights = np.exp(-0.5 * ((factor - 1.25) / 0.04) ** 2)
+    content = {"unknowns": {"factor": {"key": "laser.fluence", "relation": "scales"}}}
+    wish = Wish("melt.depth_max_m", 190e-9, 210e-9)
+    points = np.column_stack([factor, weights])
+    found = find_settings(table, [wish], calibration=(content, points))
+    assert found[0].settings["laser.fluence"] == pytest.approx(3200.0, rel=0.03)
+    assert 0.7 < found[0].probability < 0.97
+    content["unknowns"]["factor"]["key"] = "laser.pulse.fwhm"
+    with pytest.raises(ValueError, match="does not vary"):
+        find_settings(table, [wish], calibration=(content, points))
+
+
+def test_command(table, capsys, monkeypatch, tmp_path):
+    """`lasersph find` lists settings; what is wrong is one line."""
+    assert main(["find", str(tmp_path), "--want", "temperature_max_K < 3000 K"]) == 2
+    assert "holds no sweep" in capsys.readouterr().err
+    monkeypatch.setattr("lasersph.sweeps.Table.read", lambda folder: table)
+    assert main(["find", "made-up", "--want", "melt.depth_max_m = 200 +- 10 nm"]) == 0
+    head, _, first, *_ = capsys.readouterr().out.splitlines()
+    assert "laser.fluence_J_m2" in head
+    assert " %" in first
+    assert main(["find", "made-up", "--want", "melt.depth_max_m > 2 um"]) == 2
+    assert "no settings" in capsys.readouterr().err
