@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator, RegularGridInterpolator
 from scipy.spatial import Delaunay
 
-from lasersph.input import did_you_mean
+from lasersph.input import did_you_mean, format_quantity
 from lasersph.materials import Material
 from lasersph.observers.observer_list import RESULTS
 from lasersph.observers.quantity import unit_in
@@ -107,20 +107,21 @@ def process_map(
     lines = {name: powers.lines(heat) for name, heat in _event_heats(table, powers)}
     if target is not None:
         lines["target"] = layout.contour(field, target)
+    known, dimensions = RESULTS.get(show), int(np.nanmax(table.values("dimensions")))
+    unit = unit_in(known.unit, dimensions) if known else unit_of(show)
     notes = []
     if (lost := int((~good).sum())) > 0:
         has = "has" if lost == 1 else "have"
         notes.append(f"{lost} of {good.size} runs {has} no result: nothing is interpolated there.")
     if target is not None and not lines["target"]:
-        notes.append(f"No run reaches the wanted value, or all exceed it: {target:g}.")
-    known, dimensions = RESULTS.get(show), int(np.nanmax(table.values("dimensions")))
+        notes.append(f"{format_quantity(target, unit)} lies nowhere between the runs.")
     return ProcessMap(
         axes=tuple(
             MapAxis(key, table.units[key], grid, bool(bent))
             for key, grid, bent in zip(keys, layout.grids, box.logarithmic, strict=True)
         ),
         column=show,
-        unit=unit_in(known.unit, dimensions) if known else unit_of(show),
+        unit=unit,
         points=points,
         values=values,
         names=table.runs,

@@ -86,6 +86,9 @@ def test_one_key(tmp_path):
     assert found.deviation is not None and np.nanmax(found.deviation) < 1e-8
     assert_allclose(found.lines["melts"][0][:, 0], [4e3], rtol=1e-3)
     assert_allclose(found.lines["target"][0][:, 0], [6e3], rtol=0.02)
+    beyond = process_map(tmp_path, show=DEPTH, target=5e-7)
+    assert "target" not in beyond.lines
+    assert beyond.notes == ("500 nm lies nowhere between the runs.",)
 
 
 def test_keys_in_the_wanted_order(tmp_path):
