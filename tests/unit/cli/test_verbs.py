@@ -353,3 +353,9 @@ def test_no_graphics_card(command, tmp_path, monkeypatch, capsys):
     assert main([*command, "--threads", "2"]) == 2
     assert capsys.readouterr().err == "lasersph: --threads is for --backend cpu\n"
     assert not any(tmp_path.iterdir())
+
+
+def test_the_readme_names_every_verb():
+    """In a command or in the list of the others."""
+    text = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
+    assert [n for n in VERBS if f"`{n}`" not in text and f"lasersph {n} " not in text] == []
