@@ -24,7 +24,7 @@ from scipy.special import ndtr
 from scipy.stats import qmc
 
 from lasersph.input import QuantityError, parse_quantity
-from lasersph.studies.calibration_plan import related
+from lasersph.studies.calibration_plan import Relation, related
 from lasersph.studies.emulator import Emulator, fit_emulator
 from lasersph.studies.measured_value import kind_of_number, read_measured
 from lasersph.studies.sweep_numbers import box_of_runs, numerical_deviation, sizes_of
@@ -38,6 +38,8 @@ DRAWS = 32
 """Points of a posterior over which probabilities are averaged."""
 APART = 0.1
 """Least distance of two answers, in ranges of their keys."""
+World = list[tuple[int, Relation, float]]
+"""What unknowns may be: place of the key, relation and value of each."""
 _WISH = re.compile(r"\s*([\w.]+)\s*(=|<=?|>=?)\s*(.+)")
 
 
@@ -52,7 +54,7 @@ class Wish:
 
 @dataclass(frozen=True)
 class FoundSettings:
-    """Settings by key, their probability, and the numbers expected there, all in SI."""
+    """Settings by key, their probability, and the mean of the numbers expected there, all in SI."""
 
     settings: dict[str, float]
     probability: float
@@ -112,11 +114,7 @@ def find_settings(
         settings = box.restored(scaled)
         total = np.zeros(len(settings))
         for world in worlds:
-            reached = settings.copy()
-            for place, relation, value in world:
-                reached[:, place] = related(
-                    relation, reached[:, place], np.full(len(settings), value)
-                )
+            reached = _reached(settings, world)
             part = next(iter(emulators.values())).is_inside(reached).astype(float)
             for wish in wishes:
                 mean, sd = emulators[wish.column].predict(reached)
@@ -134,7 +132,8 @@ def find_settings(
     found = []
     for number in _best(every, chance, count):
         settings = box.restored(every[number : number + 1])
-        numbers = {name: float(one.predict(settings)[0][0]) for name, one in emulators.items()}
+        reached = np.vstack([_reached(settings, world) for world in worlds])
+        numbers = {name: float(np.mean(one.predict(reached)[0])) for name, one in emulators.items()}
         by_key = dict(zip(table.varied, settings[0].tolist(), strict=True))
         found.append(FoundSettings(by_key, float(chance[number]), numbers))
     return found
@@ -152,10 +151,19 @@ def _best(candidates: Array, chance: Array, count: int) -> list[int]:
     return chosen
 
 
+def _reached(settings: Array, world: World) -> Array:
+    """Keys of the case (n, keys) that some settings are, were the unknowns so."""
+    reached = settings.copy()
+    for place, relation, value in world:
+        unknown = np.full(len(settings), value)
+        reached[:, place] = related(relation, reached[:, place], unknown)
+    return reached
+
+
 def _worlds(
     keys: Sequence[str], calibration: tuple[dict[str, Any], Array] | None, seed: int
-) -> list[list[tuple[int, Any, float]]]:
-    """What unknowns may be: for each draw, place of the key, relation and value of each."""
+) -> list[World]:
+    """Unknowns as drawn from a posterior; one world without unknowns where there is none."""
     if calibration is None:
         return [[]]
     content, points = calibration

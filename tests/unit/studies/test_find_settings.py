@@ -70,6 +70,7 @@ def test_under_a_calibration(table):
     found = find_settings(table, [wish], calibration=(content, points))
     assert found[0].settings["laser.fluence"] == pytest.approx(3200.0, rel=0.03)
     assert 0.7 < found[0].probability < 0.97
+    assert found[0].numbers["melt.depth_max_m"] == pytest.approx(200e-9, rel=0.03)
     content["unknowns"]["factor"]["key"] = "laser.pulse.fwhm"
     with pytest.raises(ValueError, match="does not vary"):
         find_settings(table, [wish], calibration=(content, points))
