@@ -79,6 +79,20 @@ def test_pressure_wave():
     assert error(go(solver, 40e-9), 40e-9, Drive(pressure=20e3, end=20e-9)) < 0.02
 
 
+def test_mass_flux_wave():
+    """Mass that leaves and enters: within 1 % of the largest height, and volume as told."""
+    wave = {"amplitude": 1000.0, "period": FILM.period, "end": 20e-9}
+    solver = film(boundaries={"surface_mass_flux_wave": wave})
+    assert error(go(solver, 40e-9), 40e-9, Drive(mass_flux=1000.0, end=20e-9)) < 0.01
+    surface = solver.domain.surface
+    lost = -surface.line.width * surface.line.height.sum()
+    moved = surface.line.width * np.abs(surface.line.height).sum()
+    assert lost == pytest.approx(surface.flux_loss, abs=1e-10 * moved)
+    volume = surface.line.width * surface.line.count * FILM.depth
+    particles = host_fields(solver)["volume"].sum()
+    assert particles - volume == pytest.approx(-lost, abs=1e-6 * moved)
+
+
 def test_half_and_full_and_periodic():
     """Half a period between planes of symmetry, a whole one, and one that repeats."""
     end = 10e-9

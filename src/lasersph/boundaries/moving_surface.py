@@ -39,6 +39,7 @@ from lasersph.boundaries.surface import (
 )
 from lasersph.boundaries.surface_drives import Drives
 from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
+from lasersph.boundaries.surface_mass import take_volume
 from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
 from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
 from lasersph.compute.array_types import Array
@@ -257,7 +258,7 @@ class MovingSurface:
         mean, solid = (backend.to_host(values) for values in found)
         height = line.extend(line.height)[1:-1]
         melt = np.maximum(0.5 * (height[1:] + height[:-1]) - self.bottom - solid, 0.0)
-        flux, moved = mean * melt, line.height.copy()
+        flux, moved, lost = mean * melt, line.height.copy(), np.zeros(line.count)
         self.segments.follow()
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
         for part, own in self.segments.parts:
@@ -266,11 +267,14 @@ class MovingSurface:
                 sides[[0, -1]] = 0.0
             loss = self._loss(own, part, now)
             own.move(end - begin, sides, loss)
+            lost[part] = (end - begin) * loss
             own.damp_short_waves((end - begin) * rate)
             moved[part] = own.height
         line.height = moved
         self._renew()
         self.find(now.position)
+        if lost.any():
+            take_volume(backend, now, self.depth, line, lost, self.spacing)
 
     def _loss(self, part: SurfaceLine, columns: NDArray[np.int64], now: SurfaceStep) -> HostArray:
         """Speed at which mass that leaves lowers a part of the line [m/s]."""

@@ -181,6 +181,17 @@ def thickness_of(k, row_start, member, V, inverse):
     return total * inverse
 
 
+def at_column(x, depth, flows, start, inverse, columns, spacing):
+    """Column of a particle that flows and lies at the surface; `columns` for others."""
+    return column_of(x, flows if depth < ROW * spacing else 0.0 * flows, start, inverse, columns)
+
+
+def thinner(x, V, depth, flows, start, inverse, columns, spacing, kept):
+    """Volume of a particle [m^2] after its column has lost mass: that of all at the surface."""
+    column = at_column(x, depth, flows, start, inverse, columns, spacing)
+    return V * kept[column] if column < columns else 1.0 * V
+
+
 def hold_column(x, flows, start, inverse, columns, is_molten):
     """1 where a particle flows in a column that moves."""
     return flows * is_molten[int(min(max(floor((x[0] - start) * inverse), 0.0), columns - 1.0))]

@@ -92,6 +92,7 @@ class Block(GhostExtension):
     Args:
         lattice: what stays the same of the particles. conditions: at the faces. surface: None in
             a box without.
+        volume: (n,) of all particles, which may change [m^2].
         fine_depth: of the layers of the finest support; what lies below rests [m].
         layers, complete_rows: layers and particles whose pairs are all in the block. count:
             particles with the margin below them. bottom: z of its lowest face [m]. has_bottom:
@@ -117,6 +118,7 @@ class Block(GhostExtension):
         lattice: StaticParticleData,
         conditions: FaceConditions,
         surface: Surface | None,
+        volume: Array,
         *,
         fine_depth: float,
         layers: int,
@@ -137,7 +139,7 @@ class Block(GhostExtension):
         self.layers, self.complete_rows, self.count = layers, complete_rows, count
         self.has_bottom, self.surface = has_bottom, surface
         self.potential, self.enthalpy = potential, enthalpy
-        self.volume = backend.asarray(lattice.volume[:count])
+        self.volume = backend.head(volume, count)
         self._mean = common if self.moving_support == largest else lattice.weighing.mean
         self._own = {"V": self.volume, "support": backend.asarray(support)}
         self._own["radius"] = backend.asarray(SKIN * support)

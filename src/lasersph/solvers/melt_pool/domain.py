@@ -45,7 +45,7 @@ class PoolDomain:
     Attributes:
         box: ((x0, x1), (z0, z1)) [m]. periods: width along each axis where it repeats, else 0.
         spacing, support: of the particles that move [m]. block_layers: layers whose rows are
-            complete in the present block.
+            complete in the present block. volume: (n,) of the particles [m^2].
     """
 
     def __init__(
@@ -57,10 +57,12 @@ class PoolDomain:
         surface: Surface | None,
         potential: Callable[[np.ndarray], np.ndarray],
         enthalpy: Callable[[np.ndarray], np.ndarray],
+        volume: Array,
     ) -> None:
         self.backend, self.layers, self.lattice = backend, layers, lattice
         self.conditions, self.surface = conditions, surface
         self.potential, self.enthalpy = potential, enthalpy
+        self.volume = volume
         self.is_box = conditions.flow is not None
         self.spacing, self.support = layers.spacing, float(lattice.support.min())
         self.box = conditions.box
@@ -124,6 +126,7 @@ class PoolDomain:
                 self.lattice,
                 self.conditions,
                 self.surface,
+                self.volume,
                 fine_depth=self.fine_depth,
                 layers=self.block_layers,
                 complete_rows=int(self._starts[self.block_layers]),

@@ -151,7 +151,7 @@ class Flow:
         spacing: float,
     ) -> None:
         backend, count = particles.backend, particles.count
-        particles.add("volume", "velocity", "pressure", "settled_jump")
+        particles.add("velocity", "pressure", "settled_jump")
         self.spacing, self.particles = spacing, particles
         self.backend, self.liquid, self.surface, self.settings = backend, liquid, surface, settings
         self.velocity, self.pressure = particles["velocity"], particles["pressure"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from lasersph.boundaries.surface import Surface
 from lasersph.boundaries.surface_drives import Drives
 from lasersph.boundaries.surface_line import End, SurfaceLine, cutoff_of
 from lasersph.case import Case
+from lasersph.particles.fields import FIELDS
 from lasersph.particles.layers import Layers
 from lasersph.physics.evaporation import saturation_pressure, vapor_constants
 from lasersph.physics.knudsen_layer import gauge_recoil_pressure, outflow_tables
@@ -86,6 +88,12 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             has_stress=settings.marangoni,
             given=_given_temperature(case),
         )
+    volume = FIELDS["volume"]
+    loses_mass = case.boundaries.surface_mass_flux_wave is not None or settings.evaporates
+    if case.surface_moves and loses_mass:
+        volume = replace(volume, is_kept=True)
+    body.particles.add(volume)
+    body.particles.set("volume", static.volume)
     domain = PoolDomain(
         backend,
         layers,
@@ -94,9 +102,9 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         surface,
         lambda T: wall_potential(curve, T),
         lambda T: wall_enthalpy(curve, T),
+        body.particles["volume"],
     )
     flow = Flow(body.particles, liquid, surface, settings, layers.spacing)
-    body.particles.set("volume", static.volume)
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.begin(start)
