@@ -31,11 +31,13 @@ def lines_of(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def relief_profiles(run: Run) -> Figure | None:
-    """The surface at several times, evenly over the run; None where it stays flat."""
+    """The surface at several times while it moves; None in a run whose surface is flat."""
     if len(run.surface) < 2:
         return None
     times, x, height = lines_of(run)
-    shown = np.unique(np.linspace(0, times.size - 1, min(PROFILES, times.size)).round().astype(int))
+    moves = np.flatnonzero(np.any(np.diff(height, axis=0), axis=1))
+    first, last = (moves[0], moves[-1] + 1) if moves.size else (0, times.size - 1)
+    shown = np.unique(np.linspace(first, last, PROFILES).round().astype(int))
     figure, (axes,) = style.new_figure(height=3.6)
     length, up = (
         style.fitting_unit("m", np.max(np.abs(x))),
