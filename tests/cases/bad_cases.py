@@ -63,6 +63,8 @@ BAD_CASES = {
     "unknown solver": ('kind = "conduction"', 'kind = "meltpool"', ':24: solver.kind: must be "conduction" or "melt-pool" or "ablation", got "meltpool"; do you mean "melt-pool"?'),
     "four dimensions": ("dimensions = 2", "dimensions = 4", ":25: solver.dimensions: must be 1 or 2 or 3, got 4"),
     "unknown plateau": ('plateau = "hold"', 'plateau = "held"', ':26: solver.plateau: must be "hold" or "clip" or "evaporate", got "held"; do you mean "hold"?'),
+    "plateau beside a flux": ('plateau = "hold"', 'plateau = "clip"\nvaporization = "flux"', ':26: solver.plateau: "clip" says nothing where vaporization = "flux"; leave it out'),
+    "pressure without a flux": ("[boundaries]\n", '[boundaries]\nambient_pressure = "0 Pa"\n', ':21: boundaries.ambient_pressure: says nothing but beside vaporization = "flux" in [solver]; leave it out or write that'),
     "fluence kind": ('"mean"', '"average"', ':7: laser.fluence_kind: must be "mean" or "peak", got "average"'),
     # laser
     "zero pulses": (PULSE, PULSE.replace(" }", ", count = 0 }"), ":9: laser.pulse.count: must be at least 1, got 0"),
