@@ -41,7 +41,7 @@ def compare(out: Path, durations: list[str]) -> None:
     cores = sum(after[2:4]) - sum(before[2:4])
     print(f"sweep: {time.monotonic() - began:.0f} s, {cores:.0f} s of the processors")
     main(["map", str(out / "map"), "--target", "250 nm"])
-    found = lasersph.process_map(out / "map")
+    found = lasersph.map(out / "map")
     for text in durations:
         duration = parse_quantity(text, "time")
         expected = melting_fluence(found, duration)

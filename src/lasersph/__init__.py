@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from lasersph.input import CaseError
     from lasersph.output import open_run
     from lasersph.simulation import run
-    from lasersph.studies import calibrate, process_map
+    from lasersph.studies import calibrate
+    from lasersph.studies import process_map as map
     from lasersph.sweeps import sweep
 
 __version__ = "0.1.0"
@@ -27,8 +28,8 @@ __all__ = [
     "__version__",
     "calibrate",
     "load_case",
+    "map",
     "open_run",
-    "process_map",
     "run",
     "sweep",
 ]
@@ -38,11 +39,12 @@ _ROOMS = {
     "CaseError": "lasersph.input",
     "calibrate": "lasersph.studies",
     "load_case": "lasersph.case",
+    "map": "lasersph.studies:process_map",
     "open_run": "lasersph.output",
-    "process_map": "lasersph.studies",
     "run": "lasersph.simulation",
     "sweep": "lasersph.sweeps",
 }
+"""Room of each public name; after a colon its name there, where that is another."""
 
 
 def __getattr__(name: str) -> Any:
@@ -51,7 +53,8 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
 
-    value = getattr(import_module(_ROOMS[name]), name)
+    room, _, inside = _ROOMS[name].partition(":")
+    value = getattr(import_module(room), inside or name)
     globals()[name] = value
     return value
 

@@ -17,7 +17,7 @@ def test_names_come_from_their_rooms():
     from lasersph.studies import calibrate, process_map
     from lasersph.sweeps import sweep
 
-    assert (lasersph.sweep, lasersph.process_map) == (sweep, process_map)
+    assert (lasersph.sweep, lasersph.map) == (sweep, process_map)
     assert lasersph.calibrate is calibrate
     assert (lasersph.Case, lasersph.load_case) == (Case, load_case)
     assert (lasersph.open_run, lasersph.run) == (open_run, run)
