@@ -20,7 +20,7 @@ import lasersph
 FLUENCES = (0.45, 0.55, 0.65, 0.75)
 NOISE = {
     "melt.width_half_max_m": (60e-9, "um", 1e6),
-    "melt.depth_interpolated_max_m": (12e-9, "nm", 1e9),
+    "melt.depth_half_max_m": (12e-9, "nm", 1e9),
 }
 CASE = {"solver.kind": "conduction", "output.snapshots.interval": "200 ns"}
 

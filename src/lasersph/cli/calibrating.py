@@ -26,7 +26,7 @@ Wants = Annotated[
     typer.Option(
         "--want",
         metavar="WISH",
-        help='"melt.depth_interpolated_max_m = 200 +- 10 nm", "temperature_max_K < 3000 K".',
+        help='"melt.depth_half_max_m = 200 +- 10 nm", "temperature_max_K < 3000 K".',
     ),
 ]
 Calibration = Annotated[

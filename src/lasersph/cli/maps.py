@@ -53,7 +53,7 @@ def draw_map(
     folder: SweepFolder,
     x: Key = None,
     y: Key = None,
-    show: Column = "melt.depth_interpolated_max_m",
+    show: Column = "melt.depth_half_max_m",
     levels: Levels = None,
     emulate: Emulate = False,
     target: Target = None,
@@ -78,7 +78,7 @@ def draw_map(
         print(file)
 
 
-def sensitivity(folder: SweepFolder, of: Of = "melt.depth_interpolated_max_m") -> None:
+def sensitivity(folder: SweepFolder, of: Of = "melt.depth_half_max_m") -> None:
     """Tell how much each key of a sweep changes a number: Sobol indices, or effects of Morris."""
     from lasersph.report.map_page import in_field_units
     from lasersph.report.tables import unit_of

@@ -8,7 +8,7 @@ a spot is computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5]
 half way between their particles, also where these move: at rest sizes are whole cells. What has
 been ejected belongs to no pool.
 
-Where melt is deepest the depth at f_m = 0.5 is interpolated as well, between the centers of the
+At f_m = 0.5 both are interpolated. Where melt is deepest the depth lies between the centers of the
 deepest such cell (1) and of the one below (2). The place where f_m falls to 0.5 rests at the face
 while cell 1 is molten and cell 2 still warms up; the place where T falls to the middle of the
 melting range rests at a center while that cell melts. So their mean is taken, which always moves:
@@ -47,22 +47,14 @@ def sizes(name: str, cells: float) -> tuple[Quantity, ...]:
             "m",
             f"{name} of {words}",
             largest=f"melt.{name}{level}_max_m",
-            is_main=level == "",
-            cells=0.5 * cells if f"{name}{level}" == "width_half" else cells,
+            is_main=level != "_any",
+            cells=0.5 * cells if level == "_half" else cells,
         )
         for level, (_, words) in LEVELS.items()
     )
 
 
 DEPTHS, WIDTHS = sizes("depth", 1.0), sizes("width", 2.0)
-INTERPOLATED_DEPTH = Quantity(
-    "melt_depth_interpolated_m",
-    "m",
-    "depth of half molten metal, interpolated between cells",
-    largest="melt.depth_interpolated_max_m",
-    is_main=True,
-    cells=0.5,
-)
 VOLUME = Quantity(
     "melt_volume_m3",
     "m^3",
@@ -78,10 +70,10 @@ class MeltPool(Observer):
     title = "melt pool"
     note = (
         "Depth: lower face of the deepest such cell below the original surface. Width: full"
-        " width of one pool at the surface. Sizes are whole cells, but for the width at f_m = 0.5"
-        " and the interpolated depth."
+        " width of one pool at the surface. Sizes are whole cells, but those at f_m = 0.5 are"
+        " interpolated between cells."
     )
-    columns = (*DEPTHS, *WIDTHS, VOLUME, INTERPOLATED_DEPTH)
+    columns = (*DEPTHS, *WIDTHS, VOLUME)
     results = (
         *(
             Quantity(f"melt.{name}{level}_s", "s", f"{text} {words}", is_main=level == "")
@@ -94,7 +86,7 @@ class MeltPool(Observer):
 
     def __init__(self, dimension: int) -> None:
         if dimension == 1:
-            self.columns = (*DEPTHS, VOLUME, INTERPOLATED_DEPTH)
+            self.columns = (*DEPTHS, VOLUME)
         super().__init__()
         self.dimension = dimension
         self.span = {level: Span() for level in LEVELS}
@@ -106,19 +98,16 @@ class MeltPool(Observer):
         largest = float(np.max(fraction))
         faces = lower_faces(view) if largest > 0.0 else np.zeros(0)
         depth, width = dict.fromkeys(LEVELS, 0.0), dict.fromkeys(LEVELS, 0.0)
-        between_cells = 0.0
         for level, (least, _) in LEVELS.items():
             exists = largest > 0.0 and largest >= least
             self.span[level].update(exists, view.time)
             if exists:
-                depth[level] = largest_depth(faces, is_fluid(fraction, least))
+                depth[level] = pool_depth(view, fraction, faces, least)
                 width[level] = pool_width(view, least) if self.dimension > 1 else 0.0
-                if least == HALF:
-                    between_cells = interpolated_depth(view, fraction, faces)
         self.end_time = view.time
         volume = float(np.sum(fraction * view.volume)) if largest > 0.0 else 0.0
         widths = width.values() if self.dimension > 1 else ()
-        return self.record(view.time, (*depth.values(), *widths, volume, between_cells))
+        return self.record(view.time, (*depth.values(), *widths, volume))
 
     def values(self) -> dict[str, object]:
         """Times, None where no such cell was seen; in 1-D there are no widths."""
@@ -149,17 +138,19 @@ def is_fluid(fraction: np.ndarray, least: float) -> np.ndarray:
     return fraction > 0.0 if least == 0.0 else fraction >= least
 
 
-def interpolated_depth(view: View, fraction: np.ndarray, faces: np.ndarray) -> float:
-    """Depth to which metal is half molten, interpolated between cells [m].
-
-    Below the hottest of the deepest half molten cells; see the head of this file.
+def pool_depth(view: View, fraction: np.ndarray, faces: np.ndarray, least: float) -> float:
+    """Depth of the pool [m]; at f_m = 0.5 below the hottest of the deepest cells, interpolated as
+    the head of this file says.
 
     Args:
-        fraction: (n,) melt fractions without what has been ejected; one at least reaches 0.5.
+        fraction: (n,) melt fractions without what has been ejected; one at least is fluid.
         faces: (n,) depths of the lower faces of the cells [m].
+        least: melt fraction that a fluid cell has at least; 0: any above 0.
     """
-    fluid = is_fluid(fraction, HALF)
+    fluid = is_fluid(fraction, least)
     deepest = largest_depth(faces, fluid)
+    if least != HALF:
+        return deepest
     lowest = np.flatnonzero(fluid & (faces >= deepest * (1.0 - SAME)))
     upper = int(lowest[np.argmax(view.enthalpy[lowest])])
     side = np.abs(view.position[:-1] - view.position[:-1, upper, None])

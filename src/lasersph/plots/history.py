@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LEVELS = {"": "$f_m = 1$", "_half": "$f_m = 0.5$", "_any": "$f_m > 0$"}
-INTERPOLATED = "melt_depth_interpolated_m"
-"""Drawn at f_m = 0.5 where a run has it; it has no stairs."""
 
 
 def temperature_history(run: Run) -> Figure:
@@ -60,8 +58,6 @@ def melt_pool_history(run: Run) -> Figure | None:
     figure, all_axes = style.new_figure(panels, height=2.6 * panels, share_x=True)
     for axes, size in zip(all_axes, sizes, strict=False):
         lines = {f"melt_{size}{level}_m": text for level, text in LEVELS.items()}
-        if size == "depth" and INTERPOLATED in run.history:
-            lines = {INTERPOLATED if "half" in key else key: text for key, text in lines.items()}
         draw_columns(axes, run, lines, label=f"melt pool {size}", stairs=True)
         axes.set_ylim(bottom=0.0)
     if has_volume:

@@ -52,7 +52,7 @@ Array = NDArray[np.float64]
 PLACES = {1: 401, 2: 161}
 """Places of the field along each axis of a map over one key and over two."""
 LEAST_RUNS = 3
-SHOWN = "melt.depth_interpolated_max_m"
+SHOWN = "melt.depth_half_max_m"
 TOLERANCE = 0.05
 """Share of the largest value above which an emulator's standard deviation is hatched."""
 HELD = 1e-9

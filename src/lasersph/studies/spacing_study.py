@@ -30,8 +30,7 @@ NOT_ANSWERS = re.compile(
     r"|probes\..*\.(depth_m|x_m|y_m|depth_used_m))"
 )
 """Numbers of the summary that the case sets or that belong to the computation."""
-WHOLE_CELLS = re.compile(r"(melt|vaporization)\.(depth|width)(_any|_half)?_max_m")
-INTERPOLATED = "melt.width_half_max_m"
+WHOLE_CELLS = re.compile(r"(melt|vaporization)\.(depth|width)(_any)?_max_m")
 TIMES = re.compile(r".*(?<!_m)(?<!_m2)(?<!_K)_s")
 """Keys whose unit is s, not m/s, m^2/s or K/s."""
 
@@ -147,7 +146,7 @@ def assess_summaries(summaries: Sequence[dict[str, Any]], spacings: list[float])
 def resolution(name: str, value: float, summary: dict[str, Any], spacing: float) -> float:
     """What a number of a run jumps by at least: a cell for sizes counted in whole cells (two for a
     width of which half is computed), the smallest step for a time, 0 for others and for nothing."""
-    if WHOLE_CELLS.fullmatch(name) and name != INTERPOLATED and value > 0.0:
+    if WHOLE_CELLS.fullmatch(name) and value > 0.0:
         cells = summary.get("surface", {}).get("symmetry_factor", 1)
         return spacing * (cells if "width" in name else 1)
     if TIMES.fullmatch(name) and 0.0 < value < summary.get("time_s", math.inf):

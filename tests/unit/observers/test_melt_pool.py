@@ -56,12 +56,11 @@ def test_sizes_at_the_three_levels():
         {
             "melt_depth_m": 20e-9,
             "melt_width_m": 40e-9,
-            "melt_depth_half_m": 20e-9,
             "melt_width_half_m": 54e-9,
             "melt_depth_any_m": 30e-9,
             "melt_width_any_m": 80e-9,
             "melt_volume_m3": 5.9 * (10e-9) ** 2,
-            "melt_depth_interpolated_m": 23.3333333e-9,
+            "melt_depth_half_m": 23.3333333e-9,
         }
     )
 
@@ -73,8 +72,8 @@ def test_depth_between_cells():
     heat = np.array([2000.0, 1800.0, 1680.0, 1500.0])
     view = replace(view, temperature=heat, solidus=1650.0, liquidus=1750.0)
     row = MeltPool(1).observe(view)
-    assert row["melt_depth_half_m"] == pytest.approx(20e-9)
-    assert row["melt_depth_interpolated_m"] == pytest.approx(21.6666667e-9)
+    assert row["melt_depth_m"] == pytest.approx(20e-9)
+    assert row["melt_depth_half_m"] == pytest.approx(21.6666667e-9)
 
 
 def test_depth_between_cells_always_moves():
@@ -84,12 +83,12 @@ def test_depth_between_cells_always_moves():
         view = view_of([[1.0], [melting], [0.0]], dimension=1)
         heat = np.array([1800.0 + 50.0 * melting, 1700.0, 1600.0 + 50.0 * melting])
         view = replace(view, temperature=heat, solidus=1700.0, liquidus=1700.0)
-        depths.append(MeltPool(1).observe(view)["melt_depth_interpolated_m"])
+        depths.append(MeltPool(1).observe(view)["melt_depth_half_m"])
     for warmer in (10.0, 30.0, 80.0):
         view = view_of([[1.0], [1.0], [0.0]], dimension=1)
         heat = np.array([1850.0 + warmer, 1700.0 + warmer, 1650.0 + 0.5 * warmer])
         view = replace(view, temperature=heat, solidus=1700.0, liquidus=1700.0)
-        depths.append(MeltPool(1).observe(view)["melt_depth_interpolated_m"])
+        depths.append(MeltPool(1).observe(view)["melt_depth_half_m"])
     assert np.all(np.diff(depths) > 0.1e-9)
     assert depths[0] == pytest.approx(12.5e-9)
 
@@ -97,21 +96,21 @@ def test_depth_between_cells_always_moves():
 def test_depth_of_a_block_that_is_all_molten():
     """Nothing lies below the deepest cell: its lower face."""
     row = MeltPool(1).observe(view_of([[1.0], [0.9]], dimension=1))
-    assert row["melt_depth_interpolated_m"] == pytest.approx(20e-9)
+    assert row["melt_depth_half_m"] == pytest.approx(20e-9)
 
 
 def test_numerical_standard_deviations():
     """A depth in cells of 12 nm lies anywhere within one; a width jumps at both of its ends;
     interpolation halves both; what is no size in cells, or zero, has none."""
     melt = {"depth_max_m": 1e-7, "width_max_m": 1e-7, "depth_any_max_m": 0.0, "start_s": 1e-9}
-    smooth = {"width_half_max_m": 1e-7, "depth_interpolated_max_m": 1e-7, "volume_max_m3": 1e-14}
+    smooth = {"width_half_max_m": 1e-7, "depth_half_max_m": 1e-7, "volume_max_m3": 1e-14}
     found = numerical_sd({"spacing_m": 12e-9, "melt": melt | smooth, "temperature_max_K": 300.0})
     cell = 12e-9 / math.sqrt(12.0)
     assert found == {
         "melt.depth_max_m": cell,
         "melt.width_max_m": 2.0 * cell,
         "melt.width_half_max_m": cell,
-        "melt.depth_interpolated_max_m": 0.5 * cell,
+        "melt.depth_half_max_m": 0.5 * cell,
     }
 
 

@@ -85,7 +85,7 @@ def test_bad_measured_values(text):
 
 def test_kinds_of_numbers():
     """Units follow from what observers declare; names of probes are free."""
-    assert kind_of_number("melt.depth_interpolated_max_m") == "length"
+    assert kind_of_number("melt.depth_half_max_m") == "length"
     assert kind_of_number("temperature_max_K") == "temperature"
     with pytest.raises(QuantityError, match="depth_max_m"):
         kind_of_number("melt.depth_mx_m")
