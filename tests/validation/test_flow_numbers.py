@@ -11,6 +11,7 @@ from lasersph.validation.dlip_steel import rows as dlip
 from lasersph.validation.lid_driven_cavity import rows as lid_driven_cavity
 from lasersph.validation.lid_driven_cavity.center_lines import center_line
 from lasersph.validation.marangoni_layer import rows as marangoni_layer
+from lasersph.validation.moving_film import rows as moving_film
 from lasersph.validation.natural_convection import rows as natural_convection
 from lasersph.validation.taylor_green import rows as taylor_green
 
@@ -89,6 +90,25 @@ def test_order_of_vortices():
     """Errors of 0.08, 0.02, 0.005 at 25, 50, 100 a side are second order."""
     assert taylor_green.order([25, 50, 100], [0.08, 0.02, 0.005]) == pytest.approx(2.0)
     assert isinstance(taylor_green.vortices_of(load_case("taylor-green")), TaylorGreen)
+
+
+def test_heights_of_a_film(study, monkeypatch):
+    """The exact heights pass; those of a film that 3 % more temperature drives do not."""
+    time = np.linspace(1e-9, 200e-9, 400)
+    for factor, good in ((1.0, True), (1.03, False)):
+        one = study("moving-film")
+        film = one.plan.films["aluminium"]
+        heights = factor * moving_film.exact_heights(one, film, time)
+        made_up = MadeUp(history={"time_s": time, "topography.first_harmonic_m": heights})
+        monkeypatch.setattr(moving_film, "heated", lambda *_, made_up=made_up: made_up)
+        moving_film.forced(one, "aluminium", film)
+        assert [row.verdict for row in one.rows] == [good]
+    x = (np.arange(20) + 0.5) * 1e-8
+    line = {"position": np.stack([x, 3e-9 - 2e5 * x**2])}
+    assert moving_film.end_height(line, 0) == pytest.approx(3e-9, rel=1e-9)
+    assert moving_film.end_height({"position": line["position"][:, ::-1]}, -1) == pytest.approx(
+        3e-9
+    )
 
 
 def test_surface_of_a_layer():
