@@ -153,9 +153,11 @@ def pool_depth(view: View, fraction: np.ndarray, faces: np.ndarray, least: float
         return deepest
     lowest = np.flatnonzero(fluid & (faces >= deepest * (1.0 - SAME)))
     upper = int(lowest[np.argmax(view.enthalpy[lowest])])
-    side = np.abs(view.position[:-1] - view.position[:-1, upper, None])
-    is_below = np.all(side < 0.5 * view.width[:-1], axis=0) & (faces > faces[upper])
-    below = np.flatnonzero(is_below & ~fluid)
+    is_below = (faces > faces[upper]) & ~fluid
+    for axis in range(view.dimension - 1):
+        side = np.abs(view.position[axis] - view.position[axis, upper])
+        is_below = is_below & (side < 0.5 * view.width[axis])
+    below = np.flatnonzero(is_below)
     if below.size == 0 or view.solidus is None or view.liquidus is None:
         return float(faces[upper])
     lower = int(below[np.argmin(faces[below])])

@@ -283,7 +283,7 @@ def test_numbers_from_memory_are_counted() -> None:
         for name in ("steel-304", "titanium")
     }
     assert found["steel-304"] == []
-    assert found["titanium"][0].startswith("1 marked [M]")
+    assert found["titanium"][0].startswith("2 marked [M]")
 
 
 def test_check_says_where_ranges_end_and_what_is_missing() -> None:
