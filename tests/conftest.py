@@ -7,6 +7,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 SIMULATOR, SHORT = pytest.StashKey(), pytest.StashKey()
+ONLY_ASKED = ("validate", "cluster")
+"""Marks of tests that run only where -m names the mark: `pytest -m cluster`."""
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as on the command line
 os.environ.setdefault(
@@ -17,6 +19,14 @@ settings.register_profile(
     "any-machine", deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("any-machine")
+
+
+def pytest_collection_modifyitems(config, items):
+    """Deselect tests that nobody asked for."""
+    marks = [mark for mark in ONLY_ASKED if mark not in config.getoption("-m")]
+    unasked = [item for item in items if any(map(item.get_closest_marker, marks))]
+    config.hook.pytest_deselected(items=unasked)
+    items[:] = [item for item in items if item not in unasked]
 
 
 def pytest_collection_finish(session):

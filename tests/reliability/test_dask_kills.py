@@ -22,6 +22,7 @@ from dask_cluster import DaskCluster
 
 from lasersph.sweeps.dask_engine import DaskEngine, write_certificate
 
+pytestmark = pytest.mark.cluster
 FLUENCES = ["0.5 J/cm^2", "0.6 J/cm^2", "0.7 J/cm^2"]
 CHECKPOINTS = "runs/*/checkpoint/*"
 EVENTS = ["started", "finished"]
