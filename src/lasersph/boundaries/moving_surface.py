@@ -50,7 +50,7 @@ from lasersph.particles.neighbor_lists import NeighborList, members_of
 
 HostArray = NDArray[np.float64]
 CLOSEST = 0.2
-"""Least distance from the surface over the spacing, for pressures and ghosts."""
+"""Least distance from the surface over the spacing, for pressures, heat and ghosts."""
 GAP = 0.3
 """Particles stay as far below the surface, over the spacing."""
 STEEPEST = 1.0
@@ -114,7 +114,9 @@ class MovingSurface:
         for name in (*names, "ghost_velocity_jump", "_distance", "_p_b"):
             setattr(self, name, backend.zeros(count))
         self._n, self._shift, self._jump = (backend.zeros((2, count)) for _ in range(3))
-        self.ghosts = SurfaceGhosts(self._n, self._distance, self._shift, self._jump, self._p_b)
+        self.ghosts = SurfaceGhosts(
+            self._n, self._distance, self._shift, self._jump, self._p_b, CLOSEST * spacing
+        )
         self.pressure: PressureCondition | None = None
         self._shear, self._stretch = np.zeros(line.count), np.zeros(line.count)
         self._line_pressure, self._line_temperature = np.zeros(line.count), np.zeros(line.count)

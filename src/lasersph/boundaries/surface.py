@@ -40,7 +40,7 @@ class SurfaceGhosts(NamedTuple):
 
     normal: (2, n) of the surface, outward. distance: (n,) from the tangent [m]. shift: (2, n) from
     source to ghost [m]. jump: (2, n) velocity of the ghost over its source [m/s]. pressure: (n,)
-    p_b at the surface [Pa].
+    p_b at the surface [Pa]. closest: least distance from a tangent that counts [m].
     """
 
     normal: Array
@@ -48,6 +48,7 @@ class SurfaceGhosts(NamedTuple):
     shift: Array
     jump: Array
     pressure: Array
+    closest: float
 
 
 class SurfaceStep(NamedTuple):

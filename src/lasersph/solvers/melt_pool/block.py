@@ -38,13 +38,14 @@ SKIN = 1.02
 """Search radius over the support radius: positions change a little within a step."""
 
 
-def wall_terms(g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j):
+def wall_terms(g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j, closest):
     """Share of a pair in the boundary coefficient A [m^(d-2)], A P_w, A T_w and the power b.
 
     Beyond a Dirichlet face c_ij = n_ij / n_i times the weight, n normal to the face; beyond a
-    Neumann face 2 q n_j times the weight.
+    Neumann face 2 q n_j times the weight. Below a surface that bends a particle may lie beyond the
+    plane of its neighbor's ghost: `closest` is the least n_i that counts [m].
     """
-    n_i = max(plane_j - dot(x_i, normal_j), 1.0e-30)
+    n_i = max(plane_j - dot(x_i, normal_j), closest)
     n_j = dot(x_j, normal_j) - plane_j
     A = dirichlet_j * g_ij * (n_i + n_j) / n_i
     return A, A * P_w_j, A * T_w_j, 2.0 * (1.0 - dirichlet_j) * g_ij * flux_j * n_j
@@ -109,7 +110,7 @@ class Block(GhostExtension):
             the block [m].
         rows: numbers of the particles whose pairs were found, None for
             all of the block; has_row: (count,) 1 for them, or None. rows_near_faces: those, of
-            complete rows, that may have ghosts as neighbors.
+            complete rows, that may have ghosts as neighbors. closest: see `wall_terms`.
     """
 
     def __init__(
@@ -149,6 +150,7 @@ class Block(GhostExtension):
         near = SKIN * float(lattice.weighing.mean(self.moving_support, largest))
         self._even_above = near - fine_depth
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
+        self.closest = 1e-30 if self._beyond is None else self._beyond.closest
         self._set_rules()
         self._set_factors()
         self._geometry, self._room = PairGeometry(backend, lattice.weighing), Room()

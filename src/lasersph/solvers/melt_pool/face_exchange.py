@@ -34,9 +34,13 @@ def of_face(q, face):
     )
 
 
-def heat_terms(g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, heat_face_j, x_i, x_j):
+def heat_terms(
+    g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, heat_face_j, x_i, x_j, closest
+):
     """Shares of a pair in A of each face, and in A P_w + b of each."""
-    A, flow, _, b = wall_terms(g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j)
+    A, flow, _, b = wall_terms(
+        g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j, closest
+    )
     a_0, a_1, a_2, a_3 = of_face(A, heat_face_j)
     b_0, b_1, b_2, b_3 = of_face(flow + b, heat_face_j)
     return a_0, a_1, a_2, a_3, b_0, b_1, b_2, b_3
@@ -89,6 +93,7 @@ class FaceExchange:
                 tuple(self._sums.values()),
                 finish=heat_sums,
                 rows=block.rows_near_faces,
+                closest=block.closest,
             )
 
     def book_heat(self, block: Block, potential: Array, step: float) -> None:

@@ -47,7 +47,15 @@ class HeatPairs:
             out = (pairs.boundary_coefficient, body.wall_flow, body.wall_heat)
             near = block.rows_near_faces
             backend.pointwise(no_walls, {"A": out[0]}, out, rows=rows)
-            backend.pair_sum(wall_terms, block.pairs, fields, out, rows=near, finish=wall_sums)
+            backend.pair_sum(
+                wall_terms,
+                block.pairs,
+                fields,
+                out,
+                rows=near,
+                finish=wall_sums,
+                closest=block.closest,
+            )
             backend.pair_values(inner_weight, block.pairs, fields, block.weights, rows=near)
         backend.pair_sum(weight_of, block.pairs, {"g_ij": block.weights}, pairs.total, rows=rows)
         backend.pointwise(one, {"mark": self._renewed}, self._renewed, rows=rows)

@@ -148,15 +148,23 @@ def test_ghost_velocity():
 def test_terms_of_a_dirichlet_face():
     """Particle 1 above a floor at z = -2, ghost 3 below it: c = (1 + 3) / 1, no power."""
     x_i, x_j, down = np.array([0.0, -1.0]), np.array([5.0, -5.0]), np.array([0.0, -1.0])
-    coefficient, flow, heat, power = wall_terms(0.5, 1.0, 7.0, 11.0, 0.0, down, 2.0, x_i, x_j)
+    coefficient, flow, heat, power = wall_terms(0.5, 1.0, 7.0, 11.0, 0.0, down, 2.0, x_i, x_j, 0.1)
     assert (coefficient, flow, heat, power) == (2.0, 14.0, 22.0, 0.0)
     assert inner_weight(0.5, 1.0) == 0.0
+
+
+def test_a_particle_above_the_tangent_of_its_neighbor():
+    """Below a surface that bends x_i may lie beyond the plane of the ghost of j: (0.2 + 3) / 0.2
+    with the least distance 0.2, and no leap of the heat."""
+    x_i, x_j, up = np.array([0.0, 0.1]), np.array([2.0, 3.0]), np.array([0.0, 1.0])
+    coefficient, _, heat, _ = wall_terms(0.5, 1.0, 0.0, 11.0, 0.0, up, 0.0, x_i, x_j, 0.2)
+    assert (coefficient, heat) == pytest.approx((8.0, 88.0), rel=1e-14)
 
 
 def test_terms_of_a_neumann_face():
     """2 q n_j g with the ghost 3 beyond the face; the pair still conducts between particles."""
     x_i, x_j, down = np.array([0.0, -1.0]), np.array([5.0, -5.0]), np.array([0.0, -1.0])
-    coefficient, _, _, power = wall_terms(0.5, 0.0, 0.0, 0.0, 10.0, down, 2.0, x_i, x_j)
+    coefficient, _, _, power = wall_terms(0.5, 0.0, 0.0, 0.0, 10.0, down, 2.0, x_i, x_j, 0.1)
     assert (coefficient, power) == (0.0, 2.0 * 10.0 * 3.0 * 0.5)
     assert inner_weight(0.5, 0.0) == 0.5
 
@@ -164,8 +172,8 @@ def test_terms_of_a_neumann_face():
 def test_a_pair_inside_has_no_wall():
     """A neighbor that is no ghost: rules of zero give nothing."""
     x = np.array([0.0, -1.0])
-    assert wall_terms(0.5, 0.0, 0.0, 0.0, 0.0, np.zeros(2), 0.0, x, x)[0] == 0.0
-    assert wall_terms(0.5, 0.0, 0.0, 0.0, 0.0, np.zeros(2), 0.0, x, x)[3] == 0.0
+    assert wall_terms(0.5, 0.0, 0.0, 0.0, 0.0, np.zeros(2), 0.0, x, x, 0.1)[0] == 0.0
+    assert wall_terms(0.5, 0.0, 0.0, 0.0, 0.0, np.zeros(2), 0.0, x, x, 0.1)[3] == 0.0
 
 
 @pytest.mark.parametrize("share", [0.0, 0.2])
@@ -176,7 +184,7 @@ def test_power_of_a_neumann_face(share):
     block = block_of(solver, jittered(solver, share))
     out = [solver.backend.zeros(block.count) for _ in range(4)]
     fields = {"g_ij": block.weights} | block.rules
-    solver.backend.pair_sum(wall_terms, block.pairs, fields, tuple(out))
+    solver.backend.pair_sum(wall_terms, block.pairs, fields, tuple(out), closest=block.closest)
     total = solver.backend.to_host(out[3]).sum()
     assert total == pytest.approx(10.0, rel=1e-9 if share == 0.0 else 0.05)
 

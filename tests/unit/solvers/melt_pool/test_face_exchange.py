@@ -32,7 +32,14 @@ def test_sums_go_to_the_face_beyond_which_the_ghost_lies():
 def test_heat_of_three_particles_by_hand():
     """A particle 1 before a face at x = 0 and its ghosts 1 and 3 beyond it, P_w - P_i = 7:
     g (n_i + n_j) / n_i (P_w - P_i) = 0.5 * 2 * 7 + 0.25 * 4 * 7; with a flux 2 q g n_j."""
-    face = {"P_w_j": 10.0, "T_w_j": 0.0, "normal_j": E_X, "plane_j": 0.0, "x_i": -E_X}
+    face = {
+        "P_w_j": 10.0,
+        "T_w_j": 0.0,
+        "normal_j": E_X,
+        "plane_j": 0.0,
+        "x_i": -E_X,
+        "closest": 0.1,
+    }
     ghosts = [{"g_ij": 0.5, "x_j": 1.0 * E_X}, {"g_ij": 0.25, "x_j": 3.0 * E_X}]
     for kinds, expected in (
         ({"dirichlet_j": 1.0, "flux_j": 0.0, "heat_face_j": 2.0}, 14.0),
