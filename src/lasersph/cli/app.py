@@ -42,7 +42,7 @@ VERBS = {
         ),
         "export": (
             "results.export",
-            "Write the surface of a crater or a relief as CSV, STL or PLY.",
+            "Write the surface of a crater or a relief as CSV, STL, PLY, X3P or SDF.",
         ),
     },
     "Many runs": {

@@ -25,8 +25,11 @@ Scene = Annotated[
     bool, typer.Option("--scene", help="Draw a 3-D crater with pyvista instead (extra `view`).")
 ]
 ExportFormat = Annotated[
-    Literal["csv", "stl", "ply"],
-    typer.Option(help="csv: x, y, z in m; stl, ply: triangles in um, of 3-D runs."),
+    Literal["csv", "stl", "ply", "x3p", "sdf"],
+    typer.Option(
+        help="csv: x, y, z in m; stl, ply: triangles in um, of 3-D runs; x3p, sdf: surface "
+        "metrology (ISO 25178-72, -71)."
+    ),
 ]
 At = Annotated[
     str | None,
@@ -108,10 +111,10 @@ def summary_rows(
 
 
 def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> None:
-    """Write the surface of a crater or a relief as CSV, STL or PLY.
+    """Write the surface of a crater or a relief as CSV, STL, PLY, X3P or SDF.
 
-    A crater goes to DIR/crater.FORMAT, a surface that moved to DIR/surface-profile.FORMAT: as CSV
-    its profile, else extruded along the lines by its width.
+    A crater goes to DIR/crater.FORMAT, a surface that moved to DIR/surface-profile.FORMAT: its
+    profile, as STL or PLY extruded along the lines by its width.
     """
     from lasersph.output import OutputError
     from lasersph.output.height_map import extruded_map, height_map
@@ -124,7 +127,9 @@ def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> No
     steps = run.surface if moves else run.snapshots
     step = steps[-1] if time is None else steps.nearest(time)
     try:
-        surface = extruded_map(step, 1 if format == "csv" else 2) if moves else height_map(step)
+        surface = (
+            extruded_map(step, 2 if format in ("stl", "ply") else 1) if moves else height_map(step)
+        )
     except OutputError as error:
         raise WrongCommand(f"{folder}: {error}") from None
     print(surface.write(Path(folder) / f"{'surface-profile' if moves else 'crater'}.{format}"))

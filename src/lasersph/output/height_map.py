@@ -1,4 +1,5 @@
-"""The surface of a crater or a relief as a height map, and as files for others: CSV, STL, PLY.
+"""The surface of a crater or a relief as a height map, and as files for others: CSV, STL, PLY,
+and the formats of surface metrology, X3P and SDF (`surface_files`).
 
 A height map holds, for each column of one particle's width, the upper face of the uppermost
 condensed particle. CSV gives it in meters, one line a column. STL (binary) [StlFormat] and PLY
@@ -13,7 +14,7 @@ take small numbers for none.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +22,13 @@ import numpy as np
 
 from lasersph.output.atomic import replace_file, replace_text
 from lasersph.output.errors import OutputError
+from lasersph.output.surface_files.sdf import sdf_text
+from lasersph.output.surface_files.x3p import x3p_bytes
 
 CONDENSED = 0
 """Stage of a particle of the body, see `observers.AblationView`."""
 MICROMETERS = 1e6
-KINDS = ("csv", "stl", "ply")
+KINDS = ("csv", "stl", "ply", "x3p", "sdf")
 
 
 @dataclass(frozen=True)
@@ -35,18 +38,25 @@ class HeightMap:
     Attributes:
         x: (nx,) centers of the columns [m]. y: (ny,) [m]; in 2-D one value, 0.
         z: (ny, nx) height [m], 0 at the original surface; NaN where nothing is left.
-        top: (ny, nx) number of the uppermost particle in the snapshot; -1 where nothing is left.
+        top: (ny, nx) number of the uppermost particle in the snapshot; -1 where nothing is left;
+            none of a map that is not of particles.
         time: seconds.
     """
 
     x: np.ndarray
     y: np.ndarray
     z: np.ndarray
-    top: np.ndarray
-    time: float
+    top: np.ndarray = field(default_factory=lambda: np.zeros((0, 0), int))
+    time: float = 0.0
+
+    @property
+    def steps(self) -> tuple[float, float]:
+        """Distances between columns along x and y [m]; that along x for both of a profile."""
+        dx = float(self.x[-1] - self.x[0]) / (self.x.size - 1)
+        return dx, float(self.y[-1] - self.y[0]) / (self.y.size - 1) if self.y.size > 1 else dx
 
     def write(self, path: Path) -> Path:
-        """Write the map; the ending of the name says in which format: .csv, .stl, .ply.
+        """Write the map; the ending of the name says in which format: csv, stl, ply, x3p, sdf.
 
         Raises:
             OutputError: another ending, a surface of one line as triangles, or the file cannot be
@@ -55,8 +65,13 @@ class HeightMap:
         kind = path.suffix.removeprefix(".").lower()
         if kind not in KINDS:
             raise OutputError(f'no format "{kind}" for a height map; there are {", ".join(KINDS)}')
-        if kind == "csv":
-            replace_text(path, self.as_csv())
+        note = f"surface at {self.time:.6g} s; x from {self.x[0]:.9g} m, y from {self.y[0]:.9g} m"
+        if kind in ("csv", "sdf"):
+            text = self.as_csv() if kind == "csv" else sdf_text(self.z, *self.steps, note)
+            replace_text(path, text)
+            return path
+        if kind == "x3p":
+            replace_file(path, lambda file: file.write(x3p_bytes(self.z, *self.steps, note)))
             return path
         if min(self.z.shape) < 2:
             raise OutputError(f"a profile is a line and has no {kind.upper()} surface; take csv")

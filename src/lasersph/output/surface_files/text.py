@@ -1,0 +1,144 @@
+"""Heights as text: columns whose names tell their units, and matrices of usual microscopes.
+
+    x [um],z [nm]          a profile; also x_um z_nm, and x_m,y_m,z_m of `lasersph export`
+    # Width: 80.0 um       a matrix of Gwyddion with # Width, # Height and # Value units
+    "XY calibration","277.78","nm"   a matrix of a Keyence microscope, with its unit
+
+Separators are commas, semicolons, tabs or spaces. Nothing is guessed: without a unit it is refused.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from lasersph.input import QuantityError, parse_quantity
+from lasersph.output.errors import OutputError
+
+EVEN = 1e-3
+"""Steps of a grid may differ by this share of their mean: coordinates are written with 4 digits or
+more."""
+NAME = re.compile(r"([xyz])\w*?[ _]*[\[(_ ]\s*([nuµμm]?m)\s*[\])]?$", re.IGNORECASE)
+SEPARATORS = re.compile(r"[,;\t ]+")
+CALIBRATION = re.compile(r"XY.?calibration\D*?([0-9.eE+-]+)\W*([nuµμm]?m)", re.IGNORECASE)
+HINT = 'name columns with their units, e.g. "x [um],z [nm]"'
+Grid = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+def read_text(text: str) -> Grid:
+    """x (nx,), y (ny,) and z (ny, nx) [m] of a profile or a map; NaN where a height is missing.
+
+    Raises:
+        OutputError: no unit, no number, or places that are no grid of equal steps.
+    """
+    lines = [line.strip() for line in text.lstrip("\ufeff").splitlines() if line.strip()]
+    if not lines:
+        raise OutputError("it is empty")
+    if any(line.startswith("# Value units") for line in lines[:10]):
+        return _gwyddion(lines)
+    if found := CALIBRATION.search("\n".join(lines[:40])):
+        return _keyence(lines, found)
+    return _columns(lines)
+
+
+def _columns(lines: list[str]) -> Grid:
+    names = [one.strip(' "#') for one in re.split(r"[,;\t]", lines[0])]
+    if len(names) < 2:
+        names = lines[0].strip("# ").split()
+    matches = [NAME.match(name) for name in names]
+    if not all(matches) or [m[1].lower() for m in matches if m] not in (list("xz"), list("xyz")):
+        raise OutputError(f'its first line is "{lines[0][:40]}": {HINT}')
+    units = [_length(f"1 {m[2]}") for m in matches if m]
+    table = _numbers(lines[1:], len(units)) * units
+    if table.shape[0] < 3:
+        raise OutputError(f"it holds {table.shape[0]} points, too few for a profile")
+    if len(units) == 2:
+        order = np.argsort(table[:, 0], kind="stable")
+        x, z = table[order].T
+        return _even(x, "x"), np.zeros(1), z[None, :]
+    x, columns = np.unique(table[:, 0], return_inverse=True)
+    y, rows = np.unique(table[:, 1], return_inverse=True)
+    if x.size * y.size != table.shape[0]:
+        raise OutputError(
+            f"it holds {table.shape[0]} points at {x.size} x and {y.size} y: no rectangular grid"
+        )
+    z = np.full((y.size, x.size), np.nan)
+    z[rows, columns] = table[:, 2]
+    return _even(x, "x"), _even(y, "y"), z
+
+
+def _gwyddion(lines: list[str]) -> Grid:
+    head = dict(line[1:].split(":", 1) for line in lines if line.startswith("#") and ":" in line)
+    fields = {name.strip().lower(): value.strip() for name, value in head.items()}
+    for name in ("width", "height", "value units"):
+        if name not in fields:
+            raise OutputError(f'it misses "# {name.capitalize()}: ..."')
+    z = _matrix([line for line in lines if not line.startswith("#")])
+    z = z * _length(f"1 {fields['value units']}")
+    steps = [
+        _length(fields[k]) / n for k, n in zip(("width", "height"), z.shape[::-1], strict=True)
+    ]
+    return _grid(z, *steps)
+
+
+def _keyence(lines: list[str], found: re.Match[str]) -> Grid:
+    step = _length(f"{found[1]} {found[2]}")
+    unit = re.search(r'"?Unit"?\W+([nuµμm]?m)\b', "\n".join(lines), re.IGNORECASE)
+    if unit is None:
+        raise OutputError('it misses the unit of its heights ("Unit")')
+    start = next((n for n, line in enumerate(lines) if line.strip('", ').lower() == "height"), None)
+    if start is None:
+        raise OutputError('it misses the line "Height" before its matrix')
+    z = _matrix([line.replace('"', "").strip(",") for line in lines[start + 1 :]])
+    return _grid(z * _length(f"1 {unit[1]}"), step, step)
+
+
+def _grid(z: np.ndarray, dx: float, dy: float) -> Grid:
+    return dx * np.arange(z.shape[1]), dy * np.arange(z.shape[0]), z
+
+
+def _matrix(lines: list[str]) -> np.ndarray:
+    count = len(SEPARATORS.split(lines[0])) if lines else 0
+    if count < 3:
+        raise OutputError("it holds no matrix of heights")
+    return _numbers(lines, count)
+
+
+def _numbers(lines: list[str], count: int) -> np.ndarray:
+    """Numbers (lines, count); a word such as BAD or nan is a height that is missing."""
+    rows = [[one for one in SEPARATORS.split(line) if one] for line in lines]
+    for number, row in enumerate(rows):
+        if len(row) != count:
+            raise OutputError(f"row {number + 1} holds {len(row)} numbers, not {count}")
+    try:
+        return np.array(rows, dtype=float)
+    except ValueError:
+        return np.array([[_number(one) for one in row] for row in rows])
+
+
+def _number(word: str) -> float:
+    if re.fullmatch(r"(?i)bad|nan|-+|no|data|\*+", word):
+        return np.nan
+    try:
+        return float(word)
+    except ValueError:
+        raise OutputError(f'"{word}" is no number') from None
+
+
+def _length(text: str) -> float:
+    try:
+        return parse_quantity(text.replace("μ", "u").replace("µ", "u"), "length")
+    except QuantityError as error:
+        raise OutputError(str(error)) from None
+
+
+def _even(places: np.ndarray, name: str) -> np.ndarray:
+    """Places of equal steps. Raises OutputError where the steps differ."""
+    steps = np.diff(places)
+    if places.size > 1 and np.ptp(steps) > EVEN * np.mean(steps) + 1e-9 * np.max(np.abs(places)):
+        raise OutputError(
+            f"the steps of {name} differ, from {steps.min():.4g} m to "
+            f"{steps.max():.4g} m: resample it to equal steps"
+        )
+    return np.linspace(places[0], places[-1], places.size)

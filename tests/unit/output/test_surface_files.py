@@ -1,0 +1,105 @@
+"""Height maps as X3P, SDF and text: written, read back, refused in one line."""
+
+import zipfile
+
+import numpy as np
+import pytest
+
+from lasersph.output import OutputError
+from lasersph.output.height_map import HeightMap
+from lasersph.output.surface_files.read import read_surface
+
+
+@pytest.fixture
+def relief():
+    """Five rows of seven columns of 100 and 200 nm, one height missing."""
+    y, x = np.mgrid[0:5, 0:7]
+    z = 1e-9 * (3.0 * x - 7.0 * y)
+    z[2, 3] = np.nan
+    return HeightMap(1e-7 * np.arange(7), 2e-7 * np.arange(5), z)
+
+
+@pytest.mark.parametrize("kind", ["x3p", "sdf", "csv"])
+def test_written_and_read(relief, tmp_path, kind):
+    """Heights, steps and the missing height come back."""
+    found = read_surface(relief.write(tmp_path / f"relief.{kind}"))
+    np.testing.assert_allclose(found.z, relief.z, rtol=1e-8)
+    np.testing.assert_allclose(found.x, relief.x, atol=1e-15)
+    np.testing.assert_allclose(found.y, relief.y, atol=1e-15)
+
+
+@pytest.mark.parametrize("kind", ["x3p", "sdf"])
+def test_profile(tmp_path, kind):
+    """A profile is a file of one row."""
+    line = HeightMap(1e-7 * np.arange(9), np.zeros(1), 1e-9 * np.arange(9.0)[None, :])
+    found = read_surface(line.write(tmp_path / f"line.{kind}"))
+    assert found.z.shape == (1, 9)
+    np.testing.assert_allclose(found.z, line.z)
+
+
+TEXTS = {
+    "columns": "x [um],z [nm]\n0,1\n0.5,2\n1.0,-3\n",
+    "spaces": "x_um z_nm\n0 1\n0.5 2\n1.0 -3\n",
+    "gwyddion": "# Width: 1.5 µm\n# Height: 0.5 µm\n# Value units: nm\n1\t2\t-3\n",
+    "keyence": '"Model","VK"\n"XY calibration","500","nm"\n"Unit","nm"\n"Height"\n"1","2","-3"\n',
+}
+
+
+@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS.keys())
+def test_exports_of_microscopes(tmp_path, text):
+    """A profile of three heights, half a micrometer apart."""
+    path = tmp_path / "profile.csv"
+    path.write_text(text, encoding="utf-8")
+    found = read_surface(path)
+    np.testing.assert_allclose(found.z, [[1e-9, 2e-9, -3e-9]])
+    np.testing.assert_allclose(np.diff(found.x), 5e-7)
+
+
+BAD = {
+    "empty": ("a.csv", "", "it is empty"),
+    "no unit": ("a.csv", "x,z\n0,1\n1,2\n2,3\n", "name columns with their units"),
+    "other unit": ("a.csv", "x [ns],z [nm]\n0,1\n1,2\n2,3\n", "name columns with their units"),
+    "word": ("a.csv", "x [um],z [nm]\n0,1\n1,two\n2,3\n", '"two" is no number'),
+    "short row": ("a.csv", "x [um],z [nm]\n0,1\n1\n2,3\n", "row 2 holds 1 numbers, not 2"),
+    "uneven": ("a.csv", "x [um],z [nm]\n0,1\n1,2\n5,3\n", "the steps of x differ"),
+    "no grid": ("a.csv", "x_m,y_m,z_m\n0,0,1\n1,0,2\n0,1,3\n", "no rectangular grid"),
+    "binary sdf": ("a.sdf", "bISO-1.0\n", "only ASCII files"),
+    "sdf without points": ("a.sdf", "aISO-1.0\nNumProfiles = 1\n*\n1\n*\n", "misses numpoints"),
+    "sdf of few heights": (
+        "a.sdf",
+        "aISO-1.0\nNumPoints=2\nNumProfiles=2\nXscale=1\nYscale=1\nZscale=1\n*\n1 2 3\n*\n",
+        "it holds 3 heights, its header says 2 times 2",
+    ),
+    "sdf without steps": (
+        "a.sdf",
+        "aISO-1.0\nNumPoints=2\nNumProfiles=1\nXscale=0\nYscale=1\nZscale=1\n*\n1 2\n*\n",
+        "not above zero",
+    ),
+    "no x3p": ("a.x3p", "hello", "it is no X3P file"),
+    "picture": ("a.png", "", 'no format ".png" of a surface'),
+}
+
+
+@pytest.mark.parametrize(("name", "text", "message"), BAD.values(), ids=BAD.keys())
+def test_refused_in_one_line(tmp_path, name, text, message):
+    """The line names the file and what is wrong."""
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(OutputError) as caught:
+        read_surface(tmp_path / name)
+    assert message in str(caught.value)
+    assert name in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_damaged_x3p(relief, tmp_path):
+    """A height that changed on the way is found by the checksum."""
+    path = relief.write(tmp_path / "relief.x3p")
+    with zipfile.ZipFile(path) as file:
+        parts = {name: file.read(name) for name in file.namelist()}
+    parts["bindata/data.bin"] = bytes(8) + parts["bindata/data.bin"][8:]
+    parts["bindata/data.bin"] = parts["bindata/data.bin"][:8] + bytes(8) + bytes(8 * 33)
+    with zipfile.ZipFile(path, "w") as file:
+        for name, content in parts.items():
+            file.writestr(name, content)
+    with pytest.raises(OutputError, match="the checksum is another"):
+        read_surface(path)
