@@ -6,7 +6,8 @@ all steps lie end to end, and the group `Steps` says where each step begins. An 
 not change since the step before (positions of a solid, cell widths) is not written again: its
 offset points to the old block. Blocks are compressed (gzip 1, shuffle), one chunk a block, so
 that adding a step rewrites nothing. The file is opened, appended and closed at each step through
-a `Transaction`: a kill at any moment leaves a readable file.
+a `Transaction`: a kill at any moment leaves a readable file. Beside the group `VTKHDF`, which is
+all that ParaView reads, `ranges` keeps the smallest and largest values of each step for viewers.
 
 Coordinates are three-dimensional, as VTK wants: (0, 0, z) in 1-D, (x, 0, z) in 2-D.
 
@@ -83,7 +84,9 @@ class ParticleFile:
                 raise ValueError("the fields of a step differ from those of the first step")
             steps = root["Steps"]
             number = int(steps.attrs["NSteps"])
-            point_offset = store_block(root["Points"], to_three_axes(position))
+            points = to_three_axes(position)
+            point_offset = store_block(root["Points"], points)
+            store_range(file, "position", points)
             part, first_cell, first_point = store_cells(root, count, self.cells)
             place = CELL_KINDS.index(self.cells)
             extend(steps["Values"], [time])
@@ -99,6 +102,7 @@ class ParticleFile:
                 block = to_three_axes(array) if array.ndim == 2 else array
                 offset = store_block(root["PointData"][name], block)
                 extend(steps["PointDataOffsets"][name], [offset])
+                store_range(file, name, block)
             steps.attrs["NSteps"] = number + 1
 
     def cut(self, steps: int) -> None:
@@ -116,6 +120,8 @@ class ParticleFile:
         if present > steps:
             with open_for_changes(self.path) as file:
                 cut_steps(file["VTKHDF"], steps)
+                for dataset in file.get("ranges", {}).values():
+                    dataset.resize(steps, axis=0)
 
 
 @contextmanager
@@ -196,6 +202,10 @@ def start_file(
         dataset = grow(data, name, array.dtype, width=width, chunk=count)
         dataset.attrs["unit"] = units.get(name, "")
         grow(offsets, name, np.int64)
+    ranges = file.create_group("ranges")
+    grow(ranges, "position", np.float64, width=6)
+    for name, array in fields.items():
+        grow(ranges, name, np.float64, width=6 if array.ndim == 2 else 2)
 
 
 def grow(group: Any, name: str, kind: Any, width: int | None = None, chunk: int | None = None):
@@ -238,6 +248,18 @@ def store_block(dataset: Any, block: np.ndarray) -> int:
     dataset.attrs["last_digest"] = digest
     dataset.attrs["last_offset"] = offset
     return offset
+
+
+def store_range(file: Any, name: str, block: np.ndarray) -> None:
+    """Keep the range of a step; a file begun before ranges were kept stays without."""
+    if "ranges" in file:
+        extend(file["ranges"][name], [value_range(block)])
+
+
+def value_range(block: np.ndarray) -> np.ndarray:
+    """Smallest and largest values, NaN left out: (n,) -> (2,); (n, 3) -> (6,), x, y, z of each."""
+    ends = (np.fmin.reduce(block, axis=0), np.fmax.reduce(block, axis=0))
+    return np.concatenate([np.ravel(end).astype(float) for end in ends])
 
 
 def store_cells(root: Any, count: int, cells: str) -> tuple[int, int, int]:

@@ -92,6 +92,9 @@ def test_cut_and_go_on(tmp_path):
     found = list(Snapshots(file.path))
     assert len(found) == 4
     assert all(same(a, b) for a, b in zip(found, kept, strict=True))
+    with h5py.File(file.path) as stored:
+        largest = stored["ranges/temperature"][:, 1].tolist()
+    assert largest == [float(step["temperature"].max()) for step in kept]
     with pytest.raises(OutputError, match="holds 4 snapshots"):
         file.cut(5)
     file.cut(0)

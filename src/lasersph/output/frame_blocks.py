@@ -1,0 +1,168 @@
+"""Snapshots as a viewer fetches them: an index of all frames, and binary blocks that never change.
+
+The particle file stores equal arrays once (`particle_file`), and so does a viewer: a block is named
+
+    FILE.FIELD.OFFSET.COUNT.STAMP       particles.temperature.81845.81845.ec23...-187a...
+
+after where it lies, and after the case and the start of its run, so that a folder that was removed
+and computed anew never shows what a browser kept. A block holds little-endian float32, (count,) or
+(count, 3), as stored.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lasersph.output.generation import read_unchanged
+from lasersph.output.particle_file import open_for_reading, value_range
+from lasersph.output.reader import Run, open_run
+
+NAME = re.compile(r"(particles|surface)\.([a-z_]+)\.([0-9]{1,15})\.([0-9]{1,12})\.([0-9a-z-]+)")
+GEOMETRY = ("width",)
+"""Fields that say how a particle is drawn, not what color it has."""
+
+
+def particle_index(folder: str | Path) -> dict[str, Any]:
+    """What a viewer knows before it fetches: times, fields, and where their blocks lie.
+
+    Returns:
+        `case`: title. `stamp`: end of all block names. `is_complete`: whether more frames come.
+        `dimensions`. `mirrored`: whether x < 0 is the mirror image of what was computed. `levels`:
+        temperatures by name at which the metal melts and boils [K]. `times`
+        [s] and `counts` of particles, one a frame. `start`: frame to begin with, the hottest.
+        `bounds`: [smallest, largest] x, y, z of the first frame [m]. `fields`: `name`, `label`,
+        `unit`, `range` over all frames. `blocks`: offset of each frame by name of the field, with
+        `position` and `width`, (count, 3) each. `surface`: `counts` and `blocks` of the line of a
+        surface that moves, else null. Before the first snapshot, times and fields are empty.
+
+    Raises:
+        OutputError: there is no run, or its files are damaged.
+    """
+    run = open_run(folder)
+    index = {
+        "case": str(run.case.get("title") or run.path.name),
+        "stamp": stamp_of(run),
+        "is_complete": run.is_complete,
+        "mirrored": run.case.get("domain", {}).get("extent") == "half",
+        "levels": levels_of(run.case.get("material") or {}),
+    }
+    particles = read_unchanged(run.path, lambda: frames_of(run.path / "particles.vtkhdf"))
+    surface = read_unchanged(run.path, lambda: frames_of(run.path / "surface.vtkhdf"))
+    line = {key: surface[key] for key in ("counts", "blocks")} if surface["times"] else None
+    return {**index, **particles, "surface": line}
+
+
+def particle_block(folder: str | Path, name: str) -> bytes:
+    """One block of a run: little-endian float32.
+
+    Raises:
+        ValueError: the name is not one of a block.
+        KeyError: no frame of this run has such a block.
+        OutputError: there is no run, or its files are damaged.
+    """
+    found = NAME.fullmatch(name)
+    if found is None:
+        raise ValueError("not the name of a block: FILE.FIELD.OFFSET.COUNT.STAMP")
+    stem, field, stamp = found[1], found[2], found[5]
+    place = (int(found[3]), int(found[4]))
+    run = open_run(folder)
+    path = run.path / f"{stem}.vtkhdf"
+    if stamp != stamp_of(run) or not path.exists():
+        raise KeyError(f"this run has no block {name}")
+
+    def read() -> bytes:
+        with open_for_reading(path) as file:
+            offsets = offsets_of(file).get(field)
+            if offsets is None or place not in zip(offsets, counts_of(file), strict=True):
+                raise KeyError(f"this run has no block {name}")
+            values = dataset_of(file, field)[place[0] : sum(place)]
+            return np.ascontiguousarray(values, "<f4").tobytes()
+
+    return read_unchanged(run.path, read)
+
+
+def stamp_of(run: Run) -> str:
+    """Case and start of a run; resolved.json is written once, when it starts."""
+    started = (run.path / "resolved.json").stat().st_mtime_ns
+    return f"{run.resolved['case_hash']}-{started:x}"
+
+
+def levels_of(material: Mapping[str, Any]) -> dict[str, float]:
+    """Where the metal becomes fluid and where it boils at normal pressure [K], where it does."""
+    keys = {"melts": ("melting", "liquidus"), "boils": ("vaporization", "temperature")}
+    tables = {word: (material.get(table), key) for word, (table, key) in keys.items()}
+    return {w: float(t[key]) for w, (t, key) in tables.items() if isinstance(t, dict)}
+
+
+def frames_of(path: Path) -> dict[str, Any]:
+    """Frames, fields and blocks of one file; without frames where there is no file yet."""
+    frames: dict[str, Any] = {"dimensions": 0, "times": [], "counts": [], "start": 0}
+    frames |= {"bounds": [[0.0, 0.0]] * 3, "fields": [], "blocks": {}}
+    if not path.exists():
+        return frames
+    with open_for_reading(path) as file:
+        root = file["VTKHDF"]
+        frames["dimensions"] = int(file.attrs["dimension"])
+        frames["times"] = root["Steps/Values"][:].tolist()
+        frames["counts"], frames["blocks"] = counts_of(file), offsets_of(file)
+        if not frames["times"]:
+            return frames
+        ranges = ranges_of(file, path)
+        frames["bounds"] = ranges["position"][0].reshape(2, 3).T.tolist()
+        for name, dataset in root["PointData"].items():
+            if dataset.ndim > 1 or name in GEOMETRY:
+                continue
+            span = [float(np.min(ranges[name][:, 0])), float(np.max(ranges[name][:, 1]))]
+            span = span if np.all(np.isfinite(span)) else [0.0, 0.0]
+            words = {"name": name, "label": name.replace("_", " ")}
+            frames["fields"].append({**words, "unit": str(dataset.attrs["unit"]), "range": span})
+        hottest = ranges.get("temperature", np.zeros((1, 2)))[:, 1]
+        frames["start"] = int(np.argmax(hottest))
+    return frames
+
+
+def counts_of(file: Any) -> list[int]:
+    """Number of points of each step."""
+    root = file["VTKHDF"]
+    return root["NumberOfPoints"][:][root["Steps/PartOffsets"][:]].tolist()
+
+
+def offsets_of(file: Any) -> dict[str, list[int]]:
+    """Where the block of each step begins, by name of the field."""
+    steps = file["VTKHDF/Steps"]
+    fields = {name: offsets[:].tolist() for name, offsets in steps["PointDataOffsets"].items()}
+    return {"position": steps["PointOffsets"][:].tolist(), **fields}
+
+
+def dataset_of(file: Any, field: str) -> Any:
+    """Values of a field, or the positions, of all steps end to end."""
+    return file["VTKHDF/Points"] if field == "position" else file[f"VTKHDF/PointData/{field}"]
+
+
+def ranges_of(file: Any, path: Path) -> dict[str, np.ndarray]:
+    """Smallest and largest values of each step, (steps, 2) or, of vectors, (steps, 6)."""
+    if "ranges" in file:
+        return {name: dataset[:] for name, dataset in file["ranges"].items()}
+    state = path.stat()
+    return scan_ranges(path, state.st_mtime_ns, state.st_size)
+
+
+@lru_cache(maxsize=64)
+def scan_ranges(path: Path, changed: int, size: int) -> dict[str, np.ndarray]:
+    """The same of a file whose writer kept none: every block is read, once per state of it."""
+    with open_for_reading(path) as file:
+        counts, found = counts_of(file), {}
+        for name, offsets in offsets_of(file).items():
+            dataset = dataset_of(file, name)
+            blocks = {
+                (start, count): value_range(dataset[start : start + count])
+                for start, count in set(zip(offsets, counts, strict=True))
+            }
+            found[name] = np.array([blocks[key] for key in zip(offsets, counts, strict=True)])
+    return found
