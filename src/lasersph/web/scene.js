@@ -1,0 +1,399 @@
+// Draws particles with WebGL 2: cells of a plane as rectangles, particles of space as spheres.
+//
+// The camera is orthographic, so that a scale bar is true everywhere: a point p [m] is drawn at
+// turn (p - center) / metersPerPixel. In the plane x points right and z up; in space the mouse
+// turns the view about the body. While a large cloud moves, a random part of it is drawn.
+
+// Colors from low to high. Cold metal is light gray: it reflects, it does not glow.
+const COLORS = {
+  heat: ["#d3d7dc", "#b9aeb9", "#93678f", "#b03a63", "#dd4b3a", "#f5832a", "#fcbf38", "#fdf6c5"],
+  share: ["#d3d7dc", "#f0d9a8", "#f7b955", "#ee7f2d", "#d94a1e"],
+  amount: ["#d3d7dc", "#a9cbe0", "#63a6d0", "#2f7fbe", "#1c56a0", "#3f2f86", "#7c2a90"],
+  signed: ["#2166ac", "#67a9cf", "#d3d7dc", "#ef8a62", "#b2182b"],
+};
+const MOVING = 100000;  // particles drawn while a cloud moves that takes longer than SLOW to draw
+const SLOW = 60;        // [ms]
+const TURN = 0.008;     // radians per pixel of the mouse
+
+const VIEW = `#version 300 es
+precision highp float;
+uniform mat3 turn; uniform vec3 center; uniform vec2 halfWindow; uniform float metersPerPixel, reach;
+uniform vec2 range, kept; uniform vec4 cut; uniform float side;
+out float shade;
+vec3 place(vec3 p) { return turn * (vec3(side * p.x, p.yz) - center) / metersPerPixel; }
+vec4 onScreen(vec3 p) { return vec4(p.xy / halfWindow, p.z * metersPerPixel / reach, 1.0); }
+bool isHidden(vec3 p, float melt) {
+  return melt < kept.x || melt > kept.y || dot(cut.xyz, vec3(side * p.x, p.yz)) > cut.w;
+}
+`;
+const CELL = `
+in vec2 corner; in vec3 position, width; in float value, melt; uniform float column;
+void main() {
+  shade = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+  vec3 size = width.x > 0.0 ? width : vec3(column, 0.0, width.z);
+  vec3 p = place(position) + vec3(corner * (0.5 * size.xz / metersPerPixel + 0.35), 0.0);
+  gl_Position = isHidden(position, melt) ? vec4(2.0, 2.0, 2.0, 1.0) : onScreen(p);
+}`;
+const SPHERE = `
+in vec3 position, width; in float value, melt; uniform float swell; out float depth;
+void main() {
+  shade = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+  float radius = swell * pow(width.x * width.y * width.z, 1.0 / 3.0) / metersPerPixel;
+  gl_Position = isHidden(position, melt) ? vec4(2.0, 2.0, 2.0, 1.0) : onScreen(place(position));
+  gl_PointSize = max(2.0 * radius, 1.5);
+  depth = radius * metersPerPixel / reach;
+}`;
+const SEGMENT = `
+in vec2 corner; in vec3 from, to; uniform float thickness;
+void main() {
+  vec3 a = place(from), b = place(to);
+  vec2 along = normalize(b.xy - a.xy + vec2(1e-9, 0.0));
+  vec3 p = corner.x < 0.0 ? a : b;
+  p.xy += 0.5 * thickness * (corner.x * along + corner.y * vec2(-along.y, along.x));
+  gl_Position = onScreen(p);
+  shade = 0.0;
+}`;
+const FLAT = `#version 300 es
+precision highp float;
+in float shade; uniform sampler2D colors; out vec4 color;
+void main() { color = texture(colors, vec2(shade, 0.5)); }`;
+const ROUND = `#version 300 es
+precision highp float;
+in float shade, depth; uniform sampler2D colors; out vec4 color;
+void main() {
+  vec2 at = 2.0 * gl_PointCoord - 1.0;
+  float inside = 1.0 - dot(at, at);
+  if (inside < 0.0) discard;
+  vec3 normal = vec3(at.x, -at.y, sqrt(inside));
+  float light = max(dot(normal, normalize(vec3(-0.45, 0.75, 0.65))), 0.0);
+  float sky = 0.5 + 0.5 * normal.y;
+  vec3 own = texture(colors, vec2(shade, 0.5)).rgb;
+  color = vec4(own * (0.34 + 0.16 * sky + 0.56 * light) + 0.10 * pow(light, 24.0), 1.0);
+  gl_FragDepth = gl_FragCoord.z - 0.5 * depth * normal.z;
+}`;
+const PLAIN = `#version 300 es
+precision highp float;
+in float shade; uniform vec4 ink; out vec4 color;
+void main() { color = ink + 0.0 * shade; }`;
+
+export class Scene {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.gl = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
+    if (!this.gl) throw new Error("no WebGL 2");
+    this.center = [0, 0, 0];
+    this.yaw = 0.55;
+    this.pitch = 0.5;
+    this.metersPerPixel = 1e-9;
+    this.lastDrawn = 0;
+    this.onView = () => {};
+    this.build();
+    this.watchMouse();
+    this.resized = new ResizeObserver(() => this.request());
+    this.resized.observe(canvas);
+  }
+
+  // Programs and buffers; again after the graphics card was lost.
+  build() {
+    const gl = this.gl;
+    this.cells = this.program(VIEW + CELL, FLAT);
+    this.spheres = this.program(VIEW + SPHERE, ROUND);
+    this.segments = this.program(VIEW + SEGMENT, PLAIN);
+    this.arrays = new Map();
+    this.buffers = {};
+    for (const name of ["position", "width", "value", "melt", "line", "corner", "order"])
+      this.buffers[name] = gl.createBuffer();
+    this.fill("corner", new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
+    this.texture = gl.createTexture();
+  }
+
+  program(vertex, fragment) {
+    const gl = this.gl, program = gl.createProgram();
+    for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+      throw new Error(gl.getProgramInfoLog(program));
+    return program;
+  }
+
+  // Bring an array to the card, unless it is there.
+  fill(name, array) {
+    const gl = this.gl;
+    if (this.arrays.get(name) === array) return;
+    this.arrays.set(name, array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[name]);
+    gl.bufferData(gl.ARRAY_BUFFER, array, gl.STATIC_DRAW);
+  }
+
+  // Take a frame: arrays of `frame_blocks`, with the ends and the name of the colors.
+  load(frame, index, { low, high, colors }) {
+    const gl = this.gl;
+    this.frame = frame;
+    this.index = index;
+    this.range = [low, high];
+    this.count = frame.value.length;
+    for (const name of ["position", "width", "value"]) this.fill(name, frame[name]);
+    if (frame.melt) this.fill("melt", frame.melt);
+    if (frame.line) this.fill("line", frame.line);
+    if (index.dimensions === 3 && this.arrays.get("order")?.length !== this.count) {
+      const order = shuffled(this.count);
+      this.arrays.set("order", order);
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.buffers.order);
+      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, order, gl.STATIC_DRAW);
+    }
+    if (this.colors !== colors) {
+      this.colors = colors;
+      gl.bindTexture(gl.TEXTURE_2D, this.texture);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, ramp(colors));
+      for (const end of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T])
+        gl.texParameteri(gl.TEXTURE_2D, end, gl.CLAMP_TO_EDGE);
+      for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+        gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR);
+    }
+    this.request();
+  }
+
+  gradient(colors) {
+    return COLORS[colors];
+  }
+
+  // Show shares of melt between two ends; cut away what lies before a plane, at a part of the body.
+  filter(kept, axis, part) {
+    this.kept = kept;
+    this.cut = [0, 0, 0, 3e38];
+    if (axis >= 0) {
+      const [low, high] = this.index.bounds[axis];
+      const toward = axis === 1 ? -1 : 1;  // y is cut in front of the plane, x and z behind it
+      this.cut[axis] = toward;
+      this.cut[3] = toward * (low + part * (high - low));
+    }
+    this.request();
+  }
+
+  // Look at the body as it lay at first; of a deep plane at the part that became warm.
+  goHome() {
+    const { index, frame } = this;
+    const [x, y, z] = index.bounds.map(([low, high]) => [low, high]);
+    if (index.mirrored) x[0] = -x[1];
+    const tall = z[1] - z[0];
+    this.column = 0.25 * tall;
+    if (index.dimensions === 1) [x[0], x[1]] = [-0.5 * this.column, 0.5 * this.column];
+    const above = Math.min(this.highest() - z[1], 0.4 * tall);
+    z[1] += Math.max(0, above);
+    if (index.dimensions < 3) z[0] = Math.max(z[0], z[1] - Math.max(this.warmDepth(), 0.3 * (x[1] - x[0])));
+    this.center = [x, y, z].map(([low, high]) => 0.5 * (low + high));
+    this.yaw = index.dimensions === 3 ? 0.55 : 0;
+    this.pitch = index.dimensions === 3 ? 0.5 : 0;
+    const { clientWidth: wide, clientHeight: high } = this.canvas;
+    const [across, up] = index.dimensions < 3 ? [x[1] - x[0], z[1] - z[0]]
+      : [1.25 * Math.max(x[1] - x[0], y[1] - y[0]), 0.88 * (z[1] - z[0]) + 0.66 * (y[1] - y[0])];
+    this.metersPerPixel = Math.max(across / (wide - 300), up / (high - 70), 1e-15);
+    if (!frame) return;
+    this.request();
+  }
+
+  highest() {
+    const { position, width } = this.frame;
+    let top = -Infinity;
+    for (let k = 2; k < position.length; k += 3) top = Math.max(top, position[k] + 0.5 * width[k]);
+    return top;
+  }
+
+  // How deep below the top the colored field reaches [m], and half as much again.
+  warmDepth() {
+    const { position, value } = this.frame;
+    const top = this.index.bounds[2][1];
+    let low = Infinity, high = -Infinity;
+    for (const one of value) { low = Math.min(low, one); high = Math.max(high, one); }
+    let depth = 0;
+    for (let k = 0; k < value.length; k++)
+      if (value[k] > low + 0.05 * (high - low)) depth = Math.max(depth, top - position[3 * k + 2]);
+    return 1.5 * depth;
+  }
+
+  // ----- drawing
+
+  request(moving = false) {
+    this.moving = moving;
+    if (this.pending) return;
+    this.pending = requestAnimationFrame(() => {
+      this.pending = 0;
+      if (!this.frame || this.gl.isContextLost()) return;
+      const partly = this.moving && this.lastDrawn > SLOW && this.count > MOVING;
+      this.draw(partly ? MOVING : this.count);
+      clearTimeout(this.rest);
+      if (partly) this.rest = setTimeout(() => this.request(), 200);
+      this.onView();
+    });
+  }
+
+  // Draw `count` particles of the frame; returns the time that it took [ms].
+  draw(count = this.count) {
+    const gl = this.gl, canvas = this.canvas, { dimensions, mirrored } = this.index;
+    const dense = Math.min(devicePixelRatio || 1, 2), began = performance.now();
+    canvas.width = Math.max(1, Math.round(canvas.clientWidth * dense));
+    canvas.height = Math.max(1, Math.round(canvas.clientHeight * dense));
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    const program = dimensions === 3 ? this.spheres : this.cells;
+    this.use(program, dense);
+    gl.uniform2fv(gl.getUniformLocation(program, "kept"), this.kept);
+    gl.uniform4fv(gl.getUniformLocation(program, "cut"), this.cut);
+    gl.uniform1f(gl.getUniformLocation(program, "column"), this.column);
+    // spheres a little larger than their cell close the body; a part of them fills the gaps
+    gl.uniform1f(gl.getUniformLocation(program, "swell"), 0.58 * Math.cbrt(this.count / count));
+    const step = dimensions === 3 ? 0 : 1;
+    this.attach(program, "position", "position", 3, step);
+    this.attach(program, "width", "width", 3, step);
+    this.attach(program, "value", "value", 1, step);
+    this.attach(program, "melt", this.frame.melt ? "melt" : "value", 1, step);
+    if (!this.frame.melt) gl.uniform2f(gl.getUniformLocation(program, "kept"), -3e38, 3e38);
+    this.attach(program, "corner", "corner", 2, 0);
+    (dimensions === 3 ? gl.enable : gl.disable).call(gl, gl.DEPTH_TEST);
+    for (const side of mirrored ? [-1, 1] : [1]) {
+      gl.uniform1f(gl.getUniformLocation(program, "side"), side);
+      if (dimensions < 3) {
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+        continue;
+      }
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.buffers.order);
+      gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 0);
+    }
+    if (this.frame.line && dimensions === 2) this.drawLine(dense);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // wait for the card
+    this.lastDrawn = performance.now() - began;
+    return this.lastDrawn;
+  }
+
+  // The surface that moves: a white line with a dark edge.
+  drawLine(dense) {
+    const gl = this.gl, program = this.segments;
+    this.use(program, dense);
+    this.attach(program, "corner", "corner", 2, 0);
+    this.attach(program, "from", "line", 3, 1);
+    this.attach(program, "to", "line", 3, 1, 12);
+    for (const side of this.index.mirrored ? [-1, 1] : [1])
+      for (const [thickness, ink] of [[4.5, [0.05, 0.07, 0.1, 1]], [2, [1, 1, 1, 1]]]) {
+        gl.uniform1f(gl.getUniformLocation(program, "side"), side);
+        gl.uniform1f(gl.getUniformLocation(program, "thickness"), thickness * dense);
+        gl.uniform4fv(gl.getUniformLocation(program, "ink"), ink);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.frame.line.length / 3 - 1);
+      }
+  }
+
+  // Begin to draw with a program: camera and colors.
+  use(program, dense) {
+    const gl = this.gl, at = (name) => gl.getUniformLocation(program, name);
+    gl.useProgram(program);
+    for (let k = 0; k < gl.getParameter(gl.MAX_VERTEX_ATTRIBS); k++) gl.disableVertexAttribArray(k);
+    const rows = this.axes();
+    gl.uniformMatrix3fv(at("turn"), true, rows.flat());
+    gl.uniform3fv(at("center"), this.center);
+    gl.uniform2f(at("halfWindow"), 0.5 * this.canvas.width, 0.5 * this.canvas.height);
+    gl.uniform1f(at("metersPerPixel"), this.metersPerPixel / dense);
+    const spans = this.index.bounds.map(([low, high]) => high - low);
+    gl.uniform1f(at("reach"), 4 * Math.hypot(...spans) + 1e-30);
+    gl.uniform2fv(at("range"), this.range);
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
+  }
+
+  attach(program, name, buffer, size, step, offset = 0) {
+    const gl = this.gl, place = gl.getAttribLocation(program, name);
+    if (place < 0) return;
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[buffer]);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, size, gl.FLOAT, false, 0, offset);
+    gl.vertexAttribDivisor(place, step);
+  }
+
+  // Right, up and away from the viewer, as rows.
+  axes() {
+    const [c, s, u, v] = [Math.cos(this.yaw), Math.sin(this.yaw), Math.cos(this.pitch), Math.sin(this.pitch)];
+    return [[c, s, 0], [-s * v, c * v, u], [-s * u, c * u, -v]];
+  }
+
+  // ----- mouse and fingers
+
+  watchMouse() {
+    const canvas = this.canvas, fingers = new Map();
+    canvas.addEventListener("pointerdown", (event) => {
+      fingers.set(event.pointerId, event);
+      canvas.setPointerCapture(event.pointerId);
+    });
+    for (const end of ["pointerup", "pointercancel"])
+      canvas.addEventListener(end, (event) => fingers.delete(event.pointerId));
+    canvas.addEventListener("pointermove", (event) => {
+      const before = fingers.get(event.pointerId);
+      if (!before || !this.index) return;
+      const [x, y] = [event.clientX - before.clientX, event.clientY - before.clientY];
+      if (fingers.size > 1) {
+        const other = [...fingers.values()].find((one) => one.pointerId !== event.pointerId);
+        const far = (one) => Math.hypot(one.clientX - other.clientX, one.clientY - other.clientY);
+        this.zoom(far(before) / Math.max(far(event), 1), event);
+      } else if (this.index.dimensions === 3 && !event.shiftKey && before.button !== 2) {
+        this.yaw -= TURN * x;
+        this.pitch = Math.max(-1.57, Math.min(1.57, this.pitch + TURN * y));
+      } else this.shift(-x, y);
+      fingers.set(event.pointerId, Object.assign(event, { down: before.button }));
+      this.request(true);
+    });
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      this.zoom(Math.exp(0.0015 * event.deltaY), event);
+      this.request(true);
+    }, { passive: false });
+  }
+
+  // Move the center by pixels to the right and up.
+  shift(x, y) {
+    const [right, up] = this.axes();
+    this.center = this.center.map((one, k) => one + this.metersPerPixel * (x * right[k] + y * up[k]));
+  }
+
+  // Make everything smaller by a factor, about the place of an event.
+  zoom(factor, event) {
+    const box = this.canvas.getBoundingClientRect();
+    const x = event.clientX - box.left - 0.5 * box.width, y = 0.5 * box.height + box.top - event.clientY;
+    this.shift(x * (1 - factor), y * (1 - factor));
+    this.metersPerPixel *= factor;
+  }
+
+  destroy() {
+    this.resized.disconnect();
+    cancelAnimationFrame(this.pending);
+    clearTimeout(this.rest);
+    this.frame = null;
+    this.gl.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+}
+
+// Numbers below `count` in an order that looks random, the same each time (Fisher and Yates).
+function shuffled(count) {
+  const order = Uint32Array.from({ length: count }, (_, k) => k);
+  for (let k = count - 1, state = 1; k > 0; k--) {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;  // Numerical Recipes' generator
+    const other = state % (k + 1);
+    [order[k], order[other]] = [order[other], order[k]];
+  }
+  return order;
+}
+
+// 256 colors between the given ones, as bytes.
+function ramp(colors) {
+  const stops = COLORS[colors].map((text) =>
+    [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)));
+  const bytes = new Uint8Array(256 * 4).fill(255);
+  for (let k = 0; k < 256; k++) {
+    const place = (k / 255) * (stops.length - 1), before = Math.min(Math.floor(place), stops.length - 2);
+    for (let part = 0; part < 3; part++)
+      bytes[4 * k + part] = stops[before][part] + (place - before) * (stops[before + 1][part] - stops[before][part]);
+  }
+  return bytes;
+}
