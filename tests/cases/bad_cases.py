@@ -13,6 +13,7 @@ ABSORPTION = 'absorption = { kind = "beer-lambert" }'
 MATERIAL = 'material = "steel-304-demuth"'
 END = 'end = "200 ns"'
 STEP = 'step = "1 ns"'
+SPOT = 'spot = { diameter = "50 um", definition = "1/e^2" }'
 DULL = (
     'material = { name = "dull", density = { value = "1 g/cm^3", source = "x" }, '
     'heat_capacity = { value = "1 J/(g K)", source = "x" }, '
@@ -77,6 +78,20 @@ BAD_CASES = {
     "intensity of a gaussian pulse": (FLUENCE, 'intensity = "1e9 W/m^2"', ':5: laser: intensity does not fix the energy of a gaussian pulse; write instead fluence = "1 J/cm^2"'),
     "reflectivity above one": (FLUENCE, FLUENCE + '\nreflectivity = "120 %"', ':7: laser.reflectivity: must be at most 1, got "120 %"'),
     "no optics anywhere": (MATERIAL, DULL, ":5: laser.reflectivity: material 'dull' has no reflectivity; write e.g. reflectivity = 0.9 in [laser]"),
+    "energy of an endless pattern": (FLUENCE, 'pulse_energy = "10 uJ"', ':5: laser: pulse_energy has no meaning for the unbounded interference beam; write e.g. spot = { diameter = "50 um", definition = "1/e^2" }, or fluence'),
+    "fluence and energy": (FLUENCE, FLUENCE + '\npulse_energy = "10 uJ"\n' + SPOT, ":5: laser: a laser needs one statement of its energy, got fluence and pulse_energy; leave all but one of fluence and pulse_energy out"),
+    "no pulse energy": (FLUENCE, 'pulse_energy = "0 J"\n' + SPOT, ':6: laser.pulse_energy: must be greater than 0, got "0 J"'),
+    "spot of any diameter": (FLUENCE, 'pulse_energy = "1 uJ"\nspot = { diameter = "50 um" }', ':7: laser.spot: the diameter of a spot may be that where 1/e^2 or half of the peak is left, or of a top hat; write definition = "1/e^2", "fwhm" or "top-hat"'),
+    "spot smaller than a period": (FLUENCE, FLUENCE + '\n' + SPOT.replace("50 um", "4 um"), ":7: laser.spot.diameter: 4 um is smaller than a period of the pattern, 5 um; write a spot of several periods"),
+    "spot of a spot": (BEAM, 'fluence_kind = "peak"\nbeam = { kind = "gaussian", radius_1e2 = "9 um" }\n' + SPOT, ":10: laser.spot: a gaussian beam is a spot by itself; leave spot out"),
+    "scan without a rate": (FLUENCE, FLUENCE + '\nspot = { diameter = "50 um", definition = "fwhm", scan_speed = "1 m/s" }', ':7: laser.spot.scan_speed: needs the time between pulses; write e.g. repetition_rate = "10 kHz" in [laser.pulse]'),
+    "period that does not fit": (BEAM, BEAM.replace("}", ', wavelength = "355 nm", angle = "5 deg" }'), ":8: laser.beam.period: 5 um does not fit the wavelength and the angle, which give 4.06929 um; leave it out"),
+    "period below half a wavelength": (BEAM, BEAM.replace("5 um", "100 nm").replace("}", ', wavelength = "355 nm" }'), ":8: laser.beam.period: 100 nm is no period that 2 beams of 355 nm can make; give one above 177.5 nm"),
+    "five beams": (BEAM, BEAM.replace("}", ", beams = 5 }"), ":8: laser.beam.beams: must be 2 or 3 or 4, got 5"),
+    "shares of one beam more": (BEAM, BEAM.replace("}", ", energy_shares = [0.2, 0.3, 0.5] }"), ":8: laser.beam.energy_shares: has 3 values for 2 beams; give each one"),
+    "shares above one": (BEAM, BEAM.replace("}", ", energy_shares = [0.5, 0.6] }"), ":8: laser.beam.energy_shares: sum to 1.1; give shares that sum to 1"),
+    "p without a wavelength": (BEAM, BEAM.replace("}", ', polarization = "p" }'), ':8: laser.beam.polarization: decides with the angle how far the beams interfere; write e.g. wavelength = "1064 nm" beside it'),
+    "period and rate": (PULSE, PULSE.replace("}", ', period = "1 us", repetition_rate = "10 kHz" }'), ":9: laser.pulse: period and repetition_rate say the same (period = 1 / repetition_rate); leave one of them out"),
     "interference in 1-D": ("dimensions = 2", "dimensions = 1", ':15: domain.extent: half of a 1-D column means nothing; write extent = "full"'),
     "uneven beam in half a domain": (FLUENCE, FLUENCE + '\nposition = ["1 um", "0 um"]', ':16: domain.extent: this beam is not symmetric about x = 0; write extent = "full"'),
     # material

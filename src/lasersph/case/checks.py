@@ -215,12 +215,16 @@ def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
             "write dimensions = 2 in [solver], or a uniform beam",
         )
         return
+    holds_spot = laser.spot is not None and laser.spot.extent == "whole"
+    if dimensions == 1 and holds_spot:
+        yield "laser.spot.extent", 'a 1-D run cannot hold a spot; write extent = "cell"'
+        return
     if domain.extent == "half" and not laser.is_even:
         yield (
             "domain.extent",
             'this beam is not symmetric about x = 0; write extent = "full"',
         )
-    if not isinstance(laser.beam, InterferenceBeam):
+    if not isinstance(laser.beam, InterferenceBeam) or holds_spot:
         return
     repeating = ("adiabatic", "periodic")
     ends = {case.boundaries.kind_of("left"), case.boundaries.kind_of("right")}

@@ -17,6 +17,7 @@ from lasersph.cli.arguments import (
     say_what_moved,
 )
 from lasersph.cli.failures import WrongCommand
+from lasersph.cli.light import light_rows
 from lasersph.cli.tables import aligned
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
         ("case", case.title or case.name),
         ("material", case.material.title or case.material.name),
         ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {case.solver.scheme_text}"),
+        *([] if case.laser is None else light_rows(case.laser)),
         ("particles", f"{expected.particles} in {expected.layers} layers"),
         (
             "finest spacing",

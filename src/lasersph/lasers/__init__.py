@@ -4,6 +4,7 @@ beams, interference   where the light falls: exact means over surface cells
 pulses                when it comes: exact shares between two times
 absorption            how deep it is left: exact shares of depth cells
 reflectivity          what does not enter, as a function of the surface temperature
+spot                  the envelope under which a pattern lies, and its local fluence
 path                  where a moving spot is
 laser                 all of them together, and the energy that sets the scale
 """
@@ -15,6 +16,7 @@ from lasersph.lasers.laser import Beam, Laser
 from lasersph.lasers.path import LinearPath, Path, TabulatedPath
 from lasersph.lasers.pulses import GaussianPulse, Pulse, SquarePulse, TabulatedPulse
 from lasersph.lasers.reflectivity import ReflectivityTable
+from lasersph.lasers.spot import Spot, SpotFluence
 
 __all__ = [
     "Absorption",
@@ -28,6 +30,8 @@ __all__ = [
     "Path",
     "Pulse",
     "ReflectivityTable",
+    "Spot",
+    "SpotFluence",
     "SquarePulse",
     "SurfaceAbsorption",
     "TabulatedPath",

@@ -17,7 +17,7 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
 from lasersph.input import Length, Model
@@ -70,6 +70,10 @@ class TopHatBeam(Model):
     def scale(self) -> float:
         """Length over which the profile changes [m]."""
         return self.radius
+
+    def at(self, x: ArrayLike, y: ArrayLike) -> Array:
+        """f at places relative to the axis [m], any shape."""
+        return np.asarray(np.hypot(x, y) <= self.radius, float)
 
     def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
         """Share of each cell inside the circle, shape (n,), exact in every dimension."""
@@ -149,6 +153,11 @@ class GaussianBeam(Model):
     def scale(self) -> float:
         """Length over which the profile changes [m]."""
         return 0.5 * self.radius
+
+    def at(self, x: ArrayLike, y: ArrayLike) -> Array:
+        """f at places relative to the axis [m], any shape."""
+        square = np.square(np.asarray(x, float)) + np.square(np.asarray(y, float))
+        return np.exp(-2.0 * square / self.radius**2)
 
     def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
         """Mean of f over each cell, shape (n,): a product of differences of erf."""

@@ -7,8 +7,13 @@ the position of the beam's axis and F the fluence at f = 1, from exactly one of
 
     fluence         of one pulse, mean or peak         F = fluence / (mean or peak of f)
     intensity       while the light is on, the same    F = intensity t_on / (mean or peak of f)
-    pulse_energy    gaussian and top-hat beams         F = pulse_energy / (integral of f)
-    power           the same                           F = power t_on / (integral of f)
+    pulse_energy    gaussian and top-hat beams, spots  F = pulse_energy / (integral of f or g)
+    power           the same                           F = power t_on / (integral of f or g)
+
+A pattern or a uniform beam may lie under a spot, the envelope g of `spot`: a domain that is a cell
+of the spot receives F g(place) f, one that holds the whole spot F g f, whose mean over a cell is
+taken as the product of both means (they differ by dx^2 g' f' / 12, dx the cell's width). Fluence
+and intensity are then those at the spot's center.
 
 For a moving beam the integral over the step is a Gauss-Legendre rule on panels in which the beam
 moves a fraction of its size, its weights scaled to the pulse's exact energy in each panel: the
@@ -24,13 +29,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.input import Energy, Fluence, Intensity, Length, Model, Power, refusal
+from lasersph.input import (
+    Energy,
+    Fluence,
+    Intensity,
+    Length,
+    Model,
+    Power,
+    format_quantity,
+    refusal,
+)
 from lasersph.lasers.absorption import Absorption
 from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
 from lasersph.lasers.interference import InterferenceBeam
 from lasersph.lasers.path import LinearPath, Path
 from lasersph.lasers.pulses import Pulse
 from lasersph.lasers.reflectivity import Reflectivity, reflectivity_nodes
+from lasersph.lasers.spot import Spot, SpotFluence, shape_of
 from lasersph.materials import Material
 
 Array = NDArray[np.float64]
@@ -68,6 +83,11 @@ class Laser(Model):
         examples=["1064 nm"],
     )
     beam: Beam = Field(default_factory=UniformBeam)
+    spot: Spot | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="under which an interference pattern or a uniform beam lies",
+    )
     pulse: Pulse
     absorption: Absorption
     reflectivity: Reflectivity | None = Field(default=None, description="instead of the material's")
@@ -94,13 +114,13 @@ class Laser(Model):
                 + ('fluence = "1 J/cm^2"' if name == "intensity" else 'pulse_energy = "10 uJ"')
             )
         if name in ("pulse_energy", "power"):
-            if self.beam.area is None:
+            if self.area is None:
                 raise ValueError(
-                    f"{name} has no meaning for the unbounded {self.beam.kind} beam; write instead "
-                    'fluence = "1 J/cm^2", or take a gaussian or top-hat beam'
+                    f"{name} has no meaning for the unbounded {self.beam.kind} beam; write e.g. "
+                    'spot = { diameter = "50 um", definition = "1/e^2" }, or fluence'
                 )
             if self.fluence_kind is not None:
-                raise ValueError(f"fluence_kind says nothing beside {name}; leave it out")
+                raise refusal(("fluence_kind", f"says nothing beside {name}; leave it out"))
         elif self.fluence_kind is None and not self.beam.names_fluence:
             raise ValueError(
                 f"{name} of a gaussian beam may be its mean or its peak (twice the mean); write "
@@ -114,8 +134,36 @@ class Laser(Model):
         return self
 
     @model_validator(mode="after")
+    def _check_spot(self) -> Laser:
+        if self.spot is None:
+            return self
+        if self.beam.area is not None:
+            raise refusal(
+                ("spot", f"a {self.beam.kind} beam is a spot by itself; leave spot out"),
+            )
+        if self.spot.scan_speed is not None and self.pulse.interval is None:
+            raise refusal(
+                (
+                    "spot.scan_speed",
+                    "needs the time between pulses; write e.g. repetition_rate "
+                    '= "10 kHz" in [laser.pulse]',
+                )
+            )
+        period = self.beam.lateral_period if isinstance(self.beam, InterferenceBeam) else None
+        diameter = self.spot_fluence.diameter
+        if period is not None and diameter < period:
+            raise refusal(
+                (
+                    "spot.diameter",
+                    f"{format_quantity(diameter, 'm')} is smaller than a period of the pattern, "
+                    f"{format_quantity(period, 'm')}; write a spot of several periods",
+                )
+            )
+        return self
+
+    @model_validator(mode="after")
     def _check_path(self) -> Laser:
-        if self.path is not None and isinstance(self.beam, UniformBeam):
+        if self.path is not None and not self.is_bounded and isinstance(self.beam, UniformBeam):
             raise ValueError("a uniform beam cannot move; leave path out or give another beam")
         tabulated = self.path is not None and not isinstance(self.path, LinearPath)
         if tabulated and self.position != (0.0, 0.0):
@@ -130,9 +178,20 @@ class Laser(Model):
         return self
 
     @property
-    def unit_fluence(self) -> float:
-        """F [J/m^2]: the fluence of one pulse where the profile f is 1."""
-        on_time, area = self.pulse.on_time, self.beam.area
+    def area(self) -> float | None:
+        """Integral of the spot's envelope, or of the beam's profile [m^2]; None if unbounded."""
+        return self.beam.area if self.spot is None else self.spot.envelope.area
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether the light on the domain ends: a spot lies in it."""
+        is_whole = self.spot is not None and self.spot.extent == "whole"
+        return is_whole or self.beam.area is not None
+
+    @property
+    def _center_fluence(self) -> float:
+        """The fluence of one pulse where f and g are 1 [J/m^2]."""
+        on_time, area = self.pulse.on_time, self.area
         if self.pulse_energy is not None and area is not None:
             return self.pulse_energy / area
         if self.power is not None and area is not None and on_time is not None:
@@ -143,6 +202,31 @@ class Laser(Model):
             return self.intensity * on_time / reference
         assert self.fluence is not None
         return self.fluence / reference
+
+    @property
+    def unit_fluence(self) -> float:
+        """F [J/m^2]: the fluence of one pulse where the profile f is 1; at the place of the cell
+        where the domain is a cell of a spot."""
+        if self.spot is None or self.spot.extent == "whole":
+            return self._center_fluence
+        return self._center_fluence * float(self.spot.envelope.at(*self.spot.place))
+
+    @property
+    def spot_fluence(self) -> SpotFluence:
+        """The local fluence over the spot of the light.
+
+        Raises:
+            ValueError: the light has no spot: a uniform beam or a pattern without `spot`.
+        """
+        envelope = self.beam if self.spot is None else self.spot.envelope
+        if not isinstance(envelope, GaussianBeam | TopHatBeam):
+            raise ValueError(
+                f"the {self.beam.kind} beam has no spot; write e.g. spot = {{ diameter = "
+                '"50 um", definition = "1/e^2" } in [laser]'
+            )
+        period = self.beam.lateral_period if isinstance(self.beam, InterferenceBeam) else None
+        energy = self._center_fluence * envelope.area
+        return SpotFluence(envelope, energy, 2.0 * envelope.radius, shape_of(envelope), period)
 
     @property
     def mean_fluence(self) -> float:
@@ -160,10 +244,21 @@ class Laser(Model):
     @property
     def is_even(self) -> bool:
         """Whether the light is symmetric about x = 0 at all times."""
-        if isinstance(self.beam, UniformBeam):
+        if isinstance(self.beam, UniformBeam) and not self.is_bounded:
             return True
         is_centered = self.path is None and self.position[0] == 0.0
         return is_centered and (not isinstance(self.beam, InterferenceBeam) or self.beam.is_even)
+
+    @property
+    def displacement(self) -> float | None:
+        """Of the spot from one pulse to the next [m]; None where it rests or turns."""
+        if self.spot is not None and self.spot.shift is not None:
+            return self.spot.shift
+        speed = self.path.speed if isinstance(self.path, LinearPath) else None
+        if self.spot is not None and self.spot.scan_speed is not None:
+            speed = self.spot.scan_speed
+        interval = self.pulse.interval
+        return None if speed is None or interval is None else speed * interval
 
     def axis(self, time: ArrayLike) -> Array:
         """Position of the beam's axis at times [s], shape (2, ...) [m]."""
@@ -185,13 +280,20 @@ class Laser(Model):
             share = float(self.pulse.delivered(t0, t1))
             if share == 0.0:
                 return np.zeros(low.shape[1])
-            return self.unit_fluence * share * self.beam.cell_means(low, high, self.axis(t0))
+            return self.unit_fluence * share * self._cell_means(low, high, self.axis(t0))
         total = np.zeros(low.shape[1])
         times, shares = self._quadrature(t0, t1)
         for time, share in zip(times, shares, strict=True):
             if share != 0.0:
-                total += share * self.beam.cell_means(low, high, self.axis(time))
+                total += share * self._cell_means(low, high, self.axis(time))
         return self.unit_fluence * total
+
+    def _cell_means(self, low: Array, high: Array, axis: Array) -> Array:
+        """Mean over each cell of f, or of f g where the domain holds the whole spot."""
+        means = self.beam.cell_means(low, high, axis)
+        if self.spot is not None and self.spot.extent == "whole":
+            means = means * self.spot.envelope.cell_means(low, high, axis)
+        return means
 
     def _quadrature(self, t0: float, t1: float) -> tuple[Array, Array]:
         """Times and shares of a pulse's energy that stand for the motion from t0 to t1."""
@@ -209,15 +311,16 @@ class Laser(Model):
     def _panels(self, t0: float, t1: float) -> tuple[Array, Array]:
         """Starts and ends of panels between breakpoints, short against pulse and beam size."""
         corners = self.path.breakpoints() if self.path is not None else np.empty(0)
+        scale = self.beam.scale
+        if self.spot is not None and self.spot.extent == "whole":
+            scale = min(scale, self.spot.envelope.scale)
         marks = np.concatenate([self.pulse.breakpoints(t0, t1), corners])
         edges = np.unique(np.concatenate([[t0, t1], marks[(marks > t0) & (marks < t1)]]))
         cuts = [np.empty((2, 0))]
         for a, b in pairwise(edges):
             if float(self.pulse.delivered(a, b)) > 0.0:
                 distance = float(np.linalg.norm(self.axis(b) - self.axis(a)))
-                longest = max(
-                    2.0 * distance / self.beam.scale, (b - a) / (20 * self.pulse.resolution)
-                )
+                longest = max(2.0 * distance / scale, (b - a) / (20 * self.pulse.resolution))
                 parts = np.linspace(a, b, max(1, int(np.ceil(longest))) + 1)
                 cuts.append(np.array([parts[:-1], parts[1:]]))
         start, end = np.concatenate(cuts, axis=1)

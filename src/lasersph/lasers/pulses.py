@@ -3,7 +3,8 @@
     share(t0, t1) = int_t0^t1 P(t) dt / (energy of one pulse)
 
 Square, Gaussian (integrated with erf) and tabulated powers (piecewise linear, integrated exactly);
-each may be repeated `count` times with a `period`. A train delivers up to `count`.
+each may be repeated `count` times with a `period` or a `repetition_rate`. A train delivers up to
+`count`.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.input import Count, Model, Time, format_quantity
+from lasersph.input import Count, Frequency, Model, Time, format_quantity
 
 Array = NDArray[np.float64]
 PositiveTime = Annotated[Time, Field(gt=0)]
@@ -34,10 +35,21 @@ class PulseTrain(Model, ABC):
     period: PositiveTime | None = Field(
         default=None, description="between the starts of two pulses"
     )
+    repetition_rate: Annotated[Frequency, Field(gt=0)] | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="pulses per time, instead of period",
+        examples=["10 kHz"],
+    )
 
     @model_validator(mode="after")
     def _check_train(self) -> PulseTrain:
-        if self.count > 1 and self.period is None:
+        if self.period is not None and self.repetition_rate is not None:
+            raise ValueError(
+                "period and repetition_rate say the same (period = 1 / repetition_rate); leave one "
+                "of them out"
+            )
+        if self.count > 1 and self.interval is None:
             raise ValueError(
                 f'{self.count} pulses need the time between them; write e.g. period = "1 us"'
             )
@@ -58,19 +70,24 @@ class PulseTrain(Model, ABC):
         """Share of the first pulse's energy delivered until each time."""
 
     @property
+    def interval(self) -> float | None:
+        """Time between the starts of two pulses [s], `period` or 1/`repetition_rate`."""
+        return 1.0 / self.repetition_rate if self.repetition_rate else self.period
+
+    @property
     def _step(self) -> float:
-        return self.period if self.count > 1 and self.period is not None else np.inf
+        return self.interval if self.count > 1 and self.interval is not None else np.inf
 
     @property
     def starts(self) -> tuple[float, ...]:
         """First time of light of each pulse [s]."""
-        period = self.period or 0.0
+        period = self.interval or 0.0
         return tuple(self.window[0] + number * period for number in range(self.count))
 
     @property
     def end(self) -> float:
         """Last time of light of the last pulse [s]."""
-        return self.window[1] + (self.count - 1) * (self.period or 0.0)
+        return self.window[1] + (self.count - 1) * (self.interval or 0.0)
 
     def delivered_until(self, time: ArrayLike) -> Array:
         """Energy delivered until each time, in units of one pulse's; any shape."""
@@ -125,10 +142,10 @@ class SquarePulse(PulseTrain):
 
     @model_validator(mode="after")
     def _check_overlap(self) -> SquarePulse:
-        if self.count > 1 and self.period is not None and self.period < self.duration:
+        if self._step < self.duration:
             raise ValueError(
                 f"pulses of {format_quantity(self.duration, 's')} would overlap with a period of "
-                f"{format_quantity(self.period, 's')}; "
+                f"{format_quantity(self._step, 's')}; "
                 "the period runs from start to start and must not be shorter than the duration"
             )
         return self
@@ -231,10 +248,10 @@ class TabulatedPulse(PulseTrain):
             )
         if not self.on_time > 0.0:
             raise ValueError("a pulse table of zeros holds no energy; give a power above 0")
-        if self.count > 1 and self.period is not None and self.period < times[-1] - times[0]:
+        if self._step < times[-1] - times[0]:
             raise ValueError(
                 f"the table spans {format_quantity(times[-1] - times[0], 's')}, longer than the "
-                f"period of {format_quantity(self.period, 's')}; the pulses would overlap"
+                f"period of {format_quantity(self._step, 's')}; the pulses would overlap"
             )
         return self
 

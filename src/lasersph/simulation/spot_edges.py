@@ -13,7 +13,7 @@ SAME = 1e-9
 def halves_spot(case: Case) -> tuple[bool, bool]:
     """Whether the axis of a resting spot lies on the lower and on the upper end of x."""
     laser, dimensions = case.laser, case.solver.dimensions
-    if laser is None or laser.path is not None or laser.beam.area is None or dimensions == 1:
+    if laser is None or laser.path is not None or not laser.is_bounded or dimensions == 1:
         return False, False
     (low, high), *_ = case.domain.lateral(dimensions)
     near = SAME * (high - low)
