@@ -179,6 +179,9 @@ class FlatSurface:
         (count,) = self.backend.pointwise(mark_of, {"mark": flows}, (None,), reduce=("sum",))
         return count
 
+    def carry(self, now: SurfaceStep) -> None:
+        """It stays where it is."""
+
     def move(self, now: SurfaceStep) -> None:
         """It stays where it is."""
 

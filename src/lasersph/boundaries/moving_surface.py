@@ -15,8 +15,11 @@ as slope and curvature are. Without those terms the surface of a film of steel 2
 off after a pulse. A ghost across the surface has p = 2 p_b - p_i; in the pressure equation the
 surface is a boundary of given pressure.
 
-Explicit: the line moves with the velocity at the end of the step, which keeps its waves stable
-while omega dt < 2 for the fastest of those that the smoothed line shows; half of one is taken.
+While the flow of a step is computed the line is where the advected particles have carried it: left
+where it was, it lies w dt off among them, and a film of aluminium under 1000 K loses 5 % of its
+height with steps of 0.3 ns. Its curvature is that of the line at the begin of the step. It moves
+from there with the velocity at the end, explicitly, which keeps its waves stable while omega dt < 2
+for the fastest of those that the smoothed line shows; half of one is taken.
 Waves shorter than the smoothing length are damped within the time of that wave.
 """
 
@@ -38,13 +41,14 @@ from lasersph.boundaries.surface import (
     upward,
 )
 from lasersph.boundaries.surface_drives import Drives
+from lasersph.boundaries.surface_flux import flux_through, volume_flux
 from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
 from lasersph.boundaries.surface_mass import take_volume
 from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
+from lasersph.boundaries.surface_trouble import FEWEST_ROWS, trouble_of
 from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.input import format_quantity
 from lasersph.materials import Material
 from lasersph.particles.neighbor_lists import NeighborList, members_of
 
@@ -53,10 +57,6 @@ CLOSEST = 0.2
 """Least distance from the surface over the spacing, for pressures, heat and ghosts."""
 GAP = 0.3
 """Particles stay as far below the surface, over the spacing."""
-STEEPEST = 1.0
-"""Slope up to which the surface is computed."""
-FEWEST_ROWS = 3.0
-"""Thickness of the liquid over the spacing, down to which it is."""
 END_KINDS = {"pinned": loops.PINNED, "mirror": loops.MIRROR, "periodic": loops.PERIODIC}
 LINE = ("height", "shear", "stretch", "followed")
 """What of the line survives a step: eta [m], du_t/dn and du_t/ds [1/s], and the evaporated mass per
@@ -128,7 +128,7 @@ class MovingSurface:
         self._ends = self._grid | {"columns": line.count, "low_end": low, "high_end": high}
         self._nodes = float(line.count + 4)
         self._marks = {"near": spacing, "far": support, "closest": CLOSEST * spacing}
-        self._columns = {"k": backend.asarray(np.arange(line.count + 1), "index")}
+        self._columns = {"k": backend.asarray(np.arange(line.count), "index")}
         if has_stress:
             self._gamma_table = surface_tension_table(liquid.material)
         self.flux_loss, self.segments = 0.0, SurfaceSegments(line)
@@ -165,9 +165,13 @@ class MovingSurface:
         found = tuple(backend.zeros(line.count) for _ in range(4))
         tables = {"row_start": members.row_start, "member": members.neighbor, "x": x, "T": now.T}
         tables |= {"depth": self.depth, "u": u, "w": w, "jump_x": jump_x, "jump_z": jump_z}
-        places = {"k": backend.head(self._columns["k"], line.count)}
         backend.pointwise(
-            loops.surface_velocity, places, found, **tables, **self._ends, spacing=self.spacing
+            loops.surface_velocity,
+            self._columns,
+            found,
+            **tables,
+            **self._ends,
+            spacing=self.spacing,
         )
         u_s, w_s, T_s, weight = (backend.to_host(values) for values in found)
         full = weight > 0.0
@@ -184,7 +188,7 @@ class MovingSurface:
         molten = self.segments.is_molten
         if molten.any() and not molten.all():  # beside a pool what holds at its edge
             self._line_pressure = np.interp(line.x, line.x[molten], self._line_pressure[molten])
-        self._renew()
+        self._renew_values()
         self._set_values(now.position)
         self.pressure = self._pressure_condition(neighbors)
 
@@ -233,10 +237,9 @@ class MovingSurface:
         backend, line = self.backend, self.line
         members = self._members(position, flows)
         found = backend.zeros(line.count)
-        places = {"k": backend.head(self._columns["k"], line.count)}
         tables = {"row_start": members.row_start, "member": members.neighbor, "V": volume}
         inverse = self._grid["inverse"]
-        backend.pointwise(loops.thickness_of, places, found, **tables, inverse=inverse)
+        backend.pointwise(loops.thickness_of, self._columns, found, **tables, inverse=inverse)
         self.segments.choose(backend.to_host(found) >= FEWEST_ROWS * self.spacing)
         is_molten = backend.asarray(self.segments.is_molten.astype(float))
         grid = self._grid | {"columns": float(line.count), "is_molten": is_molten}
@@ -244,31 +247,22 @@ class MovingSurface:
         (count,) = backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)
         return count
 
+    def carry(self, now: SurfaceStep) -> None:
+        """Take the line as far as advected particles have come; `move` starts where it was."""
+        begin, end = now.interval
+        flux, height = self._volume_flux(now), self.line.height.copy()
+        for part, own in self.segments.parts:
+            height[part] = own.heights_after(end - begin, flux_through(own, part, flux))
+        self._set_tables(height)
+
     def move(self, now: SurfaceStep) -> None:
         """Move the line for a step with the velocity at its end, and find the particles again."""
-        backend, line = self.backend, self.line
-        begin, end = now.interval
-        key = backend.zeros(now.flows.shape[0], "index")
-        columns = self._grid | {"columns": float(line.count), "bottom": self.bottom}
-        backend.pointwise(loops.column_above, {"x": now.position}, key, **columns)
-        members = members_of(backend, key, line.count)
-        x, u = backend.component(now.position, 0), backend.component(now.velocity, 0)
-        found = backend.zeros(line.count + 1), backend.zeros(line.count + 1)
-        tables = {"row_start": members.row_start, "member": members.neighbor, "V": now.volume}
-        tables |= {"x": x, "u": u, "flows": now.flows}
-        backend.pointwise(loops.mean_velocity, self._columns, found, **tables, **self._ends)
-        mean, solid = (backend.to_host(values) for values in found)
-        height = line.extend(line.height)[1:-1]
-        melt = np.maximum(0.5 * (height[1:] + height[:-1]) - self.bottom - solid, 0.0)
-        flux, moved, lost = mean * melt, line.height.copy(), np.zeros(line.count)
-        self.segments.follow()
+        line, (begin, end) = self.line, now.interval
+        flux, moved, lost = self._volume_flux(now), line.height.copy(), np.zeros(line.count)
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
         for part, own in self.segments.parts:
-            sides = flux[np.append(part, (part[-1] + 1))]
-            if own.ends[0] != "periodic":
-                sides[[0, -1]] = 0.0
             loss = self._loss(own, part, now)
-            own.move(end - begin, sides, loss)
+            own.height = own.heights_after(end - begin, flux_through(own, part, flux), loss)
             lost[part] = (end - begin) * loss
             own.damp_short_waves((end - begin) * rate)
             moved[part] = own.height
@@ -276,7 +270,12 @@ class MovingSurface:
         self._renew()
         self.find(now.position)
         if lost.any():
-            take_volume(backend, now, self.depth, line, lost, self.spacing)
+            take_volume(self.backend, now, self.depth, line, lost, self.spacing)
+
+    def _volume_flux(self, now: SurfaceStep) -> HostArray:
+        """Q through the sides of all columns, toward larger x (count + 1,) [m^2/s]."""
+        self.segments.follow()
+        return volume_flux(self.backend, self.line, self.bottom, now, self._ends)
 
     def _loss(self, part: SurfaceLine, columns: NDArray[np.int64], now: SurfaceStep) -> HostArray:
         """Speed at which mass that leaves lowers a part of the line [m/s]."""
@@ -307,22 +306,7 @@ class MovingSurface:
 
     def trouble(self) -> str:
         """Slope above 1, or too little liquid below; see `Surface`."""
-        line = self.line
-        slope, thickness = np.abs(line.slope), line.height - self.bottom
-        steep, thin = int(np.argmax(slope)), int(np.argmin(thickness))
-        if slope[steep] > STEEPEST:
-            return (
-                f"the surface has the slope {slope[steep]:.3g} at x = "
-                f"{format_quantity(line.x[steep], 'm', 3)}, and none above {STEEPEST:.0f} is "
-                "computed; take a weaker drive or an earlier end"
-            )
-        if thickness[thin] < FEWEST_ROWS * self.spacing:
-            return (
-                f"the liquid is {format_quantity(thickness[thin], 'm', 3)} thick at x = "
-                f"{format_quantity(line.x[thin], 'm', 3)}, less than {FEWEST_ROWS:.0f} spacings of "
-                "particles; take a finer spacing, a weaker drive or an earlier end"
-            )
-        return ""
+        return trouble_of(self.line, self.bottom, self.spacing)
 
     def time_step_limits(self) -> dict[str, float]:
         """Capillary waves, and the viscous stress on the shortest of them [s]."""
@@ -374,18 +358,25 @@ class MovingSurface:
 
     def _renew(self) -> None:
         """Tables of the line for loops."""
-        line, table = (
-            self.line,
-            lambda values, parity=EVEN: self.backend.asarray(line.extend(values, parity)),
-        )
-        self._tables = self._grid | {"nodes": self._nodes, "height": table(line.height)}
-        self._tables["slope"] = table(line.derivative(line.height), ODD)
+        self._set_tables(self.line.height)
+        self._renew_values()
+
+    def _set_tables(self, height: HostArray) -> None:
+        """Place and slope of the surface for loops, for heights [m]."""
+        line, backend = self.line, self.backend
+        self._tables = self._grid | {"nodes": self._nodes}
+        self._tables["height"] = backend.asarray(line.extend(height))
+        self._tables["slope"] = backend.asarray(line.extend(line.derivative(height), ODD))
+
+    def _renew_values(self) -> None:
+        """Values along the line for loops."""
+        odd = {"shear": self._shear, "gradient": self._gradient}
+        even = {"stretch": self._stretch, "p_b": self._line_pressure}
+        even["T_line"] = self._line_temperature
         self._fields = {
-            "shear": table(self._shear, ODD),
-            "stretch": table(self._stretch),
-            "p_b": table(self._line_pressure),
-            "T_line": table(self._line_temperature),
-            "gradient": table(self._gradient, ODD),
+            name: self.backend.asarray(self.line.extend(values, parity))
+            for fields, parity in ((even, EVEN), (odd, ODD))
+            for name, values in fields.items()
         }
 
     def _pressure_condition(self, neighbors: SurfaceNeighbors) -> PressureCondition:

@@ -122,6 +122,10 @@ class Surface(Protocol):
         """Condition for the pressure; None for dp/dn = 0."""
         ...
 
+    def carry(self, now: SurfaceStep) -> None:
+        """Go ahead with particles that are advected through the step; `now` is from its begin."""
+        ...
+
     def find(self, position: Array) -> None:
         """Set marks and depths of the particles at `position`, shape (dim, n) [m]."""
         ...

@@ -152,14 +152,14 @@ class SurfaceLine:
         second = self._stencil(SECOND, smoothed, EVEN) / self.width**2
         return -second / (1.0 + slope**2) ** 1.5
 
-    def move(self, step: float, flux: Array, loss: Array | float = 0.0) -> None:
-        """Move the heights for `step` [s].
+    def heights_after(self, step: float, flux: Array, loss: Array | float = 0.0) -> Array:
+        """Heights after `step` [s], (count,) [m].
 
         Args:
             flux: (count + 1,) Q through the sides of the columns, toward larger x [m^2/s].
             loss: (count,) speed at which the surface recedes, along z [m/s].
         """
-        self.height = self.height - step * (np.diff(flux) / self.width + loss)
+        return self.height - step * (np.diff(flux) / self.width + loss)
 
     def damp_short_waves(self, share: float) -> None:
         """Take `share` (at most 1) of the way to the smoothed line; the volume stays.

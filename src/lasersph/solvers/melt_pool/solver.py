@@ -216,6 +216,7 @@ class MeltPool:
             flow.enter(block, domain.periods)
         has_row = self._rows_to_find(block, self._advected)
         if domain.surface is not None:
+            domain.surface.carry(self._surface_step(self.position, step))
             domain.surface.find(self._advected)
         block.find_pairs(self._advected, has_row, has_kernel=True)
         self.kinds.find_walls(block)
