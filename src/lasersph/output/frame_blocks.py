@@ -26,6 +26,8 @@ from lasersph.output.reader import Run, open_run
 NAME = re.compile(r"(particles|surface)\.([a-z_]+)\.([0-9]{1,15})\.([0-9]{1,12})\.([0-9a-z-]+)")
 GEOMETRY = ("width",)
 """Fields that say how a particle is drawn, not what color it has."""
+AS_HOT = 1e-3
+"""Of the rise in temperature: metal that boils stays as hot for a while, and its pool grows."""
 
 
 def particle_index(folder: str | Path) -> dict[str, Any]:
@@ -34,8 +36,8 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
     Returns:
         `case`: title. `stamp`: end of all block names. `is_complete`: whether more frames come.
         `dimensions`. `mirrored`: whether x < 0 is the mirror image of what was computed. `levels`:
-        temperatures by name at which the metal melts and boils [K]. `times`
-        [s] and `counts` of particles, one a frame. `start`: frame to begin with, the hottest.
+        temperatures by name at which the metal melts and boils [K]. `times` [s] and `counts` of
+        particles, one a frame. `start`: frame to begin with, in the middle of the hottest.
         `bounds`: [smallest, largest] x, y, z of the first frame [m]. `fields`: `name`, `label`,
         `unit`, `range` over all frames. `blocks`: offset of each frame by name of the field, with
         `position` and `width`, (count, 3) each. `surface`: `counts` and `blocks` of the line of a
@@ -123,7 +125,8 @@ def frames_of(path: Path) -> dict[str, Any]:
             words = {"name": name, "label": name.replace("_", " ")}
             frames["fields"].append({**words, "unit": str(dataset.attrs["unit"]), "range": span})
         hottest = ranges.get("temperature", np.zeros((1, 2)))[:, 1]
-        frames["start"] = int(np.argmax(hottest))
+        as_hot = np.flatnonzero(hottest >= np.max(hottest) - AS_HOT * np.ptp(hottest))
+        frames["start"] = int(as_hot[as_hot.size // 2])
     return frames
 
 

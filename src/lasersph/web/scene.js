@@ -27,11 +27,11 @@ bool isHidden(vec3 p, float melt) {
 }
 `;
 const CELL = `
-in vec2 corner; in vec3 position, width; in float value, melt; uniform float column;
+in vec2 corner; in vec3 position, width; in float value, melt; uniform float column, grow;
 void main() {
   shade = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
   vec3 size = width.x > 0.0 ? width : vec3(column, 0.0, width.z);
-  vec3 p = place(position) + vec3(corner * (0.5 * size.xz / metersPerPixel + 0.35), 0.0);
+  vec3 p = place(position) + vec3(corner * (0.5 * (size.xz + grow) / metersPerPixel + 0.35), 0.0);
   gl_Position = isHidden(position, melt) ? vec4(2.0, 2.0, 2.0, 1.0) : onScreen(p);
 }`;
 const SPHERE = `
@@ -137,6 +137,8 @@ export class Scene {
     this.index = index;
     this.range = [low, high];
     this.count = frame.value.length;
+    if (this.arrays.get("width") !== frame.width)
+      this.smallest = frame.width.reduce((low, one) => (one > 0 && one < low ? one : low), Infinity);
     for (const name of ["position", "width", "value"]) this.fill(name, frame[name]);
     if (frame.melt) this.fill("melt", frame.melt);
     if (frame.line) this.fill("line", frame.line);
@@ -175,26 +177,32 @@ export class Scene {
     this.request();
   }
 
-  // Look at the body as it lay at first; of a deep plane at the part that became warm.
+  // Look at the box that the first frame shown asked for.
   goHome() {
-    const { index, frame } = this;
-    const [x, y, z] = index.bounds.map(([low, high]) => [low, high]);
-    if (index.mirrored) x[0] = -x[1];
+    const [x, y, z] = (this.box ??= this.homeBox());
+    const space = this.index.dimensions === 3;
+    this.center = [x, y, z].map(([low, high]) => 0.5 * (low + high));
+    [this.yaw, this.pitch] = space ? [0.55, 0.5] : [0, 0];
+    const { clientWidth: wide, clientHeight: high } = this.canvas;
+    const across = space ? 1.25 * Math.max(x[1] - x[0], y[1] - y[0]) : x[1] - x[0];
+    const up = space ? 0.88 * (z[1] - z[0]) + 0.66 * (y[1] - y[0]) : z[1] - z[0];
+    const room = Math.min(300, 0.35 * wide);  // for the color bar
+    this.metersPerPixel = Math.max(across / (wide - room), up / (high - 70), 1e-15);
+    this.request();
+  }
+
+  // The body as it lay at first and what is close above it; of a deep plane what became warm.
+  homeBox() {
+    const { bounds, mirrored, dimensions } = this.index;
+    const [x, y, z] = bounds.map(([low, high]) => [low, high]);
+    if (mirrored) x[0] = -x[1];
     const tall = z[1] - z[0];
     this.column = 0.25 * tall;
-    if (index.dimensions === 1) [x[0], x[1]] = [-0.5 * this.column, 0.5 * this.column];
-    const above = Math.min(this.highest() - z[1], 0.4 * tall);
-    z[1] += Math.max(0, above);
-    if (index.dimensions < 3) z[0] = Math.max(z[0], z[1] - Math.max(this.warmDepth(), 0.3 * (x[1] - x[0])));
-    this.center = [x, y, z].map(([low, high]) => 0.5 * (low + high));
-    this.yaw = index.dimensions === 3 ? 0.55 : 0;
-    this.pitch = index.dimensions === 3 ? 0.5 : 0;
-    const { clientWidth: wide, clientHeight: high } = this.canvas;
-    const [across, up] = index.dimensions < 3 ? [x[1] - x[0], z[1] - z[0]]
-      : [1.25 * Math.max(x[1] - x[0], y[1] - y[0]), 0.88 * (z[1] - z[0]) + 0.66 * (y[1] - y[0])];
-    this.metersPerPixel = Math.max(across / (wide - 300), up / (high - 70), 1e-15);
-    if (!frame) return;
-    this.request();
+    if (dimensions === 1) [x[0], x[1]] = [-0.5 * this.column, 0.5 * this.column];
+    z[1] += Math.max(0, Math.min(this.highest() - z[1], 0.4 * tall));
+    if (dimensions < 3)
+      z[0] = Math.max(z[0], z[1] - Math.max(this.warmDepth(), 0.3 * (x[1] - x[0])));
+    return [x, y, z];
   }
 
   highest() {
@@ -246,8 +254,6 @@ export class Scene {
     gl.uniform2fv(gl.getUniformLocation(program, "kept"), this.kept);
     gl.uniform4fv(gl.getUniformLocation(program, "cut"), this.cut);
     gl.uniform1f(gl.getUniformLocation(program, "column"), this.column);
-    // spheres a little larger than their cell close the body; a part of them fills the gaps
-    gl.uniform1f(gl.getUniformLocation(program, "swell"), 0.58 * Math.cbrt(this.count / count));
     const step = dimensions === 3 ? 0 : 1;
     this.attach(program, "position", "position", 3, step);
     this.attach(program, "width", "width", 3, step);
@@ -258,12 +264,17 @@ export class Scene {
     (dimensions === 3 ? gl.enable : gl.disable).call(gl, gl.DEPTH_TEST);
     for (const side of mirrored ? [-1, 1] : [1]) {
       gl.uniform1f(gl.getUniformLocation(program, "side"), side);
-      if (dimensions < 3) {
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+      if (dimensions === 3) {
+        // a little larger than their cell they close the body; where only a part is drawn, too
+        gl.uniform1f(gl.getUniformLocation(program, "swell"), 0.6 * Math.cbrt(this.count / count));
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.buffers.order);
+        gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 0);
         continue;
       }
-      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.buffers.order);
-      gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 0);
+      for (const more of [0.4, 0]) {  // larger ones below fill the gaps between cells that moved
+        gl.uniform1f(gl.getUniformLocation(program, "grow"), more * this.smallest);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+      }
     }
     if (this.frame.line && dimensions === 2) this.drawLine(dense);
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // wait for the card

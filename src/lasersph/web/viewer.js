@@ -20,11 +20,11 @@ canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block
 canvas:active { cursor: grabbing; }
 .title { position: absolute; left: 14px; top: 10px; font-size: 14px; font-weight: 600;
   pointer-events: none; text-shadow: 0 1px 3px #000a; }
-.legend { position: absolute; right: 14px; top: 12px; bottom: 44px; width: 92px;
+.legend { position: absolute; right: 14px; top: 12px; bottom: 44px; width: 150px;
   max-height: 300px; display: flex; flex-direction: column; pointer-events: none;
   text-shadow: 0 1px 3px #000a; }
 .legend b { font-weight: 600; text-align: right; margin-bottom: 6px; }
-.bar { position: relative; flex: 1; margin-left: 78px; border-radius: 3px;
+.bar { position: relative; flex: 1; margin-left: 136px; border-radius: 3px;
   border: 1px solid #ffffff40; }
 .bar span { position: absolute; right: 20px; transform: translateY(50%); white-space: nowrap;
   font-variant-numeric: tabular-nums; }
@@ -52,8 +52,7 @@ button[aria-pressed=true] { background: #b3261e; border-color: #e5574f; }
 button:disabled { opacity: .55; cursor: default; }
 :focus-visible { outline: 2px solid #ffc46b; outline-offset: 1px; }
 [hidden] { display: none !important; }
-@media (max-width: 520px) { .legend { width: 76px; font-size: 11px; right: 8px; }
-  .bar { margin-left: 62px; } .stage { aspect-ratio: 4 / 3; } }
+@media (max-width: 520px) { .legend { font-size: 11px; right: 8px; top: 34px; } .stage { aspect-ratio: 4 / 3; } }
 `;
 const HTML = `
 <section class="viewer" aria-label="Particle viewer">
@@ -106,7 +105,7 @@ export function mount(element, source, options = {}) {
     return { setFrame: nothing, setField: nothing, setLive: nothing, destroy: nothing };
   }
 
-  let index = null, frame = 0, field = options.field ?? "temperature", loaded = null;
+  let index = null, frame = 0, field = options.field, loaded = null;
   let live = Boolean(options.live), playing = null, generation = 0, gone = false, home = true;
   const kept = new Map();
 
@@ -151,7 +150,9 @@ export function mount(element, source, options = {}) {
           return;
         }
         frame = Math.max(0, Math.min(number ?? index.start, index.times.length - 1));
-        field = index.fields.some((one) => one.name === name) ? name : index.fields[0].name;
+        const known = (one) => index.fields.some((info) => info.name === one);
+        field = known(name) ? name : index.fields.find((info) => !isFlat(info.range))?.name
+          ?? index.fields[0].name;
         tellFrame();
         const found = await loadFrame(frame, field);
         if (mine !== generation) return;
@@ -194,7 +195,7 @@ export function mount(element, source, options = {}) {
     const first = !index || !index.fields.length;
     index = found;
     slider.max = Math.max(0, index.times.length - 1);
-    part(".live").hidden = index.is_complete && !live;
+    part(".live").hidden = index.is_complete;
     if (index.is_complete) setLive(false);
     if (!first || !index.fields.length) return;
     part(".title").textContent = index.case;
@@ -212,7 +213,7 @@ export function mount(element, source, options = {}) {
     let [low, high] = options.ranges?.[field] ?? info.range;
     const signed = low < 0 && high > 0;
     if (signed) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
-    if (!(high > low)) [low, high] = [low - 0.5, low + 0.5];
+    if (isFlat([low, high])) [low, high] = [low - 1, low + 1];
     const colors = signed ? "signed" : field.includes("temperature") ? "heat"
       : field.endsWith("fraction") ? "share" : "amount";
     scene.load(loaded, index, { low, high, colors });
@@ -322,6 +323,11 @@ export function mount(element, source, options = {}) {
 }
 
 // ----- numbers in words
+
+// Whether a range is that of one value and its rounding.
+function isFlat([low, high]) {
+  return !(high - low > 1e-5 * Math.max(Math.abs(low), Math.abs(high)));
+}
 
 function niceStep(rough) {
   const ten = 10 ** Math.floor(Math.log10(rough));

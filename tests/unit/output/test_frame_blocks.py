@@ -33,7 +33,8 @@ def test_index_says_what_there_is(folder):
     fields = {field["name"]: field for field in index["fields"]}
     assert fields["temperature"]["unit"] == "K"
     assert fields["temperature"]["range"][1] == max(hottest)
-    assert hottest[index["start"]] == max(hottest)
+    as_hot = [k for k, one in enumerate(hottest) if one == max(hottest)]
+    assert index["start"] == as_hot[len(as_hot) // 2] > as_hot[0]
     assert "width" not in fields
     assert index["surface"] is None
     x = steps[0]["position"][0]
