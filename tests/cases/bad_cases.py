@@ -84,6 +84,7 @@ BAD_CASES = {
     "spot of any diameter": (FLUENCE, 'pulse_energy = "1 uJ"\nspot = { diameter = "50 um" }', ':7: laser.spot: the diameter of a spot may be that where 1/e^2 or half of the peak is left, or of a top hat; write definition = "1/e^2", "fwhm" or "top-hat"'),
     "spot smaller than a period": (FLUENCE, FLUENCE + '\n' + SPOT.replace("50 um", "4 um"), ":7: laser.spot.diameter: 4 um is smaller than a period of the pattern, 5 um; write a spot of several periods"),
     "spot of a spot": (BEAM, 'fluence_kind = "peak"\nbeam = { kind = "gaussian", radius_1e2 = "9 um" }\n' + SPOT, ":10: laser.spot: a gaussian beam is a spot by itself; leave spot out"),
+    "image without a pixel size": (FLUENCE, 'pulse_energy = "1 uJ"\nspot = { image = "beam.png" }', ':7: laser.spot.pixel_size: missing; write e.g. pixel_size = "1.2 um"'),
     "scan without a rate": (FLUENCE, FLUENCE + '\nspot = { diameter = "50 um", definition = "fwhm", scan_speed = "1 m/s" }', ':7: laser.spot.scan_speed: needs the time between pulses; write e.g. repetition_rate = "10 kHz" in [laser.pulse]'),
     "period that does not fit": (BEAM, BEAM.replace("}", ', wavelength = "355 nm", angle = "5 deg" }'), ":8: laser.beam.period: 5 um does not fit the wavelength and the angle, which give 4.06929 um; leave it out"),
     "period below half a wavelength": (BEAM, BEAM.replace("5 um", "100 nm").replace("}", ', wavelength = "355 nm" }'), ":8: laser.beam.period: 100 nm is no period that 2 beams of 355 nm can make; give one above 177.5 nm"),

@@ -32,8 +32,10 @@ def override(document: Document, settings: Iterable[str]) -> Document:
         where = f"--set {setting if len(setting) <= 80 else setting[:77] + '...'}"
         path, value = _parse(setting, where)
         path = present_place(path)
-        if path[0] == "material" and len(path) == 1 and isinstance(value, str):
+        if path == ("material",) and isinstance(value, str):
             value = _from_here(value)
+        if path == ("laser", "spot", "image") and isinstance(value, str):
+            value = str(Path(value).expanduser().absolute())
         _put(data, path, value, where)
         origins[path] = where
     return replace(document, data=data, origins=origins)

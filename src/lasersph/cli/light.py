@@ -12,6 +12,7 @@ def light_rows(laser: Laser) -> list[tuple[str, str]]:
     """Rows of `lasersph check` about the light of one pulse and of several."""
     from lasersph.input import format_quantity
     from lasersph.lasers import InterferenceBeam
+    from lasersph.lasers.beam_image import MeasuredEnvelope
 
     beam, spot, peak = laser.beam, laser.spot, laser.peak_fluence
     rows, kind = [], "everywhere"
@@ -26,8 +27,12 @@ def light_rows(laser: Laser) -> list[tuple[str, str]]:
         kind = f"mean over a period; at most {_fluence(highest)}"
     else:
         kind = "not averaged"
+    envelope, measured = local.envelope, []
+    if isinstance(envelope, MeasuredEnvelope):
+        measured = [("beam image", envelope.quality)]
     rows += [
         ("spot", local.shape),
+        *measured,
         ("pulse energy", format_quantity(local.energy, "J")),
         ("fluence at its center", f"{_fluence(local.center)}, {kind}"),
         (

@@ -149,6 +149,11 @@ class Laser(Model):
                     '= "10 kHz" in [laser.pulse]',
                 )
             )
+        if self.spot.image is not None and (self.pulse_energy or self.power) is None:
+            raise ValueError(
+                "fluence and intensity of a measured beam would be those of one pixel; write e.g. "
+                'pulse_energy = "10 uJ" instead'
+            )
         period = self.beam.lateral_period if isinstance(self.beam, InterferenceBeam) else None
         diameter = self.spot_fluence.diameter
         if period is not None and diameter < period:
@@ -219,7 +224,7 @@ class Laser(Model):
             ValueError: the light has no spot: a uniform beam or a pattern without `spot`.
         """
         envelope = self.beam if self.spot is None else self.spot.envelope
-        if not isinstance(envelope, GaussianBeam | TopHatBeam):
+        if isinstance(envelope, UniformBeam | InterferenceBeam):
             raise ValueError(
                 f"the {self.beam.kind} beam has no spot; write e.g. spot = {{ diameter = "
                 '"50 um", definition = "1/e^2" } in [laser]'
@@ -246,7 +251,8 @@ class Laser(Model):
         """Whether the light is symmetric about x = 0 at all times."""
         if isinstance(self.beam, UniformBeam) and not self.is_bounded:
             return True
-        is_centered = self.path is None and self.position[0] == 0.0
+        is_measured = self.spot is not None and self.spot.image is not None and self.is_bounded
+        is_centered = self.path is None and self.position[0] == 0.0 and not is_measured
         return is_centered and (not isinstance(self.beam, InterferenceBeam) or self.beam.is_even)
 
     @property

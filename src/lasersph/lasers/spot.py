@@ -10,18 +10,22 @@ The pattern f of mean 1 (see `interference`) makes F f of it.
     1/e^2        where g has fallen to 1/e^2, 2 w             exp(-2 r^2/w^2)
     fwhm         where g has fallen to 1/2, w sqrt(2 ln 2)    exp(-2 r^2/w^2)
     top-hat      where the light ends                         1 inside, 0 outside
+
+or the image of a measured beam, see `beam_image`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal, Protocol
+from pathlib import Path
+from typing import Annotated, Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
 from lasersph.input import Length, Model, Velocity, format_quantity, refusal
+from lasersph.lasers.beam_image import MeasuredEnvelope, digest_of, measured_envelope
 from lasersph.lasers.beams import GaussianBeam, PositiveLength, TopHatBeam
 
 Array = NDArray[np.float64]
@@ -52,7 +56,7 @@ class Envelope(Protocol):
 class Spot(Model):
     """The spot under which an interference pattern or a uniform beam lies.
 
-    Give `diameter` and `definition`.
+    Give `diameter` and `definition`, or `image` and `pixel_size`.
     """
 
     diameter: PositiveLength | None = Field(default=None, examples=["50 um"])
@@ -60,6 +64,23 @@ class Spot(Model):
         default=None,
         description="what diameter is: of a Gaussian spot where 1/e^2 or half of the peak is left, "
         "or of a circle of even fluence",
+    )
+    image: str | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="of a measured beam: gray PNG or TIFF, or CSV; relative to the case file",
+        examples=["beam.png"],
+    )
+    pixel_size: PositiveLength | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="of image, on the surface",
+        examples=["1.2 um"],
+    )
+    image_digest: str = Field(
+        default="",
+        exclude_if=lambda given: not given,
+        description="of the content of image; filled in",
     )
     extent: Literal["cell", "whole"] = Field(
         default="cell",
@@ -85,9 +106,13 @@ class Spot(Model):
 
     @model_validator(mode="after")
     def _check_form(self) -> Spot:
-        if self.diameter is None:
+        if self.image is not None:
+            self._check_image()
+        elif self.pixel_size is not None:
+            raise refusal(("pixel_size", "says nothing without an image; leave it out"))
+        elif self.diameter is None:
             raise ValueError('a spot needs its diameter; write e.g. diameter = "50 um"')
-        if self.definition is None:
+        elif self.definition is None:
             raise ValueError(
                 "the diameter of a spot may be that where 1/e^2 or half of the peak is left, or "
                 'of a top hat; write definition = "1/e^2", "fwhm" or "top-hat"'
@@ -98,9 +123,42 @@ class Spot(Model):
             raise refusal(("scan_speed", "says the same as shift; leave one of them out"))
         return self
 
+    @model_validator(mode="before")
+    @classmethod
+    def _name_content(cls, data: Any, info: ValidationInfo) -> Any:
+        """Complete the path of the image, and name its content: another one is another case."""
+        if not isinstance(data, dict) or not isinstance(data.get("image"), str):
+            return data
+        folder = (info.context or {}).get("folder", Path())
+        file = str((Path(folder) / Path(data["image"]).expanduser()).absolute())
+        try:
+            return {"image_digest": digest_of(file), **data, "image": file}
+        except OSError:
+            return data | {"image": file}  # told with the reason where it is read
+
+    def _check_image(self) -> None:
+        """Whether the image can be read and shows a beam."""
+        for key in ("diameter", "definition"):
+            if getattr(self, key) is not None:
+                raise refusal((key, "is that of the image; leave it out"))
+        if self.pixel_size is None:
+            raise refusal(("pixel_size", 'missing; write e.g. pixel_size = "1.2 um"'))
+        assert self.image is not None
+        try:
+            if digest_of(self.image) != self.image_digest:
+                raise ValueError("has changed since its digest was taken; leave image_digest out")
+            _ = self.envelope
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise refusal(("image", f"{self.image} cannot be read: {reason}")) from None
+        except ValueError as error:
+            raise refusal(("image", f"{self.image} {error}")) from None
+
     @property
-    def envelope(self) -> GaussianBeam | TopHatBeam:
+    def envelope(self) -> GaussianBeam | TopHatBeam | MeasuredEnvelope:
         """g."""
+        if self.image is not None and self.pixel_size is not None:
+            return measured_envelope(self.image, self.image_digest, self.pixel_size)
         assert self.diameter is not None
         if self.definition == "top-hat":
             return TopHatBeam(radius=0.5 * self.diameter)
@@ -109,8 +167,10 @@ class Spot(Model):
         return GaussianBeam(diameter_1e2=self.diameter)
 
 
-def shape_of(envelope: GaussianBeam | TopHatBeam) -> str:
+def shape_of(envelope: GaussianBeam | TopHatBeam | MeasuredEnvelope) -> str:
     """Shape and diameter, in words."""
+    if isinstance(envelope, MeasuredEnvelope):
+        return envelope.shape
     diameter = format_quantity(2.0 * envelope.radius, "m")
     if isinstance(envelope, TopHatBeam):
         return f"top hat of {diameter}"
@@ -123,8 +183,9 @@ class SpotFluence:
     """Local fluence of one pulse over a spot, mean over a period of the pattern.
 
     Attributes:
-        envelope: g. energy: of one pulse [J]. diameter: where 1/e^2 of the peak is left, or of a
-            top hat [m]. shape: in words. period: of the pattern along x [m], None without one.
+        envelope: g. energy: of one pulse [J]. diameter: where 1/e^2 of the peak is left, of a
+            top hat, or d_sigma of a measured beam [m]. shape: in words. period: of the pattern
+            along x [m], None without one.
     """
 
     envelope: Envelope
