@@ -28,7 +28,7 @@ check: $(VENV)/.check
 
 docs: $(VENV)/.docs
 	$(VENV)/bin/python docs/draw_architecture.py
-	$(VENV)/bin/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
+	$(VENV)/bin/python -m sphinx -j auto -W --keep-going -q -b html docs docs/_build/html
 	@echo "Open docs/_build/html/index.html in a browser."
 
 wheel: $(VENV)/.test

@@ -1,11 +1,21 @@
 """Sphinx configuration: `make docs` builds docs/_build/html, and any warning fails it."""
 
+import os
+import shutil
 import sys
 from pathlib import Path
 
 import lasersph
 
-sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "_extensions"))
+# cells of the notebooks call the program of this environment, and show the figures that they draw
+os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+os.environ.pop("MPLBACKEND", None)
+os.environ["IPYTHONDIR"] = str(HERE / "generated" / "ipython")
+STARTUP = HERE / "generated" / "ipython" / "profile_default" / "startup"
+STARTUP.mkdir(parents=True, exist_ok=True)
+shutil.copy(HERE / "_extensions" / "shell_cells.py", STARTUP)
 
 project = "lasersph"
 author = "The lasersph developers"
@@ -29,6 +39,7 @@ bibtex_bibfiles = ["references.bib"]
 bibtex_reference_style = "author_year"
 bibtex_default_style = "unsrt"
 nb_execution_mode = "force"
+nb_execution_in_temp = True
 nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 

@@ -2,11 +2,16 @@
 
 import re
 import runpy
+import shlex
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from typer.main import get_command
 
-from lasersph import validation
+from lasersph import load_case, validation
+from lasersph.case import available_cases
+from lasersph.cli.app import app_of
 from lasersph.input import build, parse_toml
 from lasersph.materials import Material
 
@@ -69,3 +74,26 @@ def test_named_files_exist():
             if not place.exists():
                 missing.append(f"{page.relative_to(ROOT)}: {name}")
     assert not missing
+
+
+COMMAND = re.compile(r"^ *(?:\.venv/bin/)?(lasersph [a-z][^\n]*(?:\\\n[^\n]*)*)", re.MULTILINE)
+FENCED = re.compile(r"^( *)```(?!toml|python)[^\n]*\n(.*?)^\1```", re.MULTILINE | re.DOTALL)
+COMMANDS = sorted(
+    {
+        command.replace("\\\n", " ")
+        for page in [*PAGES, ROOT / "README.md"]
+        for _, block in FENCED.findall(page.read_text(encoding="utf-8"))
+        for command in COMMAND.findall(block)
+    }
+)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_of_the_docs_are_right(command):
+    """Each verb, option and kind of value exists; keys that change a shipped case fit it."""
+    _, verb, *rest = shlex.split(command, comments=True)
+    arguments = rest[: rest.index("|")] if "|" in rest else rest
+    get_command(app_of(verb)).make_context(verb, list(arguments))
+    if verb in ("run", "check", "converge") and arguments[0] in available_cases():
+        pairs = pairwise(arguments)
+        load_case(arguments[0], [value for option, value in pairs if option == "--set"])

@@ -58,14 +58,14 @@ def test_plan_of_a_process_map(capsys):
 
 
 def test_notebook_runs(tmp_path, monkeypatch):
-    """The cells of "From Python" run one after the other, in a folder that they do not fill."""
+    """The cells of "Read results in Python" run one after the other."""
     matplotlib.use("Agg")
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    page = (ROOT / "docs" / "examples" / "python-api.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "tutorials" / "reading-results.md").read_text(encoding="utf-8")
     cells = re.findall(r"^```\{code-cell\}.*?\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
     assert len(cells) > 5
     names: dict[str, object] = {}
     for cell in cells:
-        exec(compile(cell, "python-api.md", "exec"), names)
+        exec(compile(cell, "reading-results.md", "exec"), names)
     matplotlib.pyplot.close("all")
     assert names["melt"]["depth_half_max_m"] > 2e-7

@@ -7,6 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import typer
 
 VERBS = {
     "Cases": {
@@ -127,17 +131,27 @@ def command_of(verb: str) -> Callable[[Sequence[str]], object]:
     Raises:
         KeyError: there is no such verb.
     """
-    places = {name: place for verbs in VERBS.values() for name, (place, _) in verbs.items()}
-    module, _, name = places[verb].partition(".")
-    import typer
-
-    target = getattr(import_module(f"lasersph.cli.{module}"), name)
-    app = target
-    if not isinstance(target, typer.Typer):
-        app = typer.Typer(add_completion=False, context_settings=HELP)
-        app.command(verb)(target)
+    app = app_of(verb)
 
     def command(arguments: Sequence[str]) -> object:
         return app(list(arguments), prog_name=f"lasersph {verb}", standalone_mode=False)
 
     return command
+
+
+def app_of(verb: str) -> typer.Typer:
+    """The typer application of one verb.
+
+    Raises:
+        KeyError: there is no such verb.
+    """
+    places = {name: place for verbs in VERBS.values() for name, (place, _) in verbs.items()}
+    module, _, name = places[verb].partition(".")
+    import typer
+
+    target = getattr(import_module(f"lasersph.cli.{module}"), name)
+    if isinstance(target, typer.Typer):
+        return target
+    app = typer.Typer(add_completion=False, context_settings=HELP)
+    app.command(verb)(target)
+    return app
