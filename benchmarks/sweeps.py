@@ -62,9 +62,7 @@ def plan_of(runs: int, seed: int):
 
 def make(plan, folder: Path, engine) -> Table:
     """The runs of a plan."""
-    return make_runs(
-        plan.points(), folder, study=plan.study, units=plan.varied, engine=engine, plan=plan.text
-    )
+    return make_runs(plan.points(), folder, plan.study, engine=engine)
 
 
 def gaps(folder: Path) -> list[float]:

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 SIMULATOR, SHORT = pytest.StashKey(), pytest.StashKey()
-ONLY_ASKED = ("validate", "cluster")
-"""Marks of tests that run only where -m names the mark: `pytest -m cluster`."""
+ONLY_ASKED = ("validate",)
+"""Marks of tests that run only where -m names the mark: `pytest -m validate`."""
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as on the command line
 os.environ.setdefault(

@@ -16,9 +16,9 @@ SETTINGS = {
 """Of dlip-steel: 200 steps, a second."""
 
 
-def plan_text(fluences):
+def plan_text(fluences, settings=SETTINGS):
     """A plan file of runs with these settings."""
-    settings = "".join(f'"{key}" = {as_toml(value)}\n' for key, value in SETTINGS.items())
+    settings = "".join(f'"{key}" = {as_toml(value)}\n' for key, value in settings.items())
     vary = f'"laser.fluence" = {as_toml(list(fluences))}\n'
     return f'case = "dlip-steel"\n[set]\n{settings}[vary]\n{vary}'
 

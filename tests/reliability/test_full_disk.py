@@ -64,7 +64,7 @@ def test_sweep_on_a_full_disk(tmp_path, file_size_limit):
 
     def make(folder):
         engine = LocalEngine(workers=1, threads=1, retries=0)
-        return make_runs(plan.points(), folder, study=plan.study, units=plan.varied, engine=engine)
+        return make_runs(plan.points(), folder, plan.study, engine=engine)
 
     file_size_limit(40 * 1024)
     table = make(tmp_path / "full")

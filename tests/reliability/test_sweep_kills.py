@@ -24,9 +24,7 @@ def plan_of():
 def make(folder, engine, plan=None, **more):
     """The table of the sweep."""
     plan = plan or plan_of()
-    return make_runs(
-        plan.points(), folder, study=plan.study, units=plan.varied, engine=engine, **more
-    )
+    return make_runs(plan.points(), folder, plan.study, engine=engine, **more)
 
 
 @pytest.fixture(scope="module")

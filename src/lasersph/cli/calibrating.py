@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lasersph.cli.arguments import Out
+from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
-from lasersph.cli.sweeping import DryRun, Retries, Workers, WorkerThreads
+from lasersph.cli.sweeping import DryRun
 from lasersph.cli.tables import aligned
 
 if TYPE_CHECKING:
@@ -35,12 +37,11 @@ Calibration = Annotated[
 ]
 
 
+@takes_engine
 def calibrate(
     plan: PlanName,
+    engine: EngineOptions,
     out: Out = None,
-    workers: Workers = None,
-    threads: WorkerThreads = None,
-    retries: Retries = 2,
     dry_run: DryRun = False,
 ) -> None:
     """Find unknowns of a case from measured values, with their bands and what limits them."""
@@ -50,22 +51,22 @@ def calibrate(
     from lasersph.simulation.time_loop import Stopped
     from lasersph.studies import calibration_run
     from lasersph.studies.calibration_reading import read_calibration_plan
-    from lasersph.sweeps import LocalEngine
 
     loaded = read_calibration_plan(plan)
     if dry_run:
         print(aligned(_forecast(loaded)))
         return
     folder = out or Path("runs") / plan.stem
-    engine = LocalEngine(workers, threads, retries)
+    chosen = engine.engine()
     with StopSignals() as signals:
         try:
             found = calibration_run.calibrate(
-                loaded, folder, engine=engine, report=_say, should_stop=signals.asked
+                loaded, folder, engine=chosen, report=_say, should_stop=signals.asked
             )
         except Stopped as error:
-            again = f"lasersph calibrate {plan} --out {folder}"
-            raise StoppedBySignal(f"{error}; continue with: {again}", signals.code) from None
+            words = ["lasersph", "calibrate", str(plan), "--out", str(folder), *engine.words()]
+            again = f"{error}; continue with: {shlex.join(words)}"
+            raise StoppedBySignal(again, signals.code) from None
     for line in calibration_run.answer_lines(found):
         print(line)
     content, points = calibration_run.read_answer(folder)

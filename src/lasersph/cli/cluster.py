@@ -1,4 +1,4 @@
-"""Options of verbs that make many runs on a cluster, and what they choose."""
+"""What verbs that make many runs on a cluster write and say."""
 
 from __future__ import annotations
 
@@ -11,31 +11,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lasersph.cli.failures import DONE, WrongCommand
+from lasersph.cli.failures import DONE
 
 if TYPE_CHECKING:
-    from lasersph.sweeps import DaskEngine, Event, SweepPlan
+    from lasersph.sweeps import Event, SweepPlan
 
-SchedulerFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--scheduler-file",
-        metavar="FILE",
-        help="Use the workers of the Dask scheduler that wrote FILE.",
-    ),
-]
-Scheduler = Annotated[
-    str | None,
-    typer.Option(
-        "--scheduler", metavar="ADDRESS", help="Use those of the Dask scheduler at tcp://HOST:PORT."
-    ),
-]
-Tls = Annotated[
-    Path | None,
-    typer.Option(
-        "--tls", metavar="DIR", help="Folder with cert.pem and key.pem of the Dask scheduler."
-    ),
-]
 Slurm = Annotated[
     Path | None,
     typer.Option(
@@ -54,33 +34,6 @@ LINE_EVERY = 10.0
 """From one line of what runs where to the next [s]."""
 MOST_NAMED = 8
 """Runs in such a line."""
-
-
-def dask_engine(
-    scheduler_file: Path | None,
-    scheduler: str | None,
-    tls: Path | None,
-    threads: int | None,
-    retries: int,
-) -> DaskEngine | None:
-    """The engine of a Dask scheduler; None where none is given.
-
-    Raises:
-        WrongCommand: two are given, a certificate for none, or one that `DaskEngine` refuses.
-    """
-    if scheduler_file is None and scheduler is None:
-        if tls is not None:
-            raise WrongCommand("--tls is for --scheduler-file or --scheduler")
-        return None
-    if scheduler_file is not None and scheduler is not None:
-        raise WrongCommand("give --scheduler-file or --scheduler, not both")
-    from lasersph.output import OutputError
-    from lasersph.sweeps import DaskEngine
-
-    try:
-        return DaskEngine(scheduler_file, scheduler, tls, threads, retries)
-    except OutputError as error:  # before anything is written
-        raise WrongCommand(str(error)) from None
 
 
 def write_scripts(

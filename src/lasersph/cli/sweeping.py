@@ -10,16 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lasersph.cli.arguments import Out
-from lasersph.cli.cluster import (
-    RunsInHand,
-    Scheduler,
-    SchedulerFile,
-    Slurm,
-    SlurmDask,
-    Tls,
-    dask_engine,
-    write_scripts,
-)
+from lasersph.cli.cluster import RunsInHand, Slurm, SlurmDask, write_scripts
+from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import DONE, FAILED, StoppedBySignal, WrongCommand
 from lasersph.cli.tables import aligned
 
@@ -29,20 +21,6 @@ if TYPE_CHECKING:
 
 PlanName = Annotated[
     Path, typer.Argument(metavar="PLAN", help="A plan file; with --table the folder of a sweep.")
-]
-Workers = Annotated[
-    int | None,
-    typer.Option("--workers", min=1, metavar="N", help="Processes; default: all processors."),
-]
-WorkerThreads = Annotated[
-    int | None,
-    typer.Option(
-        "--threads", min=1, metavar="N", help="Of each worker; default: processors over workers."
-    ),
-]
-Retries = Annotated[
-    int,
-    typer.Option("--retries", min=0, metavar="N", help="Of a run whose worker died or failed."),
 ]
 DryRun = Annotated[
     bool,
@@ -57,15 +35,11 @@ MOST_SHOWN = 20
 """Failures and refusals that are listed; the table has all of them."""
 
 
+@takes_engine
 def sweep(
     plan: PlanName,
+    engine: EngineOptions,
     out: Out = None,
-    workers: Workers = None,
-    threads: WorkerThreads = None,
-    retries: Retries = 2,
-    scheduler_file: SchedulerFile = None,
-    scheduler: Scheduler = None,
-    tls: Tls = None,
     slurm: Slurm = None,
     slurm_dask: SlurmDask = None,
     dry_run: DryRun = False,
@@ -74,7 +48,7 @@ def sweep(
     """Run a case with many settings by a plan; the same command again goes on."""
     if table:
         return _remake(plan)
-    from lasersph.sweeps import LocalEngine, read_plan
+    from lasersph.sweeps import read_plan
 
     if plan.is_dir():
         raise WrongCommand(
@@ -85,20 +59,13 @@ def sweep(
     for note in loaded.notes():
         _say(f"note: {note}")
     if dry_run:
-        _forecast(loaded, workers, threads)
+        _forecast(loaded, engine)
         return DONE
     folder = out or Path("runs") / plan.stem
     if slurm is not None or slurm_dask is not None:
         return write_scripts(loaded, plan, folder, slurm, slurm_dask)
-    distant = dask_engine(scheduler_file, scheduler, tls, threads, retries)
-    if distant is not None and workers is not None:
-        raise WrongCommand("--workers is for this machine: the scheduler has workers of its own")
-    words = ["lasersph", "sweep", str(plan), "--out", str(folder)]
-    given = {"--scheduler-file": scheduler_file, "--scheduler": scheduler, "--tls": tls}
-    words += [text for name, value in given.items() if value for text in (name, str(value))]
-    engine = distant or LocalEngine(workers, threads, retries)
-    made = make(loaded, folder, engine, shlex.join(words))
-    return tell(made)
+    words = ["lasersph", "sweep", str(plan), "--out", str(folder), *engine.words()]
+    return tell(make(loaded, folder, engine.engine(), shlex.join(words)))
 
 
 def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
@@ -129,10 +96,7 @@ def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
         table = make_runs(
             plan.points(),
             folder,
-            study=plan.study,
-            units=plan.varied,
-            columns=plan.columns,
-            plan=plan.text,
+            plan.study,
             engine=engine,
             report=report,
             should_stop=should_stop,
@@ -192,15 +156,15 @@ def _remake(folder: Path) -> int:
     return tell(found)
 
 
-def _forecast(plan: SweepPlan, workers: int | None, threads: int | None) -> None:
+def _forecast(plan: SweepPlan, engine: EngineOptions) -> None:
     from lasersph.compute.threads import available
     from lasersph.input import format_duration
     from lasersph.sweeps.forecast import forecast_seconds
 
     points = plan.points()
     right = [point for point in points if point.case is not None]
-    count = min(workers or available(), max(1, len(right)))
-    of_each = threads or max(1, available() // count)
+    count = min(engine.workers or available(), max(1, len(right)))
+    of_each = engine.threads or max(1, available() // count)
     seconds, sampled = forecast_seconds(right, of_each)
     source = "" if sampled == len(right) else f", estimated from {sampled} of them"
     refused = [point for point in points if point.case is None]

@@ -89,7 +89,7 @@ class CalibrationPlan:
     @property
     def study(self) -> Study:
         """What a folder must belong to for this plan to go on in it."""
-        return Study.of("calibration", self.template, self.keys)
+        return Study.of("calibration", self.template, self.units, self.text)
 
     @property
     def first_runs(self) -> int:

@@ -127,9 +127,7 @@ class _Runs:
         table = make_runs(
             points,
             self.path,
-            study=self.plan.study,
-            units=self.plan.units,
-            plan=self.plan.text,
+            self.plan.study,
             engine=self.engine,
             report=note,
             should_stop=self.should_stop,

@@ -34,6 +34,8 @@ ANSWER = 10.0
 SILENCE = 120.0
 """A task of which nothing is heard for so long while workers are idle is submitted again [s]; a
 worker that computes is heard every 10 s (`dask_task.BEAT`)."""
+LOOK = 2.0
+"""From one look for workers to the next [s]."""
 ADDRESS = re.compile(r"(?P<protocol>tcp|tls)://(?P<host>.+):(?P<port>[0-9]+)")
 MESSAGE = 300
 """Characters of an error of Dask's that are told: some hold whole stacks."""
@@ -52,6 +54,9 @@ class DaskEngine:
         retries: how often a run is tried again that failed for a reason that may pass, or whose
             worker died without a checkpoint later than that of the try before.
         patience: how long to wait for a scheduler, at the start and when it is lost [s].
+        worker_wait: how long the scheduler may be without any worker, or not answer how many it
+            has [s]; by default twice what a nanny is given to bring a worker back
+            (`--death-timeout 300`). More where workers wait in the queue of a batch system.
 
     Raises:
         OutputError: `distributed` is not installed, the address is none, or files of `tls` are
@@ -64,6 +69,7 @@ class DaskEngine:
     threads: int | None = None
     retries: int = 2
     patience: float = 60.0
+    worker_wait: float = 600.0
 
     def __post_init__(self) -> None:
         try:
@@ -118,7 +124,8 @@ class DaskEngine:
         """Make the folders of all tasks exist; see `Engine.make`.
 
         Raises:
-            OutputError: no scheduler answers, or lasersph is not installed where it runs.
+            OutputError: no scheduler answers, lasersph is not installed where it runs, or it has
+                been without workers for `worker_wait`.
         """
         # a lost scheduler is our matter: Dask tells it with tracebacks
         logging.getLogger("distributed").setLevel(logging.CRITICAL)
@@ -245,13 +252,14 @@ class _Session:
         self.report, self.should_stop = report, should_stop
         self.topic = f"lasersph-{uuid.uuid4().hex}"
         self.messages: queue.SimpleQueue[Mapping[str, Any]] = queue.SimpleQueue()
+        self.seen = time.monotonic()  # a worker
 
     def go(self) -> None:
         """Until every task has ended, the scheduler is lost, or it is asked to stop."""
         self.client.subscribe_topic(self.topic, lambda event: self.messages.put(event[1]))
         for submission in self.waiting.values():
             self._submit(submission)
-        looked = time.monotonic()
+        looked = resubmitted = time.monotonic()
         while self.waiting:
             if self.should_stop():
                 self._stop()
@@ -262,9 +270,35 @@ class _Session:
             for submission in list(self.waiting.values()):
                 if submission.future.done():
                     self._settle(submission)
-            if time.monotonic() - looked > SILENCE:
+            if time.monotonic() - looked > min(LOOK, self.engine.worker_wait):
                 looked = time.monotonic()
-                self._submit_silent_ones()
+                threads = self._count_threads()
+                if time.monotonic() - resubmitted > SILENCE:
+                    resubmitted = time.monotonic()
+                    self._submit_silent_ones(threads)
+
+    def _count_threads(self) -> int:
+        """Runs that all workers together make at a time; 0 where the scheduler does not answer.
+
+        Raises:
+            OutputError: it has been 0 for `worker_wait`.
+        """
+        try:
+            found = self.client.nthreads(callback_timeout=ANSWER)
+        except Exception:
+            found = {}
+        now = time.monotonic()
+        if found:
+            self.seen = now
+        elif now - self.seen > self.engine.worker_wait:
+            for run in self.waiting:
+                self.report(Event(run, "stopped", message="no worker", exit_code=STOPPED))
+            raise OutputError(
+                f"the Dask scheduler at {self.engine.place()} has had no worker for "
+                f"{self.engine.worker_wait:g} s, and {len(self.waiting)} runs are not complete: "
+                "start workers; the same command goes on"
+            )
+        return sum(found.values())
 
     def _submit(self, submission: Submission) -> None:
         task = submission.task
@@ -325,14 +359,15 @@ class _Session:
         del self.waiting[event.run]
         self.report(event)
 
-    def _submit_silent_ones(self) -> None:
-        """Submit again what a worker could compute and none does."""
+    def _submit_silent_ones(self, threads: int) -> None:
+        """Submit again what a worker could compute and none does.
+
+        Args:
+            threads: of all workers.
+        """
         now = time.monotonic()
         silent = [s for s in self.waiting.values() if now - s.heard > SILENCE]
-        try:
-            idle = sum(self.client.nthreads().values()) - (len(self.waiting) - len(silent))
-        except Exception:  # the scheduler does not answer
-            return
+        idle = threads - (len(self.waiting) - len(silent))
         for submission in silent[: max(idle, 0)]:
             self.client.cancel([submission.future])
             text = f"nothing was heard of it for {SILENCE:g} s"

@@ -43,7 +43,7 @@ def make_run_folder(text: str, threads: int | None, topic: str) -> dict[str, Any
     from lasersph.compute.threads import available
 
     worker = get_worker()
-    key = worker.get_current_task()
+    key = str(worker.get_current_task())
     host = socket.gethostname()
     name = f"{host}:{os.getpid()}"
     task = Task.from_dict(json.loads(text))

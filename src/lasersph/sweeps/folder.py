@@ -10,13 +10,13 @@ sweep.jsonl      what happened, one JSON object a line
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Self
 
-from lasersph.output.atomic import replace_json
+from lasersph.output.atomic import replace_json, replace_text
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 from lasersph.output.folder_lock import FolderLock, is_lock
 from lasersph.output.reader import read_json
@@ -30,22 +30,35 @@ SCHEMA = 1
 
 @dataclass(frozen=True)
 class Study:
-    """Whose folder it is: only the same study goes on in it.
+    """Whose folder it is, and what its table shows: only the same study goes on in it.
 
     Attributes:
         title: in words, "sweep of dlip-steel over laser.fluence". case_hash: of what all runs
-            have in common.
+            have in common. Both must be the same for a study to go on in a folder.
+        units: SI unit of each key that varies, see `CaseTemplate.unit`.
+        columns: numbers that table.csv shows; all where empty.
+        plan: text of plan.toml, if there is one.
     """
 
     title: str
     case_hash: str
+    units: Mapping[str, str] = field(default_factory=dict)
+    columns: Sequence[str] = ()
+    plan: str = ""
 
     @classmethod
-    def of(cls, kind: str, template: CaseTemplate, varied: Iterable[str]) -> Self:
-        """The study of a kind ("sweep") that varies keys of a case."""
-        keys = list(varied)
+    def of(
+        cls,
+        kind: str,
+        template: CaseTemplate,
+        units: Mapping[str, str],
+        plan: str,
+        columns: Sequence[str] = (),
+    ) -> Self:
+        """The study of a kind ("sweep") that varies keys of a case, which have these units."""
         name = Path(template.file.document.file).stem
-        return cls(f"{kind} of {name} over {', '.join(keys)}", template.hash_without(keys))
+        title = f"{kind} of {name} over {', '.join(units)}"
+        return cls(title, template.hash_without(units), units, columns, plan)
 
 
 class SweepFolder:
@@ -82,9 +95,7 @@ class SweepFolder:
         self._log.close()
         self._lock.release()
 
-    def list_points(
-        self, points: Sequence[Point], units: Mapping[str, str], columns: Sequence[str]
-    ) -> list[str]:
+    def list_points(self, points: Sequence[Point]) -> list[str]:
         """Write down which runs are wanted; their names, by number and hash of the case.
 
         A case that has a folder keeps its name, whatever its number is now. A refused point has
@@ -114,11 +125,13 @@ class SweepFolder:
         content = {
             "schema_version": SCHEMA,
             "study": {"title": self.study.title, "case_hash": self.study.case_hash},
-            "units": dict(units),
-            "columns": list(columns),
+            "units": dict(self.study.units),
+            "columns": list(self.study.columns),
             "points": rows,
         }
         replace_json(self.path / POINTS, content)
+        if self.study.plan:
+            replace_text(self.path / PLAN, self.study.plan)
         return names
 
     def log(self, event: Event) -> None:

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from lasersph.case import Case
-from lasersph.output.atomic import replace_text
 from lasersph.sweeps.engine import Engine, Event, Task
-from lasersph.sweeps.folder import PLAN, RUNS, Study, SweepFolder
+from lasersph.sweeps.folder import RUNS, Study, SweepFolder
 from lasersph.sweeps.local import LocalEngine
 from lasersph.sweeps.plan import SweepPlan, build_plan, read_plan
 from lasersph.sweeps.points import Point
@@ -26,11 +25,8 @@ Report = Callable[[Event, Table], None]
 def make_runs(
     points: Sequence[Point],
     folder: str | PathLike[str],
-    *,
     study: Study,
-    units: Mapping[str, str],
-    columns: Sequence[str] = (),
-    plan: str = "",
+    *,
     engine: Engine | None = None,
     report: Report = lambda event, table: None,
     should_stop: Callable[[], bool] = lambda: False,
@@ -43,9 +39,6 @@ def make_runs(
     Args:
         folder: receives points.json, runs/, table.csv and sweep.jsonl.
         study: whose runs these are; another study in the folder is refused.
-        units: SI unit of each key that varies, see `CaseTemplate.unit`.
-        columns: numbers that table.csv shows; all where empty.
-        plan: text of plan.toml, if there is one.
         engine: what computes; None for this machine. report: called with what happens.
         should_stop: asked several times a second; True ends all runs with their checkpoints.
 
@@ -54,13 +47,12 @@ def make_runs(
 
     Raises:
         FolderRefused: the folder holds something else; nothing was written.
-        OutputError: the folder cannot be written.
+        OutputError: the folder cannot be written, or the engine has nothing to compute with; the
+            table then says what is complete.
     """
     path = Path(folder)
     with SweepFolder(path, study) as home:
-        names = home.list_points(points, units, columns)
-        if plan:
-            replace_text(path / PLAN, plan)
+        names = home.list_points(points)
         table = Table.read(path)
         table.write()
         cases = {name: p.case for name, p in zip(names, points, strict=True) if p.case is not None}
@@ -80,10 +72,12 @@ def make_runs(
                 written_at = time.monotonic()
             report(event, table)
 
-        if tasks:
-            (engine or LocalEngine()).make(tasks, note, should_stop)
-        table = Table.read(path, table)
-        table.write()
+        try:
+            if tasks:
+                (engine or LocalEngine()).make(tasks, note, should_stop)
+        finally:
+            table = Table.read(path, table)
+            table.write()
     return table
 
 
@@ -134,12 +128,4 @@ def sweep(
     if not isinstance(plan, SweepPlan):
         given = {"set": set, "sampling": sampling, "columns": columns}
         plan = read_plan(plan) if vary is None else build_plan(plan, vary, **given)
-    return make_runs(
-        plan.points(),
-        out,
-        study=plan.study,
-        units=plan.varied,
-        columns=plan.columns,
-        plan=plan.text,
-        engine=LocalEngine(workers, threads, retries),
-    )
+    return make_runs(plan.points(), out, plan.study, engine=LocalEngine(workers, threads, retries))

@@ -104,7 +104,7 @@ class SweepPlan:
     @property
     def study(self) -> Study:
         """What a folder must belong to for this plan to go on in it."""
-        return Study.of("sweep", self.template, self.choices)
+        return Study.of("sweep", self.template, self.varied, self.text, self.columns)
 
     def points(self) -> list[Point]:
         """All points in their order, those that the case refuses with the reason."""

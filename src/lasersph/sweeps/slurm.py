@@ -118,15 +118,7 @@ def write_array_script(plan: SweepPlan, out: Path, file: Path) -> int:
         FolderRefused, OutputError: see `make_runs`.
     """
     missing = MissingRuns()
-    make_runs(
-        plan.points(),
-        out,
-        study=plan.study,
-        units=plan.varied,
-        columns=plan.columns,
-        plan=plan.text,
-        engine=missing,
-    )
+    make_runs(plan.points(), out, plan.study, engine=missing)
     if not missing.names:
         return 0
     settings = {point["run"]: point["overrides"] for point in read_points(out)["points"]}

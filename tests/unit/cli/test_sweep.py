@@ -85,6 +85,7 @@ def test_wrong_commands_write_nothing(plan, tmp_path, capsys):
         ([*new, "--scheduler", "tls://a:1", "--tls", str(tmp_path)], "cert.pem: no such file"),
         ([*new, "--scheduler", "tcp://a:1", "--workers", "2"], "has workers of its own"),
         ([*new, "--tls", str(tmp_path)], "--tls is for"),
+        ([*new, "--worker-wait", "9"], "--worker-wait is for"),
     ):
         assert main(["sweep", *arguments]) == 2
         (line,) = capsys.readouterr().err.splitlines()

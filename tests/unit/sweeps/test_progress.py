@@ -16,8 +16,7 @@ def test_remaining_time(tmp_path, monkeypatch):
     table = make_runs(
         plan.points(),
         tmp_path,
-        study=plan.study,
-        units=plan.varied,
+        plan.study,
         engine=PretendingEngine(),
         should_stop=lambda: True,
     )

@@ -20,10 +20,7 @@ def made(folder, fluences, engine=None, columns=(), **more):
     return make_runs(
         plan.points(),
         folder,
-        study=plan.study,
-        units=plan.varied,
-        columns=plan.columns,
-        plan=plan.text,
+        plan.study,
         engine=engine or PretendingEngine(),
         **more,
     )
@@ -87,7 +84,7 @@ def test_refused_points_are_wrong(tmp_path):
     """They keep their reason and a number, and no engine gets them."""
     plan = build_plan("dlip-steel", {"particles.spacing": ["32 nm", "900 um"]})
     engine = PretendingEngine()
-    table = make_runs(plan.points(), tmp_path, study=plan.study, units=plan.varied, engine=engine)
+    table = make_runs(plan.points(), tmp_path, plan.study, engine=engine)
     assert table.status == ("complete", "wrong") and len(engine.made) == 1
     assert table.rows[1].run == "0002" and "coarsest" in table.rows[1].reason
 
@@ -107,7 +104,7 @@ def test_other_folders_are_refused(tmp_path):
     same = build_plan("dlip-steel", {"laser.fluence": ["1 J/m^2"]}, set={"time.end": "9 ns"})
     for plan, message in ((other, "holds another study"), (same, "with other settings")):
         with pytest.raises(FolderRefused, match=message):
-            make_runs([], tmp_path / "a", study=plan.study, units={})
+            make_runs([], tmp_path / "a", plan.study)
     (tmp_path / "b").mkdir()
     (tmp_path / "b" / "note.txt").write_text("mine")
     with pytest.raises(FolderRefused, match="not empty"):
