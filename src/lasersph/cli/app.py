@@ -54,6 +54,10 @@ VERBS = {
             "sweeping.sweep",
             "Run a case with many settings by a plan; the same command again goes on.",
         ),
+        "texture": (
+            "texturing.texture",
+            "Compute the relief that a pulse leaves in its whole spot, from cells of the pattern.",
+        ),
         "converge": (
             "studies.converge",
             "Run a case at several spacings: order and uncertainty of every number of its summary.",

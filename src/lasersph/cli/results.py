@@ -114,11 +114,16 @@ def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> No
     """Write the surface of a crater or a relief as CSV, STL, PLY, X3P or SDF.
 
     A crater goes to DIR/crater.FORMAT, a surface that moved to DIR/surface-profile.FORMAT: its
-    profile, as STL or PLY extruded along the lines by its width.
+    profile, as STL or PLY extruded along the lines by its width. The height of a texture goes to
+    DIR/height.FORMAT.
     """
     from lasersph.output import OutputError
     from lasersph.output.height_map import extruded_map, height_map
+    from lasersph.output.surface_files.read import read_surface
 
+    if (heights := folder / "height.x3p").exists():
+        print(read_surface(heights).write(folder / f"height.{format}"))
+        return
     run = opened(folder)
     if not len(run.snapshots):
         raise WrongCommand(f"{folder} has no snapshots yet")

@@ -59,7 +59,7 @@ def sweep(
     for note in loaded.notes():
         _say(f"note: {note}")
     if dry_run:
-        _forecast(loaded, engine)
+        forecast(loaded, engine)
         return DONE
     folder = out or Path("runs") / plan.stem
     if slurm is not None or slurm_dask is not None:
@@ -156,7 +156,8 @@ def _remake(folder: Path) -> int:
     return tell(found)
 
 
-def _forecast(plan: SweepPlan, engine: EngineOptions) -> None:
+def forecast(plan: SweepPlan, engine: EngineOptions) -> None:
+    """Say how many runs there are, how long they take, and which the case refuses."""
     from lasersph.compute.threads import available
     from lasersph.input import format_duration
     from lasersph.sweeps.forecast import forecast_seconds

@@ -1,0 +1,131 @@
+"""`lasersph texture`: the texture of a whole spot from cells of its pattern."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from lasersph.cli.arguments import CaseName, Out, Settings, read_quantity
+from lasersph.cli.engine_options import EngineOptions, takes_engine
+from lasersph.cli.failures import WrongCommand
+from lasersph.cli.sweeping import DryRun, forecast, make
+from lasersph.cli.tables import aligned
+
+if TYPE_CHECKING:
+    from lasersph.studies.texture.make import TexturePlan
+
+Cells = Annotated[
+    int, typer.Option("--cells", min=6, max=400, metavar="N", help="Fluences that are computed.")
+]
+Pixel = Annotated[
+    str | None,
+    typer.Option("--pixel", metavar="LENGTH", help="Of the maps; default: period over 40."),
+]
+Share = Annotated[
+    list[Path] | None,
+    typer.Option("--share", metavar="DIR", help="A sweep whose equal runs are taken."),
+]
+
+
+@takes_engine
+def texture(
+    case: CaseName,
+    engine: EngineOptions,
+    out: Out = None,
+    settings: Settings = None,
+    cells: Cells = 24,
+    pixel: Pixel = None,
+    share: Share = None,
+    dry_run: DryRun = False,
+) -> None:
+    """Compute the relief that a pulse leaves in its whole spot, from cells of the pattern."""
+    from lasersph.output import OutputError
+    from lasersph.output.image_file import read_maps
+    from lasersph.plots import style
+    from lasersph.plots.texture import texture_figure
+    from lasersph.studies.texture.make import CELLS, MAPS, assemble, link_runs, plan_texture
+    from lasersph.studies.texture.spot import NoTexture
+
+    size = None if pixel is None else read_quantity("--pixel", pixel, "length")
+    if size is not None and size <= 0.0:
+        raise WrongCommand(f'--pixel: "{pixel}" must be greater than 0')
+    given = dict(_setting(one) for one in settings or ())
+    try:
+        plan = plan_texture(case, given, cells)
+        if dry_run:
+            print(aligned(_rows(plan)))
+            forecast(plan.cells, engine)
+            return
+        folder = out or Path("runs") / f"{plan.case.name}-texture"
+        link_runs(plan.cells, folder / CELLS, share or [])
+    except (NoTexture, OutputError) as error:
+        raise WrongCommand(str(error)) from None
+    words = ["lasersph", "texture", case, *(w for s in settings or () for w in ("--set", s))]
+    words += ["--cells", str(cells), "--out", str(folder), *engine.words()]
+    again = shlex.join(words + (["--pixel", pixel] if pixel else []))
+    table = make(plan.cells, folder / CELLS, engine.engine(), again)
+    for row in table.rows:
+        if row.status != "complete":
+            print(f"lasersph: cell {row.run} {row.status}: {row.reason}", file=sys.stderr)
+    if not table.is_complete.all():
+        raise OutputError(f"not all cells are complete, so no texture; go on with: {again}")
+    try:
+        content = assemble(plan, folder, size)
+    except NoTexture as error:
+        raise OutputError(str(error)) from None
+    print(aligned([*_rows(plan), *_answer_rows(content)]))
+    for note in content["notes"]:
+        print(f"note: {note}")
+    print(style.save(texture_figure(read_maps(folder / MAPS), content), folder / "texture.png"))
+
+
+def _setting(text: str) -> tuple[str, Any]:
+    """Key and value of a --set. Raises WrongCommand."""
+    import tomllib
+
+    key, sign, value = text.partition("=")
+    if not sign:
+        raise WrongCommand(f'--set: "{text}" has no "="; write e.g. laser.fluence=0.8J/cm2')
+    try:
+        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key.strip(), value.strip()
+
+
+def _rows(plan: TexturePlan) -> list[tuple[str, str]]:
+    from lasersph.input import format_quantity
+
+    spot = plan.spot
+    moved = f", {format_quantity(plan.shift, 'm')} apart along x" if plan.pulses > 1 else ""
+    return [
+        ("spot", spot.shape),
+        ("fluence at its center", f"{1e-4 * spot.center:.4g} J/cm^2, mean over a period"),
+        ("period", format_quantity(plan.period, "m")),
+        ("pulses", f"{plan.case.laser.pulse.count if plan.case.laser else 1}{moved}"),
+    ]
+
+
+def _answer_rows(content: dict[str, Any]) -> list[tuple[str, str]]:
+    """The main numbers of texture.json."""
+    from lasersph.input import format_quantity
+
+    areal, errors = content["areal_parameters"], content["interpolation_error"]
+    sizes = ", ".join(f"{n} {format_quantity(areal[n], 'm')}" for n in ("Sa", "Sq", "Sz"))
+    rows = [
+        ("cells", str(len(content["cells"]["fluence_J_m2"]))),
+        ("deepest point", format_quantity(content["depth_max_m"], "m")),
+        ("highest point", format_quantity(content["rim_height_max_m"], "m")),
+        ("depth of the melt", format_quantity(content["melt_depth_max_m"], "m")),
+        ("largest speed", format_quantity(content["speed_max_m_s"], "m/s")),
+        ("ISO 25178", f"{sizes}, Ssk {areal['Ssk']:.3g}, Sdr {areal['Sdr']:.3g}"),
+    ]
+    for name, one in errors.items():
+        shown = [format_quantity(one[k], one["unit"], 2) for k in ("largest", "rms")]
+        share = 100.0 * one["largest"] / (one["largest_value"] or 1.0)
+        words = f"{shown[0]} at most ({share:.2g} %), {shown[1]} rms, each cell from the others"
+        rows.append((f"error of {name.replace('_', ' ')}", words))
+    return rows

@@ -1,0 +1,285 @@
+"""From a case with a spot to the maps of the whole spot, by the runs of some tens of cells.
+
+Cells lie evenly in fluence, from just below what melts by the estimate of the case to the fluence
+at the center of the spot. They are runs of the case without its spot, as a sweep over laser.fluence
+makes them, and lie in a folder of that kind: `cells/runs`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lasersph.case import Case
+from lasersph.input import CaseError
+from lasersph.lasers import InterferenceBeam, SpotFluence
+from lasersph.observers.areal_parameters import areal_parameters
+from lasersph.output import OutputError, open_run
+from lasersph.output.atomic import replace_json, replace_text
+from lasersph.output.errors import clear_errors
+from lasersph.output.height_map import HeightMap
+from lasersph.output.image_file import Maps, write_maps
+from lasersph.simulation.layers import expected_melt
+from lasersph.studies.texture.cells import PERIOD_FITS, UNITS, read_cell
+from lasersph.studies.texture.spot import NoTexture, texture_maps
+from lasersph.studies.texture.table import CellTable
+from lasersph.sweeps import CaseTemplate, SweepPlan, Table, build_plan
+from lasersph.sweeps.folder import RUNS
+from lasersph.sweeps.points import Value
+
+ANSWER, MAPS, HEIGHTS, PROFILE, CELLS = (
+    "texture.json",
+    "maps.vtkhdf",
+    "height.x3p",
+    "profile.csv",
+    "cells",
+)
+SCHEMA = 1
+KEY = "laser.fluence"
+FEWEST, USUAL = 6, 24
+"""Cells at least, which leaves four to be left out; and where nothing is said: with 24 the
+interpolation errs less than a spacing of 16 nm does."""
+BELOW = 0.97
+"""Fluence of the lowest cell over that at which the estimate melts, which is an upper bound of
+heat: it melts earlier than the case by some percent."""
+BISECTIONS = 8
+PIXELS_A_PERIOD = 40
+DIGITS = 6
+"""Of the fluences, as a user may write them in a plan."""
+
+
+@dataclass(frozen=True)
+class TexturePlan:
+    """What a texture needs of its case.
+
+    Attributes:
+        case: with its spot. cells: the sweep of the case without it, over `KEY`.
+        spot: local fluence. period: of the pattern along x [m].
+        pulses, shift: pulses that are moved, and by how much along x [m]; one where they stay at
+            one place.
+    """
+
+    case: Case
+    cells: SweepPlan
+    spot: SpotFluence
+    period: float
+    pulses: int
+    shift: float
+
+
+def plan_texture(
+    name: str | PathLike[str], settings: Mapping[str, Value] | None = None, cells: int = USUAL
+) -> TexturePlan:
+    """The plan of a texture.
+
+    Args:
+        name: case file, or name of a shipped case. settings: keys of the case, as `--set`.
+        cells: number of fluences.
+
+    Raises:
+        CaseError: what is wrong with the case. NoTexture: what a texture needs and it does not
+            have.
+    """
+    given = dict(settings or {})
+    template = CaseTemplate(name, given)
+    case = template.file.case(template.overrides({}))
+    laser = case.laser
+    if laser is None or not isinstance(laser.beam, InterferenceBeam):
+        raise NoTexture(f"{case.name} has no pattern of interfering beams to texture with")
+    period = laser.beam.lateral_period
+    if laser.spot is None or period is None:
+        raise NoTexture(
+            f"{case.name} has no spot; write e.g. spot = {{ diameter = "
+            '"50 um", definition = "1/e^2" } in [laser]'
+        )
+    if case.solver.dimensions != 2 or laser.beam.lateral_period_y is not None:
+        raise NoTexture("a texture is of lines along y: two beams along x, and a case in 2-D")
+    if not case.surface_moves:
+        raise NoTexture(
+            f'the surface of {case.name} does not move; write surface = "moving" in [solver.flow]'
+        )
+    if laser.spot.extent != "cell":
+        raise NoTexture('laser.spot.extent is "whole"; write extent = "cell": cells make the spot')
+    width = case.domain.width or 0.0
+    if abs(width - period) > PERIOD_FITS * period:
+        raise NoTexture(
+            f"a cell is one period wide: write domain.width = {1e6 * period:.6g} um, not "
+            f"{1e6 * width:.6g} um"
+        )
+    if laser.fluence_kind == "peak":
+        raise NoTexture('laser.fluence_kind is "peak", cells count their mean; write "mean"')
+    bare = {key: one for key, one in given.items() if not key.startswith((KEY, "laser.spot"))}
+    bare |= {"laser.spot": "", "laser.pulse_energy": "", "laser.power": "", "laser.intensity": ""}
+    bare["laser.fluence_kind"] = "mean"
+    moves = laser.displacement is not None and laser.pulse.count > 1
+    pulses, shift = (laser.pulse.count, float(laser.displacement or 0.0)) if moves else (1, 0.0)
+    if moves:
+        bare["laser.pulse.count"] = 1
+    spot = laser.spot_fluence
+    fluences = cell_fluences(CaseTemplate(name, {**bare, KEY: "1 J/cm^2"}), spot.center, cells)
+    vary = {KEY: [f"{one!r} J/m^2" for one in fluences]}
+    plan = build_plan(str(name), vary, set=bare)
+    return TexturePlan(case, plan, spot, period, pulses, shift)
+
+
+def cell_fluences(template: CaseTemplate, highest: float, cells: int) -> tuple[float, ...]:
+    """Fluences of the cells [J/m^2], rising from just below what melts to the highest.
+
+    Raises:
+        CaseError: the case refuses the highest fluence. NoTexture: that melts nothing, by the
+            estimate.
+    """
+
+    def melts(fluence: float) -> bool:
+        point = template.point({KEY: fluence})
+        if point.case is None:
+            raise CaseError(f"the case refuses a cell of {fluence:g} J/m^2: {point.reason}")
+        found = expected_melt(point.case)
+        return found is not None and found.depth > 0.0
+
+    if not melts(highest):
+        raise NoTexture(
+            f"{1e-4 * highest:.4g} J/cm^2 at the center melt nothing, by the estimate of the case"
+        )
+    dark, bright = 0.0, highest
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (dark + bright)
+        dark, bright = (dark, middle) if melts(middle) else (middle, bright)
+    *rising, _ = np.linspace(BELOW * bright, highest, cells)
+    return (*(float(f"{one:.{DIGITS}g}") for one in rising), highest)
+
+
+def assemble(plan: TexturePlan, folder: Path, pixel: float | None = None) -> dict[str, Any]:
+    """Make the maps of the spot from complete cells in `folder`/cells.
+
+    Args:
+        folder: receives maps.vtkhdf, height.x3p, profile.csv and texture.json.
+        pixel: side of a pixel [m]; a fortieth of the period where it is not given.
+
+    Returns:
+        Content of texture.json.
+
+    Raises:
+        NoTexture: see `texture_maps`. OutputError: a folder cannot be read or written.
+    """
+    table = read_table(folder / CELLS, plan.period)
+    pixel = plan.period / PIXELS_A_PERIOD if pixel is None else pixel
+    maps = texture_maps(plan.spot, table, pixel, pulses=plan.pulses, shift=plan.shift)
+    content = answer(plan, table, maps, pixel)
+    write_maps(folder / MAPS, maps)
+    height = HeightMap(maps.x, maps.y, maps.fields["height"], time=plan.case.time.end)
+    height.write(folder / HEIGHTS)
+    replace_text(folder / PROFILE, profile_text(maps))
+    replace_json(folder / ANSWER, content)
+    return content
+
+
+def link_runs(plan: SweepPlan, folder: Path, share: Sequence[Path]) -> int:
+    """Link complete runs of other sweeps, whose cases are equal, into a folder of runs; how many.
+
+    Raises:
+        OutputError: one of the folders holds no runs, or ours cannot be written.
+    """
+    wanted = {point.hash for point in plan.points()}
+    count = 0
+    for other in share:
+        if not (other / RUNS).is_dir():
+            raise OutputError(f"{other} holds no runs to share: it has no folder {RUNS}")
+        with clear_errors("write", folder):
+            (folder / RUNS).mkdir(parents=True, exist_ok=True)
+            wanted -= {entry.name.partition("-")[2] for entry in (folder / RUNS).iterdir()}
+            for run in sorted((other / RUNS).iterdir()):
+                if run.name.partition("-")[2] in wanted and open_run(run).is_complete:
+                    (folder / RUNS / run.name).symlink_to(run.absolute())
+                    count += 1
+    return count
+
+
+def read_table(folder: str | PathLike[str], period: float) -> CellTable:
+    """The table of the complete cells in a folder of runs over the fluence.
+
+    Raises:
+        OutputError: no runs, or runs that are no cells of this period [m].
+    """
+    rows = [row for row in Table.read(folder).rows if row.status == "complete"]
+    if len(rows) < 3:
+        raise OutputError(f"{folder} holds {len(rows)} complete cells, fewer than three")
+    runs = [open_run(Path(folder) / RUNS / row.run) for row in rows]
+    cells = [
+        (float(row.settings[KEY]), read_cell(run, period))
+        for row, run in zip(rows, runs, strict=True)
+    ]
+    return CellTable.of(cells, period, float(runs[0].case["initial_temperature"]))
+
+
+def answer(plan: TexturePlan, table: CellTable, maps: Maps, pixel: float) -> dict[str, Any]:
+    """Content of texture.json, SI."""
+    height = maps.fields["height"]
+    errors = {name: table.leave_one_out(name) for name in UNITS}
+    interpolation = {
+        name: {
+            "unit": unit,
+            "largest": float(errors[name].max()),
+            "rms": float(np.sqrt(np.mean(errors[name] ** 2))),
+            "largest_value": float(np.abs(table.values[name]).max()),
+        }
+        for name, unit in UNITS.items()
+    }
+    return {
+        "schema_version": SCHEMA,
+        "case": plan.case.name,
+        "title": plan.case.title,
+        "period_m": plan.period,
+        "pixel_m": pixel,
+        "pulses": plan.pulses,
+        "shift_m": plan.shift,
+        "spot": {
+            "shape": plan.spot.shape,
+            "diameter_m": plan.spot.diameter,
+            "pulse_energy_J": plan.spot.energy,
+            "fluence_at_center_J_m2": plan.spot.center,
+            "fluence_over_spot_J_m2": plan.spot.mean,
+        },
+        "cells": {"fluence_J_m2": table.fluence.tolist(), "key": KEY},
+        "interpolation_error": interpolation,
+        "areal_parameters": areal_parameters(height, pixel, pixel)._asdict(),
+        "depth_max_m": float(max(-height.min(), 0.0)),
+        "rim_height_max_m": float(max(height.max(), 0.0)),
+        "melt_depth_max_m": float(maps.fields["melt_depth"].max()),
+        "temperature_max_K": float(maps.fields["temperature"].max()),
+        "speed_max_m_s": float(maps.fields["speed"].max()),
+        "notes": notes_of(plan, table),
+    }
+
+
+def notes_of(plan: TexturePlan, table: CellTable) -> list[str]:
+    """What a user should know of the texture, in lines."""
+    found = []
+    if np.any(table.values["melt_depth"][0] > 0.0):
+        found.append(
+            f"the lowest cell, of {1e-4 * table.fluence[0]:.4g} J/cm^2, melts: the edge of the "
+            "texture is interpolated to no melt without light"
+        )
+    change = 2.4 * plan.period / plan.spot.diameter
+    found.append(
+        f"the fluence changes by up to {100.0 * change:.2g} % of that at the center over a period; "
+        "cells know no slope of it"
+    )
+    return found
+
+
+def profile_text(maps: Maps) -> str:
+    """The line of the spot along x through its center as CSV, SI."""
+    row = int(np.argmin(np.abs(maps.y)))
+    names = [
+        f"{name}_{maps.units[name].replace('/', '_').replace('^', '')}" for name in maps.fields
+    ]
+    lines = [",".join(["x_m", *names])]
+    columns = [maps.x, *(field[row] for field in maps.fields.values())]
+    lines += [",".join(f"{one:.9g}" for one in line) for line in zip(*columns, strict=True)]
+    return "\n".join(lines) + "\n"

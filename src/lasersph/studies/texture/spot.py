@@ -1,0 +1,104 @@
+"""The maps of a spot: at each pixel the value of a cell of the local fluence at the local phase.
+
+    z(x, y) = Z(F(x, y), x mod period)
+
+F is the local fluence, mean over a period, and Z the table of cells. A cell knows neither the slope
+of F across a period nor the heat that flows along it: in a Gaussian spot of diameter D at 1/e^2 the
+fluence changes by up to 2.4 p/D of that at the center over a period p.
+
+Pulses that are moved: a pulse finds the relief of those before. Where it melts nothing, that relief
+stays; where nothing has been molten before, it meets a flat surface, as a cell does. Where it
+melts what another has molten, cells of one pulse say nothing, and this is refused.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.input import format_quantity
+from lasersph.lasers import SpotFluence
+from lasersph.output.image_file import Maps
+from lasersph.studies.texture.cells import UNITS
+from lasersph.studies.texture.table import CellTable
+
+Array = NDArray[np.float64]
+MOST_PIXELS = 16_000_000
+"""Of a map, five of which take 0.6 GB."""
+RAYS = 400
+"""Points on the half axes of a spot among which the last molten one is looked for."""
+UNITS_OF_MAPS = {**UNITS, "fluence": "J/m^2"}
+
+
+class NoTexture(ValueError):
+    """The texture cannot be told; the text says why, in one line."""
+
+
+def half_sizes(spot: SpotFluence, table: CellTable) -> tuple[float, float]:
+    """Half width and height of the area where cells change the surface, and a period more [m].
+
+    Raises:
+        NoTexture: the fluence at the center melts nothing.
+    """
+    touched = [np.any(table.values[name] != 0.0, axis=1) for name in ("height", "melt_depth")]
+    changed = np.flatnonzero(touched[0] | touched[1])
+    if changed.size == 0:
+        raise NoTexture(
+            f"no cell up to {1e-4 * table.fluence[-1]:.4g} J/cm^2 melts: there is no texture"
+        )
+    least = table.fluence[max(changed[0] - 1, 0)]
+    ray = np.linspace(0.0, 1.5 * spot.diameter, RAYS)
+    sizes = []
+    for x, y in (np.array([1.0, 0.0]), np.array([0.0, 1.0])):
+        bright = np.maximum(spot.at(ray * x, ray * y), spot.at(-ray * x, -ray * y)) > least
+        last = ray[np.flatnonzero(bright)[-1]] if bright.any() else 0.0
+        sizes.append(float(last) + table.period)
+    return sizes[0], sizes[1]
+
+
+def texture_maps(
+    spot: SpotFluence, table: CellTable, pixel: float, *, pulses: int = 1, shift: float = 0.0
+) -> Maps:
+    """Height, melt depth, largest temperature and speed, and fluence over the spot.
+
+    Args:
+        pixel: side of a pixel [m]; pixels lie evenly about the center.
+        pulses: that are `shift` [m] apart along x; the first one at x = 0.
+
+    Raises:
+        NoTexture: nothing melts, too many pixels, or pulses that melt the same place.
+    """
+    half = half_sizes(spot, table)
+    reach = (pulses - 1) * shift
+    counts = [int(np.ceil(size / pixel)) for size in half]
+    x = pixel * np.arange(-counts[0], counts[0] + int(np.ceil(reach / pixel)) + 1)
+    y = pixel * np.arange(-counts[1], counts[1] + 1)
+    if x.size * y.size > MOST_PIXELS:
+        least = pixel * np.sqrt(x.size * y.size / MOST_PIXELS)
+        raise NoTexture(
+            f"{x.size} times {y.size} pixels are too many; write --pixel {1e9 * least:.0f}nm or "
+            "more"
+        )
+    fields = {name: np.zeros((y.size, x.size)) for name in UNITS}
+    fields["temperature"] += table.initial_temperature
+    fluence = np.zeros((y.size, x.size))
+    has_melted = np.zeros((y.size, x.size), dtype=bool)
+    for number in range(pulses):
+        here = x - number * shift
+        local = spot.at(here[None, :], y[:, None])
+        found = {name: table.at(name, local, here[None, :]) for name in UNITS}
+        melts = (found["melt_depth"] > 0.0) | (found["height"] != 0.0)
+        if np.any(melts & has_melted):
+            row, column = (int(n) for n in np.argwhere(melts & has_melted)[0])
+            place = ", ".join(format_quantity(at, "m") for at in (x[column], y[row]))
+            raise NoTexture(
+                f"pulse {number + 1} melts what an earlier one has molten, first at ({place}): "
+                "cells of one pulse do not tell its relief; move the spot farther (laser.spot."
+                f"shift), or leave it at one place, whose cells have {pulses} pulses"
+            )
+        has_melted |= melts
+        fields["height"] += found["height"]
+        for name in ("melt_depth", "temperature", "speed"):
+            np.maximum(fields[name], found[name], out=fields[name])
+        np.maximum(fluence, local, out=fluence)
+    return Maps(x, y, {**fields, "fluence": fluence}, UNITS_OF_MAPS)
