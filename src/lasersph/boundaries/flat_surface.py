@@ -130,6 +130,9 @@ class FlatSurface:
             T, gamma = surface_tension_table(material)
             self.table = {"T_nodes": backend.asarray(T), "gamma_nodes": backend.asarray(gamma)}
 
+    def rest(self) -> None:
+        """Nothing outlives the flow below."""
+
     def find(self, position: Array) -> None:
         """Set marks and depths of the particles at `position`, shape (2, n) [m]."""
         out = (self.at_surface, self.near_surface, self.depth)

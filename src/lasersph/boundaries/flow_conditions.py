@@ -19,16 +19,14 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, get_args
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, model_validator
 from pydantic_core import CoreSchema
 
 from lasersph.boundaries.initial_flow import InitialFlow, RestingFlow
-from lasersph.input import Length, Model, Velocity, refusal
+from lasersph.boundaries.initial_surface import InitialSurface
+from lasersph.input import Model, Velocity, refusal
 from lasersph.particles.faces import PLANE, face_pairs
 
-Array = NDArray[np.float64]
 FlowKind = Literal[
     "no-slip",
     "moving-wall",
@@ -92,18 +90,6 @@ def _from_word(value: Any) -> Any:
 
 AT_REST = FlowCondition.model_validate({})
 Condition = Annotated[FlowCondition, BeforeValidator(_from_word)]
-
-
-class InitialSurface(Model):
-    """Height of the surface at the start: amplitude cos(2 pi x / period)."""
-
-    amplitude: Length = Field(description="at x = 0")
-    period: Annotated[Length, Field(gt=0)]
-
-    def at(self, x: Array, width: float = 0.0) -> Array:
-        """Height [m] at x [m]; mean over columns of a width [m] around x."""
-        wave = np.cos(2.0 * np.pi * np.asarray(x, float) / self.period)
-        return self.amplitude * np.sinc(width / self.period) * wave
 
 
 class FlowConditions(Model):

@@ -61,7 +61,9 @@ class TabulatedFlow(Model):
         """Rows from the file, which counts from the folder of the case file."""
         if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("rows"):
             folder = (info.context or {}).get("folder") or Path()
-            return data | {"rows": read_rows(Path(folder) / Path(data["path"]).expanduser())}
+            return data | {
+                "rows": read_rows(Path(folder) / Path(data["path"]).expanduser(), COLUMNS)
+            }
         return data
 
     @model_validator(mode="after")
@@ -83,35 +85,37 @@ class TabulatedFlow(Model):
         return np.where(np.isnan(linear), nearest, linear).T.copy()
 
 
-def read_rows(file: Path) -> list[tuple[float, ...]]:
-    """Rows (x, z, u, w) of a CSV file with these column names.
+def read_rows(file: Path, columns: tuple[str, ...]) -> list[tuple[float, ...]]:
+    """Rows of numbers of a CSV file with these column names.
 
     Raises CaseError with the line of what cannot be read.
     """
     try:
         with file.open(newline="", encoding="utf-8-sig") as stream:
             reader = csv.DictReader(stream)
-            missing = [name for name in COLUMNS if name not in (reader.fieldnames or ())]
+            missing = [name for name in columns if name not in (reader.fieldnames or ())]
             if missing:
                 raise CaseError(
                     f"no column {', '.join(missing)}",
-                    'the first line must name the columns "x,z,u,w"',
+                    f'the first line must name the columns "{",".join(columns)}"',
                     file=str(file),
                     line=1,
                 )
-            return [_numbers(row, file, reader.line_num) for row in reader]
+            return [_numbers(row, columns, file, reader.line_num) for row in reader]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or "is no CSV text"
         raise CaseError(f"cannot be read: {reason}", file=str(file)) from None
 
 
-def _numbers(row: dict[str, str], file: Path, line: int) -> tuple[float, ...]:
+def _numbers(
+    row: dict[str, str], columns: tuple[str, ...], file: Path, line: int
+) -> tuple[float, ...]:
     try:
-        numbers = tuple(float(row[name]) for name in COLUMNS)
+        numbers = tuple(float(row[name]) for name in columns)
     except (TypeError, ValueError):
         numbers = (math.nan,)
     if not all(math.isfinite(number) for number in numbers):
-        raise CaseError("needs four finite numbers", file=str(file), line=line)
+        raise CaseError(f"needs {len(columns)} finite numbers", file=str(file), line=line)
     return numbers
 
 

@@ -118,11 +118,7 @@ class MovingSurface:
             self._n, self._distance, self._shift, self._jump, self._p_b, CLOSEST * spacing
         )
         self.pressure: PressureCondition | None = None
-        self._shear, self._stretch = np.zeros(line.count), np.zeros(line.count)
-        self._line_pressure, self._line_temperature = np.zeros(line.count), np.zeros(line.count)
-        self._gradient, self._followed = np.zeros(line.count), np.zeros(line.count)
-        T = liquid.material.flow_temperature
-        self._tension = float(liquid.material.surface_tension_at(T))
+        self._followed = np.zeros(line.count)
         low, high = (END_KINDS[kind] for kind in line.ends)
         self._grid = {"start": line.start, "inverse": 1.0 / line.width}
         self._ends = self._grid | {"columns": line.count, "low_end": low, "high_end": high}
@@ -133,14 +129,24 @@ class MovingSurface:
             self._gamma_table = surface_tension_table(liquid.material)
         self.flux_loss, self.segments = 0.0, SurfaceSegments(line)
         self._kept: dict[str, HostArray] = {}
-        self._renew()
+        self.rest()
 
     @property
     def arrays(self) -> dict[str, Array]:
         """Arrays of a checkpoint by name."""
-        host = {"height": self.line.height, "shear": self._shear, "stretch": self._stretch}
-        host["followed"] = self._followed
-        return {f"surface_{name}": self.backend.asarray(host[name]) for name in LINE}
+        return {name: self.backend.asarray(values) for name, values in self._on_host().items()}
+
+    def _on_host(self) -> dict[str, HostArray]:
+        values = (self.line.height, self._shear, self._stretch, self._followed)
+        return {f"surface_{name}": value for name, value in zip(LINE, values, strict=True)}
+
+    def rest(self) -> None:
+        """Forget strain rates, stresses and temperatures along the line."""
+        metal, zero = self.liquid.material, np.zeros(self.line.count)
+        self._shear = self._stretch = self._gradient = zero
+        self._line_pressure = self._line_temperature = zero
+        self._tension = float(metal.surface_tension_at(metal.flow_temperature))
+        self._renew()
 
     def find(self, position: Array) -> None:
         """Set marks, depths and ghosts of the particles at `position`, shape (2, n) [m]."""
@@ -330,12 +336,7 @@ class MovingSurface:
 
     def save(self) -> None:
         """Remember the line, for `go_back`."""
-        self._kept = {
-            "surface_height": self.line.height,
-            "surface_shear": self._shear,
-            "surface_stretch": self._stretch,
-            "surface_followed": self._followed,
-        }
+        self._kept = self._on_host()
 
     def go_back(self) -> None:
         """Take the line that `save` remembered."""

@@ -126,6 +126,10 @@ class Surface(Protocol):
         """Go ahead with particles that are advected through the step; `now` is from its begin."""
         ...
 
+    def rest(self) -> None:
+        """Forget what the flow below has left at the surface, but for its heights."""
+        ...
+
     def find(self, position: Array) -> None:
         """Set marks and depths of the particles at `position`, shape (dim, n) [m]."""
         ...

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case.flow_checks import flow_problems
 from lasersph.case.motion_checks import motion_problems
+from lasersph.case.pulse_checks import pulse_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
@@ -44,6 +45,7 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         *_unread_keys(case),
         *flow_problems(case),
         *surface_problems(case),
+        *pulse_problems(case),
         *motion_problems(case),
         *_size(case),
         *_probes(case),
@@ -219,13 +221,19 @@ def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
     if dimensions == 1 and holds_spot:
         yield "laser.spot.extent", 'a 1-D run cannot hold a spot; write extent = "cell"'
         return
-    if domain.extent == "half" and not laser.is_even:
+    if domain.extent == "half" and not laser.first_pulse.is_even:
         yield (
             "domain.extent",
             'this beam is not symmetric about x = 0; write extent = "full"',
         )
     if not isinstance(laser.beam, InterferenceBeam) or holds_spot:
         return
+    if laser.beam.shift and not laser.is_even and case.boundaries.kind_of("left") == "adiabatic":
+        yield (
+            "laser.beam.shift",
+            "takes the pattern away from the planes of symmetry at the sides; shift by half a "
+            'period, or write sides = "periodic" in [boundaries] and extent = "full" in [domain]',
+        )
     repeating = ("adiabatic", "periodic")
     ends = {case.boundaries.kind_of("left"), case.boundaries.kind_of("right")}
     if ends & set(repeating):
@@ -292,7 +300,9 @@ def _probes(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 
 def _snapshots(case: CaseContents) -> Iterator[tuple[str, str]]:
+    if case.end_of_pulse <= 0.0:  # which `pulse_problems` tells
+        return
     try:
-        SnapshotSchedule(case.output.snapshots, case.time.end)
+        SnapshotSchedule(case.output.snapshots, case.end_of_pulse)
     except ValueError as error:
         yield "output.snapshots.interval", str(error)

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from lasersph.boundaries import Boundaries, FlowConditions, InitialMotion, Vessel
+from lasersph.boundaries.initial_surface import InitialSurface
 from lasersph.case.material_choice import MaterialChoice
 from lasersph.case.solver_choice import SolverChoice
 from lasersph.input import Model, Temperature
@@ -64,6 +65,28 @@ class CaseContents(Model):
         """Whether the surface of a flow moves."""
         flow = getattr(self.solver, "flow", None)
         return flow is not None and flow.surface.kind == "moving"
+
+    @property
+    def initial_surface(self) -> InitialSurface | None:
+        """`solver.flow.initial_surface`: heights of a surface that moves, at the start."""
+        flow = getattr(self.solver, "flow", None)
+        return None if flow is None else flow.initial_surface
+
+    @property
+    def pause(self) -> Literal["compute", "spread", "remove"]:
+        """What is done between the pulses of a train, see `TimeSettings.pause`."""
+        if self.laser is None or self.laser.pulse.count == 1:
+            return "compute"
+        return self.time.pause or ("remove" if self.surface_moves else "compute")
+
+    @property
+    def end_of_pulse(self) -> float:
+        """Time to compute of each pulse [s]: until the end, where pauses are jumped over after the
+        start of the last one."""
+        if self.pause == "compute" or self.laser is None:
+            return self.time.end
+        pulse = self.laser.pulse
+        return self.time.end - (pulse.count - 1) * (pulse.interval or 0.0)
 
     @property
     def vessel(self) -> Vessel | None:

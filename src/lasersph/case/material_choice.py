@@ -119,8 +119,9 @@ def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[s
             merged[key] = _sourced(value)
         elif key == "by_wavelength" and isinstance(value, dict):
             tables = {name: _sourced(table) for name, table in value.items()}
-            for table in (tables[name] for name in tables if "reflectivity" in tables[name]):
-                table["reflectivity"] = _sourced(table["reflectivity"])
+            for table in tables.values():
+                if table.get("reflectivity") is not None:
+                    table["reflectivity"] = _sourced(table["reflectivity"])
             merged[key] = merged.get(key, {}) | tables
         elif key in UNSOURCED:
             merged[key] = value

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
 from typing import TYPE_CHECKING
 
+from lasersph.boundaries.initial_surface import InitialSurface
 from lasersph.case.solver_choice import computes_flow
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
@@ -17,6 +17,8 @@ FEWEST_ROWS = 3
 """Spacings in the depth of a liquid whose surface moves; flow in fewer is not seen."""
 FEWEST_COLUMNS = 12
 """Columns of a line whose differences of fifth order see both of its ends."""
+SLOPE_COLUMNS = 6.0
+"""Columns over which the slope of a relief from a file counts; single ones have noise."""
 STEEPEST = 1.0
 """Slope of a surface that is a function of x, as its particles see it."""
 DRIVES = ("surface_pressure_wave", "surface_mass_flux_wave")
@@ -65,21 +67,39 @@ def _shape(case: CaseContents) -> Iterator[tuple[str, str]]:
             f"a surface that moves needs {FEWEST_COLUMNS} columns of particles; write spacing = "
             f'"{1e9 * (x[1] - x[0]) / FEWEST_COLUMNS:.3g} nm" or less',
         )
-    start = None if case.flow is None else case.flow.initial_surface
-    if start is None:
-        return
-    height, slope = abs(start.amplitude), 2.0 * pi * abs(start.amplitude) / start.period
-    if case.domain.depth - height < FEWEST_ROWS * spacing:
+    if case.initial_surface is not None:
+        yield from _start(case, case.initial_surface, x)
+
+
+def _start(
+    case: CaseContents, start: InitialSurface, x: tuple[float, float]
+) -> Iterator[tuple[str, str]]:
+    """Whether a surface can begin as it is given."""
+    key = "solver.flow.initial_surface." + ("path" if start.rows else "amplitude")
+    depth = case.domain.depth if case.flow is not None else case.particles.fine_depth
+    if depth is not None and depth - start.extent < FEWEST_ROWS * case.particles.spacing:
+        what, right = "liquid", "a smaller amplitude"
+        if case.flow is None:
+            what, right = "the finest layers", "a larger particles.fine_depth"
         yield (
-            "solver.flow.initial_surface.amplitude",
-            f"leaves {format_quantity(case.domain.depth - height, 'm')} of liquid, less than "
-            f"{FEWEST_ROWS} spacings; write a smaller amplitude",
+            key,
+            f"leaves {format_quantity(depth - start.extent, 'm')} of {what}, less than "
+            f"{FEWEST_ROWS} spacings; write {right}",
         )
-    if slope > STEEPEST:
+    steepest = start.steepest(SLOPE_COLUMNS * case.particles.spacing)
+    if steepest > STEEPEST:
         yield (
-            "solver.flow.initial_surface.amplitude",
-            f"is a slope of {slope:.3g}, more than {STEEPEST:.0f}; write a smaller amplitude or a "
-            "longer period",
+            key,
+            f"is a slope of {steepest:.3g}, more than {STEEPEST:.0f}; write a smaller "
+            "amplitude or a longer period",
+        )
+    if not start.covers(*x):
+        yield (
+            key,
+            f"has heights from {format_quantity(start.x[0], 'm')} to "
+            f"{format_quantity(start.x[-1], 'm')}, but the domain is as wide as "
+            f"{format_quantity(x[0], 'm')} to {format_quantity(x[1], 'm')}; name the relief of a "
+            "run with this width and extent",
         )
 
 

@@ -36,7 +36,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.input import Angle, Model, format_quantity, refusal
+from lasersph.input import Angle, Length, Model, format_quantity, refusal
 from lasersph.lasers.beams import PositiveLength, plane_cells
 
 Array = NDArray[np.float64]
@@ -128,6 +128,12 @@ class InterferenceBeam(Model):
         default=None,
         exclude_if=lambda given: given is None,
         description="of each beam; 0 if left out",
+    )
+    shift: Length = Field(
+        default=0.0,
+        exclude_if=lambda given: given == 0.0,
+        description="of the pattern along x from each pulse to the next",
+        examples=["0.5 um"],
     )
     mean: ClassVar[float] = 1.0
     area: ClassVar[None] = None
@@ -345,9 +351,11 @@ class InterferenceBeam(Model):
 
     @property
     def is_even(self) -> bool:
-        """Whether f(-x, 0) = f(x, 0), so that half a period with symmetry at its ends will do."""
+        """Whether f(-x, 0) = f(x, 0), so that half a period with symmetry at its ends will do; with
+        a shift, of every pulse."""
         c, K, phase = self.terms
-        return bool(np.all(np.abs(c * np.sin(phase) * (K[0] != 0.0)) < 1e-9))
+        odd = np.abs(np.sin(phase) * (K[0] != 0.0)) + np.abs(np.sin(K[0] * self.shift))
+        return bool(np.all(np.abs(c) * odd < 1e-9))
 
     @property
     def scale(self) -> float:

@@ -176,6 +176,18 @@ class Laser(Model):
         return self
 
     @model_validator(mode="after")
+    def _check_shift(self) -> Laser:
+        if not isinstance(self.beam, InterferenceBeam) or not self.beam.shift:
+            return self
+        if self.pulse.count == 1:
+            raise refusal(
+                ("beam.shift", "says nothing with one pulse; leave it out, or give more pulses")
+            )
+        if self.path is not None or self.is_bounded:
+            raise refusal(("beam.shift", "is not computed of a spot or its path; leave it out"))
+        return self
+
+    @model_validator(mode="after")
     def _check_wavelength(self) -> Laser:
         waves = self.beam.wavelength if isinstance(self.beam, InterferenceBeam) else None
         if None not in (self.wavelength, waves) and self.wavelength != waves:
@@ -247,6 +259,14 @@ class Laser(Model):
         return self.unit_fluence * float(1.0 + np.abs(self.beam.terms[0]).sum())
 
     @property
+    def first_pulse(self) -> Laser:
+        """The same laser with its first pulse alone."""
+        single = {"pulse": self.pulse.model_copy(update={"count": 1})}
+        if isinstance(self.beam, InterferenceBeam):
+            single["beam"] = self.beam.model_copy(update={"shift": 0.0})
+        return self.model_copy(update=single)
+
+    @property
     def is_even(self) -> bool:
         """Whether the light is symmetric about x = 0 at all times."""
         if isinstance(self.beam, UniformBeam) and not self.is_bounded:
@@ -282,6 +302,13 @@ class Laser(Model):
                 the line x = y = 0, dim - 1 = 1 a strip of the line y = 0.
         """
         low, high = np.asarray(lower, float), np.asarray(upper, float)
+        if isinstance(self.beam, InterferenceBeam) and self.beam.shift:
+            shares = self.pulse.shares(t0, t1)
+            total = np.zeros(low.shape[1])
+            for number in np.flatnonzero(shares):
+                axis = self.axis(t0) + np.array([number * self.beam.shift, 0.0])
+                total += shares[number] * self.beam.cell_means(low, high, axis)
+            return self.unit_fluence * total
         if self.path is None:
             share = float(self.pulse.delivered(t0, t1))
             if share == 0.0:

@@ -107,6 +107,11 @@ class PulseTrain(Model, ABC):
         """Energy delivered from `start` to `end` [s], in units of one pulse's energy."""
         return self.delivered_until(end) - self.delivered_until(start)
 
+    def shares(self, start: float, end: float) -> Array:
+        """Energy of each pulse delivered from `start` to `end` [s], (count,), in units of one's."""
+        before = np.arange(self.count) * (self.interval or 0.0)
+        return self.share_until(end - before) - self.share_until(start - before)
+
     def breakpoints(self, start: float = 0.0, end: float = np.inf) -> Array:
         """Times at which the light begins or ends (or jumps), within [start, end], rising [s].
 

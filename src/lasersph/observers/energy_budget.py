@@ -4,7 +4,7 @@ Solvers book what crosses the border of the metal and what their numerics add or
 observer sums the fields. None of the two knows the other, so each of these can fail:
 
     light     unassigned = incident - reflected - transmitted - absorbed
-    metal     absorbed + shifting + ejection work - lost - removed - discarded
+    metal     absorbed + shifting + ejection work - lost - removed - discarded - pauses
                   = sum m h + kinetic energy,                            since the start
     ejecta    removed = sum m (h + v^2 / 2) of all that has left, where the run follows it
 
@@ -41,6 +41,7 @@ BOOKED = {
     "discarded": "energy cut off at the full heat of vaporization",
     "shifting": "heat that particle shifting added",
     "ejection_work": "kinetic energy that no heat of the ejecta pays for",
+    "pauses": "heat taken away in pauses between pulses that are jumped over",
     "newton_residual": "sum of the residuals of implicit steps, which joined the enthalpies",
 }
 """What solvers book since the start; a `View` holds them."""
@@ -113,7 +114,7 @@ class EnergyBudget(Observer):
 def imbalance(terms: dict[str, float]) -> float:
     """Energy that the metal has beyond what the bookings explain [J], by TERMS."""
     came = terms["absorbed"] + terms["shifting"] + terms["ejection_work"]
-    went = terms["lost"] + terms["removed"] + terms["discarded"]
+    went = terms["lost"] + terms["removed"] + terms["discarded"] + terms["pauses"]
     kinetic = terms["kinetic"] if terms["incident"] > 0.0 else 0.0
     return terms["stored"] + kinetic - (came - went)
 

@@ -152,6 +152,8 @@ def pool_depth(view: View, fraction: np.ndarray, faces: np.ndarray, least: float
     if least != HALF:
         return deepest
     lowest = np.flatnonzero(fluid & (faces >= deepest * (1.0 - SAME)))
+    if lowest.size == 0:  # all of it on a rim, above the original surface
+        return 0.0
     upper = int(lowest[np.argmax(view.enthalpy[lowest])])
     is_below = (faces > faces[upper]) & ~fluid
     for axis in range(view.dimension - 1):

@@ -43,6 +43,7 @@ class Steps(Observer):
         if view.step > 0:
             self.limits[view.limit] = self.limits.get(view.limit, 0) + 1
             self.iterations = {name: n + counts[name] for name, n in self.iterations.items()}
+        if view.step > 0 and step > 0.0:  # no pause between pulses that was jumped over
             self.smallest = step if self.smallest is None else min(self.smallest, step)
             self.largest = step if self.largest is None else max(self.largest, step)
         values = (float(view.time), int(view.step), step, view.limit, *counts.values())

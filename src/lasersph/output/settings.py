@@ -14,6 +14,8 @@ from lasersph.input import Count, Length, Model, Time, format_quantity
 
 DEFAULT_COUNT = 40
 LARGEST_COUNT = 100_000
+ROUNDING = 1e-15
+"""Of the sum of the start of a pulse and a time from there on."""
 
 
 class SnapshotPlan(Model):
@@ -91,8 +93,11 @@ class Trace(NamedPoint):
 class SnapshotSchedule:
     """The times of a run's snapshots, which time steps must hit, and which is next.
 
+    Where pauses between pulses are jumped over, they count from the start of each pulse anew.
+
     Attributes:
-        times: sorted, the first 0, the last the end of the run [s].
+        times: sorted, the first 0, the last the end of the run or of a pulse [s].
+        start: from which they count now [s].
     """
 
     def __init__(self, plan: SnapshotPlan, end: float) -> None:
@@ -108,24 +113,31 @@ class SnapshotSchedule:
         wanted = np.unique(wanted[wanted <= end])
         apart = np.concatenate([np.diff(wanted) > 1e-9 * end, [True]])
         self.times = wanted[apart]
-        self.written = 0
+        self.written, self.start = 0, 0.0
 
     @property
     def next_time(self) -> float:
         """Time of the next snapshot [s], infinite after the last."""
-        return float(self.times[self.written]) if self.written < len(self.times) else float("inf")
+        if self.written == len(self.times):
+            return float("inf")
+        return self.start + float(self.times[self.written])
+
+    def begin_again(self, time: float) -> None:
+        """Count the times from `time` [s] on."""
+        self.start, self.written = time, 0
 
     def due(self, time: float) -> bool:
         """Whether a snapshot is to be written at `time` [s]; the caller then writes it."""
-        if time < self.next_time:
+        reached = time * (1.0 + ROUNDING)
+        if reached < self.next_time:
             return False
-        self.written = int(np.searchsorted(self.times, time, side="right"))
+        self.written = int(np.searchsorted(self.start + self.times, reached, side="right"))
         return True
 
-    def state(self) -> dict[str, int]:
+    def state(self) -> dict[str, float]:
         """What `restore` needs."""
-        return {"written": self.written}
+        return {"written": self.written, "start": self.start}
 
-    def restore(self, state: dict[str, int]) -> None:
+    def restore(self, state: dict[str, float]) -> None:
         """Continue from a state."""
-        self.written = state["written"]
+        self.written, self.start = int(state["written"]), state["start"]

@@ -7,6 +7,7 @@ bind them, and restoring a checkpoint or going back copies values into them. Not
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -58,6 +59,11 @@ class Particles:
             lead = {"scalar": 0, "vector": 1, "tensor": 2}[field.shape] * (self.dimension,)
             self.table[field.name] = field
             self._arrays[field.name] = self.backend.zeros((*lead, self.capacity), field.storage)
+
+    def keep(self, *names: str) -> None:
+        """Let a checkpoint hold fields that are derived as a rule."""
+        for name in names:
+            self.table[name] = replace(self.table[name], is_kept=True)
 
     def __getitem__(self, name: str) -> Array:
         """The array of a field; the same one at every call."""

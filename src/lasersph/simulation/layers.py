@@ -55,6 +55,8 @@ def expected_melt(case: Case) -> MeltEstimate | None:
     laser = case.laser
     if laser is None or not case.solver.phase_change or case.material.melting is None:
         return None
+    if case.pause != "compute":
+        laser = laser.first_pulse
     width = case.domain.width
     columns, column_width = 1, None
     is_pattern = isinstance(laser.beam, InterferenceBeam)
@@ -79,6 +81,6 @@ def expected_melt(case: Case) -> MeltEstimate | None:
         reflectivity=lambda surface: np.interp(surface, T, R),
         fluence=fluence,
         delivered=lambda start, end: float(laser.pulse.delivered(start, end)),
-        end_time=case.time.end,
+        end_time=case.end_of_pulse,
         column_width=column_width,
     )

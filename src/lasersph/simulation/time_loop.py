@@ -30,7 +30,7 @@ from lasersph.output.settings import SnapshotSchedule
 from lasersph.simulation.forecast import spans_of
 from lasersph.simulation.progress import RemainingTime, RunProgress
 from lasersph.simulation.recipes import Recipe, recipe_of
-from lasersph.solvers.step_control import Solver, StepFailed, choose_step
+from lasersph.solvers.step_control import PAUSE, Solver, StepFailed, choose_step
 
 PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
 END = 1.0 - 1e-12
@@ -126,7 +126,7 @@ class _Loop:
         self._backend = solver.backend
         members = recipe.observers(tuple(solver.iterations)).members
         self.observers = Observers([*members, *observers])
-        self.snapshots = SnapshotSchedule(case.output.snapshots, case.time.end)
+        self.snapshots = SnapshotSchedule(case.output.snapshots, case.end_of_pulse)
         self.steps, self.limit, self.wall_before = 0, "", 0.0
         self.started = clock.monotonic()
         self._remaining: RemainingTime | None = None
@@ -154,9 +154,16 @@ class _Loop:
         state, end = self.solver.state, self.case.time.end
         while state.time < end * END and not self.solver.is_steady:
             limits = self.solver.time_step_limits()
-            limits["snapshot"] = max(self.snapshots.next_time - state.time, 0.0) or float("inf")
+            if PAUSE in limits:
+                self._snapshot(self._view())
+            else:
+                until = max(self.snapshots.next_time - state.time, 0.0)
+                limits["snapshot"] = until or float("inf")
             self.limit, step, unclipped_step = choose_step(limits)
+            heat = state.energy.get("pauses", 0.0)
             taken = self._step(step, unclipped_step)
+            if self.limit == PAUSE:
+                self._begin_pulse(taken, state.energy["pauses"] - heat)
             self.folder.confirm_lock()
             if taken == step and self.limit in ("end", "snapshot"):
                 state.time = end if self.limit == "end" else self.snapshots.next_time
@@ -171,6 +178,14 @@ class _Loop:
                 raise Stopped(
                     f"stopped at {format_quantity(state.time, 's')} after {self.steps} steps"
                 )
+
+    def _begin_pulse(self, pause: float, heat: float) -> None:
+        """Count snapshots anew after a pause of a length [s] in which heat was taken away [J]."""
+        time = self.solver.state.time
+        self.snapshots.begin_again(time)
+        self.folder.events.append(
+            "pause", time=time, step=self.steps + 1, length_s=pause, heat_removed_J=heat
+        )
 
     def _progress(self) -> RunProgress:
         time, wall = self.solver.state.time, clock.monotonic()

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 TARGETS = ("end", "pulse edge", "snapshot")
 """Limits that are times to be hit; the others bound the step itself."""
+PAUSE = "pause"
+"""Limit of a step that jumps over a pause between pulses; a solver names no other beside it."""
 ROUNDING = 1e-9
 """Share of a step by which it is stretched to hit a time, so that sums of steps may round."""
 RETRIES = 8

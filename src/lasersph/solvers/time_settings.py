@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -32,6 +32,14 @@ class TimeSettings(Model):
     )
     growth: Annotated[float, Field(gt=1, le=10)] = Field(
         default=1.25, description="of the step, at most, from one to the next"
+    )
+
+    pause: Literal["compute", "spread", "remove"] | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="between the pulses of a melt pool, from when all is solid: computed like all "
+        "else, or jumped over, with the heat that is left spread evenly or removed; default: "
+        "remove where a surface moves, else compute",
     )
 
     @property

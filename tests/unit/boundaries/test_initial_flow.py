@@ -56,9 +56,9 @@ def test_table_of_one_place():
     ("text", "message"),
     [
         ("x,z,u\n1,2,3\n", "no column w"),
-        ("x,z,u,w\n1,2,3,4\n1,2,3\n", ":3: needs four finite numbers"),
-        ("x,z,u,w\n1,2,3,nan\n", ":2: needs four finite numbers"),
-        ("x,z,u,w\n1,2,3,four\n", ":2: needs four finite numbers"),
+        ("x,z,u,w\n1,2,3,4\n1,2,3\n", ":3: needs 4 finite numbers"),
+        ("x,z,u,w\n1,2,3,nan\n", ":2: needs 4 finite numbers"),
+        ("x,z,u,w\n1,2,3,four\n", ":2: needs 4 finite numbers"),
     ],
 )
 def test_bad_tables(text, message, tmp_path):

@@ -12,6 +12,7 @@ NAMES = (
     "ablation-aluminium", "ablation-depth", "dam-break", "dlip-aluminium", "dlip-steel",
     "hydrostatic-column", "lid-driven-cavity", "marangoni-layer", "moving-film",
     "natural-convection", "pulsed-heating", "sound-wave", "stefan", "taylor-green",
+    "texture-aluminium", "texture-steel",
 )  # fmt: skip
 
 

@@ -202,3 +202,18 @@ def test_objects_may_be_passed_instead_of_tables():
     assert built.axis(1.0).tolist() == [2.0, 0.0]
     table = TabulatedPath(table=((0.0, 0.0, 0.0), (1.0, 1.0, 0.0)))
     assert laser(fluence=1.0, beam=InterferenceBeam(period=1e-6), path=table).axis(0.5)[0] == 0.5
+
+
+def test_shift_of_the_pattern():
+    """Each pulse lands a shift further on; two pulses half a period apart leave no pattern."""
+    beam = {"kind": "interference", "period": 4e-6, "shift": 2e-6}
+    pulse = {"kind": "square", "duration": 1e-8, "count": 2, "period": 1e-7}
+    laser = Laser.model_validate(
+        {"fluence": 1.0, "beam": beam, "pulse": pulse, "absorption": {"kind": "surface"}}
+    )
+    edges = np.linspace(0.0, 4e-6, 9)
+    cells = edges[None, :-1], edges[None, 1:]
+    first, second = (laser.energy_density(*cells, t, t + 5e-8) for t in (0.0, 1e-7))
+    assert first == pytest.approx(np.roll(second, 4))
+    assert laser.first_pulse.energy_density(*cells, 0.0, 1.0) == pytest.approx(first)
+    assert laser.energy_density(*cells, 0.0, 1.0) == pytest.approx(np.full(8, 2.0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -51,7 +52,15 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             use_second_moment=settings.weights == "second-moment",
         )
         pressure = case.boundaries.pressure_of_surroundings if settings.has_vapor_flux else 0.0
-        return Conduction(body, settings, case.time, case.laser, pressure, recedes=recedes)
+        return Conduction(
+            body,
+            settings,
+            case.time,
+            case.laser,
+            pressure,
+            recedes=recedes,
+            end_of_pulse=case.end_of_pulse,
+        )
 
     def heat_view(
         self, solver: Any, step: int, limit: str, take: Callable[[Array], np.ndarray]
@@ -101,11 +110,11 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         Args:
             longest: step while the light is on [s]. shortest: while something flows [s].
         """
-        time, melt = self.case.time, self.melt
+        time, melt, end = self.case.time, self.melt, self.case.end_of_pulse
         molten = (melt.start, melt.end) if melt is not None and self.flow else (np.nan, np.nan)
         found: list[tuple[str, float, int]] = []
         count, now, lit_until = 0, 0.0, 0.0
-        while now < time.end and count < LARGEST_STEPS:
+        while now < end and count < LARGEST_STEPS:
             step = next_light(pulse, now, longest)
             if lit_until > 0.0:
                 step = min(step, max(longest, time.cooling * (now - lit_until)))
@@ -130,12 +139,19 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
     def implicit_forecast(self, flow_limits: dict[str, float]) -> StepForecast:
         """Steps of a body whose heat is implicit; a pool may flow from the first light on."""
         time, laser = self.case.time, self.case.laser
-        limits = {"end": time.end} | flow_limits
+        limits = {"end": self.case.end_of_pulse} | flow_limits
         longest = time.step or (1e-3 * time.end if laser is None else 0.5 * laser.pulse.resolution)
         limits[name_of_longest(laser is not None)] = longest
         shortest = min(limits.values())
         if laser is not None:
-            return StepForecast(limits, self.lit_phases(laser.pulse, longest, shortest))
+            if self.case.pause == "compute":
+                return StepForecast(limits, self.lit_phases(laser.pulse, longest, shortest))
+            one = self.lit_phases(laser.first_pulse.pulse, longest, shortest)
+            starts = (number * (laser.pulse.interval or 0.0) for number in range(laser.pulse.count))
+            return StepForecast(
+                limits,
+                tuple(replace(phase, end=start + phase.end) for start in starts for phase in one),
+            )
         duration = min(self.flow.duration, time.end) if self.flow is not None else 0.0
         resting = Phase(
             "conduction",

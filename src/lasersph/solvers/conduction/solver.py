@@ -51,9 +51,12 @@ class Conduction:
         ambient_pressure: float = 0.0,
         *,
         recedes: bool = False,
+        end_of_pulse: float | None = None,
     ) -> None:
         """`ambient_pressure` [Pa]: against which vapor leaves the surface, 0 for vacuum; `recedes`:
-        whether the metal follows what has evaporated."""
+        whether the metal follows what has evaporated; `end_of_pulse`: time to compute of each pulse
+        where the pauses between them are jumped over [s], else that of the run."""
+        self.end_of_pulse = time.end if end_of_pulse is None else end_of_pulse
         self.body, self.settings, self.time_settings, self.laser = body, settings, time, laser
         self.particles, self.state = body.particles, HeatState()
         self.exchange = SurfaceExchange(
@@ -140,7 +143,7 @@ class Conduction:
                         state.time_step * time.temperature_change / state.temperature_change
                     )
             else:
-                limits["first step"] = 1e-3 * time.end
+                limits["first step"] = 1e-3 * self.end_of_pulse
         return limits
 
     def step(self, step: float, unclipped_step: float | None = None) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 ENERGIES = (
     *("incident", "absorbed", "reflected", "transmitted", "unassigned"),
-    *("lost", "removed", "discarded", "shifting", "ejection_work", "newton_residual"),
+    *("lost", "removed", "discarded", "shifting", "ejection_work", "newton_residual", "pauses"),
 )
 """What steps exchange; what the particles store is summed from their fields by observers."""
 
@@ -32,6 +32,11 @@ class HeatState:
     lit_until: float = 0.0
     unclipped_step: float = 0.0
     recession: float = 0.0
+
+    def begin_again(self, time: float) -> None:
+        """Go on from `time` [s] as from the start of a run, without a step before."""
+        self.time, self.time_step, self.time_step_before = time, 0.0, 0.0
+        self.temperature_change = self.lit_until = self.unclipped_step = self.recession = 0.0
 
     def numbers(self) -> dict[str, float]:
         """All of them, for a checkpoint."""

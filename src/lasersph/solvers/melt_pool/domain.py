@@ -96,6 +96,18 @@ class PoolDomain:
         else:
             self.backend.pointwise(depth_in_box, {"x": position}, out, top=self.box[1][1])
 
+    def cover_fine_layers(self) -> None:
+        """Let the block hold all of the finest layers, with room below them."""
+        self._grow(self.fine_depth)
+
+    def _grow(self, deepest: float) -> None:
+        """Let the block hold what lies as deep as that [m]."""
+        needed = int(np.searchsorted(self._bottom, deepest + BELOW * self.support)) + 1
+        if self.is_box:
+            needed = self._bottom.size
+        if needed > self.block_layers:
+            self.block_layers = min(needed + ROOM, self._bottom.size)
+
     def block_for(self, position: Array, kinds: ParticleKinds) -> Block:
         """Block that holds what flows, with room below it; it grows and never shrinks.
 
@@ -111,12 +123,8 @@ class PoolDomain:
                 f"{format_quantity(self.fine_depth, 'm')}; give "
                 f'particles.fine_depth = "{1.3e9 * deepest:.0f} nm" or more'
             )
+        self._grow(deepest)
         total = self._bottom.size
-        needed = int(np.searchsorted(self._bottom, deepest + BELOW * self.support)) + 1
-        if self.is_box:
-            needed = total
-        if needed > self.block_layers:
-            self.block_layers = min(needed + ROOM, total)
         if self._block is None or self._block.layers != self.block_layers:
             below = self._bottom[self.block_layers - 1] + MARGIN * self.spacing
             last = int(np.searchsorted(self._bottom, below * (1.0 + 1e-9))) + 1

@@ -8,6 +8,7 @@ step is that of `Conduction`.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Literal
 
 import numpy as np
 
@@ -23,11 +24,13 @@ from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.face_exchange import FaceExchange
 from lasersph.solvers.melt_pool.flow import Flow, advect, move
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
+from lasersph.solvers.melt_pool.layout_renewal import LayoutRenewal
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.particle_shifting import ParticleShifting
+from lasersph.solvers.melt_pool.pauses import Pauses
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
-from lasersph.solvers.step_control import NotConverged, StepFailed, retry_step
+from lasersph.solvers.step_control import PAUSE, NotConverged, StepFailed, retry_step
 
 SHORTEST = 1e-9
 """Time in which the fastest particle crosses its support, over the time to compute: in a flow that
@@ -59,7 +62,12 @@ class MeltPool:
     """
 
     def __init__(
-        self, heat: Conduction, flow: Flow, domain: PoolDomain, settings: MeltPoolSettings
+        self,
+        heat: Conduction,
+        flow: Flow,
+        domain: PoolDomain,
+        settings: MeltPoolSettings,
+        pause: Literal["compute", "spread", "remove"] = "compute",
     ) -> None:
         backend, count = heat.body.backend, heat.body.count
         self.heat, self.flow, self.domain, self.settings = heat, flow, domain, settings
@@ -74,6 +82,11 @@ class MeltPool:
             backend, count, settings.shifting, domain.spacing, domain.room, domain.periods
         )
         self.pairs, self.exchange = HeatPairs(heat.body), FaceExchange(backend, count)
+        self.layout_renewal = LayoutRenewal(heat.body, domain, self.kinds, self.pairs)
+        self.pauses: Pauses | None = None
+        if pause != "compute" and heat.laser is not None:
+            pulse = heat.laser.pulse
+            self.pauses = Pauses(heat.body, heat.state, pulse, pause, self.layout_renewal)
         self.steadiness = Steadiness(settings.steady, domain.width)
         columns = heat.body.filling.surface.size
         self.surface_columns = SurfaceColumns(
@@ -122,6 +135,7 @@ class MeltPool:
             "block_layers": self.domain.block_layers,
             "has_moved": float(self._has_moved),
             "spacing_min": self.spacing_min,
+            "rearranged": self.layout_renewal.volume,
             "divergence_rms": self.flow.divergence[0],
             "divergence_max": self.flow.divergence[1],
         }
@@ -144,7 +158,8 @@ class MeltPool:
         """Named limits of the next step [s]."""
         limits = self.heat.time_step_limits()
         if not self._melt():
-            return limits
+            start = self._end_of_pause()
+            return limits if start is None else {PAUSE: start - self.state.time}
         flow, liquid, surface = self.flow, self.flow.liquid, self.domain.surface
         found = flow_limits(
             self.settings.step_limits,
@@ -170,11 +185,16 @@ class MeltPool:
             PoolTooDeep: the melt reaches the graded layers. SupercriticalSurface: the surface is
                 above the critical temperature. SurfaceTrouble: it cannot be computed any further.
         """
+        if (start := self._end_of_pause()) is not None:
+            assert self.pauses is not None
+            self._update_resting_pairs()
+            self.pauses.jump_to(start)
+            return step
         self.heat.refuse_supercritical(lambda: self.backend.to_host(self.position))
         surface = self.domain.surface
         if surface is not None and (trouble := surface.trouble()):
             raise SurfaceTrouble(trouble)
-        if self.flow.largest_speed * SHORTEST * self.heat.time_settings.end > self.domain.support:
+        if self.flow.largest_speed * SHORTEST * self.heat.end_of_pulse > self.domain.support:
             raise NotConverged(f"the flow has become unstable: {self.flow.largest_speed:.3g} m/s")
         self._keep()
         return retry_step(self._advance, step, unclipped_step, undo=self._return)
@@ -295,6 +315,10 @@ class MeltPool:
             self.flow.rest()
         return self.fluid_count > 0.0
 
+    def _end_of_pause(self) -> float | None:
+        """Start of the next pulse [s] where the pause before it is to be left out now."""
+        return None if self.pauses is None or self.fluid_count else self.pauses.end()
+
     def _update_resting_pairs(self) -> None:
         """Where the flow has ended, conduct between the final positions from now on."""
         if not self._has_moved:
@@ -352,6 +376,7 @@ class MeltPool:
         self.domain.block_layers = int(numbers["block_layers"])
         self._has_moved = bool(numbers["has_moved"])
         self.spacing_min = numbers["spacing_min"]
+        self.layout_renewal.volume = numbers["rearranged"]
         self.steadiness.restore(numbers)
         self.exchange.restore(numbers)
         if self.domain.surface is not None:

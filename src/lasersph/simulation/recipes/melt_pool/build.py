@@ -90,8 +90,11 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         )
     volume = FIELDS["volume"]
     loses_mass = case.boundaries.surface_mass_flux_wave is not None or settings.evaporates
-    if case.surface_moves and loses_mass:
+    is_rearranged = case.flow is None and (case.initial_surface or case.pause != "compute")
+    if is_rearranged or (case.surface_moves and loses_mass):
         volume = replace(volume, is_kept=True)
+    if is_rearranged:
+        body.particles.keep("mass")
     body.particles.add(volume)
     body.particles.set("volume", static.volume)
     domain = PoolDomain(
@@ -108,7 +111,10 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.begin(start)
-    return MeltPool(heat, flow, domain, settings)
+    solver = MeltPool(heat, flow, domain, settings, case.pause)
+    if case.flow is None and case.initial_surface is not None:
+        solver.layout_renewal.lay_out()
+    return solver
 
 
 def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> SurfaceLine:
@@ -121,21 +127,21 @@ def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> Surfa
     kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}
     left, right = (kinds.get(conditions.flow_kind(side), "pinned") for side in ("left", "right"))
     line = SurfaceLine(x[0], width, columns, (left, right), cutoff_of(width))
-    wave = None if case.flow is None else case.flow.initial_surface
-    if wave is not None:
-        line.height = wave.at(line.x, width)
-        line.pins = (float(wave.at(np.array(x[0]))), float(wave.at(np.array(x[1]))))
+    start = case.initial_surface
+    if start is not None:
+        line.height = start.at(line.x, width)
+        line.pins = (float(start.at(np.array(x[0]))), float(start.at(np.array(x[1]))))
     return line
 
 
 def _raise_particles(case: Case, body: Body, static: StaticParticleData, line: SurfaceLine) -> None:
     """Stretch the columns of particles of a box to the surface at the start."""
-    wave = None if case.flow is None else case.flow.initial_surface
-    if wave is None:
+    start = case.initial_surface
+    if start is None or case.flow is None:
         return
     count, depth = body.count, case.domain.depth
     x, z = body.filling.position[:, :count]
-    stretch = 1.0 + wave.at(x, line.width) / depth
+    stretch = 1.0 + start.at(x, line.width) / depth
     z[:] = stretch * (z + depth) - depth
     static.volume[:] *= stretch
     body.particles.set("mass", body.backend.to_host(body.particles["mass"]) * stretch)

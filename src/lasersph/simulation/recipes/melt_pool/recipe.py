@@ -63,6 +63,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         if isinstance(surface := solver.domain.surface, MovingSurface):
             line = surface.line
             fields["relief"] = Relief(line.x, line.height.copy(), line.ends[0])
+            fields["volume"] = take(solver.particles["volume"])
         return View(**fields, evaporated=self.evaporated(solver))
 
     def observers(self, iterations: Sequence[str]) -> Observers:
@@ -79,14 +80,14 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         """What observes a surface that moves; its first harmonic where whole half periods fit."""
         if not self.case.surface_moves:
             return None
-        faces, flow = self.case.boundaries, self.case.flow
+        faces = self.case.boundaries
         waves = (
             faces.surface_temperature_wave,
             faces.surface_pressure_wave,
             faces.surface_mass_flux_wave,
-            None if flow is None else flow.initial_surface,
+            self.case.initial_surface,
         )
-        period = next((wave.period for wave in waves if wave is not None), None)
+        period = next((wave.period for wave in waves if wave is not None and wave.period), None)
         (x,) = self.case.domain.lateral(2)
         halves = 0.0 if period is None else 2.0 * (x[1] - x[0]) / period
         is_whole = halves > 0.5 and abs(halves - round(halves)) <= WHOLE * halves
