@@ -14,14 +14,15 @@ def chromium():
     """Playwright and the path of Chromium; skipped where either is missing, never in CI."""
     program = shutil.which("chromium")
     try:
-        from playwright.sync_api import sync_playwright
+        from playwright.sync_api import expect, sync_playwright
     except ImportError:
-        sync_playwright = None
-    if program is None or sync_playwright is None:
+        expect = sync_playwright = None
+    if program is None or expect is None or sync_playwright is None:
         reason = "needs Chromium (Debian: apt install chromium) and playwright (extra test)"
         if os.environ.get("CI"):
             pytest.fail(reason)
         pytest.skip(reason)
+    expect.set_options(timeout=600_000)  # a busy machine is slow, not wrong
     with sync_playwright() as playwright:
         yield playwright.chromium, program
 

@@ -24,6 +24,10 @@ Format = Annotated[Literal["gif", "mp4"], typer.Option(help="Of the animation; m
 Scene = Annotated[
     bool, typer.Option("--scene", help="Draw a 3-D crater with pyvista instead (extra `view`).")
 ]
+NoScene = Annotated[
+    bool,
+    typer.Option("--no-scene", help="Leave out the viewer and its particles, at most 5 MB."),
+]
 ExportFormat = Annotated[
     Literal["csv", "stl", "ply", "x3p", "sdf"],
     typer.Option(
@@ -76,12 +80,12 @@ def plot(
         print(file)
 
 
-def report(folder: RunFolder) -> None:
-    """Write DIR/report.html: figures and numbers on one self-contained page."""
+def report(folder: RunFolder, no_scene: NoScene = False) -> None:
+    """Write DIR/report.html: viewer, figures and numbers on one self-contained page."""
     from lasersph.report import write_report
 
     opened(folder)
-    print(write_report(folder))
+    print(write_report(folder, with_scene=not no_scene))
 
 
 def opened(folder: Path) -> Run:

@@ -7,9 +7,11 @@ and nothing was written (exit code 2).
 from __future__ import annotations
 
 import errno
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 REASONS = {
     errno.ENOSPC: "the disk is full",
@@ -54,3 +56,18 @@ def clear_errors(action: str, path: Path, kind: type[OutputError] = OutputError)
         reason = REASONS.get(error.errno or 0, error.strerror or str(error))
         kind = OutputError if error.errno in FULL else kind
         raise kind(f"cannot {action} {path}: {reason}") from error
+
+
+def install_hint(package: str, extra: str = "frames") -> str:
+    """What to say where an optional package is not installed, and which extra brings it."""
+    return f"{package} is not installed: pip install 'lasersph[{extra}]' brings it"
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """Content of a JSON file. Raises OutputError."""
+    with clear_errors("read", path):
+        text = path.read_text(encoding="utf-8")
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError as error:
+        raise OutputError(f"cannot read {path}: it is damaged") from error

@@ -19,9 +19,9 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.output.errors import read_json
 from lasersph.output.generation import read_unchanged
 from lasersph.output.particle_file import open_for_reading, value_range
-from lasersph.output.reader import Run, open_run
 
 NAME = re.compile(r"(particles|surface)\.([a-z_]+)\.([0-9]{1,15})\.([0-9]{1,12})\.([0-9a-z-]+)")
 GEOMETRY = ("width",)
@@ -46,16 +46,17 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
     Raises:
         OutputError: there is no run, or its files are damaged.
     """
-    run = open_run(folder)
+    path = Path(folder)
+    stamp, case = stamp_and_case(path)
     index = {
-        "case": str(run.case.get("title") or run.path.name),
-        "stamp": stamp_of(run),
-        "is_complete": run.is_complete,
-        "mirrored": run.case.get("domain", {}).get("extent") == "half",
-        "levels": levels_of(run.case.get("material") or {}),
+        "case": str(case.get("title") or path.name),
+        "stamp": stamp,
+        "is_complete": (path / "summary.json").exists(),
+        "mirrored": case.get("domain", {}).get("extent") == "half",
+        "levels": levels_of(case.get("material") or {}),
     }
-    particles = read_unchanged(run.path, lambda: frames_of(run.path / "particles.vtkhdf"))
-    surface = read_unchanged(run.path, lambda: frames_of(run.path / "surface.vtkhdf"))
+    particles = read_unchanged(path, lambda: frames_of(path / "particles.vtkhdf"))
+    surface = read_unchanged(path, lambda: frames_of(path / "surface.vtkhdf"))
     line = {key: surface[key] for key in ("counts", "blocks")} if surface["times"] else None
     return {**index, **particles, "surface": line}
 
@@ -73,9 +74,8 @@ def particle_block(folder: str | Path, name: str) -> bytes:
         raise ValueError("not the name of a block: FILE.FIELD.OFFSET.COUNT.STAMP")
     stem, field, stamp = found[1], found[2], found[5]
     place = (int(found[3]), int(found[4]))
-    run = open_run(folder)
-    path = run.path / f"{stem}.vtkhdf"
-    if stamp != stamp_of(run) or not path.exists():
+    path = Path(folder) / f"{stem}.vtkhdf"
+    if stamp != stamp_and_case(Path(folder))[0] or not path.exists():
         raise KeyError(f"this run has no block {name}")
 
     def read() -> bytes:
@@ -86,13 +86,14 @@ def particle_block(folder: str | Path, name: str) -> bytes:
             values = dataset_of(file, field)[place[0] : sum(place)]
             return np.ascontiguousarray(values, "<f4").tobytes()
 
-    return read_unchanged(run.path, read)
+    return read_unchanged(path.parent, read)
 
 
-def stamp_of(run: Run) -> str:
-    """Case and start of a run; resolved.json is written once, when it starts."""
-    started = (run.path / "resolved.json").stat().st_mtime_ns
-    return f"{run.resolved['case_hash']}-{started:x}"
+def stamp_and_case(folder: Path) -> tuple[str, dict[str, Any]]:
+    """Name of a run by its case and start, and the case; resolved.json is written at the start."""
+    resolved = read_json(folder / "resolved.json")
+    started = (folder / "resolved.json").stat().st_mtime_ns
+    return f"{resolved['case_hash']}-{started:x}", resolved["case"]
 
 
 def levels_of(material: Mapping[str, Any]) -> dict[str, float]:

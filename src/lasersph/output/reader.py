@@ -6,7 +6,6 @@ is read again (`generation`). Nothing is ever written.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator
 from functools import cached_property
 from pathlib import Path
@@ -14,12 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lasersph.output.errors import OutputError, clear_errors
+from lasersph.output.errors import OutputError, clear_errors, install_hint, read_json
 from lasersph.output.generation import Result, read_unchanged
 from lasersph.output.history import read_events, read_history
 from lasersph.output.particle_file import AXES, open_for_reading
 
 if TYPE_CHECKING:
+    import anywidget  # pyright: ignore[reportMissingImports]
     import pandas  # pyright: ignore[reportMissingImports]
     import xarray  # pyright: ignore[reportMissingImports]
 
@@ -88,6 +88,16 @@ class Run:
     def surface(self) -> Snapshots:
         """The line of a surface that moves, at the times of the snapshots; none of a flat one."""
         return Snapshots(self.path / "surface.vtkhdf")
+
+    def show(self) -> anywidget.AnyWidget:
+        """The particles in a notebook: turn them, color them, play them; also while a run computes.
+
+        Raises:
+            OutputError: anywidget is not installed.
+        """
+        from lasersph.output.viewer import make_widget
+
+        return make_widget(self.path)
 
     def history_frame(self) -> pandas.DataFrame:
         """The history as a pandas table, indexed by time_s.
@@ -205,21 +215,6 @@ def read_step(file: Any, number: int) -> dict[str, Any]:
 def from_three_axes(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
     """(n, 3) -> (dim, n)."""
     return np.ascontiguousarray(block[:, axes].T)
-
-
-def install_hint(package: str, extra: str = "frames") -> str:
-    """What to say where an optional package is not installed, and which extra brings it."""
-    return f"{package} is not installed: pip install 'lasersph[{extra}]' brings it"
-
-
-def read_json(path: Path) -> dict[str, Any]:
-    """Content of a JSON file. Raises OutputError."""
-    with clear_errors("read", path):
-        text = path.read_text(encoding="utf-8")
-    try:
-        return json.loads(text)
-    except json.JSONDecodeError as error:
-        raise OutputError(f"cannot read {path}: it is damaged") from error
 
 
 def open_run(path: str | Path) -> Run:

@@ -1,4 +1,4 @@
-"""Pieces of a self-contained HTML page: no scripts, no links to other files, prints well."""
+"""Pieces of a self-contained HTML page: no links to other files, prints well."""
 
 from __future__ import annotations
 
@@ -16,7 +16,19 @@ main { max-width: 60rem; margin: 0 auto; background: #fff; padding: 2.2rem 3rem 
 h1 { font-size: 1.75rem; line-height: 1.25; margin: 0 0 .2rem; }
 h2 { font-size: 1.25rem; margin: 2.4rem 0 .7rem; padding-bottom: .25rem;
   border-bottom: 2px solid #0072b2; }
-p.about { color: #5a6675; margin: 0 0 1.2rem; }
+p.about { color: #5a6675; margin: 0 0 1.2rem; font-size: .93rem; }
+p.lead { font-size: 1.12rem; margin: .2rem 0 1.1rem; }
+.top { display: flex; flex-direction: column; }
+.top figure { margin: 0 0 1.2rem; }
+#viewer { margin-bottom: 1.2rem; }
+.numbers { display: grid; grid-template-columns: repeat(auto-fit, minmax(9.8rem, 1fr)); gap: .7rem;
+  margin: 0 0 .6rem; }
+.numbers div { display: flex; flex-direction: column; border-top: 3px solid #d55e00;
+  background: #f8f9fb; padding: .6rem .8rem .7rem; }
+.numbers dd { margin: 0; font-size: 1.14rem; font-weight: 650; line-height: 1.3;
+  white-space: nowrap; font-variant-numeric: tabular-nums; }
+.numbers dt { color: #44505e; font-size: .86rem; line-height: 1.35; margin-top: .2rem; }
+@media screen { .top.is-drawn figure { order: 2; margin: 1.2rem 0 0; } }
 p.result { font-size: 1.08rem; background: #eef5fa; border-left: 4px solid #0072b2;
   padding: .8rem 1rem; }
 p.warning { background: #fdf3e4; border-left: 4px solid #d55e00; padding: .5rem 1rem;
@@ -37,10 +49,20 @@ pre { background: #f6f8fa; padding: .8rem 1rem; overflow-x: auto; font-size: .86
   line-height: 1.4; border: 1px solid #e2e7ec; }
 code { font-size: .92em; }
 details { margin: .8rem 0; } summary { cursor: pointer; color: #0072b2; }
-@media print { body { background: #fff; } nav { display: none; }
-  main { box-shadow: none; padding: 0; }
-  figure, table { break-inside: avoid; } }
-@media (max-width: 40rem) { main { padding: 1.2rem; } }
+details.subject { border: 1px solid #e2e7ec; border-radius: 6px; margin: .5rem 0;
+  padding: .55rem 1rem; }
+details.subject > summary { font-weight: 600; }
+@page { margin: 16mm 15mm; }
+@media print { body { background: #fff; font-size: 10.5pt; } nav, #viewer { display: none; }
+  main { box-shadow: none; padding: 0; max-width: none; }
+  h2 { break-after: avoid; } figure, tr, .numbers, p { break-inside: avoid; }
+  figure img { max-height: 120mm; width: auto; } pre { white-space: pre-wrap; }
+  p.warning, p.note, p.result, .numbers div { print-color-adjust: exact; }
+  .numbers { grid-template-columns: repeat(5, 1fr); gap: 3mm; } .numbers dd { font-size: 11.5pt; }
+  details.subject { border: 0; padding: 0; }
+  details.subject::details-content { content-visibility: visible; height: auto; } }
+@media screen and (max-width: 40rem) { main { padding: 1.2rem; overflow-wrap: anywhere; }
+  table { display: block; overflow-x: auto; } td.number, th + th { white-space: normal; } }
 """
 
 
@@ -97,7 +119,7 @@ def contents(titles: Iterable[str]) -> str:
 
 
 def paragraph(text: str, kind: str = "") -> str:
-    """A paragraph; `kind` is about, result, warning or note. Text is escaped."""
+    """A paragraph; `kind` is lead, about, result, warning or note. Text is escaped."""
     name = f' class="{kind}"' if kind else ""
     return f"<p{name}>{escape(text)}</p>"
 
@@ -107,6 +129,7 @@ def listing(text: str) -> str:
     return f"<pre>{escape(text)}</pre>"
 
 
-def details(title: str, body: str) -> str:
-    """A part that opens on a click; `body` is HTML."""
-    return f"<details><summary>{escape(title)}</summary>{body}</details>"
+def details(title: str, body: str, *, prints: bool = False) -> str:
+    """A part that opens on a click, on paper too where it `prints`; `body` is HTML."""
+    kind = ' class="subject"' if prints else ""
+    return f"<details{kind}><summary>{escape(title)}</summary>{body}</details>"

@@ -18,7 +18,9 @@ from lasersph.plots.animation import LEAST_FRAMES, animate_run
 from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.run_figures import DRAWINGS, draw_run
 from lasersph.report import tables, uncertainty_tables
+from lasersph.report.headline import STILLS, large_numbers, what_was_computed
 from lasersph.report.page import contents, details, figure, heading, listing, page, paragraph, table
+from lasersph.report.scene import scene
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
 
 ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
@@ -28,10 +30,14 @@ GIVEN = "given: "
 """Begins the source of an uncertainty that the command gave."""
 
 
-def write_report(folder: str | Path) -> Path:
+def write_report(folder: str | Path, *, with_scene: bool = True) -> Path:
     """Draw the figures of a complete run and write its report.html.
 
     The page holds its images and needs no other file.
+
+    Args:
+        with_scene: whether it holds the viewer too, with the particles of at most 24 snapshots and
+            5 MB; a browser without WebGL shows the figures alone.
 
     Returns:
         Path of the report.
@@ -50,7 +56,7 @@ def write_report(folder: str | Path) -> Path:
         images.append(animate_run(folder))
     path = run.path / "report.html"
     with clear_errors("read", run.path):
-        text = report_page(run, images)
+        text = report_page(run, images, scene(run) if with_scene else "")
     replace_text(path, text)
     return path
 
@@ -62,50 +68,66 @@ def is_moving(run: Run) -> bool:
     return has_flow(run) or (has_ablation(run) and run.snapshots.dimension > 1)
 
 
-def report_page(run: Run, images: list[Path]) -> str:
-    """The whole page. Raises OSError where an image cannot be read."""
+def report_page(run: Run, images: list[Path], viewer: str = "") -> str:
+    """The whole page; `viewer` is HTML. Raises OSError where an image cannot be read."""
     summary = run.summary
     name = str(summary.get("title") or summary["case"])
     versions = run.resolved.get("versions", {})
-    about = f"lasersph {versions.get('lasersph', '')}, case {summary['case']}, run {run.path.name}"
-    body = [f"<h1>{escape(name)}</h1>", paragraph(about, "about")]
+    still = min(
+        (image for image in images if image.stem in STILLS),
+        key=lambda image: STILLS.index(image.stem),
+        default=None,
+    )
+    images = sorted(images, key=lambda image: image != still)
+    captions = {drawing.name: drawing.caption for drawing in DRAWINGS} | {"animation": ANIMATION}
+    drawn = [figure(image, captions[image.stem], k) for k, image in enumerate(images, start=1)]
     parts = {
+        "Figures": drawn[1:],
         "Results": results(summary),
         "How sure": uncertainty_tables.how_sure(summary, run.uncertainty),
-        "Figures": figures(images),
-        "Energy": [table(tables.energy(summary), tables.ENERGY_HEAD), paragraph(EnergyBudget.note)],
         "Case": case_as_read(run),
-        "Computation": computation(summary),
         "Reproduce": reproduce(run, versions),
     }
     parts = {title: part for title, part in parts.items() if part}
-    body += [contents(parts), paragraph(verdict(summary), "result")]
+    body = [
+        f"<h1>{escape(name)}</h1>",
+        paragraph(what_was_computed(run), "lead"),
+        f'<div class="top">{viewer}{"".join(drawn[:1])}<div>{large_numbers(run)}</div></div>',
+        paragraph(verdict(summary), "result"),
+    ]
     body += [paragraph(text, "warning") for text in warning_texts(summary, run.events)]
     body += [paragraph(text, "note") for text in note_texts(summary)]
+    body.append(contents(parts))
     for title, part in parts.items():
         body += [heading(title), *part]
     return page(f"{name} – lasersph", body)
 
 
 def results(summary: dict[str, Any]) -> list[str]:
-    """A table for each observer that found something, the estimates, and all numbers."""
+    """A folded table for each observer that found something, then energy, estimates, computation
+    and all numbers."""
     body = []
     for kind in OBSERVERS:
         body += measured(summary, kind)
-    for rows, head in (
-        (tables.estimates(summary), tables.ESTIMATE_HEAD),
-        (tables.left_out(summary), tables.LEFT_OUT_HEAD),
+    energy = table(tables.energy(summary), tables.ENERGY_HEAD) + paragraph(EnergyBudget.note)
+    body.append(details("Energy", energy, prints=True))
+    for title, rows, head in (
+        ("Estimates", tables.estimates(summary), tables.ESTIMATE_HEAD),
+        ("What the model leaves out", tables.left_out(summary), tables.LEFT_OUT_HEAD),
+        ("Dimensionless numbers", tables.dimensionless(summary), ()),
+        ("Computation", tables.computation(summary), ()),
     ):
         if rows:
-            body.append(table(rows, head))
+            body.append(details(title, table(rows, head), prints=True))
     body.append(details("All numbers of summary.json", table(tables.flat(summary))))
     return body
 
 
 def measured(summary: dict[str, Any], kind: type[Observer]) -> list[str]:
-    """The table of an observer, or one for each of its probes or traces, and its note."""
+    """What an observer found, folded: a table, or one for each of its probes or traces, and its
+    note."""
     if kind in (Steps, EnergyBudget) or (kind is Vaporization and "crater" in summary):
-        return []  # steps and energy have sections of their own; ejecta say what vaporized
+        return []  # steps and energy have parts of their own; ejecta say what vaporized
     section = kind.all_results()[0].key.split(".")[0]
     names = summary.get(section, {}) if "<name>" in kind.all_results()[0].key else [""]
     body = []
@@ -114,20 +136,11 @@ def measured(summary: dict[str, Any], kind: type[Observer]) -> list[str]:
         if kind is Crater:
             rows += tables.removal_efficiency(summary)
         if rows:
-            body.append(table(rows, (f"{kind.title} {name}".rstrip(), "", "at")))
-    return [*body, paragraph(kind.note)] if body and kind.note else body
-
-
-def figures(images: list[Path]) -> list[str]:
-    """All figures that were drawn, numbered."""
-    captions = {drawing.name: drawing.caption for drawing in DRAWINGS} | {"animation": ANIMATION}
-    return [figure(image, captions[image.stem], k) for k, image in enumerate(images, start=1)]
-
-
-def computation(summary: dict[str, Any]) -> list[str]:
-    """How the run was computed, its steps, and its dimensionless numbers."""
-    parts = (tables.computation(summary), tables.dimensionless(summary))
-    return [table(rows) for rows in parts if rows]
+            body.append(table(rows, (name, "", "at")))
+    if body and kind.note:
+        body.append(paragraph(kind.note))
+    title = f"{kind.title[0].upper()}{kind.title[1:]}"
+    return [details(title, "".join(body), prints=True)] if body else []
 
 
 def case_as_read(run: Run) -> list[str]:

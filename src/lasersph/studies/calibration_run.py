@@ -24,7 +24,7 @@ from lasersph.case.overrides import override
 from lasersph.input.schema import as_toml
 from lasersph.output import OutputError
 from lasersph.output.atomic import replace_json, replace_text
-from lasersph.output.reader import install_hint
+from lasersph.output.errors import install_hint
 from lasersph.simulation.time_loop import Stopped
 from lasersph.studies.calibration import Calibration, Numbers, Settings, calibrate_with
 from lasersph.studies.calibration_plan import CalibrationPlan

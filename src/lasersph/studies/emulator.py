@@ -29,7 +29,7 @@ from scipy.spatial import Delaunay
 from scipy.spatial.distance import cdist
 
 from lasersph.output import OutputError
-from lasersph.output.reader import install_hint
+from lasersph.output.errors import install_hint
 
 Array = NDArray[np.float64]
 VARIANCES = (1e-2, 1e3)

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lasersph.output import OutputError
-from lasersph.output.reader import install_hint
+from lasersph.output.errors import install_hint
 from lasersph.studies.calibration_plan import CalibrationPlan
 from lasersph.studies.emulator import Emulator
 

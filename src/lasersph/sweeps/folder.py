@@ -17,9 +17,8 @@ from pathlib import Path
 from typing import Any, Self
 
 from lasersph.output.atomic import replace_json, replace_text
-from lasersph.output.errors import FolderRefused, OutputError, clear_errors
+from lasersph.output.errors import FolderRefused, OutputError, clear_errors, read_json
 from lasersph.output.folder_lock import FolderLock, is_lock
-from lasersph.output.reader import read_json
 from lasersph.sweeps.engine import Event
 from lasersph.sweeps.points import CaseTemplate, Point
 

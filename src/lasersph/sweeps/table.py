@@ -19,8 +19,7 @@ import numpy as np
 
 from lasersph.input.model import did_you_mean
 from lasersph.output.atomic import replace_text
-from lasersph.output.errors import OutputError
-from lasersph.output.reader import install_hint, read_json
+from lasersph.output.errors import OutputError, install_hint, read_json
 from lasersph.sweeps.folder import RUNS, TABLE, last_events, read_points
 from lasersph.sweeps.points import Value
 

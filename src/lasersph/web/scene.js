@@ -89,7 +89,7 @@ export class Scene {
     this.onView = () => {};
     this.build();
     this.watchMouse();
-    this.resized = new ResizeObserver(() => this.request());
+    this.resized = new ResizeObserver(() => (this.box && !this.isTurned ? this.goHome() : this.request()));
     this.resized.observe(canvas);
   }
 
@@ -188,6 +188,7 @@ export class Scene {
     const up = space ? 0.88 * (z[1] - z[0]) + 0.66 * (y[1] - y[0]) : z[1] - z[0];
     const room = Math.min(300, 0.35 * wide);  // for the color bar
     this.metersPerPixel = Math.max(across / (wide - room), up / (high - 70), 1e-15);
+    this.isTurned = false;  // by the user: until then it fits whatever the size of the window
     this.request();
   }
 
@@ -228,6 +229,7 @@ export class Scene {
 
   request(moving = false) {
     this.moving = moving;
+    this.isTurned ||= moving;
     if (this.pending) return;
     this.pending = requestAnimationFrame(() => {
       this.pending = 0;

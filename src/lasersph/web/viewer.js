@@ -1,7 +1,8 @@
 // The viewer of particles: 2-D cells as rectangles, 3-D particles as shaded spheres, with WebGL 2.
 //
-//   const viewer = mount(element, source, options)   ->   { setFrame, setField, setLive, destroy }
+//   const viewer = mount(element, source, options)   ->   { works, setFrame, setField, setLive, destroy }
 //
+// `works` is false where there is no WebGL 2, which the viewer then says itself.
 // A source has `index()`, which resolves to what `lasersph.output.frame_blocks.particle_index`
 // gives, and `block(name)`, which resolves to an ArrayBuffer of little-endian float32. Three are
 // here: http(base), inline(json) of a report, kernel(model) of a notebook.
@@ -19,13 +20,13 @@ canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block
   touch-action: none; cursor: grab; }
 canvas:active { cursor: grabbing; }
 .title { position: absolute; left: 14px; top: 10px; font-size: 14px; font-weight: 600;
+  max-width: calc(100% - 28px); white-space: nowrap; overflow: hidden; text-overflow: ellipsis;
   pointer-events: none; text-shadow: 0 1px 3px #000a; }
-.legend { position: absolute; right: 14px; top: 12px; bottom: 44px; width: 150px;
-  max-height: 300px; display: flex; flex-direction: column; pointer-events: none;
-  text-shadow: 0 1px 3px #000a; }
-.legend b { font-weight: 600; text-align: right; margin-bottom: 6px; }
-.bar { position: relative; flex: 1; margin-left: 136px; border-radius: 3px;
-  border: 1px solid #ffffff40; }
+.legend { position: absolute; right: 12px; top: 10px; bottom: 44px; max-height: 310px; width: 136px;
+  display: flex; flex-direction: column; align-items: flex-end; pointer-events: none;
+  padding: 4px 6px 10px; border-radius: 6px; background: #161d2970; text-shadow: 0 1px 3px #000a; }
+.legend b { font-weight: 600; text-align: right; margin-bottom: 10px; }
+.bar { position: relative; flex: 1; width: 14px; border-radius: 3px; border: 1px solid #ffffff40; }
 .bar span { position: absolute; right: 20px; transform: translateY(50%); white-space: nowrap;
   font-variant-numeric: tabular-nums; }
 .bar span.level { color: #ffd08a; }
@@ -52,7 +53,8 @@ button[aria-pressed=true] { background: #b3261e; border-color: #e5574f; }
 button:disabled { opacity: .55; cursor: default; }
 :focus-visible { outline: 2px solid #ffc46b; outline-offset: 1px; }
 [hidden] { display: none !important; }
-@media (max-width: 520px) { .legend { font-size: 11px; right: 8px; top: 34px; } .stage { aspect-ratio: 4 / 3; } }
+@media (max-width: 520px) { .stage { aspect-ratio: 4 / 3; } .title { font-size: 12px; }
+  .legend { font-size: 11px; right: 4px; top: 30px; width: 104px; } }
 `;
 const HTML = `
 <section class="viewer" aria-label="Particle viewer">
@@ -102,7 +104,7 @@ export function mount(element, source, options = {}) {
     part(".controls").hidden = true;
     say("Particles cannot be drawn: this browser offers no WebGL 2.");
     const nothing = () => {};
-    return { setFrame: nothing, setField: nothing, setLive: nothing, destroy: nothing };
+    return { works: false, setFrame: nothing, setField: nothing, setLive: nothing, destroy: nothing };
   }
 
   let index = null, frame = 0, field = options.field, loaded = null;
@@ -159,6 +161,7 @@ export function mount(element, source, options = {}) {
         loaded = found;
         draw();
         say("");
+        part(".stage").dataset.shown = `${frame} ${field}`;
         options.onFrame?.(frame, index.times[frame]);
         return;
       } catch (error) {
@@ -319,7 +322,13 @@ export function mount(element, source, options = {}) {
 
   part(".live").setAttribute("aria-pressed", String(live));
   show(options.frame).then(watch);
-  return { setFrame, setField, setLive, destroy() { gone = true; generation++; scene.destroy(); root.innerHTML = ""; } };
+  function destroy() {
+    gone = true;
+    generation++;
+    scene.destroy();
+    root.replaceChildren();
+  }
+  return { works: true, setFrame, setField, setLive, destroy };
 }
 
 // ----- numbers in words

@@ -1,17 +1,22 @@
 """The report: one file, complete, in plain words with right numbers."""
 
+import base64
 import re
 import shlex
+import zlib
 from html.parser import HTMLParser
 from itertools import pairwise
 from typing import ClassVar
 
+import numpy as np
 import pytest
 import synthetic_run
 
 from lasersph.case import load_case
 from lasersph.output import OutputError, open_run
-from lasersph.report import write_report
+from lasersph.output.frame_blocks import particle_index
+from lasersph.report import scene, write_report
+from lasersph.report.headline import error_of, large_numbers, light_text
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
 from lasersph.report.tables import entry
 from lasersph.report.write import command_of, report_page
@@ -45,15 +50,118 @@ class Balance(HTMLParser):
         assert self.open.pop() == tag
 
 
-def test_page_is_well_formed_and_self_contained(page):
-    """Every element closed, images inside, no script, no address, no other file."""
-    balance = Balance()
-    balance.feed(page)
-    assert balance.open == []
-    assert balance.images == 7
-    assert page.count("data:image/png;base64,") == 7
-    assert "<script" not in page
-    assert "http" not in re.sub(r"base64,[^\"]+", "", page)
+def test_page_is_well_formed_and_self_contained(page, folder):
+    """Every element closed, images inside, no address, no other file; scripts only the viewer's,
+    and none where it is left out."""
+    without = report_page(open_run(folder), sorted((folder / "figures").glob("*.png")))
+    for text in (page, without):
+        balance = Balance()
+        balance.feed(text)
+        assert balance.open == []
+        assert balance.images == 7
+        assert text.count("data:image/png;base64,") == 7
+        assert not re.findall(r"(?:src|href)=\"(?!data:image/|#)", text)
+        assert "http:" not in text and "https:" not in text and "import " not in text
+    assert page.count("<script") == 2
+    assert "<script" not in without
+
+
+def test_pictures_come_first(page):
+    """What was computed, the viewer, the pool, five numbers; then figures, tables, versions."""
+    order = ["<h1>", "This run computes", 'id="viewer"', 'id="particles"', '<dl class="numbers">']
+    order += ["The metal reached at most", 'id="figures"', 'id="temperature"', 'id="results"']
+    order += ["<summary>Melt pool", "<summary>Energy", 'id="case"', 'id="reproduce"', "numpy"]
+    places = [page.index(text) for text in order]
+    assert places == sorted(places)
+    assert page.count("<dd>") == 5
+
+
+def test_embedded_frames_are_few_small_and_right(folder, monkeypatch):
+    """At most 24 frames with the hottest among them; fewer where they do not fit; values to
+    1/65 535 of their range."""
+    run = open_run(folder)
+    frames = scene.embedded_frames(run)
+    index = frames["index"]
+    assert len(index["times"]) == min(len(run.snapshots), scene.MOST_FRAMES)
+    number = len(index["times"]) // 2
+    step = run.snapshots.nearest(index["times"][number])
+    for name, expected in (("temperature", step["temperature"]), ("position", step["position"])):
+        values = decode(frames, name, number)
+        ends = frames["blocks"][block_name(index, name, number)]["range"]
+        wanted = np.atleast_2d(expected)
+        values = values if name == "temperature" else values[[0, 2]]
+        assert np.all(np.abs(values - wanted) <= (max(b - a for a, b in ends)) / 65535)
+    size = sum(len(block["data"]) for block in frames["blocks"].values())
+    monkeypatch.setattr(scene, "LARGEST", size // 2)
+    fewer = scene.embedded_frames(run)
+    assert len(fewer["index"]["times"]) < len(index["times"])
+    hottest = particle_index(folder)
+    assert hottest["times"][hottest["start"]] in fewer["index"]["times"]
+    monkeypatch.setattr(scene, "LARGEST", 100)
+    assert scene.embedded_frames(run) is None
+    assert scene.scene(run) == ""
+
+
+def block_name(index, field, number):
+    """Name of a block, as the viewer makes it."""
+    place = f"{index['blocks'][field][number]}.{index['counts'][number]}"
+    return f"particles.{field}.{place}.{index['stamp']}"
+
+
+def decode(frames, field, number):
+    """A block as `inline` of viewer.js reads it, (parts, count)."""
+
+    def steps(name):
+        plain = np.frombuffer(
+            zlib.decompress(base64.b64decode(frames["blocks"][name]["data"])), np.uint8
+        ).astype(np.uint16)
+        return plain[: plain.size // 2] | plain[plain.size // 2 :] << 8
+
+    name = block_name(frames["index"], field, number)
+    block, total = frames["blocks"][name], steps(name)
+    if block["first"]:
+        total = total + steps(block["first"])
+    low, high = np.array(block["range"]).T[:, :, None]
+    return low + (high - low) * total.reshape(low.size, -1) / 65535
+
+
+@pytest.mark.parametrize(
+    ("laser", "text"),
+    [
+        ({}, ""),
+        (
+            {"fluence": 9000.0, "fluence_kind": "mean", "pulse": {"count": 1, "fwhm": 1e-8}}
+            | {"beam": {"kind": "interference", "period": 5e-6}},
+            " under one pulse of 10 ns with a mean fluence of 0.9 J/cm² of interfering beams"
+            " (period 5 µm)",
+        ),
+        (
+            {"fluence": 1e5, "pulse": {"count": 3, "duration": 6e-9}}
+            | {"beam": {"kind": "top-hat", "radius": 7.5e-6}},
+            " under 3 pulses of 6 ns with 10 J/cm² in a top-hat beam (radius 7.5 µm)",
+        ),
+    ],
+)
+def test_light_in_words(laser, text):
+    """The light of a case as a part of a sentence."""
+    assert light_text(laser) == text
+
+
+def test_large_numbers_have_errors(folder):
+    """From the companions where there are any, else from counting in cells, else none."""
+    run = open_run(folder)
+    key, value = "melt.depth_max_m", run.summary["melt"]["depth_max_m"]
+    assert "were not assessed" in large_numbers(run)
+
+    class Counted:
+        summary: ClassVar = {**run.summary, "numerical_sd": {key: 0.02 * value}}
+        uncertainty = None
+
+    assert " ± " in large_numbers(Counted())
+    assert error_of(Counted.summary, None, key) == 0.04 * value
+    Counted.uncertainty = {"numbers": {key: {"error": 0.1 * value}}}
+    assert error_of(Counted.summary, Counted.uncertainty, key) == 0.1 * value
+    assert "hold about 95 %" in large_numbers(Counted())
 
 
 def test_page_says_what_was_asked_and_found(page, folder):

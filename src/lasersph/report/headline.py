@@ -1,0 +1,109 @@
+"""The top of a report: what was computed in one sentence, and five numbers with their errors."""
+
+from __future__ import annotations
+
+import re
+from html import escape
+from typing import Any
+
+from lasersph.input import format_with_error
+from lasersph.observers.quantity import unit_in
+from lasersph.output import Run
+from lasersph.report.page import paragraph
+from lasersph.report.tables import main_results, place_text, quantity, shown, text_of
+
+EFFECTS = {
+    "conduction": "heating and melting",
+    "melt-pool": "heating, melting and flow",
+    "ablation": "heating, melting and ablation",
+}
+FIRST = (
+    *("temperature_max_K", "crater.depth_m", "crater.diameter_m", "ejecta.speed_mean_m_s"),
+    *("topography.peak_to_valley_m", "melt.depth_max_m", "melt.width_max_m"),
+    *("flow.surface_speed_max_m_s", "melt.end_s", "flow.speed_max_m_s", "ejecta.mass_kg"),
+)
+"""Main results that a reader asks for first, in this order."""
+MOST_NUMBERS = 5
+UNIT_BEHIND = re.compile(r"(?<=[0-9]) (?=\S)")
+"""Blank behind a number, where no line may end."""
+STILLS = ("crater-3d", "flow", "relief-section", "crater", "particles", "box-flow", "temperature")
+"""Figures that show the pool or the crater, the most telling first."""
+
+
+def what_was_computed(run: Run) -> str:
+    """One sentence: metal, light, dimensions, particles, time."""
+    summary, case = run.summary, run.case
+    material = case.get("material") or {}
+    metal = str(material.get("title") or material.get("name") or "a liquid").split(" (")[0]
+    metal = metal[0].lower() + metal[1:] if metal[1:2].islower() else metal
+    effects = EFFECTS.get(case.get("solver", {}).get("kind"), "heating")
+    effects = "flow" if "box" in summary or "melt" not in summary else effects
+    size = f"{shown(summary['particles'], 9)} particles"
+    if summary.get("spacing_m"):
+        size += f", {quantity(summary['spacing_m'], 'm', 3)} apart at the finest"
+    end = quantity(summary["time_s"], "s", 3)
+    text = (
+        f"This run computes the {effects} of {metal}{light_text(case.get('laser') or {})} over"
+        f" {end}, in {summary.get('dimensions', '–')}-D with {size}."
+    )
+    return UNIT_BEHIND.sub("\u00a0", text)
+
+
+def light_text(laser: dict[str, Any]) -> str:
+    """The light of a case after the name of its metal; empty where there is none."""
+    fluence, pulse, beam = laser.get("fluence"), laser.get("pulse") or {}, laser.get("beam") or {}
+    if fluence is None and laser.get("intensity") is None:
+        return ""
+    count = int(pulse.get("count") or 1)
+    lasts = pulse.get("fwhm") or pulse.get("duration")
+    text = " under one pulse" if count == 1 else f" under {count} pulses"
+    if lasts:
+        text += f" of {quantity(lasts, 's', 3)}"
+    if fluence is not None:
+        kind = f"a {laser['fluence_kind']} fluence of " if laser.get("fluence_kind") else ""
+        text += f" with {kind}{quantity(1e-4 * fluence, 'J/cm^2', 3)}"
+    if beam.get("kind") in (None, "uniform"):
+        return text
+    if beam["kind"] == "interference":
+        period = beam.get("period")
+        return f"{text} of interfering beams" + (
+            f" (period {quantity(period, 'm', 3)})" if period else ""
+        )
+    radius = beam.get("radius") or beam.get("radius_1e2")
+    return f"{text} in a {beam['kind']} beam" + (
+        f" (radius {quantity(radius, 'm', 3)})" if radius else ""
+    )
+
+
+def large_numbers(run: Run) -> str:
+    """Five main results, large, with unit, error and when, and what the errors hold."""
+    summary, found = run.summary, run.uncertainty
+    results = {one.key: (one, value) for one, value in main_results(summary) if value}
+    order = [key for key in FIRST if key in results]
+    order += [key for key in results if key not in order]
+    cards = []
+    for key in order[:MOST_NUMBERS]:
+        one, value = results[key]
+        text = text_of(one, value, summary)
+        error = error_of(summary, found, key)
+        if error:
+            unit = unit_in(one.unit, int(summary.get("dimensions", 3)))
+            text = format_with_error(value, error, unit, typographic=True)
+        when = place_text(summary, one.at[0]) if one.at else ""
+        words = one.words.split(" (")[0] + (f", at {when}" if when else "")
+        cards.append(f"<div><dd>{escape(text)}</dd><dt>{escape(words)}</dt></div>")
+    if found is not None:
+        note = "Errors hold about 95 %: of the spacing and of the inputs, see How sure."
+    elif summary.get("numerical_sd"):
+        note = "Errors are twice what counting in cells makes uncertain; --uncertainty gives all."
+    else:
+        note = "The errors of these numbers were not assessed: run with --uncertainty."
+    return f'<dl class="numbers">{"".join(cards)}</dl>' + paragraph(note, "about")
+
+
+def error_of(summary: dict[str, Any], found: dict[str, Any] | None, key: str) -> float | None:
+    """Error of a main result that holds about 95 % [SI]; None where none is known."""
+    if found is not None:
+        return found["numbers"].get(key, {}).get("error")
+    deviation = (summary.get("numerical_sd") or {}).get(key)
+    return None if deviation is None else 2.0 * deviation

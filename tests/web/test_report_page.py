@@ -1,0 +1,62 @@
+"""The report in a real browser: from a file, with the viewer, without WebGL, on paper."""
+
+import re
+
+import pytest
+import synthetic_run
+from playwright.sync_api import expect
+
+from lasersph.output import open_run
+from lasersph.plots import style
+from lasersph.plots.particle_map import particle_map
+from lasersph.report.scene import scene
+from lasersph.report.write import report_page
+
+pytestmark = pytest.mark.web
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    """A report with one figure."""
+    run = open_run(synthetic_run.make_run(tmp_path_factory.mktemp("web") / "run"))
+    still = style.save(particle_map(run), run.path / "particles.png")
+    path = run.path / "report.html"
+    path.write_text(report_page(run, [still], scene(run)), encoding="utf-8")
+    return path
+
+
+def test_viewer_inside_a_file(page, report, tmp_path):
+    """The frames of the page itself: drawn, scrubbed, colored; nothing is asked of any network."""
+    asked = []
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(report.as_uri())
+    expect(page.locator(".scale")).to_be_visible()
+    expect(page.locator(".legend b")).to_have_text("temperature [K]")
+    page.get_by_label("Time").fill("0")
+    expect(page.locator("output")).to_have_text("0 s")
+    page.get_by_label("Color", exact=True).select_option("melt fraction")
+    expect(page.locator(".legend b")).to_have_text("melt fraction")
+    viewer, still = page.locator("#viewer").bounding_box(), page.locator(".top figure")
+    numbers = page.locator(".numbers")
+    assert viewer["y"] < numbers.bounding_box()["y"] < still.bounding_box()["y"]
+    page.screenshot(path=tmp_path / "report.png")
+    assert [url for url in asked if not re.match("file:|blob:|data:", url)] == []
+    paper = page.pdf(path=tmp_path / "report.pdf", format="A4")
+    assert paper.startswith(b"%PDF")
+    page.emulate_media(media="print")
+    expect(page.locator("#viewer")).to_be_hidden()
+    assert still.bounding_box()["y"] < numbers.bounding_box()["y"]
+    expect(page.get_by_text("largest depth of half molten metal").first).to_be_visible()
+    page.set_viewport_size({"width": 390, "height": 800})
+    page.emulate_media(media="screen")
+    wide = page.evaluate("document.documentElement.scrollWidth")
+    assert wide <= 390
+
+
+def test_without_webgl_the_picture_leads(page_without_webgl, report):
+    """The page says so, and the still picture comes before the numbers."""
+    page = page_without_webgl
+    page.goto(report.as_uri())
+    expect(page.get_by_text("this browser offers no WebGL 2")).to_be_visible()
+    still, numbers = page.locator(".top figure"), page.locator(".numbers")
+    assert still.bounding_box()["y"] < numbers.bounding_box()["y"]
