@@ -40,6 +40,7 @@ from lasersph.boundaries.surface import (
     SurfaceStep,
     upward,
 )
+from lasersph.boundaries.surface_conditions import find_conditions
 from lasersph.boundaries.surface_drives import Drives
 from lasersph.boundaries.surface_flux import flux_through, volume_flux
 from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
@@ -113,10 +114,10 @@ class MovingSurface:
         names = ("at_surface", "near_surface", "depth", "temperature", "gradient", "stress")
         for name in (*names, "ghost_velocity_jump", "_distance", "_p_b"):
             setattr(self, name, backend.zeros(count))
-        self._n, self._shift, self._jump = (backend.zeros((2, count)) for _ in range(3))
-        self.ghosts = SurfaceGhosts(
-            self._n, self._distance, self._shift, self._jump, self._p_b, CLOSEST * spacing
+        vectors = self._n, self._shift, self._jump, self._stress_jump = tuple(
+            backend.zeros((2, count)) for _ in range(4)
         )
+        self.ghosts = SurfaceGhosts(self._distance, self._p_b, CLOSEST * spacing, *vectors)
         self.pressure: PressureCondition | None = None
         self._followed = np.zeros(line.count)
         low, high = (END_KINDS[kind] for kind in line.ends)
@@ -196,7 +197,13 @@ class MovingSurface:
             self._line_pressure = np.interp(line.x, line.x[molten], self._line_pressure[molten])
         self._renew_values()
         self._set_values(now.position)
-        self.pressure = self._pressure_condition(neighbors)
+        self.pressure, share = find_conditions(
+            backend, line, self.segments.is_molten, members, self.ghosts, neighbors
+        )
+        tables = {name: self._tables[name] for name in ("start", "inverse", "nodes")}
+        tables["share"] = backend.asarray(np.pad(share, 2, mode="edge"))
+        fields = {"x": now.position, "jump": self._jump}
+        backend.pointwise(loops.passed_on, fields, self._stress_jump, **tables)
 
     def _set_part(
         self,
@@ -379,13 +386,3 @@ class MovingSurface:
             for fields, parity in ((even, EVEN), (odd, ODD))
             for name, values in fields.items()
         }
-
-    def _pressure_condition(self, neighbors: SurfaceNeighbors) -> PressureCondition:
-        """Boundary coefficients and pressures of the pressure equation."""
-        backend, count = self.backend, neighbors.pairs.row_start.shape[0] - 1
-        a, p_b = backend.zeros(count), backend.zeros(count)
-        fields = {"g_ij": neighbors.weights, "across": neighbors.across}
-        fields |= {"distance": neighbors.gather(self._distance), "p_b": neighbors.gather(self._p_b)}
-        terms, finish = loops.given_pressure, loops.given_pressure_of_row
-        backend.pair_sum(terms, neighbors.pairs, fields, (a, p_b), finish=finish)
-        return PressureCondition(coefficient=a, value=p_b)

@@ -38,17 +38,19 @@ class PressureCondition(NamedTuple):
 class SurfaceGhosts(NamedTuple):
     """Ghosts across the local tangent of a surface that is no plane, by their sources.
 
-    normal: (2, n) of the surface, outward. distance: (n,) from the tangent [m]. shift: (2, n) from
-    source to ghost [m]. jump: (2, n) velocity of the ghost over its source [m/s]. pressure: (n,)
-    p_b at the surface [Pa]. closest: least distance from a tangent that counts [m].
+    distance: (n,) from the tangent [m]. pressure: (n,) p_b at the surface [Pa]. closest: least
+    distance that counts [m]. normal: (2, n) of the surface, outward. shift: (2, n) from source to
+    ghost [m]. jump: (2, n) velocity of the ghost over its source [m/s]; stress_jump: that with
+    which pairs across pass on the whole stress, however they lie.
     """
 
-    normal: Array
     distance: Array
-    shift: Array
-    jump: Array
     pressure: Array
     closest: float
+    normal: Array
+    shift: Array
+    jump: Array
+    stress_jump: Array
 
 
 class SurfaceStep(NamedTuple):

@@ -47,6 +47,7 @@ AT_END = np.array([35.0, -35.0, 21.0, -5.0]) / 16.0
 FIRST = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
 SECOND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
 """Central differences of fourth order, times dx and dx^2."""
+BINOMIAL = np.array([1.0, 4.0, 6.0, 4.0, 1.0])
 SHORTEST = 0.3e-6
 """lambda_c of lines with fine columns [m]: of a wave of 1 um F takes 6e-6."""
 FEWEST_COLUMNS = 6.0
@@ -194,6 +195,16 @@ class SurfaceLine:
             "pinned": _extrapolate(values[: n - 6 : -1]),
         }[self.ends[1]]
         return np.concatenate([left, values, right])
+
+    def mean_of_neighbors(self, values: Array, counts: NDArray[np.bool_]) -> Array:
+        """Binomial mean (count,) of five columns, of those that count; fewer beside a pin."""
+        modes = {"mirror": "symmetric", "periodic": "wrap", "pinned": "constant"}
+        left, right = (modes[end] for end in self.ends)
+        both = np.stack([values * counts, counts.astype(float)])
+        both = np.pad(both, ((0, 0), (2, 0)), mode=left)[:, : self.count + 2]
+        both = np.pad(both, ((0, 0), (0, 2)), mode=right)
+        sums = [np.convolve(row, BINOMIAL, mode="valid") for row in both]
+        return sums[0] / np.maximum(sums[1], 1.0)
 
     def _stencil(self, weights: Array, values: Array, parity: float) -> Array:
         """Sum of five neighboring values with weights; at pinned ends of the quartic."""

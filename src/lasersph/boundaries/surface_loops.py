@@ -174,7 +174,7 @@ def mean_velocity(k, row_start, member, x, u, V, flows, start, inverse, columns,
 
 
 def thickness_of(k, row_start, member, V, inverse):
-    """How thick the particles of a column are [m]."""
+    """Sum of V over the particles of a column, over its width: how thick they are [m]."""
     total = 0.0
     for p in range(row_start[k], row_start[k + 1]):
         total += V[member[p]]
@@ -287,17 +287,25 @@ def mean_weight(g_ij, swapped_ij, across_j):
 
 
 def given_pressure(g_ij, across_j, distance_i, distance_j, p_b_j):
-    """Boundary coefficient of a pair toward a ghost across the surface, and that times p_b.
+    """Boundary coefficient of a pair toward a ghost across the surface, and that times p_b; and the
+    length of surface over which the pair passes on a stress [m].
 
     The ghost's pressure continues the line from particle i through p_b at the surface.
     """
-    a = across_j * g_ij * (distance_i + distance_j) / distance_i
-    return a, a * p_b_j
+    length = across_j * g_ij * (distance_i + distance_j)
+    a = length / distance_i
+    return a, a * p_b_j, length
 
 
-def given_pressure_of_row(total_0, total_1):
-    """Boundary coefficient of a particle, and the mean of p_b [Pa]."""
-    return total_0, total_1 / max(total_0, 1.0e-300)
+def given_pressure_of_row(total_0, total_1, total_2):
+    """Boundary coefficient of a particle, the mean of p_b [Pa], and the length [m]."""
+    return total_0, total_1 / max(total_0, 1.0e-300), total_2
+
+
+def passed_on(x, jump, start, inverse, nodes, share):
+    """Jump with which pairs that see a share of the surface pass on the whole stress [m/s]."""
+    place = node_place(x[0], start, inverse)
+    return jump / linear(place, node_before(place, nodes), share)
 
 
 def reflected(a, n, across):

@@ -30,6 +30,7 @@ from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.solvers.melt_pool.published.pressure_equation import PublishedPressure
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.viscous_step import ViscousStep
+from lasersph.solvers.melt_pool.wall_pressure import WallPressure
 from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.correction import (
     bounded_inverse,
@@ -163,6 +164,7 @@ class Flow:
         self.viscous = ViscousStep(
             backend, particles["volume"], liquid.viscosity, settings.viscosity
         )
+        self.wall_pressure = WallPressure(backend, count, liquid.density, liquid.viscosity)
         self._block: Block | None = None
 
     def begin(self, velocity: np.ndarray) -> None:
@@ -247,10 +249,18 @@ class Flow:
             g=liquid.gravity,
             up=upward(2),
         )
+        self.wall_pressure.find(block, self.pressure, self._C, kinds.unknown, step)
+        extended = self.extend_velocity(self.velocity)
         self.iterations["viscosity"] = self.viscous.advance(
-            block, self.velocity, self.body_force, self.ghost_velocity_jump(), kinds, step
+            block, self.velocity, self.body_force, extended, kinds, step
         )
         self.stop(kinds)
+
+    def extend_velocity(self, v: Array) -> Array:
+        """v (2, n) on the block with ghosts (2, M), as the viscosity of a step sees it [m/s]."""
+        block, beyond = self.block, None if self.surface is None else self.surface.ghosts
+        jump = self.ghost_velocity_jump() if beyond is None else beyond.stress_jump
+        return self.wall_pressure.add_to(block.extend_velocity(v, jump), block)
 
     def project(self, kinds: ParticleKinds, step: float) -> None:
         """Pressure that makes the velocity free of divergence (69).

@@ -8,12 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+import numpy as np
+
 from lasersph.boundaries.surface import Surface, SurfaceGhosts
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.compute.launch import Launch
 from lasersph.compute.vectors import element
 from lasersph.particles.ghosts import UPPER, GhostParticles
+from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.solvers.melt_pool import ghost_fields
 from lasersph.solvers.melt_pool.face_conditions import GhostRules
 
@@ -35,6 +38,7 @@ class GhostExtension:
     total: int
     source: Array
     sources: Mapping[str, Array]
+    pairs: NeighborList
 
     def __init__(self, backend: Backend, ghosts: GhostParticles, surface: Surface | None) -> None:
         self.backend, self.ghosts = backend, ghosts
@@ -55,6 +59,14 @@ class GhostExtension:
         self._velocity = self._factors | ghosts.tables("added_x", "added_z", rules.added) | slope
         self._mirror = ghosts.tables("factor_x", "factor_z", types.sign) | slope
         self._mirror |= ghosts.tables("added_x", "added_z", 0.0 * rules.added)
+        # walls below a surface that moves: what no liquid slips on, and where that lies
+        wall, is_still = rules.wall, rules.factor < 0.0
+        lateral, bottom = (wall == 1.0) | (wall == 2.0), wall == 3.0
+        along = np.stack([bottom & is_still[0], lateral & is_still[1]]).astype(float)
+        self.has_still_walls = self._beyond is not None and bool(along.any())
+        plane = 0.5 * np.where(bottom, types.offset[1], types.offset[0])
+        self._walls_along = ghosts.tables("along_x", "along_z", along)
+        self._walls_along["plane"] = ghosts.table(plane)
 
     def gather(self, field: Array) -> Array:
         """The field of all particles on the block with ghosts: (..., n) to (..., M)."""
@@ -81,6 +93,18 @@ class GhostExtension:
             jump: (n,) 2 d tau / eta [m/s].
         """
         return self._extended_velocity(v, jump, self._velocity)
+
+    def add_at_walls(self, v: Array, a: Array, step: float, nu: float) -> None:
+        """Add to velocities (2, M) what `ghost_fields.velocity_at_wall` says.
+
+        Args:
+            a: (2, n) grad p/rho [m/s^2]. step: [s]. nu: [m^2/s].
+        """
+        a_x, a_z = (self.backend.component(a, k) for k in (0, 1))
+        tables: Constants = {"a_x": a_x, "a_z": a_z, **self._walls_along}
+        function, fields = ghost_fields.velocity_at_wall, self.sources | {"v": v}
+        fields["x"] = self.pairs.position
+        self.backend.pointwise(function, fields, v, **tables, step=step, viscosity=nu)
 
     def mirror_velocity(self, v: Array, jump: Array) -> Array:
         """Velocities (2, n) on the block with ghosts as mirrors at the walls show them [m/s].

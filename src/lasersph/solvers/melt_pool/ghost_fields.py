@@ -105,6 +105,20 @@ def velocity_across(
     )
 
 
+def velocity_at_wall(source, ghost_type, v, x, a_x, a_z, along_x, along_z, plane, step, viscosity):
+    """Velocity of a ghost [m/s], with what the pressure does along a wall (`wall_pressure`).
+
+    Args:
+        x: place of the ghost [m]. a_x, a_z: grad p/rho [m/s^2]. along_x, along_z: 1 beyond a wall
+            along that axis. plane: its place [m]. step: [s]. viscosity: nu [m^2/s].
+    """
+    d_x, d_z = x[0] - plane[ghost_type], x[1] - plane[ghost_type]
+    return vector(
+        v[0] + along_x[ghost_type] * (2.0 * step + d_z * d_z / viscosity) * a_x[source],
+        v[1] + along_z[ghost_type] * (2.0 * step + d_x * d_x / viscosity) * a_z[source],
+    )
+
+
 def mirrored_vector(source, ghost_type, v_x, v_z, sign_x, sign_z):
     """A vector of the source as the faces between mirror it."""
     return vector(sign_x[ghost_type] * v_x[source], sign_z[ghost_type] * v_z[source])

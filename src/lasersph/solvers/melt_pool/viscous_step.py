@@ -47,14 +47,18 @@ class ViscousStep:
         self._launches: tuple[Launch | None, ...] = (None,) * 4
 
     def advance(
-        self, block: Block, v: Array, b: Array, jump: Array, kinds: ParticleKinds, step: float
+        self, block: Block, v: Array, b: Array, extended: Array, kinds: ParticleKinds, step: float
     ) -> int:
-        """Advance v (2, n) [m/s] under viscosity and the body force b [m/s^2]; iterations."""
+        """Advance v (2, n) [m/s] under viscosity and the body force b [m/s^2]; iterations.
+
+        Args:
+            extended: (2, M) v with that of the ghosts [m/s].
+        """
         backend = self.backend
         rows = kinds.fluid_rows
         if rows.shape[0] == 0:
             return 0
-        fields = {"v": block.extend_velocity(v, jump), "g_ij": block.weights, "V": block.V, "b": b}
+        fields = {"v": extended, "g_ij": block.weights, "V": block.V, "b": b}
         if not self.is_implicit:
             pairs, star, nu = block.pairs, self._star, self.nu
             backend.pair_sum(
@@ -73,13 +77,13 @@ class ViscousStep:
             momentum, block.pairs, fields, out, rows=rows, finish=start, reduce=reduce, s=s
         )
         points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
-        extended = backend.zeros((2, block.total))
+        changes = backend.zeros((2, block.total))
         turned, ghosts, multiplied, advanced = self._launches
         turned = backend.prepare(turn, points, d, rows=rows, again=turned, beta=0.0)
-        ghosts = block.prepare_velocity_change(d, extended, again=ghosts)
+        ghosts = block.prepare_velocity_change(d, changes, again=ghosts)
         multiplied = backend.prepare(
             momentum,
-            {"v": extended, "d": d, "g_ij": block.weights, "V": block.V},
+            {"v": changes, "d": d, "g_ij": block.weights, "V": block.V},
             (q, None),
             neighbors=block.pairs,
             rows=rows,

@@ -22,7 +22,8 @@ def advanced(solver, block, v, step, kind, steps=1):
     velocity = backend.asarray(v)
     nothing, force = backend.zeros(count), backend.zeros((2, count))
     for _ in range(steps):
-        iterations = viscous.advance(block, velocity, force, nothing, solver.kinds, step)
+        extended = block.extend_velocity(velocity, nothing)
+        iterations = viscous.advance(block, velocity, force, extended, solver.kinds, step)
     return backend.to_host(velocity), iterations
 
 
@@ -98,7 +99,9 @@ def test_solid_drags():
     v[0] = backend.to_host(solver.kinds.fluid)
     viscous = ViscousStep(backend, solver.flow.viscous.volume, 1e-6, "implicit")
     velocity, force = backend.asarray(v), backend.zeros((2, count))
-    viscous.advance(solver.flow.block, velocity, force, backend.zeros(count), solver.kinds, 1e-8)
+    block = solver.flow.block
+    extended = block.extend_velocity(velocity, backend.zeros(count))
+    viscous.advance(block, velocity, force, extended, solver.kinds, 1e-8)
     found = backend.to_host(velocity)
     fluid = v[0] > 0.0
     assert np.all(found[:, ~fluid] == 0.0)

@@ -1,0 +1,51 @@
+"""What the pairs across a moving surface do: its pressure, and how much of its stress they pass on.
+
+A pair across the surface sees g_ij (d_i + d_j) of its length, which sums up to the whole where
+particles lie in rows. Rows a fiftieth of a spacing lower see 2 % less, and so much of the stress
+was lost: films of aluminium at rest were 6 % too shallow. So ghosts get the jump of their velocity
+over the share that the pairs of the column and of its neighbors see.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.boundaries import surface_loops as loops
+from lasersph.boundaries.surface import PressureCondition, SurfaceGhosts, SurfaceNeighbors
+from lasersph.boundaries.surface_line import SurfaceLine
+from lasersph.compute.backend import Backend
+from lasersph.particles.neighbor_lists import NeighborList
+
+LEAST_SHARE = 0.5
+"""Share at least: what is less is a gap between particles, and its inverse at most."""
+
+
+def find_conditions(
+    backend: Backend,
+    line: SurfaceLine,
+    molten: NDArray[np.bool_],
+    members: NeighborList,
+    ghosts: SurfaceGhosts,
+    neighbors: SurfaceNeighbors,
+) -> tuple[PressureCondition, NDArray[np.float64]]:
+    """Condition of the pressure equation, and the share of the surface (columns,) that pairs see.
+
+    Args:
+        molten: (columns,) which move. members: particles that flow, by column.
+    """
+    count = neighbors.pairs.row_start.shape[0] - 1
+    a, p_b, length = (backend.zeros(count) for _ in range(3))
+    fields = {"g_ij": neighbors.weights, "across": neighbors.across}
+    fields |= {"distance": neighbors.gather(ghosts.distance)}
+    fields |= {"p_b": neighbors.gather(ghosts.pressure)}
+    terms, finish = loops.given_pressure, loops.given_pressure_of_row
+    backend.pair_sum(terms, neighbors.pairs, fields, (a, p_b, length), finish=finish)
+    # length that the particles of each column see, over its own
+    seen, places = backend.zeros(line.count), {"k": backend.asarray(np.arange(line.count), "index")}
+    tables = {"row_start": members.row_start, "member": members.neighbor, "V": length}
+    backend.pointwise(loops.thickness_of, places, seen, **tables, inverse=1.0 / line.width)
+    share = backend.to_host(seen) / np.sqrt(1.0 + line.slope**2)
+    share = np.where(molten, line.mean_of_neighbors(share, molten), 1.0)
+    condition = PressureCondition(coefficient=a, value=p_b)
+    return condition, np.clip(share, LEAST_SHARE, 1.0 / LEAST_SHARE)
