@@ -18,6 +18,8 @@ run: $(VENV)/.run
 	@echo "Open $(OUT)/report.html in a browser. Start anew: rm -r $(OUT)"
 
 test: $(VENV)/.test
+	@command -v chromium chromium-browser google-chrome google-chrome-stable >/dev/null || echo \
+	  "No Chromium: the tests of the page are skipped. On Debian: apt-get install chromium" >&2
 	$(VENV)/bin/python -m pytest $(PYTEST_ARGS)
 
 check: $(VENV)/.check

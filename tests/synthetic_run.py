@@ -112,8 +112,10 @@ def times():
     return np.concatenate([np.arange(0.0, 30.1, 1.0) * NS, fine, np.arange(71.0, 200.1, 1.0) * NS])
 
 
-def make_run(folder: Path, *, dimension=2, strength=1.0, fluence=6000.0, complete=True) -> Path:
-    """Write a whole run folder and return its path."""
+def make_run(
+    folder: Path, *, dimension=2, strength=1.0, fluence=6000.0, complete=True, after_step=None
+) -> Path:
+    """Write a whole run folder and return its path; `after_step(run, step)` may look or wait."""
     case = {
         "title": "made-up steel",
         "material": {"name": "steel-304-demuth", "vaporization": BOILING},
@@ -132,6 +134,8 @@ def make_run(folder: Path, *, dimension=2, strength=1.0, fluence=6000.0, complet
         run.history.append(observers.observe(view))
         if schedule.due(view.time):
             run.particles.append(view.time, position, snapshot_fields(view), units=UNITS)
+        if after_step is not None:
+            after_step(run, step)
     run.events.append("warning", time=0.0, step=0, message="4.0 cells per absorption length")
     if complete:
         summary = {"case": "made-up steel", "solver": "formula", "particles": position.shape[1]}

@@ -91,7 +91,7 @@ def test_rings_are_found():
 def test_only_upper_rooms_see_the_case():
     """No room below `case` names it, and only rooms of whole runs stand above it."""
     upper = set(LAYERS[: LAYERS.index("case") + 1])
-    assert upper == {"cli", "validation", "studies", "sweeps", "simulation", "case"}
+    assert upper == {"cli", "web", "validation", "studies", "sweeps", "simulation", "case"}
     seen = {
         room_of(path)
         for path in MODULES

@@ -1,11 +1,20 @@
 """A real browser for pages: Debian's Chromium without a screen, driven by Playwright."""
 
 import os
+import re
 import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
+from synthetic_run import make_run
 
 FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+PATIENCE = 60_000
+"""How long a page may take for anything [ms], on a machine ten times slower than today's."""
+SCREENSHOTS = Path(__file__).resolve().parents[2] / "screenshots"
+TOKEN = "token-of-the-browser-tests"
 QUIET = ("--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync")
 
 
@@ -22,7 +31,7 @@ def chromium():
         if os.environ.get("CI"):
             pytest.fail(reason)
         pytest.skip(reason)
-    expect.set_options(timeout=600_000)  # a busy machine is slow, not wrong
+    expect.set_options(timeout=PATIENCE)
     with sync_playwright() as playwright:
         yield playwright.chromium, program
 
@@ -80,3 +89,127 @@ def page_without_webgl(browser_without_webgl):
     complaints = found.complaints
     found.close()
     assert not complaints
+
+
+class Watched:
+    """A page whose complaints are noted.
+
+    Attributes:
+        errors: of the console and of scripts. foreign: requests to other servers.
+    """
+
+    def __init__(self, page):
+        self.page, self.errors, self.foreign = page, [], []
+        page.on("console", lambda one: one.type == "error" and self.errors.append(one.text))
+        page.on("pageerror", lambda one: self.errors.append(str(one)))
+        page.on("request", self._note)
+
+    def _note(self, request):
+        if not re.match(r"(http://127\.0\.0\.1[:/]|data:|blob:)", request.url):
+            self.foreign.append(request.url)
+
+    def keep(self, name):
+        """Keep a picture of the whole page."""
+        SCREENSHOTS.mkdir(exist_ok=True)
+        self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
+
+
+@pytest.fixture
+def open_page(browser):
+    """Opens pages of their own, each with its cookies; all must end without a complaint."""
+    opened = []
+
+    def open_one(address, *, width=1280, height=860, dark=False, expected=()):
+        context = browser.new_context(
+            viewport={"width": width, "height": height},
+            color_scheme="dark" if dark else "light",
+            reduced_motion="reduce",
+        )
+        context.set_default_timeout(PATIENCE)
+        watched = Watched(context.new_page())
+        opened.append((context, watched, expected))
+        watched.page.goto(address)
+        return watched
+
+    yield open_one
+    for context, watched, expected in opened:
+        watched.page.wait_for_timeout(50)  # for the last message of the console
+        context.close()
+        assert not watched.foreign
+        assert [
+            one for one in watched.errors if not re.search("|".join(expected) or "$^", one)
+        ] == []
+
+
+class Server:
+    """`lasersph serve` as a process of its own."""
+
+    def __init__(self, folder, *options):
+        self.folder, self.options, self.port = folder, options, 0
+        self.start()
+
+    def start(self):
+        """Start, on the same port where there was one before."""
+        environment = os.environ | {"LASERSPH_TOKEN": TOKEN}
+        command = [sys.executable, "-m", "lasersph", "serve", str(self.folder)]
+        self.process = subprocess.Popen(
+            [*command, "--port", str(self.port), *self.options],
+            stdout=subprocess.PIPE,
+            text=True,
+            env=environment,
+        )
+        line = self.process.stdout.readline()
+        self.port = int(re.search(r":(\d+)/\?token=", line)[1])
+
+    @property
+    def address(self):
+        """With the token."""
+        return f"http://127.0.0.1:{self.port}/?token={TOKEN}"
+
+    def kill(self):
+        """End it at once."""
+        self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+
+
+@pytest.fixture
+def serve():
+    """Starts servers that end with the test."""
+    started = []
+
+    def start(folder, *options):
+        started.append(Server(folder, *options))
+        return started[-1]
+
+    yield start
+    for server in started:
+        server.kill()
+
+
+@pytest.fixture(scope="session")
+def runs(tmp_path_factory):
+    """Three runs, one of them stopped, and a damaged one. Read only."""
+    from lasersph.output import open_run
+    from lasersph.plots import style
+    from lasersph.plots.run_figures import DRAWINGS
+
+    root = tmp_path_factory.mktemp("page") / "runs"
+    make_run(root / "hot", strength=1.2)
+    make_run(root / "cool", strength=0.4)
+    make_run(root / "stopped", complete=False)
+    (root / "damaged").mkdir()
+    (root / "damaged" / "resolved.json").write_text("{")
+    (root / "hot" / "figures").mkdir()
+    figures = {one.name: one.draw(open_run(root / "hot")) for one in DRAWINGS[:2]}
+    for name, figure in figures.items():
+        style.save(figure, root / "hot" / "figures" / f"{name}.png")
+    return root
+
+
+@pytest.fixture(scope="session")
+def address(runs):
+    """Of one server that only shows these runs."""
+    server = Server(runs)
+    yield server.address
+    server.kill()

@@ -44,6 +44,11 @@ VERBS = {
             "results.report",
             "Write DIR/report.html: figures and numbers on one self-contained page.",
         ),
+        "serve": (
+            "serving.serve",
+            "Show the runs and sweeps of a folder as a page in a browser: live curves, particles, "
+            "maps.",
+        ),
         "export": (
             "results.export",
             "Write the surface of a crater or a relief as CSV, STL, PLY, X3P or SDF.",

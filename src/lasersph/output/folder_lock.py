@@ -229,6 +229,32 @@ def machine() -> str:
         return socket.gethostname()
 
 
+def is_computing(folder: Path) -> bool:
+    """Whether a process seems to compute in a folder. For display: it compares two clocks."""
+    path = folder / NAME
+    try:
+        silence = time.time() - path.stat().st_mtime
+    except OSError:
+        return False
+    owner = read_owner(path)
+    if owner.get("machine") == machine() and not is_process(owner.get("process")):
+        return silence < 1.5 * BEAT  # one in another container may live
+    return silence < SILENCE
+
+
+def is_process(number: object) -> bool:
+    """Whether a number is that of a process that lives."""
+    if not isinstance(number, int) or number <= 1:
+        return False
+    try:
+        os.kill(number, 0)
+    except PermissionError:
+        return True
+    except (ProcessLookupError, OverflowError):
+        return False
+    return True
+
+
 def is_lock(path: Path) -> bool:
     """Whether a path is a lock, or what a process killed while it took one left."""
     return path.name == NAME or path.name.startswith(f"{NAME}.")

@@ -1,16 +1,18 @@
 """What grows with a run: the table `history.csv`, a row per time step, and `events.jsonl`.
 
 Numbers are written with the fewest digits that read back to the same double, so the file holds
-the run exactly. Rows gather in memory and reach the file every few hundred rows and at each
-checkpoint; a resumed run cuts the file back to the rows its checkpoint knows. Each line of
-`events.jsonl` is a JSON object: `time_s`, `step`, `event` (a short name), `clock` (date and time,
-for people only) and whatever else the event says; it is written at once.
+the run exactly. Rows gather in memory and reach the file every few hundred rows, after half a
+second, so that who looks on sees them come, and at each checkpoint; a resumed run cuts the file
+back to the rows its checkpoint knows. Each line of `events.jsonl` is a JSON object: `time_s`,
+`step`, `event` (a short name), `clock` (date and time, for people only) and whatever else the event
+says; it is written at once.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import time
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
@@ -23,6 +25,8 @@ from lasersph.output.errors import OutputError, clear_errors
 from lasersph.output.generation import raise_generation
 
 Value = float | int | str
+LONGEST_GATHERING = 0.5
+"""After this time [s] rows are written, however few: what they say does not depend on when."""
 
 
 class History:
@@ -35,6 +39,7 @@ class History:
         self.rows = 0
         self.columns: tuple[str, ...] = ()
         self._buffer: list[str] = []
+        self._written_at = time.monotonic()
         if path.exists():
             lines = complete_lines(path)
             if lines:
@@ -56,7 +61,8 @@ class History:
             raise ValueError(f"history row with other columns than the first: {difference}")
         self._buffer.append(",".join(csv_text(row[name]) for name in self.columns))
         self.rows += 1
-        if len(self._buffer) >= self.buffer_rows:
+        gathering = time.monotonic() - self._written_at
+        if len(self._buffer) >= self.buffer_rows or gathering > LONGEST_GATHERING:
             self.flush()
 
     def flush(self, *, sync: bool = False) -> None:
@@ -74,6 +80,7 @@ class History:
                 os.ftruncate(stream.fileno(), size)
                 raise
         self._buffer.clear()
+        self._written_at = time.monotonic()
 
     def cut(self, rows: int) -> None:
         """Keep the first `rows` rows and drop what follows; 0 drops the whole table.

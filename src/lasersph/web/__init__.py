@@ -1,0 +1,11 @@
+"""The page of runs and sweeps that `lasersph serve` shows in a browser.
+
+folder_list     the runs and sweeps below one folder, each with an address of its own
+run_page        what is told of one run: card, state, numbers, figures, case
+access          who may ask: token, host names, origin, headers of every answer
+server          the addresses, and the loop that answers
+live            events of a run that is computed
+
+The page itself, its style and its modules of JavaScript are sent as they lie here. uplot.js and
+uplot.css are uPlot 1.6.32 by Leon Sorokin (MIT license, uplot-license.txt).
+"""

@@ -1,0 +1,115 @@
+"""The runs and sweeps below one folder, found by looking, never by joining a path to an address.
+
+An address is a hash of the path below the folder, so that it is the same after a restart and holds
+nothing that leads elsewhere. Links are not followed, neither to folders nor inside of them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from lasersph.output import OutputError
+from lasersph.sweeps.folder import POINTS, RUNS
+
+DEEPEST = 3
+"""Levels of folders that are looked through: DIR/series/sweep/runs."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A run or a sweep.
+
+    Attributes:
+        id: in addresses. path: its folder. name: path below the folder that is shown.
+        kind: what it is. sweep: id of the sweep that a run belongs to, else empty.
+    """
+
+    id: str
+    path: Path
+    name: str
+    kind: Literal["run", "sweep"]
+    sweep: str = ""
+
+
+def id_of(name: str) -> str:
+    """The address of a path below the folder."""
+    return hashlib.sha256(name.encode("utf-8", "surrogateescape")).hexdigest()[:12]
+
+
+class FolderList:
+    """What lies below a folder now.
+
+    Attributes:
+        root: the folder.
+    """
+
+    def __init__(self, root: Path) -> None:
+        self.root = root.resolve()
+        self._known: dict[str, Entry] = {}
+
+    def entries(self) -> list[Entry]:
+        """All runs and sweeps, sweeps before their runs."""
+        found: list[Entry] = []
+        self._look(self.root, "", 0, found)
+        self._known = {entry.id: entry for entry in found}
+        return found
+
+    def find(self, id: str, kind: Literal["run", "sweep"]) -> Entry:
+        """The entry with an address.
+
+        Raises:
+            KeyError: there is none. OutputError: its folder has become a link.
+        """
+        if id not in self._known:
+            self.entries()
+        entry = self._known[id]
+        if entry.kind != kind:
+            raise KeyError(id)
+        if entry.path.resolve() != entry.path:
+            raise OutputError(f"{entry.name} is reached through a link, which is not followed")
+        return entry
+
+    def run_of(self, path: Path) -> str:
+        """Address of a folder below the root."""
+        return id_of(path.relative_to(self.root).as_posix())
+
+    def _look(self, folder: Path, sweep: str, depth: int, found: list[Entry]) -> None:
+        try:
+            with os.scandir(folder) as scan:
+                inside = sorted(scan, key=lambda one: one.name)
+        except OSError:
+            return  # one that cannot be read spoils nothing else
+        names = {one.name for one in inside}
+        name = folder.relative_to(self.root).as_posix()
+        shown = self.root.name if name == "." else name
+        if "resolved.json" in names:
+            found.append(Entry(id_of(name), folder, shown, "run", sweep))
+            return
+        if POINTS in names:
+            sweep = id_of(name)
+            found.append(Entry(sweep, folder, shown, "sweep"))
+            inside = [one for one in inside if one.name == RUNS]
+        if depth == DEEPEST:
+            return
+        for one in inside:
+            if one.is_dir(follow_symlinks=False) and not one.name.startswith("."):
+                is_part = sweep and one.name == RUNS
+                self._look(folder / one.name, sweep, depth + (not is_part), found)
+
+
+def refuse_links(folder: Path) -> None:
+    """Refuse a run folder that holds a link, which could lead anywhere. Raises OutputError."""
+    for place in (folder, folder / "figures"):
+        try:
+            with os.scandir(place) as scan:
+                links = sorted(one.name for one in scan if one.is_symlink())
+        except FileNotFoundError:
+            continue
+        except OSError as error:
+            raise OutputError(f"{place.name} cannot be read: {error.strerror}") from error
+        if links:
+            raise OutputError(f"the folder holds a link, {links[0]}, which is not followed")

@@ -1,0 +1,133 @@
+/** The start page: runs and sweeps as cards, sorted and filtered. */
+
+import { ago, chip, h, quantity, sparkline } from "./dom.js";
+import { getJson, pause } from "./net.js";
+
+const EVERY = 2000;
+const ORDERS = {
+  newest: ["newest first", (run) => -(run.modified ?? 0)],
+  name: ["name", (run) => run.name],
+  temperature: ["highest temperature", (run) => -(run.values?.temperature_max_K ?? 0)],
+  depth: ["deepest melt", (run) => -(run.values?.["melt.depth_max_m"] ?? 0)],
+};
+const STATES = ["all states", "running", "complete", "stopped", "damaged"];
+const chosen = { text: "", state: STATES[0], order: "newest", compared: new Set() };
+/** What the reader chose stays when a run was opened in between. */
+
+export async function showList(place, signal, head) {
+  const cards = new Map();
+  const grid = h("div", { class: "cards" });
+  const count = h("p", { class: "quiet", role: "status" });
+  const compare = h("a", { class: "button", hidden: true }, "Compare");
+  let content = { runs: [], sweeps: [] };
+
+  const draw = () => {
+    const words = chosen.text.toLowerCase().split(/\s+/).filter(Boolean);
+    const key = ORDERS[chosen.order][1];
+    const all = [...content.sweeps, ...content.runs];
+    const shown = all
+      .filter((run) => chosen.state === STATES[0] || run.state === chosen.state)
+      .filter((run) => words.every((word) => wordsOf(run).includes(word)))
+      .sort((a, b) => (key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : a.name < b.name ? -1 : 1));
+    const wanted = shown.map((run) => cardOf(run));
+    if (wanted.some((card, k) => grid.children[k] !== card) || grid.children.length !== wanted.length) {
+      const focused = document.activeElement;
+      grid.replaceChildren(...wanted);
+      if (grid.contains(focused)) focused.focus();
+    }
+    const running = content.runs.filter((run) => run.state === "running").length;
+    count.textContent = all.length
+      ? [`${shown.length} of ${all.length}`, running ? `${running} running` : ""].filter(Boolean).join(", ")
+      : "";
+    if (!all.length) {
+      grid.replaceChildren(h("p", { class: "empty" }, "No run lies in this folder yet. Start one: ",
+        h("code", {}, `lasersph run dlip-steel --out ${content.folder}/steel`)));
+    }
+    const picked = [...chosen.compared].filter((id) => content.runs.some((run) => run.id === id));
+    compare.hidden = picked.length !== 2;
+    compare.setAttribute("href", `#/compare/${picked.join("/")}`);
+  };
+
+  const cardOf = (run) => {
+    const text = JSON.stringify(run);
+    const known = cards.get(run.id);
+    if (known?.text === text) return known.card;
+    const card = run.kind === "sweep" ? sweepCard(run) : runCard(run, draw);
+    cards.set(run.id, { text, card });
+    return card;
+  };
+
+  place.replaceChildren(
+    h("h1", {}, "Runs"),
+    h("form", { class: "tools", role: "search", onsubmit: (event) => event.preventDefault() },
+      labeled("Find", h("input", { type: "search", value: chosen.text, placeholder: "case, metal, key, folder",
+        oninput: (event) => { chosen.text = event.target.value; draw(); } })),
+      labeled("State", options(STATES.map((state) => [state, state]), chosen.state,
+        (value) => { chosen.state = value; draw(); })),
+      labeled("Order", options(Object.entries(ORDERS).map(([name, [words]]) => [name, words]), chosen.order,
+        (value) => { chosen.order = value; draw(); })),
+      count, compare),
+    grid);
+
+  for (;;) {
+    content = await getJson("api/runs", { signal });
+    head(content);
+    draw();
+    do await pause(EVERY, signal); while (document.hidden);
+  }
+}
+
+function wordsOf(run) {
+  const changes = (run.changes ?? []).map((one) => `${one.key} ${one.now}`).join(" ");
+  return [run.name, run.title, run.case, run.material, run.solver, run.state, changes].join(" ").toLowerCase();
+}
+
+function labeled(words, field) {
+  return h("label", {}, h("span", {}, words), field);
+}
+
+function options(entries, value, change) {
+  return h("select", { onchange: (event) => change(event.target.value) },
+    entries.map(([name, words]) => h("option", { value: name, selected: name === value }, words)));
+}
+
+function runCard(run, changed) {
+  if (run.state === "damaged") {
+    return h("article", { class: "card damaged" },
+      h("div", { class: "words" }, h("h2", {}, run.name), chip(run.state), h("p", { class: "error" }, run.error)));
+  }
+  const name = run.title || run.name;
+  const pick = h("input", { type: "checkbox", "aria-label": `Compare ${run.name}`,
+    checked: chosen.compared.has(run.id),
+    onchange: (event) => {
+      if (event.target.checked) chosen.compared.add(run.id);
+      else chosen.compared.delete(run.id);
+      changed();
+    } });
+  return h("article", { class: "card" },
+    h("div", { class: "picture" }, pictureOf(run)),
+    h("div", { class: "words" },
+      h("h2", {}, h("a", { href: `#/run/${run.id}` }, run.name)),
+      chip(run.state),
+      name !== run.name && h("p", { class: "title" }, name),
+      run.state !== "complete" && h("progress", { value: run.time_s, max: run.end_s, "aria-label": "time reached" }),
+      h("ul", { class: "tags", "aria-label": "what was changed" }, run.changes.filter((one) => !/^[[{]/.test(one.now)).slice(0, 4).map((one) =>
+        h("li", { title: one.was ? `${one.key}: ${one.was} in the case file` : one.key }, `${one.key.split(".").pop()} ${one.now}`))),
+      h("dl", { class: "numbers" }, run.numbers.slice(0, 4).map((one) => [h("dt", {}, one.words), h("dd", {}, one.text)])),
+      h("footer", {}, h("span", {}, run.state === "complete"
+        ? `${quantity(run.time_s, "s")} in ${run.took}` : `${quantity(run.time_s, "s")} of ${quantity(run.end_s, "s")}`),
+        h("span", {}, ago(run.modified)), h("label", { class: "pick" }, pick, "compare"))));
+}
+
+function pictureOf(run) {
+  if (run.picture) {
+    return h("img", { src: `api/run/${run.id}/figure/${run.picture}`, loading: "lazy", decoding: "async",
+      alt: `${run.picture.replaceAll("-", " ")} of ${run.name}` });
+  }
+  if (run.curve?.length > 1) return [sparkline(run.curve), h("span", { class: "what" }, "highest temperature")];
+  return h("span", { class: "what" }, "no picture yet");
+}
+
+function sweepCard(sweep) {
+  return h("article", { class: "card" }, h("h2", {}, sweep.name));
+}

@@ -1,0 +1,44 @@
+/** The head of the page, and what is shown for which address after the #. */
+
+import { h } from "./dom.js";
+import { Refused } from "./net.js";
+import { showList } from "./list.js";
+import { showRun } from "./run.js";
+
+const ADDRESSES = [
+  [/^#\/run\/([0-9a-f]+)$/, showRun],
+  [/^(#\/)?$/, showList],
+];
+let shown = null;
+
+function head(content) {
+  document.getElementById("folder").textContent = content.folder;
+}
+
+async function show() {
+  const address = location.hash;
+  const [match, view] = ADDRESSES.map(([pattern, view]) => [address.match(pattern), view]).find(([match]) => match) ?? [];
+  if (!match && !address.startsWith("#/")) return; // a place in the page
+  const wasShown = shown !== null;
+  shown?.abort();
+  shown = new AbortController();
+  const { signal } = shown;
+  // a part of its own: what comes late for an address that was left draws into what nobody sees
+  const place = h("div", { class: "view" });
+  document.getElementById("content").replaceChildren(place);
+  document.title = "lasersph";
+  window.scrollTo(0, 0);
+  if (wasShown) document.getElementById("content").focus({ preventScroll: true });
+  try {
+    if (!match) throw new Refused(404, "There is nothing at this address.");
+    await view(place, signal, head, ...match.slice(1));
+  } catch (error) {
+    if (signal.aborted) return;
+    place.replaceChildren(h("h1", {}, error instanceof Refused ? "Nothing to show" : "The page failed"),
+      h("p", { class: "error" }, error.message), h("p", {}, h("a", { href: "#/" }, "All runs")));
+    if (!(error instanceof Refused)) throw error;
+  }
+}
+
+window.addEventListener("hashchange", show);
+show();

@@ -1,0 +1,137 @@
+/** The page of one run: state, numbers, particles, curves, figures, case, log. */
+
+import { chart, History } from "./charts.js";
+import { chip, h, quantity, table } from "./dom.js";
+import { ask, getJson, listen } from "./net.js";
+import { http, mount } from "./viewer.js";
+
+const BESIDE = 2; // charts beside the particles; the others stand below
+
+export async function showRun(place, signal, head, id) {
+  const base = `api/run/${id}/`;
+  let run = await getJson(`api/run/${id}`, { signal });
+  const history = new History(id);
+  const beside = h("div", { class: "charts" }), charts = h("div", { class: "charts row" });
+  const drawn = new Map();
+  const top = h("div", { class: "top" });
+  const note = h("p", { class: "error", role: "alert", hidden: true });
+  const numbers = h("dl", { class: "large" });
+  const log = h("pre", { tabindex: "0", "aria-label": "run.log" });
+  const below = h("div", { class: "below" });
+  const scene = h("div", { class: "scene" });
+  let viewer = null, sizes = null;
+
+  document.title = `${run.name} – lasersph`;
+  place.replaceChildren(
+    h("p", { class: "path" }, h("a", { href: "#/" }, "Runs"), run.sweep && [" / ", h("a", { href: `#/sweep/${run.sweep}` }, "sweep")], ` / ${run.name}`),
+    top, note, numbers, h("div", { class: "wide" }, scene, beside), charts, below,
+    h("section", {}, h("h2", {}, "Log"), log));
+
+  const drawTop = () => {
+    const done = run.end_s ? Math.min(1, run.time_s / run.end_s) : 0;
+    const state = h("p", { class: "state", "aria-live": "polite" }, chip(run.state), " ",
+      run.state === "complete"
+        ? `${quantity(run.time_s, "s")} computed in ${run.took}`
+        : `${quantity(run.time_s, "s")} of ${quantity(run.end_s, "s")}, ${Math.floor(100 * done)} %, step ${run.step}`);
+    top.replaceChildren(h("h1", {}, run.title || run.name), state,
+      run.state !== "complete" ? h("progress", { value: done, max: 1, "aria-label": "time reached" }) : "",
+      h("p", { class: "verdict" }, run.verdict ?? [run.solver, run.material].filter(Boolean).join(", ")),
+      ...run.warnings.map((text) => h("p", { class: "warning" }, text)));
+    numbers.replaceChildren(...run.numbers.map((one) => h("div", {},
+      h("dt", {}, one.words), h("dd", {}, one.text, one.error && h("small", {}, ` ± ${one.error}`)), one.at && h("dd", { class: "at" }, `at ${one.at}`))));
+  };
+
+  const drawBelow = () => below.replaceChildren(...[
+    run.figures.length && h("section", {}, h("h2", {}, "Figures"), h("div", { class: "figures" }, run.figures.map((one) =>
+      h("figure", {}, h("a", { href: `${base}figure/${one.name}` },
+        h("img", { src: `${base}figure/${one.name}?${sizes?.figures ?? ""}`, loading: "lazy", alt: one.name.replaceAll("-", " ") })),
+      h("figcaption", {}, one.caption))))),
+    h("section", {}, h("h2", {}, "Case"), caseOf(run)),
+    ...run.tables.map((one) => h("details", {}, h("summary", {}, one.title), table(one.rows, one.head)))].filter(Boolean));
+
+  const drawCharts = () => {
+    for (const [title, unit, curves] of history.charts()) {
+      const name = `${title} ${curves.length}`;
+      const old = drawn.get(title);
+      if (old?.name === name) {
+        old.chart.update();
+        continue;
+      }
+      const found = chart(title, unit, curves, [{ history, name: run.name }], run.end_s);
+      if (old) {
+        old.chart.element.replaceWith(found.element);
+        old.chart.destroy();
+      } else (beside.children.length < BESIDE ? beside : charts).append(found.element);
+      drawn.set(title, { name, chart: found });
+    }
+  };
+
+  const start = () => {
+    viewer?.destroy();
+    const host = h("div", {});
+    scene.replaceChildren(host);
+    viewer = mount(host, http(base), { live: run.state === "running" });
+  };
+
+  /** What an event says to have changed is fetched; a later event waits for an earlier one. */
+  let waiting = null, busy = false;
+  const follow = async (found) => {
+    waiting = found;
+    if (busy) return;
+    busy = true;
+    try {
+      while (waiting && !signal.aborted) {
+        const now = waiting, before = sizes;
+        waiting = null;
+        sizes = now;
+        note.textContent = now.note ?? "";
+        note.hidden = !now.note;
+        if (now.state === "gone") {
+          run.state = "gone";
+          drawTop();
+          return;
+        }
+        if (before && now.started !== before.started) {
+          history.clear();
+          start();
+        }
+        const grew = await history.pull(signal);
+        if (grew) drawCharts();
+        if (!before || now.log !== before.log) log.textContent = await (await ask(`${base}log`, { signal })).text();
+        if (!before || grew || now.state !== before.state || now.figures !== before.figures || now.report !== before.report) {
+          const figures = run.figures.length, state = run.state;
+          run = await getJson(`api/run/${id}`, { signal });
+          drawTop();
+          if (!before || run.figures.length !== figures || run.state !== state) drawBelow();
+          if (run.state !== state) viewer.setLive(run.state === "running");
+        }
+      }
+    } finally {
+      busy = false;
+    }
+  };
+
+  signal.addEventListener("abort", () => {
+    viewer?.destroy();
+    for (const { chart } of drawn.values()) chart.destroy();
+  }, { once: true });
+  drawTop();
+  drawBelow();
+  start();
+  listen(id, (found) => follow(found).catch((error) => {
+    if (!signal.aborted) throw error;
+  }), signal);
+}
+
+/** What was changed of the case file, the file, and every value. */
+function caseOf(run) {
+  const changed = run.changes.length
+    ? table(run.changes.map((one) => [one.key, one.was || "–", one.now]), ["changed", "in the case file", "computed with"])
+    : h("p", { class: "quiet" }, "Nothing was changed of the case file.");
+  const values = Object.entries(run.resolved).map(([key, value]) => [key, typeof value === "string" ? value : JSON.stringify(value)]);
+  return [changed,
+    h("details", {}, h("summary", {}, "The case file"), h("pre", { tabindex: "0" }, run.case_text)),
+    h("details", {}, h("summary", {}, "Every value, SI"), table(values)),
+    h("p", { class: "quiet" }, `Case ${run.case_hash}; `, Object.entries(run.versions).map(([name, version]) => `${name} ${version}`).join(", "),
+      run.has_report && [". ", h("a", { href: `api/run/${run.id}/report`, target: "_blank", rel: "noopener" }, "Report")])];
+}

@@ -1,0 +1,210 @@
+"""The page in a real browser, as a reader uses it."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+from prefix_proxy import PrefixProxy
+
+pytestmark = pytest.mark.web
+LIVE_RUN = Path(__file__).resolve().parents[1] / "live_run.py"
+LOST = "Failed to load resource|ERR_CONNECTION|ERR_FAILED|ERR_EMPTY"
+"""What the console says of requests that a test lets fail."""
+
+
+def names(page):
+    """Names on the cards, in their order."""
+    return page.locator(".card h2").all_inner_texts()
+
+
+def pixels_are_drawn(page):
+    """Whether the picture of the particles holds several colors."""
+    canvas = page.locator("canvas[aria-label]").first
+    expect(canvas).to_be_visible()
+    return len(set(canvas.screenshot())) > 100
+
+
+def serious(page):
+    """What axe-core finds serious or critical."""
+    found = Axe().run(page).response["violations"]
+    return [
+        (one["id"], [node["html"] for node in one["nodes"]])
+        for one in found
+        if one["impact"] in ("serious", "critical")
+    ]
+
+
+def test_list_is_sorted_and_filtered_and_opens_a_run(open_page, address):
+    """Cards with state and numbers; the damaged folder says so on its own card."""
+    watched = open_page(address)
+    page = watched.page
+    expect(page.locator(".card")).to_have_count(4)
+    assert "token" not in page.url
+    page.get_by_label("Order").select_option("highest temperature")
+    expect(page.locator(".card h2").first).to_have_text("hot")
+    page.get_by_label("Order").select_option("name")
+    assert names(page) == ["cool", "damaged", "hot", "stopped"]
+    page.get_by_label("State").select_option("stopped")
+    expect(page.locator(".card h2")).to_have_text(["stopped"])
+    page.get_by_label("State").select_option("all states")
+    page.get_by_label("Find").fill("dam")
+    expect(page.locator(".card")).to_contain_text(["it is damaged"])
+    page.get_by_label("Find").fill("")
+    expect(page.locator(".card img")).to_have_js_property("complete", True)
+    watched.keep("list")
+    page.get_by_role("link", name="hot").click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("made-up steel")
+    expect(page.locator(".verdict")).to_contain_text("The metal reached at most 3 273 K")
+    expect(page.locator("dl.large dt").first).to_have_text("highest temperature")
+    expect(
+        page.get_by_role("img", name=re.compile("^Temperature over time; .*highest"))
+    ).to_be_visible()
+    expect(page.get_by_role("slider", name="Time")).to_be_visible()
+    assert pixels_are_drawn(page)
+    expect(page.locator(".figures figure")).not_to_have_count(0)
+    page.get_by_text("Every value, SI").click()
+    expect(page.get_by_role("row", name="laser.fluence 6000")).to_be_visible()
+    page.wait_for_timeout(300)
+    watched.keep("run")
+    page.go_back()
+    expect(page.get_by_label("Order")).to_have_value("name")
+
+
+def test_live_run_is_watched_to_its_end(open_page, serve, tmp_path):
+    """Curves and particles follow; a request that is lost in between is asked again."""
+    (tmp_path / "runs").mkdir()
+    folder = tmp_path / "runs" / "live"
+    command = [sys.executable, str(LIVE_RUN), str(folder)]
+    run = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    assert run.stdout.readline() == "waiting\n"
+    watched = open_page(serve(tmp_path / "runs").address, expected=[LOST])
+    page = watched.page
+    expect(page.locator(".card .chip")).to_have_text("running")
+    page.get_by_role("link", name="live").click()
+    state = page.locator(".state")
+    expect(state).to_contain_text("running")
+    chart = page.locator(".plot").first
+    expect(chart).to_have_attribute("aria-label", re.compile("highest"))
+    before = chart.get_attribute("aria-label")
+    slider = page.get_by_role("slider", name="Time")
+    expect(page.get_by_role("button", name="Live")).to_have_attribute("aria-pressed", "true")
+    frames = int(slider.get_attribute("max"))
+    watched.keep("live")
+    lost = []
+
+    def lose_once(route):
+        kind = re.search(r"(history|particles|block)", route.request.url)[1]
+        if kind in lost:
+            route.continue_()
+        else:
+            lost.append(kind)
+            route.abort()
+
+    page.route(re.compile(r"/api/run/\w+/(history|particles|block)"), lose_once)
+    run.communicate("go on\n")
+    assert run.returncode == 0
+    expect(state).to_contain_text("complete")
+    expect(chart).not_to_have_attribute("aria-label", before)
+    expect(slider).to_have_js_property("max", "20")
+    assert frames < 20
+    expect(page.locator(".verdict")).to_contain_text("The metal reached")
+    expect(page.locator("#connection")).to_be_empty()
+    assert {"history", "particles"} <= set(lost)
+
+
+def test_server_is_killed_and_restarted(open_page, serve, runs):
+    """The page says so, keeps what it has, and goes on by itself."""
+    server = serve(runs)
+    watched = open_page(server.address, expected=[LOST])
+    page = watched.page
+    page.get_by_role("link", name="cool").click()
+    expect(page.locator(".state")).to_contain_text("complete")
+    expect(page.locator(".plot canvas").first).to_be_visible()
+    server.kill()
+    words = page.get_by_text("The server does not answer; trying again.")
+    expect(words).to_be_visible()
+    expect(page.locator(".plot canvas").first).to_be_visible()
+    watched.keep("no-server")
+    server.start()
+    expect(words).to_have_count(0)
+    page.get_by_role("link", name="Runs").click()
+    expect(page.locator(".card")).to_have_count(4)
+
+
+def test_behind_a_proxy_that_strips_a_prefix(open_page, serve, runs):
+    """As of JupyterHub: all addresses are relative, events come through."""
+    server = serve(runs)
+    with PrefixProxy("/user/x/proxy/8157", server.port) as proxy:
+        watched = open_page(proxy.address_of(server.address.partition("?")[2]))
+        page = watched.page
+        page.get_by_role("link", name="hot").click()
+        expect(page.locator(".state")).to_contain_text("complete")
+        expect(page.locator(".plot canvas").first).to_be_visible()
+        expect(page.get_by_role("slider", name="Time")).to_be_visible()
+        assert "/user/x/proxy/8157/#/run/" in page.url
+        page.goto("about:blank")
+        assert proxy.paths and all(path.startswith("/user/x/proxy/8157/") for path in proxy.paths)
+
+
+def test_wrong_token(open_page, address):
+    """A plain sentence, and nothing of the runs."""
+    watched = open_page(f"{address}x", expected=[LOST])
+    expect(watched.page.locator("body")).to_contain_text("The token in this address is wrong.")
+
+
+@pytest.mark.parametrize("part", ["", "run"])
+def test_narrow_screen(open_page, address, part):
+    """On 390 pixels nothing has to be moved sideways."""
+    watched = open_page(address, width=390, height=844)
+    page = watched.page
+    expect(page.locator(".card")).to_have_count(4)
+    if part:
+        page.get_by_role("link", name="hot").click()
+        expect(page.locator(".plot canvas").first).to_be_visible()
+        expect(page.locator(".figures figure").first).to_be_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    watched.keep(f"narrow-{part or 'list'}")
+
+
+def test_keyboard_alone(open_page, address):
+    """From the skip link to a run, through its frames, and back."""
+    page = open_page(address).page
+    expect(page.locator(".card")).to_have_count(4)
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("link", name="Skip to the content")).to_be_focused()
+    page.keyboard.press("Enter")
+    for _ in range(30):
+        page.keyboard.press("Tab")
+        if page.evaluate("document.activeElement.textContent") == "hot":
+            break
+    expect(page.get_by_role("link", name="hot", exact=True)).to_be_focused()
+    page.keyboard.press("Enter")
+    slider = page.get_by_role("slider", name="Time")
+    expect(slider).to_have_attribute("max", "20")
+    before = slider.input_value()
+    slider.focus()
+    page.keyboard.press("ArrowRight")
+    expect(slider).not_to_have_value(before)
+    page.locator("main").focus()
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("link", name="Runs", exact=True)).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.locator(".card")).to_have_count(4)
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_page_is_accessible(open_page, address, dark):
+    """axe-core finds nothing serious: names, contrast, order."""
+    watched = open_page(address, dark=dark)
+    page = watched.page
+    expect(page.locator(".card")).to_have_count(4)
+    assert serious(page) == []
+    page.get_by_role("link", name="hot").click()
+    expect(page.locator(".plot canvas").first).to_be_visible()
+    expect(page.locator(".figures figure").first).to_be_visible()
+    assert serious(page) == []
+    watched.keep(f"run-{'dark' if dark else 'light'}")
