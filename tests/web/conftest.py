@@ -1,5 +1,6 @@
 """A real browser for pages: Debian's Chromium without a screen, driven by Playwright."""
 
+import json
 import os
 import re
 import shutil
@@ -7,8 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from synthetic_run import make_run
+from synthetic_sweep import grid_points, made_up_sweep
 
 FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 PATIENCE = 60_000
@@ -205,6 +208,28 @@ def runs(tmp_path_factory):
     for name, figure in figures.items():
         style.save(figure, root / "hot" / "figures" / f"{name}.png")
     return root
+
+
+@pytest.fixture
+def sweep_address(serve, tmp_path):
+    """Of a server that shows a sweep with a calibration."""
+    folder = tmp_path / "runs" / "map"
+    made_up_sweep(folder, grid_points(), failed=(2,))
+    draws = np.random.default_rng(3).normal(1.05, 0.02, 4000)
+    (folder / "posterior.csv").write_text(
+        "factor,weight\n" + "".join(f"{draw},1.0\n" for draw in draws)
+    )
+    unknown = {"mean": 1.05, "sd": 0.02, "low_95": 1.01, "high_95": 1.09, "unit": ""}
+    datum = {"measurement": 1, "number": "melt.depth_max_m", "unit": "m", "measured": 2.1e-7}
+    datum |= {"standard_error": 1.2e-8, "computed": 2.05e-7, "pull": 0.4}
+    answer = {
+        "unknowns": {"factor": unknown},
+        "warnings": [],
+        "data": [datum],
+        "chi_squared": {"value": 0.16, "degrees_of_freedom": 0, "probability": 1.0},
+    }
+    (folder / "calibration.json").write_text(json.dumps(answer))
+    return serve(tmp_path / "runs").address
 
 
 @pytest.fixture(scope="session")

@@ -150,6 +150,53 @@ def test_behind_a_proxy_that_strips_a_prefix(open_page, serve, runs):
         assert proxy.paths and all(path.startswith("/user/x/proxy/8157/") for path in proxy.paths)
 
 
+def test_two_runs_are_compared(open_page, address):
+    """With the same colors, at the same time, over one another."""
+    watched = open_page(address)
+    page = watched.page
+    for name in ("hot", "cool"):
+        page.get_by_label(f"Compare {name}").check()
+    page.get_by_role("link", name="Compare").click()
+    sliders = page.get_by_role("slider", name="Time")
+    expect(sliders).to_have_count(2)
+    expect(sliders.first).to_have_attribute("max", "20")
+    expect(sliders.nth(1)).to_have_attribute("max", "20")
+    sliders.first.focus()
+    sliders.first.press("Home")
+    expect(sliders.nth(1)).to_have_value("0")
+    for _ in range(6):
+        sliders.first.press("ArrowRight")
+    expect(sliders.nth(1)).to_have_value("6")
+    sliders.nth(1).focus()
+    sliders.nth(1).press("End")
+    expect(sliders.first).to_have_value("20")
+    legends = page.locator(".legend")
+    expect(legends.nth(1)).to_contain_text("3000")
+    assert legends.first.inner_text() == legends.nth(1).inner_text()
+    expect(page.locator(".plot canvas").first).to_be_visible()
+    expect(page.locator(".key", has_text="hot").first).to_be_visible()
+    page.wait_for_timeout(300)
+    assert serious(page) == []
+    watched.keep("compare")
+
+
+def test_sweep_opens_its_runs(open_page, sweep_address):
+    """The points of its map are links; keys and number can be chosen."""
+    watched = open_page(sweep_address, expected=[LOST])
+    page = watched.page
+    page.get_by_role("link", name="map").click()
+    expect(page.locator(".state")).to_contain_text("23 complete, 1 failed")
+    page.locator(".tools select").nth(2).select_option("melt.depth_max_m")
+    points = page.locator(".axes a")
+    expect(points).to_have_count(23)
+    expect(page.get_by_role("img", name=re.compile("posterior of factor: 1.05"))).to_be_visible()
+    assert serious(page) == []
+    watched.keep("sweep")
+    points.nth(5).focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("Nothing to show")).to_be_visible()  # made up: without a case file
+
+
 def test_wrong_token(open_page, address):
     """A plain sentence, and nothing of the runs."""
     watched = open_page(f"{address}x", expected=[LOST])

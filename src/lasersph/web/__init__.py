@@ -2,6 +2,7 @@
 
 folder_list     the runs and sweeps below one folder, each with an address of its own
 run_page        what is told of one run: card, state, numbers, figures, case
+sweep_page      a sweep: its table, the values of its map, its calibration
 access          who may ask: token, host names, origin, headers of every answer
 server          the addresses, and the loop that answers
 live            events of a run that is computed

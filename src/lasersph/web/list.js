@@ -129,5 +129,15 @@ function pictureOf(run) {
 }
 
 function sweepCard(sweep) {
-  return h("article", { class: "card" }, h("h2", {}, sweep.name));
+  if (sweep.state === "damaged") return runCard(sweep);
+  const counts = Object.entries(sweep.counts);
+  const total = counts.reduce((sum, [, count]) => sum + count, 0);
+  return h("article", { class: "card sweep" },
+    h("div", { class: "picture" }, h("span", { class: "count" }, String(total), h("small", {}, " runs"))),
+    h("div", { class: "words" },
+      h("h2", {}, h("a", { href: `#/sweep/${sweep.id}` }, sweep.name)), chip(sweep.state),
+      h("p", { class: "title" }, sweep.is_calibration ? `calibration: ${sweep.title}` : sweep.title),
+      h("ul", { class: "tags", "aria-label": "what varies" }, sweep.keys.map((key) => h("li", {}, key))),
+      h("dl", { class: "numbers" }, counts.map(([name, count]) => [h("dt", {}, name), h("dd", {}, String(count))])),
+      h("footer", {}, h("span", {}, "sweep"), h("span", {}, ago(sweep.modified)))));
 }

@@ -2,11 +2,15 @@
 
 import { h } from "./dom.js";
 import { Refused } from "./net.js";
+import { showComparison } from "./compare.js";
 import { showList } from "./list.js";
 import { showRun } from "./run.js";
+import { showSweep } from "./sweep.js";
 
 const ADDRESSES = [
   [/^#\/run\/([0-9a-f]+)$/, showRun],
+  [/^#\/compare\/([0-9a-f]+)\/([0-9a-f]+)$/, showComparison],
+  [/^#\/sweep\/([0-9a-f]+)$/, showSweep],
   [/^(#\/)?$/, showList],
 ];
 let shown = null;

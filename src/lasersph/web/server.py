@@ -26,6 +26,7 @@ from lasersph.output.growing_table import new_rows
 from lasersph.web import live, run_page
 from lasersph.web.access import Access
 from lasersph.web.folder_list import Entry, FolderList, refuse_links
+from lasersph.web.sweep_page import Sweeps
 
 CONTENT = {
     ".html": "text/html; charset=utf-8",
@@ -57,6 +58,7 @@ class Pages:
 
     def __init__(self, root: Path) -> None:
         self.folders, self._cards = FolderList(root), run_page.Cards()
+        self._sweeps = Sweeps(self.folders)
         self.is_stopping: Callable[[], bool] = lambda: False
 
     def routes(self) -> list[Route]:
@@ -67,6 +69,7 @@ class Pages:
             Route("/static/{name}", self.static),
             Route("/api/alive", lambda request: Response(status_code=204)),
             Route("/api/runs", self.runs),
+            Route("/api/sweep/{id}", self.sweep),
             Route("/api/run/{id}", self.run),
             Route("/api/run/{id}/history", self.history),
             Route("/api/run/{id}/log", self.log),
@@ -94,13 +97,18 @@ class Pages:
                 "folder": str(self.folders.root),
                 "version": __version__,
                 "runs": [self._cards.card(one) for one in shown],
-                "sweeps": [],
+                "sweeps": [self._sweeps.card(one) for one in entries if one.kind == "sweep"],
             }
         )
 
     def run(self, request: Request) -> Response:
         """One run."""
         return JSONResponse(run_page.details(self._entry(request)))
+
+    def sweep(self, request: Request) -> Response:
+        """One sweep."""
+        entry = self.folders.find(request.path_params["id"], "sweep")
+        return JSONResponse(self._sweeps.details(entry))
 
     def history(self, request: Request) -> Response:
         """New rows of history.csv; the header X-Next says where the next ones begin."""

@@ -8,6 +8,7 @@ import shutil
 import pytest
 from starlette.testclient import TestClient
 from synthetic_run import make_run
+from synthetic_sweep import grid_points, made_up_sweep
 
 from lasersph.output import open_run
 from lasersph.output.folder_lock import FolderLock
@@ -206,6 +207,45 @@ def test_places_of_the_history_that_do_not_exist_are_refused(browser, start):
     """A negative one gave a failure of the server once."""
     answer = browser.get(f"{COMPLETE}/history", params={"from": start})
     assert answer.status_code == 400 and answer.json()["error"]
+
+
+def test_page_of_a_sweep(root, browser):
+    """Runs of a sweep have no cards; its page has their numbers and addresses."""
+    made_up_sweep(root / "map", grid_points(), failed=(2,))
+    sweeps = browser.get("/api/runs").json()["sweeps"]
+    assert [one["name"] for one in sweeps] == ["map"]
+    assert sweeps[0]["counts"] == {"complete": 23, "failed": 1}
+    assert not any(name.startswith("map") for name in cards(browser))
+    found = browser.get(f"/api/sweep/{id_of('map')}").json()
+    assert found["units"] == {"laser.fluence": "J/m^2", "laser.pulse.fwhm": "s"}
+    row = found["rows"][5]
+    assert row["numbers"]["melt.depth_max_m"] > 0.0
+    assert row["id"] == id_of(f"map/runs/{row['run']}")
+    failed = found["rows"][2]
+    assert (failed["status"], failed["reason"], failed["id"]) == ("failed", "no step converges", "")
+    assert browser.get(f"/api/run/{id_of('map')}").status_code == 404
+    assert browser.get(f"/api/sweep/{id_of('complete')}").status_code == 404
+
+
+def test_page_of_a_calibration(root, browser):
+    """The answer with a histogram of the posterior, weighted."""
+    made_up_sweep(root / "map", grid_points())
+    (root / "map" / "calibration.json").write_text('{"unknowns": {"factor": {"mean": 1.5}}}')
+    (root / "map" / "posterior.csv").write_text("factor,weight\n1.0,1.0\n2.0,3.0\n")
+    found = browser.get(f"/api/sweep/{id_of('map')}").json()["calibration"]
+    density = found["posterior"]["factor"]["density"]
+    assert density[-1] == pytest.approx(3.0 * density[0])
+    (root / "map" / "posterior.csv").write_text("factor,weight\n1.0,x\n")
+    assert browser.get(f"/api/sweep/{id_of('map')}").status_code == 422
+
+
+def test_damaged_sweep_spoils_its_own_card_only(root, browser):
+    """The others are listed."""
+    made_up_sweep(root / "map", grid_points())
+    (root / "map" / "points.json").write_text("[]")
+    content = browser.get("/api/runs").json()
+    assert content["sweeps"][0]["state"] == "damaged"
+    assert len(content["runs"]) == 2
 
 
 def test_history_comes_in_parts(root, browser):

@@ -1,0 +1,96 @@
+/** Two runs side by side: what differs, numbers, particles and curves with the same scales and time. */
+
+import { chart, History } from "./charts.js";
+import { chip, h, table } from "./dom.js";
+import { getJson, listen } from "./net.js";
+import { http, mount } from "./viewer.js";
+
+export async function showComparison(place, signal, head, ...ids) {
+  const runs = await Promise.all(ids.map((id) => getJson(`api/run/${id}`, { signal })));
+  const histories = ids.map((id) => new History(id));
+  const end = Math.max(...runs.map((run) => run.end_s));
+  document.title = `${runs.map((run) => run.name).join(" and ")} – lasersph`;
+
+  const hosts = runs.map(() => h("div", {}));
+  const charts = h("div", { class: "charts row" });
+  const keys = [...new Set(runs.flatMap((run) => Object.keys(run.resolved)))].sort();
+  const texts = (key) => runs.map((run) => (key in run.resolved ? JSON.stringify(run.resolved[key]).replace(/^"|"$/g, "") : "–"));
+  const differing = keys.map((key) => [key, ...texts(key)]).filter(([key, one, other]) => key !== "title" && one !== other);
+  const words = [...new Set(runs.flatMap((run) => run.numbers.map((one) => one.words)))];
+  const numbers = words.map((word) => [word, ...runs.map((run) => run.numbers.find((one) => one.words === word)?.text ?? "–")]);
+  const names = runs.map((run) => run.name);
+
+  place.replaceChildren(
+    h("p", { class: "path" }, h("a", { href: "#/" }, "Runs"), " / comparison"),
+    h("h1", {}, "Two runs, one scale"),
+    h("div", { class: "pair" }, runs.map((run, k) => h("section", {},
+      h("h2", { class: `key ink-${k + 1}` }, h("a", { href: `#/run/${run.id}` }, run.name), " ", chip(run.state)),
+      h("p", { class: "quiet" }, run.title), hosts[k]))),
+    charts,
+    h("h2", {}, "Numbers"), table(numbers, ["", ...names]),
+    h("h2", {}, "What differs"),
+    differing.length ? table(differing, ["key, SI", ...names]) : h("p", { class: "quiet" }, "The cases are the same."));
+
+  // one scale for each field
+  const sources = ids.map((id) => http(`api/run/${id}/`));
+  const indices = await Promise.all(sources.map((source) => source.index()));
+  if (signal.aborted) return;
+  const ranges = {};
+  for (const { name, range: [low, high] } of indices.flatMap((index) => index.fields)) {
+    const known = ranges[name] ?? [low, high];
+    ranges[name] = [Math.min(known[0], low), Math.max(known[1], high)];
+  }
+  let leading = 0; // the viewer that the reader moves; the other shows the frame of the closest time
+  const shown = [null, null];
+  const viewers = sources.map((source, k) => mount(hosts[k], source, {
+    ranges,
+    onFrame: async (frame, time) => {
+      shown[k] = frame;
+      if (leading !== k) return;
+      const other = 1 - k;
+      if (!indices[other].is_complete) indices[other] = await sources[other].index();
+      const times = indices[other].times;
+      if (signal.aborted || leading !== k || !times.length) return;
+      const closest = times.reduce((best, one, n) => (Math.abs(one - time) < Math.abs(times[best] - time) ? n : best), 0);
+      if (shown[other] !== closest) viewers[other].setFrame(closest);
+    },
+  }));
+  for (const [k, host] of hosts.entries()) {
+    for (const kind of ["pointerdown", "keydown", "focusin"]) host.addEventListener(kind, () => { leading = k; }, { capture: true });
+  }
+
+  const drawn = new Map();
+  const draw = () => {
+    const titles = new Map();
+    for (const history of histories) for (const [title, unit, curves] of history.charts()) {
+      const known = titles.get(title)?.[1] ?? [];
+      titles.set(title, [unit, [...known, ...curves.filter(([column]) => !known.some(([other]) => other === column))].slice(0, 2)]);
+    }
+    for (const [title, [unit, curves]] of titles) {
+      const name = curves.map(([column]) => column).join();
+      const old = drawn.get(title);
+      if (old?.name === name) {
+        old.chart.update();
+        continue;
+      }
+      const found = chart(title, unit, curves, histories.map((history, k) => ({ history, name: names[k] })), end);
+      if (old) {
+        old.chart.element.replaceWith(found.element);
+        old.chart.destroy();
+      } else charts.append(found.element);
+      drawn.set(title, { name, chart: found });
+    }
+  };
+  signal.addEventListener("abort", () => {
+    for (const viewer of viewers) viewer.destroy();
+    for (const { chart } of drawn.values()) chart.destroy();
+  }, { once: true });
+  for (const [k, id] of ids.entries()) {
+    let asked = Promise.resolve();
+    listen(id, () => {
+      asked = asked.then(() => histories[k].pull(signal)).then((grew) => grew && draw()).catch((error) => {
+        if (!signal.aborted) throw error;
+      });
+    }, signal);
+  }
+}
