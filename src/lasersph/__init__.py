@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lasersph.input import CaseError
     from lasersph.output import open_run
     from lasersph.simulation import run
-    from lasersph.studies import calibrate
+    from lasersph.studies import calibrate, find
     from lasersph.studies import process_map as map
     from lasersph.sweeps import sweep
 
@@ -27,6 +27,7 @@ __all__ = [
     "CaseError",
     "__version__",
     "calibrate",
+    "find",
     "load_case",
     "map",
     "open_run",
@@ -38,6 +39,7 @@ _ROOMS = {
     "Case": "lasersph.case",
     "CaseError": "lasersph.input",
     "calibrate": "lasersph.studies",
+    "find": "lasersph.studies",
     "load_case": "lasersph.case",
     "map": "lasersph.studies:process_map",
     "open_run": "lasersph.output",

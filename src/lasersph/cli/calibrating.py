@@ -22,16 +22,22 @@ PlanName = Annotated[
     Path,
     typer.Argument(metavar="PLAN", help="A plan file; lasersph new --plan calibrate writes one."),
 ]
-SweepFolder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of a sweep.")]
+Place = Annotated[
+    Path,
+    typer.Argument(
+        metavar="PLAN|DIR",
+        help="A plan file; lasersph new --plan find writes one. Or the folder of a sweep.",
+    ),
+]
 Wants = Annotated[
-    list[str],
+    list[str] | None,
     typer.Option(
         "--want",
         metavar="WISH",
         help='"melt.depth_half_max_m = 200 +- 10 nm", "temperature_max_K < 3000 K".',
     ),
 ]
-Calibration = Annotated[
+Under = Annotated[
     Path | None,
     typer.Option("--under", metavar="DIR", help="A calibration, over whose posterior to average."),
 ]
@@ -64,33 +70,54 @@ def calibrate(
                 loaded, folder, engine=chosen, report=_say, should_stop=signals.asked
             )
         except Stopped as error:
-            words = ["lasersph", "calibrate", str(plan), "--out", str(folder), *engine.words()]
-            again = f"{error}; continue with: {shlex.join(words)}"
-            raise StoppedBySignal(again, signals.code) from None
+            raise _stopped(error, signals.code, "calibrate", plan, folder, engine) from None
     for line in calibration_run.answer_lines(found):
         print(line)
     content, points = calibration_run.read_answer(folder)
     print(style.save(calibration_figure(content, points), folder / calibration_run.FIGURE))
 
 
-def find(folder: SweepFolder, want: Wants, under: Calibration = None) -> None:
+@takes_engine
+def find(
+    place: Place, engine: EngineOptions, want: Wants = None, under: Under = None, out: Out = None
+) -> None:
     """Find settings of a sweep that reach wanted values inside limits, and how probably."""
-    from lasersph.input import QuantityError
+    from lasersph.cli.stop_signals import StopSignals
+    from lasersph.input import CaseError, QuantityError
     from lasersph.output import OutputError
-    from lasersph.studies.calibration_run import read_answer
-    from lasersph.studies.find_settings import find_settings, read_wish
+    from lasersph.simulation.time_loop import Stopped
+    from lasersph.studies import find_runs
     from lasersph.sweeps import Table
     from lasersph.sweeps.table import name_with_unit
 
-    try:
-        wishes = [read_wish(text) for text in want]
-        table = Table.read(folder)
-        known = None if under is None else read_answer(under)
-        found = find_settings(table, wishes, calibration=known)
-    except (QuantityError, OutputError, ValueError, KeyError) as error:
-        raise WrongCommand(str(error.args[0])) from None
+    folder = place if place.is_dir() else out or Path("runs") / place.stem
+    if place.is_dir() and (out is not None or engine.words() or not want):
+        raise WrongCommand(
+            f"{place} is a folder, whose runs are looked at: it takes --want and --under; a plan "
+            "(lasersph new --plan find FILE) has runs of its own"
+        )
+    if not place.is_dir() and want:
+        raise WrongCommand("--want is for the folder of a sweep: a plan says what is wanted")
+    with StopSignals() as signals:
+        try:
+            found = find_runs.find(
+                place,
+                folder,
+                want=want or (),
+                under=under,
+                engine=engine.engine(),
+                report=_say,
+                should_stop=signals.asked,
+            )
+        except Stopped as error:
+            raise _stopped(error, signals.code, "find", place, folder, engine) from None
+        except CaseError:
+            raise
+        except (QuantityError, OutputError, ValueError, KeyError) as error:
+            raise WrongCommand(str(error.args[0])) from None
     if not found:
         raise WrongCommand(f"no settings inside the runs of {folder} do all of this")
+    table = Table.read(folder)
     names = [name_with_unit(key, unit) for key, unit in table.units.items()]
     rows = [["probability", *names, *found[0].numbers]]
     for one in found:
@@ -98,7 +125,15 @@ def find(folder: SweepFolder, want: Wants, under: Calibration = None) -> None:
         rows.append([f"{100.0 * one.probability:.3g} %", *(f"{value:.5g}" for value in numbers)])
     print(aligned(rows, header=True))
     if found[0].probability < 0.5:
-        _say("note: none of these is likelier than not; more runs of the sweep near them may help")
+        _say("note: none of these is likelier than not; more runs near them may help")
+
+
+def _stopped(
+    error: Exception, code: int, verb: str, plan: Path, folder: Path, engine: EngineOptions
+) -> StoppedBySignal:
+    """What a signal has stopped, and how to go on."""
+    words = ["lasersph", verb, str(plan), "--out", str(folder), *engine.words()]
+    return StoppedBySignal(f"{error}; continue with: {shlex.join(words)}", code)
 
 
 def _forecast(plan: CalibrationPlan) -> list[tuple[str, str]]:

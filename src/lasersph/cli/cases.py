@@ -32,7 +32,7 @@ PlanKind = Annotated[
     typer.Option(
         "--plan",
         metavar="KIND",
-        help="Write a plan for many runs of the case instead: sweep, calibrate.",
+        help="Write a plan for many runs of the case instead: sweep, calibrate, find.",
     ),
 ]
 
@@ -40,11 +40,12 @@ PlanKind = Annotated[
 def new(case: CaseName, file: NewFile = None, plan: PlanKind = None) -> None:
     """Write a commented case file, or a plan for many runs, to start from."""
     if plan is not None:
-        from lasersph.sweeps.plan import write_new_plan
+        from lasersph.sweeps.new_plan import write_new_plan
 
         case, target = ("dlip-steel", case) if file is None else (case, file)
         path = write_new_plan(plan, case, target)
-        print(f"wrote {path}: edit it, then lasersph {plan} {path} --dry-run")
+        trial = "" if plan == "find" else " --dry-run"
+        print(f"wrote {path}: edit it, then lasersph {plan} {path}{trial}")
         return
     if file is None:
         raise WrongCommand("new wants a case and a file: lasersph new dlip-steel my-case.toml")

@@ -70,6 +70,12 @@ class EngineOptions:
     ] = None
 
     @property
+    def at_once(self) -> int:
+        """How many runs a study makes at a time: one if nothing is said, and with a scheduler as
+        many as two halvings of a bracket want."""
+        return 3 if self.is_distant else self.workers or 1
+
+    @property
     def is_distant(self) -> bool:
         """Whether a Dask scheduler has the workers."""
         return self.scheduler_file is not None or self.scheduler is not None

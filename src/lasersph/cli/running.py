@@ -21,8 +21,9 @@ from lasersph.cli.arguments import (
     refuse_backend,
     say_what_moved,
 )
+from lasersph.cli.engine_options import EngineOptions, Workers
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
-from lasersph.cli.side_by_side import Workers, preparation, refuse_workers
+from lasersph.cli.side_by_side import preparation, refuse_workers
 from lasersph.cli.stop_signals import StopSignals
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def run(
     backend: Backend = "cpu",
     uncertainty: Uncertainty = False,
     uncertain: Uncertain = None,
-    workers: Workers = 1,
+    workers: Workers = None,
     figures: Figures = True,
     until_stdin_closes: UntilStdinCloses = False,
 ) -> None:
@@ -92,11 +93,12 @@ def run(
     say_what_moved(loaded)
     if not_shown := what_is_not_shown(loaded):
         print(f"warning: {not_shown}", file=sys.stderr)
-    if workers > 1 and not uncertainty:
+    engine = EngineOptions(workers, threads)
+    if engine.at_once > 1 and not uncertainty:
         raise WrongCommand(
             "--workers is for the companions of --uncertainty; one run has --threads"
         )
-    refuse_workers(workers, backend, precision)
+    refuse_workers(engine, backend, precision)
     inputs = _uncertain_inputs(loaded, uncertain or (), wanted=uncertainty)
     folder = out or RUNS / loaded.name
     command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
@@ -106,7 +108,7 @@ def run(
     command += ["--backend", backend] if backend != "cpu" else []
     command += ["--uncertainty"] if uncertainty else []
     command += [word for given in uncertain or () for word in ("--uncertain", given)]
-    command += ["--workers", str(workers)] if workers != 1 else []
+    command += ["--workers", str(workers)] if engine.at_once > 1 else []
     options = {"threads": threads, "precision": precision, "backend": backend}
     options |= {"wait": LONGEST_WAIT if until_stdin_closes else 0.0}
 
@@ -118,7 +120,7 @@ def run(
     if uncertainty:
         from lasersph.studies import assess_uncertainty
 
-        prepare = preparation(workers, threads, shlex.join(command))
+        prepare = preparation(engine, shlex.join(command))
         assess_uncertainty(loaded, folder, inputs=inputs, run=make, prepare=prepare, report=_say)
     else:
         make(loaded, folder)

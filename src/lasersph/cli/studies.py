@@ -15,12 +15,12 @@ from lasersph.cli.arguments import (
     Quick,
     Resume,
     Settings,
-    Threads,
     read_quantities,
     refuse_backend,
 )
+from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
-from lasersph.cli.side_by_side import Workers, preparation, refuse_workers
+from lasersph.cli.side_by_side import preparation, refuse_workers
 from lasersph.cli.stop_signals import StopSignals
 from lasersph.cli.tables import aligned
 
@@ -51,14 +51,14 @@ Json = Annotated[
 ]
 
 
+@takes_engine
 def converge(
     case: CaseName,
+    engine: EngineOptions,
     spacing: Spacings,
     out: Out = None,
     settings: Settings = None,
     resume: Resume = False,
-    threads: Threads = None,
-    workers: Workers = 1,
     backend: Backend = "cpu",
     json_file: Json = None,
 ) -> None:
@@ -66,34 +66,27 @@ def converge(
     from lasersph import studies
     from lasersph.case import load_case
 
-    refuse_backend(backend, threads)
-    refuse_workers(workers, backend)
+    options = _options(engine, backend)
     wanted = read_quantities("--spacing", spacing, "length")
     if len(set(wanted)) < 3:
         raise WrongCommand("--spacing: an order needs three different spacings, e.g. 32nm,16nm,8nm")
     loaded = load_case(case, settings or ())
     _refuse_missing_folder(json_file)
     folder = _folder(out or Path("runs") / f"{loaded.name}-converge", resume)
-    found = studies.converge(
-        loaded,
-        wanted,
-        folder,
-        run=_runner(threads, backend),
-        prepare=preparation(workers, threads, AGAIN),
-        report=_report,
-    )
+    found = studies.converge(loaded, wanted, folder, **options)
     print(aligned(found.table(), header=True))
     _write(json_file, found.as_dict())
 
 
+@takes_engine
 def threshold(
     case: CaseName,
+    engine: EngineOptions,
     of: Of,
     out: Out = None,
     settings: Settings = None,
     resume: Resume = False,
     quick: Quick = False,
-    threads: Threads = None,
     backend: Backend = "cpu",
     tolerance: Tolerance = 0.01,
     json_file: Json = None,
@@ -104,7 +97,7 @@ def threshold(
     from lasersph import studies
     from lasersph.case import load_case
 
-    refuse_backend(backend, threads)
+    options = _options(engine, backend)
     loaded = load_case(case, settings or (), quick=quick)
     if loaded.laser is None:
         raise WrongCommand(f"{loaded.name} has no laser, so no threshold")
@@ -116,21 +109,21 @@ def threshold(
     _refuse_missing_folder(json_file)
     folder = _folder(out or Path("runs") / f"{loaded.name}-threshold", resume)
     found = studies.threshold(
-        loaded, of, folder, tolerance=tolerance, run=_runner(threads, backend), report=_report
+        loaded, of, folder, tolerance=tolerance, at_once=engine.at_once, **options
     )
     print(_answer(found))
     _write(json_file, asdict(found))
 
 
+@takes_engine
 def spot(
     case: CaseName,
+    engine: EngineOptions,
     fluence: Fluences,
     out: Out = None,
     settings: Settings = None,
     resume: Resume = False,
     quick: Quick = False,
-    threads: Threads = None,
-    workers: Workers = 1,
     backend: Backend = "cpu",
     json_file: Json = None,
 ) -> None:
@@ -140,21 +133,13 @@ def spot(
     from lasersph.plots import style
     from lasersph.plots.spot_threshold import spot_threshold_figure
 
-    refuse_backend(backend, threads)
-    refuse_workers(workers, backend)
+    options = _options(engine, backend)
     wanted = read_quantities("--fluence", fluence, "fluence")
     loaded = load_case(case, settings or (), quick=quick)
     if reason := studies.no_spot(loaded, wanted):
         raise WrongCommand(f"{loaded.name}: {reason}")
     folder = _folder(out or Path("runs") / f"{loaded.name}-spot", resume)
-    found = studies.spot_threshold(
-        loaded,
-        wanted,
-        folder,
-        run=_runner(threads, backend),
-        prepare=preparation(workers, threads, AGAIN),
-        report=_report,
-    )
+    found = studies.spot_threshold(loaded, wanted, folder, **options)
     print(aligned(found.table(), header=True))
     print(found.answer())
     _write(json_file, found.as_dict())
@@ -184,6 +169,14 @@ def _refuse_missing_folder(file: Path | None) -> None:
     """Refuse an answer that could not be written after hours of runs."""
     if file is not None and not file.absolute().parent.is_dir():
         raise WrongCommand(f"--json: there is no folder {file.parent}")
+
+
+def _options(engine: EngineOptions, backend: str) -> dict[str, Any]:
+    """How a study makes its runs, and where it says so. Raises WrongCommand, NoDevice."""
+    refuse_backend(backend, engine.threads)
+    refuse_workers(engine, backend)
+    prepare = preparation(engine, AGAIN)
+    return {"run": _runner(engine.threads, backend), "prepare": prepare, "report": _report}
 
 
 def _runner(threads: int | None, backend: str) -> Any:

@@ -54,7 +54,7 @@ class ProcessMap:
         axes: one or two keys.
         column: key of the number. unit: its unit.
         points: keys of each run (runs, axes). values: the number, NaN without one (runs,).
-        names, status: of each run.
+        names, status, reasons: of each run; why it has no result, empty for others.
         field: the number over the first axis (m,), or over both (second, first); NaN where no run
             tells it. deviation: its standard deviation, of an emulator; None without one.
         allowed: deviations above this are hatched.
@@ -77,6 +77,7 @@ class ProcessMap:
     allowed: float = float("inf")
     target: float | None = None
     notes: tuple[str, ...] = ()
+    reasons: tuple[str, ...] = ()
 
     @property
     def words(self) -> str:

@@ -106,14 +106,15 @@ def _caption(shown: ProcessMap) -> str:
 
 
 def _runs_table(shown: ProcessMap) -> str:
-    """Runs with their keys and the number; each name links to the report or the folder."""
+    """Runs with their keys, the number or why there is none; each name links to its folder."""
     head = ["run", *(axis.words for axis in shown.axes), shown.words, "status"]
+    reasons = shown.reasons or ("",) * len(shown.names)
     lines = ["<table>", "<tr>" + "".join(f"<th>{escape(one)}</th>" for one in head) + "</tr>"]
-    for name, point, value, status in zip(
-        shown.names, shown.points, shown.values, shown.status, strict=True
+    for name, point, value, status, reason in zip(
+        shown.names, shown.points, shown.values, shown.status, reasons, strict=True
     ):
         cells = [in_field_units(at, axis.unit) for at, axis in zip(point, shown.axes, strict=True)]
-        cells += [in_field_units(value, shown.unit), status]
+        cells += [in_field_units(value, shown.unit), ": ".join(filter(None, (status, reason)))]
         link = f'<a href="{RUNS}/{escape(name)}/">{escape(name)}</a>'
         rest = "".join(f'<td class="number">{escape(cell)}</td>' for cell in cells)
         lines.append(f"<tr><td>{link}</td>{rest}</tr>")

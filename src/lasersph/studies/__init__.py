@@ -4,7 +4,7 @@ uncertainty          how sure the numbers of one run are: discretization, uncert
 spacing_study        what the numbers of a case tend to as the particles get finer, and how surely
 fluence_threshold    the fluence at which melting, boiling or ablation begins
 calibration_run      unknowns of a case from measured values, with honest bands
-find_settings        settings of a sweep that reach wanted values
+find_settings        settings of a sweep that reach wanted values; find_runs: with runs of its own
 emulator             a Gaussian process through some runs: a number at keys that none of them has
 sensitivity          which keys of a sweep a number depends on: Sobol indices, Morris screening
 maps                 a number of a sweep over its keys, and where metal melts, boils or is ablated
@@ -17,6 +17,7 @@ from lasersph.studies.calibration_reading import read_calibration_plan
 from lasersph.studies.calibration_run import calibrate
 from lasersph.studies.companions import Input, inputs_of, read_input
 from lasersph.studies.emulator import Box, Emulator, box_of, fit_emulator
+from lasersph.studies.find_runs import find
 from lasersph.studies.find_settings import FoundSettings, Wish, find_settings, read_wish
 from lasersph.studies.fluence_threshold import Threshold, Trial, show_energy, threshold
 from lasersph.studies.maps import process_map
@@ -49,6 +50,7 @@ __all__ = [
     "calibrate_with",
     "changed",
     "converge",
+    "find",
     "find_settings",
     "fit_emulator",
     "inputs_of",

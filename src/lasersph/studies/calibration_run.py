@@ -13,6 +13,7 @@ import csv
 import io
 import json
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from importlib.util import find_spec
 from os import PathLike
 from pathlib import Path
@@ -31,7 +32,7 @@ from lasersph.studies.calibration_plan import CalibrationPlan
 from lasersph.studies.calibration_reading import read_calibration_plan
 from lasersph.studies.measured_value import unit_of_number
 from lasersph.studies.posterior import GRID
-from lasersph.sweeps import Engine, Event, LocalEngine, Point, Table, make_runs
+from lasersph.sweeps import Engine, Event, LocalEngine, Point, Study, Table, make_runs
 
 ANSWER, POINTS, BEST, FIGURE = (
     "calibration.json",
@@ -95,19 +96,15 @@ def calibrate(
     return content
 
 
+@dataclass(frozen=True)
 class _Runs:
     """Makes the runs of a plan exist in its folder."""
 
-    def __init__(
-        self,
-        plan: CalibrationPlan,
-        path: Path,
-        engine: Engine,
-        report: Callable[[str], None],
-        should_stop: Callable[[], bool],
-    ) -> None:
-        self.plan, self.path, self.engine = plan, path, engine
-        self.report, self.should_stop = report, should_stop
+    plan: CalibrationPlan
+    path: Path
+    engine: Engine
+    report: Callable[[str], None]
+    should_stop: Callable[[], bool]
 
     def make(self, settings: Sequence[Settings]) -> list[Numbers | None]:
         """Numbers of the runs with these settings, None of those that fail."""
@@ -118,23 +115,37 @@ class _Runs:
 
     def table(self, points: Sequence[Point]) -> Table:
         """The table of these points, all runs made. Raises Stopped."""
-
-        def note(event: Event, _: Table) -> None:
-            if event.kind in ("complete", "failed", "retry", "wrong"):
-                message = f": {event.message}" if event.message else ""
-                self.report(f"run {event.run} {event.kind}{message}")
-
-        table = make_runs(
-            points,
-            self.path,
-            self.plan.study,
-            engine=self.engine,
-            report=note,
-            should_stop=self.should_stop,
+        return make_or_stop(
+            points, self.path, self.plan.study, self.engine, self.report, self.should_stop
         )
-        if self.should_stop() and any(one in ("stopped", "missing") for one in table.status):
-            raise Stopped(f"stopped with {table.count('complete')} of {len(points)} runs complete")
-        return table
+
+
+def make_or_stop(
+    points: Sequence[Point],
+    folder: Path,
+    study: Study,
+    engine: Engine,
+    report: Callable[[str], None],
+    should_stop: Callable[[], bool],
+) -> Table:
+    """The table of points, all runs made.
+
+    Args:
+        report: called with a line on each run that ends or is tried again.
+
+    Raises:
+        Stopped: before all were made. FolderRefused, OutputError: see `make_runs`.
+    """
+
+    def note(event: Event, _: Table) -> None:
+        if event.kind in ("complete", "failed", "retry", "wrong"):
+            message = f": {event.message}" if event.message else ""
+            report(f"run {event.run} {event.kind}{message}")
+
+    table = make_runs(points, folder, study, engine=engine, report=note, should_stop=should_stop)
+    if should_stop() and any(one in ("stopped", "missing") for one in table.status):
+        raise Stopped(f"stopped with {table.count('complete')} of {len(points)} runs complete")
+    return table
 
 
 def answer(found: Calibration) -> dict[str, Any]:

@@ -54,11 +54,21 @@ class Wish:
 
 @dataclass(frozen=True)
 class FoundSettings:
-    """Settings by key, their probability, and the mean of the numbers expected there, all in SI."""
+    """Settings that may do what is wanted, in SI.
+
+    Attributes:
+        settings: by key. probability: that all wishes come true.
+        numbers: mean of those that are wished for. reached: the keys of the case that the settings
+            act as, by a calibration; the settings themselves without one.
+        doubt: how much of the probability, from 0 to 1, is the emulator's: its distance from what
+            it would be were the means exact.
+    """
 
     settings: dict[str, float]
     probability: float
     numbers: dict[str, float]
+    reached: dict[str, float]
+    doubt: float
 
 
 def read_wish(text: str) -> Wish:
@@ -110,32 +120,36 @@ def find_settings(
         emulators[column] = fit_emulator(points[has], values[has], box=box, noise=noise, seed=seed)
     worlds = _worlds(table.varied, calibration, seed)
 
-    def probabilities(scaled: Array) -> Array:
-        settings = box.restored(scaled)
+    def probabilities(settings: Array, *, are_exact: bool = False) -> Array:
         total = np.zeros(len(settings))
         for world in worlds:
             reached = _reached(settings, world)
             part = next(iter(emulators.values())).is_inside(reached).astype(float)
             for wish in wishes:
                 mean, sd = emulators[wish.column].predict(reached)
-                sd = np.hypot(sd, max(numerical[wish.column], 1e-9 * abs(float(np.max(mean)))))
+                least = max(numerical[wish.column], 1e-9 * abs(float(np.max(mean))))
+                sd = np.hypot(0.0 if are_exact else sd, least)
                 part *= ndtr((wish.high - mean) / sd) - ndtr((wish.low - mean) / sd)
             total += part
         return total / len(worlds)
 
     candidates = qmc.Sobol(points.shape[1], seed=seed).random(LOOKS)  # pyright: ignore[reportCallIssue]
-    first = _best(candidates, probabilities(candidates), count)
+    first = _best(candidates, probabilities(box.restored(candidates)), count)
     steps = NARROWER * (candidates[: LOOKS // 8] - 0.5)
     near = [np.clip(candidates[number] + steps, 0.0, 1.0) for number in first]
     every = np.vstack([candidates, *near])
-    chance = probabilities(every)
+    chance = probabilities(box.restored(every))
     found = []
     for number in _best(every, chance, count):
         settings = box.restored(every[number : number + 1])
         reached = np.vstack([_reached(settings, world) for world in worlds])
         numbers = {name: float(np.mean(one.predict(reached)[0])) for name, one in emulators.items()}
-        by_key = dict(zip(table.varied, settings[0].tolist(), strict=True))
-        found.append(FoundSettings(by_key, float(chance[number]), numbers))
+        by_key, acts_as = (
+            dict(zip(table.varied, values.tolist(), strict=True))
+            for values in (settings[0], reached.mean(axis=0))
+        )
+        doubt = abs(float(chance[number] - probabilities(settings, are_exact=True)[0]))
+        found.append(FoundSettings(by_key, float(chance[number]), numbers, acts_as, doubt))
     return found
 
 

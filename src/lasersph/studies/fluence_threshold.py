@@ -2,18 +2,20 @@
 
 The case's own energy (fluence, intensity, pulse_energy or power, whichever it gives) is varied:
 first doubled or halved until a run with the event and one without bracket the threshold, then the
-bracket is halved until it is narrow enough. Every trial is a full run of the case.
+bracket is halved until it is narrow enough. Every trial is a full run of the case. Several runs at
+a time try what both outcomes of a run would ask for: three make two halvings in the time of one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 from lasersph.lasers.laser import AMOUNTS
-from lasersph.studies.variation import Run, changed, simulate
+from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
 Event = Literal["melt", "vaporize", "ablate"]
 UNITS = {
@@ -71,6 +73,8 @@ def threshold(
     bracket: tuple[float, float] | None = None,
     largest_factor: float = 1024.0,
     run: Run = simulate,
+    prepare: Prepare = prepare_nothing,
+    at_once: int = 1,
     report: Callable[[str], None] | None = None,
 ) -> Threshold:
     """Energy at which the hottest spot just melts completely, just boils, or just ablates.
@@ -84,43 +88,104 @@ def threshold(
         bracket: a value without and one with the event, if known; both are run first.
         largest_factor: give up when the first guess times or over this factor does not bracket.
         run: how a case is run. report: called with one line after each run.
+        prepare: makes `at_once` runs at a time, the next one and those that may be wanted after
+            it; the answer does not depend on how many.
 
     Raises:
         ValueError: the material has no such event, no bracket is found, or `bracket` is none.
     """
     if not 0.0 < tolerance < 1.0:
         raise ValueError(f"the tolerance must lie between 0 and 1, not {tolerance}")
-    name = next(name for name in AMOUNTS if getattr(case.laser, name) is not None)
-    search = _Search(case, of, f"laser.{name}", out, run, report)
-    if bracket is not None:
-        below, above = sorted(bracket)
-        if search.reached(below) or not search.reached(above):
-            raise ValueError(
-                f"{below:g} and {above:g} do not bracket the threshold; give one value below it "
-                "and one above"
-            )
-    else:
-        below, above = search.expand(getattr(case.laser, name), largest_factor)
-    while above - below > tolerance * (above + below):
-        middle = 0.5 * (below + above)
-        below, above = (below, middle) if search.reached(middle) else (middle, above)
+    search = _Search(case, of, out, tolerance, bracket, largest_factor)
+    while (value := search.following(search.known)) is not None:
+        if not (search.folder(value) / "summary.json").exists():
+            prepare({search.folder(one): search.case_at(one) for one in search.ahead(at_once)})
+        trial = search.judge(value, run(search.case_at(value), search.folder(value)).summary)
+        if report:
+            word = "reached" if trial.reached else "not reached"
+            energy = f"{search.key} = {show_energy(search.key, value)}"
+            report(f"run {len(search.known)}: {energy}: {trial.temperature:.1f} K, {word}")
+    if search.bracket and (search.known[search.bracket[0]] or not search.known[search.bracket[1]]):
+        raise ValueError(
+            f"{search.bracket[0]:g} and {search.bracket[1]:g} do not bracket the threshold; give "
+            "one value below it and one above"
+        )
+    below, above = search.ends(search.known)
+    if below is None or above is None:
+        here = search.trials[-1].value
+        raise ValueError(
+            f"the threshold to {of} lies {'below' if below is None else 'above'} "
+            f"{show_energy(search.key, here)}, {largest_factor:g} times away from the {search.key} "
+            "of the case; give a bracket"
+        )
     return Threshold(of, search.key, below, above, tuple(search.trials))
 
 
 class _Search:
-    """Runs trials and keeps them."""
+    """What is known of a threshold, and which value follows from that."""
 
-    def __init__(self, case, of: Event, key: str, out: Path, run: Run, report):
-        self.case, self.of, self.key = case, of, key
-        self.out, self.run, self.report = out, run, report
+    def __init__(
+        self,
+        case: Any,
+        of: Event,
+        out: Path,
+        tolerance: float,
+        bracket: tuple[float, float] | None,
+        largest_factor: float,
+    ) -> None:
+        name = next(name for name in AMOUNTS if getattr(case.laser, name) is not None)
+        self.case, self.of, self.key, self.out = case, of, f"laser.{name}", out
+        self.tolerance, self.largest_factor = tolerance, largest_factor
+        self.guess = getattr(case.laser, name)
+        self.bracket = None if bracket is None else (min(bracket), max(bracket))
         self.trials: list[Trial] = []
+        self.known: dict[float, bool] = {}
         self.temperature = _event_temperature(case.material, of)
 
-    def reached(self, value: float) -> bool:
-        """Whether the event happens at this energy: one run."""
-        number = len(self.trials) + 1
-        folder = self.out / f"{number:02d}-{self.key.partition('.')[2]}-{value:.6g}"
-        summary = self.run(changed(self.case, self.key, value), folder).summary
+    def case_at(self, value: float) -> Any:
+        """The case with this energy."""
+        return changed(self.case, self.key, value)
+
+    def folder(self, value: float) -> Path:
+        """Of the run with this energy."""
+        return self.out / f"{self.key.partition('.')[2]}-{value:.8g}"
+
+    def ends(self, known: Mapping[float, bool]) -> tuple[float | None, float | None]:
+        """The highest value without and the lowest with the event; None where none is known."""
+        below = max((value for value, reached in known.items() if not reached), default=None)
+        return below, min((value for value, reached in known.items() if reached), default=None)
+
+    def following(self, known: Mapping[float, bool]) -> float | None:
+        """The value to try next, were this known; None at the end, and where the bracket is none
+        or nothing near the guess is one."""
+        for value in self.bracket or (self.guess,):
+            if value not in known:
+                return value
+        if self.bracket and (known[self.bracket[0]] or not known[self.bracket[1]]):
+            return None
+        below, above = self.ends(known)
+        if below is not None and above is not None:
+            is_narrow = above - below <= self.tolerance * (above + below)
+            return None if is_narrow else 0.5 * (below + above)
+        here, factor = (above, 0.5) if below is None else (below, 2.0)
+        assert here is not None  # the guess is known
+        is_near = max(here / self.guess, self.guess / here) < self.largest_factor
+        return factor * here if is_near else None
+
+    def ahead(self, count: int) -> list[float]:
+        """The next value and those that would follow from what it and others may give, the soonest
+        needed first: where all are run at a time, the search takes the same way in fewer rounds."""
+        found, worlds = dict[float, None](), deque([self.known])
+        while worlds and len(found) < count:
+            world = worlds.popleft()
+            value = self.following(world)
+            if value is not None:
+                found[value] = None
+                worlds += [{**world, value: reached} for reached in (True, False)]
+        return list(found)
+
+    def judge(self, value: float, summary: dict[str, Any]) -> Trial:
+        """Keep whether the event happened at this energy."""
         hottest = float(summary["temperature_max_K"])
         if self.of == "melt":  # the liquidus alone is not enough where melting is isothermal
             reached = (summary.get("melt") or {}).get("start_s") is not None
@@ -128,28 +193,9 @@ class _Search:
             reached = bool(summary["ejecta"]["count"])
         else:
             reached = hottest >= self.temperature * (1.0 - 1e-9)
+        self.known[value] = reached
         self.trials.append(Trial(value, reached, hottest))
-        if self.report:
-            word = "reached" if reached else "not reached"
-            energy = f"{self.key} = {show_energy(self.key, value)}"
-            self.report(f"run {number}: {energy}: {hottest:.1f} K, {word}")
-        return reached
-
-    def expand(self, guess: float, largest_factor: float) -> tuple[float, float]:
-        """Double or halve the guess until it brackets the threshold."""
-        factor = 0.5 if self.reached(guess) else 2.0
-        here = guess
-        while max(here / guess, guess / here) < largest_factor:
-            following = here * factor
-            if self.reached(following) == (factor > 1.0):
-                low, high = sorted((here, following))
-                return low, high
-            here = following
-        side = "above" if factor > 1.0 else "below"
-        raise ValueError(
-            f"the threshold to {self.of} lies {side} {show_energy(self.key, here)}, "
-            f"{largest_factor:g} times away from the {self.key} of the case; give a bracket"
-        )
+        return self.trials[-1]
 
 
 def _event_temperature(material: Any, of: Event) -> float:

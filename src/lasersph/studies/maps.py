@@ -126,6 +126,7 @@ def process_map(
         values=values,
         names=table.runs,
         status=table.status,
+        reasons=tuple(row.reason for row in table.rows),
         field=field,
         deviation=deviation,
         allowed=tolerance * float(np.max(np.abs(values[good]))),

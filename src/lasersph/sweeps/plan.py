@@ -27,9 +27,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from lasersph.case import CaseFile
 from lasersph.case.conversion import present_place
-from lasersph.case.loading import write_new_file
 from lasersph.input import CaseError, Count, Document, Model, Problem, build, dotted, read_toml
 from lasersph.input.findings import steps_of
 from lasersph.input.model import did_you_mean
@@ -38,7 +36,6 @@ from lasersph.sweeps.folder import Study
 from lasersph.sweeps.points import CaseTemplate, Point, Value, as_override
 from lasersph.sweeps.sampling import Choices, Range, grid, latin_hypercube, morris, sobol, together
 
-LIBRARY = Path(__file__).parent / "plans"
 RANGE_KEYS = ("from", "to", "count", "scale")
 NUMBERS = {"sobol": "runs", "latin-hypercube": "runs", "morris": "trajectories"}
 """Key of [sampling] that says how many points a kind of sampling has."""
@@ -69,13 +66,18 @@ class TableChoice(Model):
     )
 
 
-class PlanFile(Model):
-    """The keys of a plan, `set` and `vary` not yet compared with the case."""
+class VariedCase(Model):
+    """The keys of every plan that varies a case, not yet compared with the case."""
 
     schema_version: Literal[1] = 1
     case: str = Field(examples=["dlip-steel"])
     set: dict[str, Any] = Field(default_factory=dict)
     vary: dict[str, Any]
+
+
+class PlanFile(VariedCase):
+    """The keys of the plan of a sweep."""
+
     sampling: Sampling = Sampling()
     table: TableChoice = TableChoice()
 
@@ -132,26 +134,6 @@ class SweepPlan:
             )
 
 
-def available_plans() -> dict[str, Path]:
-    """Files of commented plans to start from, by kind."""
-    return {path.stem: path for path in sorted(LIBRARY.glob("*.toml"))}
-
-
-def write_new_plan(kind: str, case: str, target: str | PathLike[str]) -> Path:
-    """Write a commented plan of a kind ("sweep") for a case.
-
-    Raises:
-        CaseError: no such kind or case, the target exists already or cannot be written.
-    """
-    if kind not in available_plans():
-        shown = ", ".join(available_plans())
-        raise CaseError(f'no kind of plan "{kind}"', f"write one of {shown}", file="--plan")
-    CaseFile(case)
-    text = available_plans()[kind].read_text(encoding="utf-8")
-    text = re.sub(r'^case = "[^"]*"', f"case = {as_toml(case)}", text, flags=re.MULTILINE)
-    return write_new_file(text, target)
-
-
 def read_plan(file: str | PathLike[str]) -> SweepPlan:
     """Read the plan of a sweep.
 
@@ -159,7 +141,7 @@ def read_plan(file: str | PathLike[str]) -> SweepPlan:
         CaseError: every mistake of the plan, or of its case, in one line with file and line.
     """
     document = read_toml(Path(file), tolerant=True)
-    return _plan(document, Path(document.file).parent)
+    return _plan_of_file(document, Path(document.file).parent)
 
 
 def build_plan(
@@ -187,11 +169,29 @@ def build_plan(
     for name, table in tables.items():
         lines += ["", f"[{name}]", *(f"{as_toml(k)} = {as_toml(v)}" for k, v in table.items())]
     data = {"case": str(case), **tables}
-    return _plan(Document(data, text="\n".join(lines) + "\n"), Path())
+    return _plan_of_file(Document(data, text="\n".join(lines) + "\n"), Path())
 
 
-def _plan(document: Document, folder: Path) -> SweepPlan:
-    plan = build(PlanFile, document)
+def _plan_of_file(document: Document, folder: Path) -> SweepPlan:
+    entry = build(PlanFile, document)
+    return compare_with_case(document, folder, entry, entry.sampling, entry.table.columns)
+
+
+def compare_with_case(
+    document: Document,
+    folder: Path,
+    plan: VariedCase,
+    sampling: Sampling,
+    columns: tuple[str, ...] = (),
+) -> SweepPlan:
+    """The plan of a sweep whose keys and values the case takes.
+
+    Args:
+        document: the file, for lines. folder: of the plan, from which case files are found.
+
+    Raises:
+        CaseError: every mistake of the plan, or of its case.
+    """
     problems = _Problems(document)
     settings, varied = _by_key(plan.set, ("set",)), _by_key(plan.vary, ("vary",))
     if not varied:
@@ -204,9 +204,9 @@ def _plan(document: Document, folder: Path) -> SweepPlan:
             problems.add(path, key, f"given twice, in line {line} as well", "remove one")
         seen[place] = path
     for key, path, raw in varied:
-        for problem, hint, where in _mistakes(raw, plan.sampling):
+        for problem, hint, where in _mistakes(raw, sampling):
             problems.add((*path, *where), key, problem, hint)
-    problems.extend(_sampling_mistakes(plan.sampling, varied))
+    problems.extend(_sampling_mistakes(sampling, varied))
     problems.raise_any()
     case = folder / plan.case if plan.case.endswith(".toml") or "/" in plan.case else plan.case
     template = CaseTemplate(case, {key: raw for key, _, raw in settings})
@@ -222,9 +222,9 @@ def _plan(document: Document, folder: Path) -> SweepPlan:
         else:
             choices[key] = _range(template, key, raw, path, problems)
     problems.raise_any()
-    _refuse_uneven(choices, plan.sampling, problems)
+    _refuse_uneven(choices, sampling, problems)
     problems.raise_any()
-    return SweepPlan(document.text, template, choices, plan.sampling, plan.table.columns)
+    return SweepPlan(document.text, template, choices, sampling, columns)
 
 
 class _Problems:

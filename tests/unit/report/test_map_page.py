@@ -28,7 +28,11 @@ def test_files_of_a_map(tmp_path):
         assert f'href="runs/{run}/"' in page
     assert "data:image/png;base64," in page and "<script" not in page
     assert not re.search(r'(src|href)="(?!data:|runs/|#)', page)
-    assert "1 of 24 runs has no result" in page and "0.2 J/cm²" in page
+    assert (
+        "failed: no step converges" in page
+        and "1 of 24 runs has no result" in page
+        and "0.2 J/cm²" in page
+    )
     assert "onset of melting, boiling" in page and "Wanted: 200 nm" in page
 
     rows = list(csv.reader(files[2].open(encoding="utf-8")))

@@ -4,10 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sweep_runs import PretendingEngine
 
 from lasersph.cli import main
-from lasersph.input import QuantityError
-from lasersph.studies import Wish, find_settings, read_wish
+from lasersph.input import CaseError, QuantityError
+from lasersph.studies import Wish, find, find_settings, read_wish
 from lasersph.sweeps import Row, Table
 
 
@@ -81,9 +82,67 @@ def test_command(table, capsys, monkeypatch, tmp_path):
     assert main(["find", str(tmp_path), "--want", "temperature_max_K < 3000 K"]) == 2
     assert "holds no sweep" in capsys.readouterr().err
     monkeypatch.setattr("lasersph.sweeps.Table.read", lambda folder: table)
-    assert main(["find", "made-up", "--want", "melt.depth_max_m = 200 +- 10 nm"]) == 0
+    assert main(["find", str(tmp_path), "--want", "melt.depth_max_m = 200 +- 10 nm"]) == 0
     head, _, first, *_ = capsys.readouterr().out.splitlines()
     assert "laser.fluence_J_m2" in head
     assert " %" in first
-    assert main(["find", "made-up", "--want", "melt.depth_max_m > 2 um"]) == 2
+    assert main(["find", str(tmp_path), "--want", "melt.depth_max_m > 2 um"]) == 2
     assert "no settings" in capsys.readouterr().err
+
+
+PLAN = """case = "dlip-steel"
+want = ["melt.depth_max_m = 60 +- 1 nm"]
+[vary]
+"laser.fluence" = { from = "0.3 J/cm^2", to = "1 J/cm^2" }
+[runs]
+first = 4
+most = 8
+"""
+
+
+def test_runs_are_added_where_the_answer_is_unsure(tmp_path):
+    """A depth that winds over the fluence: four runs do not tell where it is 60 nm, some more do.
+    The same call again finds them and computes nothing."""
+    plan = tmp_path / "plan.toml"
+    plan.write_text(PLAN)
+
+    def depth(fluence):
+        return 1e-11 * (fluence + 600.0 * np.sin(fluence / 900.0))
+
+    engine = PretendingEngine(depth=depth)
+    found = find(plan, tmp_path / "out", engine=engine)
+    assert 4 < len(engine.made) <= 8
+    assert depth(found[0].settings["laser.fluence"]) == pytest.approx(60e-9, abs=1e-9)
+    assert found[0].probability > 0.9 and found[0].doubt < 0.1
+    made = list(engine.made)
+    assert find(plan, tmp_path / "out", engine=engine) == found and engine.made == made
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "text"),
+    [
+        ("60 +- 1 nm", "60 nm", "2: want: "),
+        ('["melt.depth_max_m = 60 +- 1 nm"]', "[]", "2: want: nothing is wanted"),
+        ("first = 4", "fist = 4", "6: runs.fist: unknown key"),
+        ('from = "0.3 J/cm^2"', 'from = "0.3 J"', "4: laser.fluence"),
+    ],
+)
+def test_wrong_plans(tmp_path, old, new, text):
+    """One line with file and line, and nothing is written."""
+    plan = tmp_path / "plan.toml"
+    plan.write_text(PLAN.replace(old, new))
+    with pytest.raises(CaseError) as error:
+        find(plan, tmp_path / "out")
+    assert f"plan.toml:{text}" in str(error.value) and not (tmp_path / "out").exists()
+
+
+def test_folders_and_plans_take_their_own_options(tmp_path, capsys):
+    """Wishes on the command line are for a folder, engines for a plan; a new plan can be read."""
+    from lasersph.studies.find_runs import read_find_plan
+
+    assert main(["find", str(tmp_path)]) == 2
+    assert "takes --want" in capsys.readouterr().err
+    assert main(["new", "--plan", "find", str(tmp_path / "a.toml")]) == 0
+    assert len(read_find_plan(tmp_path / "a.toml").sweep.points()) == 8
+    assert main(["find", str(tmp_path / "a.toml"), "--want", "temperature_max_K < 9 K"]) == 2
+    assert "a plan says what is wanted" in capsys.readouterr().err

@@ -61,8 +61,33 @@ def test_the_cases_own_energy_is_varied(tmp_path):
     )  # fmt: skip
     assert found.key == "laser.intensity"
     assert found.value == pytest.approx(MELTS / 1e-8, rel=0.01)
-    assert folders[:2] == ["01-intensity-1e+11", "02-intensity-5e+11"]
+    assert folders[:2] == ["intensity-1e+11", "intensity-5e+11"]
     assert lines[0].startswith("run 1: laser.intensity = 1e+07 W/cm^2: 724.7 K, not reached")
+
+
+@pytest.mark.parametrize("guess", [1e2, 2.9e3, 1e5])
+def test_several_at_a_time_go_the_same_way(tmp_path, guess):
+    """What is made ahead is what comes: three at a time need half the rounds for the same trials,
+    and what lies there complete is made no more."""
+    alone = threshold(case(fluence=guess), "melt", tmp_path, run=run)
+    rounds = []
+
+    def prepare(cases):
+        rounds.append(len(cases))
+        for folder in cases:
+            folder.mkdir(exist_ok=True)
+            (folder / "summary.json").touch()
+
+    def run_prepared(case, folder):
+        assert (folder / "summary.json").exists()
+        return run(case, folder)
+
+    options = {"run": run_prepared, "prepare": prepare, "at_once": 3}
+    assert threshold(case(fluence=guess), "melt", tmp_path, **options) == alone
+    assert max(rounds) == 3 and len(rounds) <= len(alone.trials) // 2 + 1
+    before = len(rounds)
+    assert threshold(case(fluence=guess), "melt", tmp_path, **options) == alone
+    assert len(rounds) == before
 
 
 def test_wrong_bracket_and_no_bracket_are_said(tmp_path):
