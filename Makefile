@@ -30,6 +30,7 @@ check: $(VENV)/.check
 
 docs: $(VENV)/.docs
 	$(VENV)/bin/python docs/draw_architecture.py
+	@$(VENV)/bin/python docs/draw_figures.py --check || echo "Draw them: $(VENV)/bin/python docs/draw_figures.py"
 	$(VENV)/bin/python -m sphinx -j auto -W --keep-going -q -b html docs docs/_build/html
 	@echo "Open docs/_build/html/index.html in a browser."
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import lasersph
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE / "_extensions"))
+sys.path[:0] = [str(HERE / "_extensions"), str(HERE)]
 # cells of the notebooks call the program of this environment, and show the figures that they draw
 os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
 os.environ.pop("MPLBACKEND", None)

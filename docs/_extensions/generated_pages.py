@@ -4,9 +4,11 @@ from pathlib import Path
 from typing import Any
 
 from case_keys import case_keys
+from gallery_page import gallery_page
 from metals_table import metals_page
 from papers_page import papers_page, read_papers
 from result_keys import history_columns, summary_keys
+from validation_charts import draw_charts
 from validation_table import validation_table
 
 DOCS = Path(__file__).resolve().parent.parent
@@ -36,11 +38,13 @@ def write_pages(_app: object) -> None:
     target.mkdir(exist_ok=True)
     states = [state_of(name, DOCS / "validation") for name in names()]
     by_name = {state.name: state for state in states}
+    draw_charts(states, target)
     readmes = {name: (home_of(name) / "README.md").read_text("utf-8") for name in names()}
     pages = {
         "case_keys.md": case_keys(Case.model_json_schema()),
         "summary_keys.md": summary_keys(),
         "history_columns.md": history_columns(),
+        "gallery.md": gallery_page(),
         "examples.md": gallery(ROOT / "examples"),
         "metals.md": metals_page(),
         "validation.md": validation_table(states, readmes),

@@ -4,8 +4,15 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from validation_charts import judged
+
 from lasersph.validation.records import State
 
+CHARTS = """![Every judged number](generated/validation-overview.svg)
+
+*A point is one judged number, by how far it lies from its reference in units of its tolerance: left
+of the line it is met. Statements that hold or not have no distance; they stand in the tables only.
+Points at the left border agree to 1e-4 of the tolerance or better.*"""
 NOT_MET = "## Not met"
 HEAD = ("quantity", "published", "reference", "computed", "tolerance", "verdict")
 VERDICTS = {True: "ok", False: "**FAILED**", None: "shown"}
@@ -26,7 +33,7 @@ def validation_table(states: Sequence[State], readmes: Mapping[str, str]) -> str
         )
         for state in states
     ]
-    parts = [table(("validation", "question", "numbers", "computed", "state"), rows)]
+    parts = [table(("validation", "question", "numbers", "computed", "state"), rows), CHARTS]
     for state in states:
         parts += _section(state, readmes[state.name])
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -55,6 +62,9 @@ def _section(state: State, readme: str) -> list[str]:
         f"{made['date']}.*"
     )
     parts.append("\n".join(f"- {plain(remark)}" for remark in record["remarks"]))
+    if judged(record):
+        chart = f"generated/validation-{state.name}.svg"
+        parts.append(f"![{state.name}: difference over tolerance]({chart})")
     if record["rows"]:
         parts.append(table(HEAD, [_cells(row, notes) for row in record["rows"]]))
     parts.append("\n".join(f"- ({k}) {plain(text)}" for text, k in notes.items()))
