@@ -9,7 +9,7 @@ import typer
 
 from lasersph.cli.arguments import RunFolder, read_quantity
 from lasersph.cli.failures import WrongCommand
-from lasersph.cli.tables import aligned
+from lasersph.cli.tables import aligned, sparkline
 
 if TYPE_CHECKING:
     from lasersph.output import Run
@@ -47,14 +47,31 @@ def info(folder: RunFolder) -> None:
 
     found = opened(folder)
     if found.is_complete:
-        print(aligned(summary_rows(found.summary, found.uncertainty)))
+        print(aligned([*summary_rows(found.summary, found.uncertainty), *_curves(found)]))
         print(f"{folder}: complete")
         return
     times = [float(time) for time in found.history.get("time_s", ())]
     end = format_quantity(float(found.case["time"]["end"]), "s")
     now = format_quantity(times[-1] if times else 0.0, "s")
-    print(aligned([("case", found.case["title"]), ("history", f"up to {now} of {end}")]))
+    known = [("case", found.case["title"]), ("history", f"up to {now} of {end}")]
+    print(aligned([*known, *_curves(found)]))
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
+
+
+def _curves(run: Run) -> list[tuple[str, str]]:
+    """Temperature and depth of the melt over time, each as a line of characters."""
+    from lasersph.input import format_quantity
+
+    history = run.history
+    curves = {"temperature over time": ("temperature_max_K", "K")}
+    curves["melt depth over time"] = ("melt_depth_half_m", "m")
+    rows = []
+    for name, (column, unit) in curves.items():
+        values = [float(value) for value in history.get(column, ())]
+        if values and max(values) > 0.0:
+            line = sparkline([float(time) for time in history["time_s"]], values)
+            rows.append((name, f"{line} up to {format_quantity(max(values), unit)}"))
+    return rows
 
 
 def plot(

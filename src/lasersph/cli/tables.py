@@ -1,8 +1,14 @@
-"""Plain aligned text: the same on a terminal, in a file and in a pipe."""
+"""Plain aligned text and small curves: the same on a terminal, in a file and in a pipe."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Sequence
+
+BLOCKS, PLAIN = "▁▂▃▄▅▆▇█", "_.-:=+*#"
+"""Heights of a curve from low to high, and where the output cannot show blocks."""
+CURVE_WIDTH = 48
+"""Characters of a curve: with its name and largest value it fits 80 columns."""
 
 
 def aligned(rows: Iterable[Sequence[str]], *, header: bool = False) -> str:
@@ -17,3 +23,29 @@ def aligned(rows: Iterable[Sequence[str]], *, header: bool = False) -> str:
         lines.insert(1, ["-" * width for width in widths])
     padded = (zip(line, widths, strict=True) for line in lines)
     return "\n".join("  ".join(cell.ljust(width) for cell, width in row).rstrip() for row in padded)
+
+
+def sparkline(times: Sequence[float], values: Sequence[float]) -> str:
+    """A curve over time in one line of characters, from its least to its largest value.
+
+    Each character shows the largest value of its part of the time, or the value before where
+    no step ends in it.
+
+    Args:
+        times, values: (n,), n >= 1, rising times.
+    """
+    start, span = times[0], (times[-1] - times[0]) or 1.0
+    tops: list[float | None] = [None] * CURVE_WIDTH
+    for time, value in zip(times, values, strict=True):
+        k = min(int((time - start) / span * CURVE_WIDTH), CURVE_WIDTH - 1)
+        top = tops[k]
+        tops[k] = value if top is None else max(top, value)
+    low, high = min(values), max(values)
+    encoding = sys.stdout.encoding or "ascii"
+    marks = BLOCKS if encoding.lower().startswith("utf") else PLAIN
+    line, last = [], values[0]
+    for top in tops:
+        last = last if top is None else top
+        share = (last - low) / (high - low) if high > low else 0.0
+        line.append(marks[round(share * (len(marks) - 1))])
+    return "".join(line)

@@ -1,0 +1,31 @@
+"""Curves in a line of characters."""
+
+import pytest
+
+from lasersph.cli import tables
+
+
+class Output:
+    """Stands for a terminal with some encoding."""
+
+    def __init__(self, encoding: str) -> None:
+        self.encoding = encoding
+
+
+@pytest.mark.parametrize(("encoding", "marks"), [("utf-8", "▁▄█"), ("ascii", "_:#")])
+def test_sparkline_follows_time(encoding, marks, monkeypatch):
+    """It counts times, not steps: many short steps take no more room than their time."""
+    monkeypatch.setattr(tables.sys, "stdout", Output(encoding))
+    times = [0.0, *(1.0 + 1e-3 * k for k in range(50)), 2.0, 4.0]
+    values = [0.0, *(50 * [3.0]), 7.0, 7.0]
+    line = tables.sparkline(times, values)
+    assert len(line) == tables.CURVE_WIDTH
+    low, middle, high = marks
+    quarter = tables.CURVE_WIDTH // 4
+    assert line == low * quarter + middle * quarter + high * 2 * quarter
+
+
+def test_sparkline_of_a_constant():
+    """Nothing that varies is a low line."""
+    assert len(set(tables.sparkline([0.0, 1.0], [5.0, 5.0]))) == 1
+    assert len(tables.sparkline([1.0], [5.0])) == tables.CURVE_WIDTH
