@@ -62,7 +62,8 @@ details.subject > summary { font-weight: 600; }
   details.subject { border: 0; padding: 0; }
   details.subject::details-content { content-visibility: visible; height: auto; } }
 @media screen and (max-width: 40rem) { main { padding: 1.2rem; overflow-wrap: anywhere; }
-  table { display: block; overflow-x: auto; } td.number, th + th { white-space: normal; } }
+  .numbers dd, td.number, th + th { white-space: normal; }
+  table { display: block; overflow-x: auto; } }
 """
 
 

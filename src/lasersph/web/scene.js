@@ -200,9 +200,9 @@ export class Scene {
     const tall = z[1] - z[0];
     this.column = 0.25 * tall;
     if (dimensions === 1) [x[0], x[1]] = [-0.5 * this.column, 0.5 * this.column];
-    z[1] += Math.max(0, Math.min(this.highest() - z[1], 0.4 * tall));
     if (dimensions < 3)
       z[0] = Math.max(z[0], z[1] - Math.max(this.warmDepth(), 0.3 * (x[1] - x[0])));
+    z[1] += Math.max(0, Math.min(this.highest() - z[1], 0.4 * tall));
     return [x, y, z];
   }
 
