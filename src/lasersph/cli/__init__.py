@@ -15,6 +15,10 @@ ALLOCATIONS_BETWEEN_COLLECTIONS = 100_000
 which takes a twentieth of the start."""
 
 
+COMPLETION = "_LASERSPH_COMPLETE"
+"""The variable by which a shell asks what could come next, as typer names it."""
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; the entry point of `lasersph`.
 
@@ -37,10 +41,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(given: Sequence[str]) -> int:
     from lasersph import __version__
-    from lasersph.cli.app import VERBS, command_of, top_help
+    from lasersph.cli.app import VERBS, command_of, complete_in_shell, top_help
     from lasersph.cli.failures import WrongCommand
 
     verb, *rest = given or ["--help"]
+    if verb == "--install-completion" or COMPLETION in os.environ:
+        complete_in_shell(given)
+        return 0
     if verb in ("-h", "--help"):
         print(top_help())
         return 0

@@ -42,7 +42,7 @@ VERBS = {
         ),
         "report": (
             "results.report",
-            "Write DIR/report.html: figures and numbers on one self-contained page.",
+            "Write DIR/report.html: viewer, figures and numbers on one self-contained page.",
         ),
         "serve": (
             "serving.serve",
@@ -112,6 +112,7 @@ HELP = {"help_option_names": ["-h", "--help"]}
 """What asks for the help of a verb, as typer names it."""
 OPTIONS = {
     "--version": "Print the version.",
+    "--install-completion": "Complete verbs and options in your shell with the Tab key.",
     "--debug": "Show the whole traceback of a failure.",
     "--help": "Show this; lasersph VERB --help explains a verb.",
 }
@@ -130,7 +131,8 @@ def top_help() -> str:
         for heading, verbs in VERBS.items()
     }
     for heading, entries in (sections | {"Options": OPTIONS}).items():
-        lines += ["", heading, *(f"  {name:<10} {text}" for name, text in entries.items())]
+        width = max(map(len, entries))
+        lines += ["", heading, *(f"  {name:<{width}} {text}" for name, text in entries.items())]
     return "\n".join(lines)
 
 
@@ -146,6 +148,20 @@ def command_of(verb: str) -> Callable[[Sequence[str]], object]:
         return app(list(arguments), prog_name=f"lasersph {verb}", standalone_mode=False)
 
     return command
+
+
+def complete_in_shell(arguments: Sequence[str]) -> object:
+    """Install or answer the completion of verbs and options, which needs all verbs at once."""
+    import typer
+
+    whole = typer.Typer()
+    for name in (name for verbs in VERBS.values() for name in verbs):
+        app = app_of(name)
+        if len(app.registered_commands) == 1:
+            whole.command(name)(app.registered_commands[0].callback)
+        else:
+            whole.add_typer(app, name=name)
+    return whole(list(arguments), prog_name="lasersph", standalone_mode=False)
 
 
 def app_of(verb: str) -> typer.Typer:

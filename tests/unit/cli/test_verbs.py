@@ -56,6 +56,24 @@ def test_every_verb_explains_itself(verb, capsys):
     assert f"lasersph {verb}" in said(capsys, verb, "--help")
 
 
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("lasersph cal", "calibrate"),
+        ("lasersph run --qu", "--quick"),
+        ("lasersph material l", "list"),
+    ],
+)
+def test_shell_completes_verbs_and_options(words, wanted, capsys, monkeypatch):
+    """The answer to what bash asks when the Tab key is pressed."""
+    monkeypatch.setenv("_LASERSPH_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", words)
+    monkeypatch.setenv("COMP_CWORD", str(len(words.split()) - 1))
+    with pytest.raises(SystemExit):
+        main([])
+    assert wanted in capsys.readouterr().out.split()
+
+
 def test_version(capsys):
     """--version prints the version."""
     assert said(capsys, "--version") == f"lasersph {lasersph.__version__}\n"
