@@ -114,6 +114,7 @@ class Watched:
     def keep(self, name):
         """Keep a picture of the whole page."""
         SCREENSHOTS.mkdir(exist_ok=True)
+        self.page.evaluate("scrollTo(0, 0)")
         self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
 
 

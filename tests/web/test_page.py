@@ -197,6 +197,50 @@ def test_sweep_opens_its_runs(open_page, sweep_address):
     expect(page.get_by_text("Nothing to show")).to_be_visible()  # made up: without a case file
 
 
+def test_run_is_typed_started_stopped_and_resumed(open_page, serve, tmp_path):
+    """The form says what is wrong while one types; the run outlives the server."""
+    (tmp_path / "runs").mkdir()
+    server = serve(tmp_path / "runs", "--allow-run")
+    watched = open_page(server.address, expected=[LOST])
+    page = watched.page
+    page.get_by_role("link", name="New run").click()
+    page.locator("#case").select_option("stefan")
+    expect(page.get_by_role("textbox", name="title")).to_have_value(re.compile("Stefan"))
+    start = page.get_by_role("button", name="Start the run")
+    expect(start).to_be_enabled()
+    heat = page.get_by_role("textbox", name="boundaries.surface_temperature", exact=False).first
+    heat.fill("1333 kg")
+    expect(heat).to_have_attribute("aria-invalid", "true")
+    expect(page.get_by_text("has another dimension")).to_be_visible()
+    expect(start).to_be_disabled()
+    watched.keep("form-wrong")
+    heat.fill("1400 K")
+    expect(start).to_be_enabled()
+    page.locator("#key-time-step").fill("0.01 ns")
+    expect(page.locator(".result")).to_contain_text("about 100000 to 1 us")
+    expect(start).to_be_enabled()
+    assert serious(page) == []
+    watched.keep("form-right")
+    page.get_by_label("name of its folder").fill("hotter")
+    start.click()
+    state = page.locator(".state")
+    expect(state).to_contain_text("running")
+    expect(
+        page.get_by_role("row", name="boundaries.surface_temperature 1333 K 1400 K")
+    ).to_be_visible()
+    server.kill()
+    expect(page.locator("#connection")).to_contain_text("does not answer")
+    server.start()
+    expect(page.locator("#connection")).to_be_empty()
+    page.get_by_role("button", name="Stop").click()
+    expect(state).to_contain_text("stopped")
+    page.get_by_role("button", name="Resume").click()
+    expect(state).to_contain_text("running")
+    page.get_by_role("button", name="Stop").click()
+    expect(state).to_contain_text("stopped")
+    expect(page.locator("pre").last).to_contain_text("resumed at step")
+
+
 def test_wrong_token(open_page, address):
     """A plain sentence, and nothing of the runs."""
     watched = open_page(f"{address}x", expected=[LOST])

@@ -36,6 +36,10 @@ AllowHost = Annotated[
     ),
 ]
 
+AllowRun = Annotated[
+    bool, typer.Option("--allow-run", help="Let the page start, stop and resume runs.")
+]
+
 
 def serve(
     folder: Folder = Path("runs"),
@@ -43,6 +47,7 @@ def serve(
     open_page: Open = False,
     host: Host = "127.0.0.1",
     allow_host: AllowHost = None,
+    allow_run: AllowRun = False,
 ) -> None:
     """Show the runs and sweeps of a folder as a page in a browser: live curves, particles, maps."""
     missing = [name for name in ("starlette", "uvicorn") if find_spec(name) is None]
@@ -51,6 +56,7 @@ def serve(
 
         raise WrongCommand(install_hint(" and ".join(missing), "web"))
     from lasersph.web import server
+    from lasersph.web.starting import StartingPages
 
     if not folder.is_dir():
         raise WrongCommand(f"{folder} is not a folder: give one that holds runs")
@@ -65,7 +71,7 @@ def serve(
             file=sys.stderr,
         )
     hosts = [*(allow_host or ()), *([] if is_loopback(host) else [host, socket.gethostname()])]
-    pages = server.Pages(folder)
+    pages = StartingPages(folder) if allow_run else server.Pages(folder)
     app = server.make_app(folder, token=token, hosts=hosts, pages=pages)
     name = f"[{host}]" if ":" in host else host
     address = f"http://{name}:{listening.getsockname()[1]}/?token={token}"

@@ -5,6 +5,8 @@ run_page        what is told of one run: card, state, numbers, figures, case
 sweep_page      a sweep: its table, the values of its map, its calibration
 access          who may ask: token, host names, origin, headers of every answer
 server          the addresses, and the loop that answers
+form            a case while it is typed: checks and forecast
+processes       runs that the page starts, stops and resumes; starting: the answers for them
 live            events of a run that is computed
 
 The page itself, its style and its modules of JavaScript are sent as they lie here. uplot.js and

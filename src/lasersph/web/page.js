@@ -3,6 +3,7 @@
 import { h } from "./dom.js";
 import { Refused } from "./net.js";
 import { showComparison } from "./compare.js";
+import { showForm } from "./form.js";
 import { showList } from "./list.js";
 import { showRun } from "./run.js";
 import { showSweep } from "./sweep.js";
@@ -11,12 +12,15 @@ const ADDRESSES = [
   [/^#\/run\/([0-9a-f]+)$/, showRun],
   [/^#\/compare\/([0-9a-f]+)\/([0-9a-f]+)$/, showComparison],
   [/^#\/sweep\/([0-9a-f]+)$/, showSweep],
+  [/^#\/new(?:\/([a-z0-9-]+))?$/, showForm],
   [/^(#\/)?$/, showList],
 ];
 let shown = null;
 
 function head(content) {
   document.getElementById("folder").textContent = content.folder;
+  const actions = document.getElementById("actions");
+  if (content.may_run && !actions.children.length) actions.append(h("a", { class: "button", href: "#/new" }, "New run"));
 }
 
 async function show() {
@@ -35,7 +39,7 @@ async function show() {
   if (wasShown) document.getElementById("content").focus({ preventScroll: true });
   try {
     if (!match) throw new Refused(404, "There is nothing at this address.");
-    await view(place, signal, head, ...match.slice(1));
+    await view(place, signal, head, ...match.slice(1).filter(Boolean));
   } catch (error) {
     if (signal.aborted) return;
     place.replaceChildren(h("h1", {}, error instanceof Refused ? "Nothing to show" : "The page failed"),

@@ -27,6 +27,18 @@ export async function showRun(place, signal, head, id) {
     top, note, numbers, h("div", { class: "wide" }, scene, beside), charts, below,
     h("section", {}, h("h2", {}, "Log"), log));
 
+  const change = async (event) => {
+    event.target.disabled = true;
+    try {
+      await ask(`${base}${run.state === "running" ? "stop" : "resume"}`, { signal, method: "POST" });
+    } catch (error) {
+      if (signal.aborted) return;
+      event.target.disabled = false;
+      note.textContent = error.message;
+      note.hidden = false;
+    }
+  };
+
   const drawTop = () => {
     const done = run.end_s ? Math.min(1, run.time_s / run.end_s) : 0;
     const state = h("p", { class: "state", "aria-live": "polite" }, chip(run.state), " ",
@@ -35,6 +47,7 @@ export async function showRun(place, signal, head, id) {
         : `${quantity(run.time_s, "s")} of ${quantity(run.end_s, "s")}, ${Math.floor(100 * done)} %, step ${run.step}`);
     top.replaceChildren(h("h1", {}, run.title || run.name), state,
       run.state !== "complete" ? h("progress", { value: done, max: 1, "aria-label": "time reached" }) : "",
+      run.may_run && ["running", "stopped"].includes(run.state) ? h("p", {}, h("button", { onclick: change }, run.state === "running" ? "Stop" : "Resume")) : "",
       h("p", { class: "verdict" }, run.verdict ?? [run.solver, run.material].filter(Boolean).join(", ")),
       ...run.warnings.map((text) => h("p", { class: "warning" }, text)));
     numbers.replaceChildren(...run.numbers.map((one) => h("div", {},
@@ -42,7 +55,7 @@ export async function showRun(place, signal, head, id) {
   };
 
   const drawBelow = () => below.replaceChildren(...[
-    run.figures.length && h("section", {}, h("h2", {}, "Figures"), h("div", { class: "figures" }, run.figures.map((one) =>
+    run.figures.length > 0 && h("section", {}, h("h2", {}, "Figures"), h("div", { class: "figures" }, run.figures.map((one) =>
       h("figure", {}, h("a", { href: `${base}figure/${one.name}` },
         h("img", { src: `${base}figure/${one.name}?${sizes?.figures ?? ""}`, loading: "lazy", alt: one.name.replaceAll("-", " ") })),
       h("figcaption", {}, one.caption))))),

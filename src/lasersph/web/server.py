@@ -54,7 +54,10 @@ class Pages:
 
     Attributes:
         folders: what lies below its folder. is_stopping: whether the server is about to end.
+        may_run: whether runs can be started.
     """
+
+    may_run = False
 
     def __init__(self, root: Path) -> None:
         self.folders, self._cards = FolderList(root), run_page.Cards()
@@ -96,6 +99,7 @@ class Pages:
             {
                 "folder": str(self.folders.root),
                 "version": __version__,
+                "may_run": self.may_run,
                 "runs": [self._cards.card(one) for one in shown],
                 "sweeps": [self._sweeps.card(one) for one in entries if one.kind == "sweep"],
             }
@@ -103,7 +107,8 @@ class Pages:
 
     def run(self, request: Request) -> Response:
         """One run."""
-        return JSONResponse(run_page.details(self._entry(request)))
+        found = run_page.details(self._entry(request))
+        return JSONResponse(found | {"may_run": self.may_run})
 
     def sweep(self, request: Request) -> Response:
         """One sweep."""

@@ -1,0 +1,92 @@
+/** A new run: the keys of a shipped case, checked while they are typed, and its start. */
+
+import { h, table } from "./dom.js";
+import { ask, getJson, pause } from "./net.js";
+
+const STILL = 350; // without a key for so long, what was typed is checked
+
+export async function showForm(place, signal, head, name = "dlip-steel") {
+  const form = await getJson(`api/form/${name}`, { signal });
+  document.title = "New run – lasersph";
+  const rows = new Map();
+  const result = h("div", { class: "result", "aria-live": "polite" });
+  const folder = h("input", { name: "folder", required: true, pattern: "[A-Za-z0-9][A-Za-z0-9._\\-]*", value: `${name}-1` });
+  const start = h("button", { class: "primary", type: "submit", disabled: true }, "Start the run");
+  const settings = () => form.fields.filter(({ key, value }) => rows.get(key).field.value.trim() !== value)
+    .map(({ key }) => `${key}=${rows.get(key).field.value.trim()}`);
+  const send = (path, content) => ask(path, { signal, method: "POST", body: JSON.stringify(content), headers: { "content-type": "application/json" } });
+
+  let last = 0;
+  const check = async () => {
+    const mine = ++last;
+    start.disabled = true;
+    await pause(STILL, signal);
+    if (mine !== last) return;
+    const found = await (await send("api/check", { case: name, settings: settings() })).json();
+    if (mine !== last) return;
+    for (const { field, said } of rows.values()) {
+      field.removeAttribute("aria-invalid");
+      said.textContent = "";
+    }
+    const others = [];
+    for (const { key, text } of found.problems) {
+      const row = rows.get(key);
+      if (!row) others.push(h("p", { class: "error" }, `${key ? `${key}: ` : ""}${text}`));
+      else {
+        row.field.setAttribute("aria-invalid", "true");
+        row.said.textContent = text;
+      }
+    }
+    start.disabled = found.problems.length > 0;
+    result.replaceChildren(h("h2", {}, found.problems.length ? "Not yet right" : "Forecast"), ...others,
+      found.forecast.length ? table(found.forecast) : "", ...found.warnings.map((text) => h("p", { class: "warning" }, text)));
+  };
+  const checkLater = () => check().catch((error) => {
+    if (!signal.aborted) throw error;
+  });
+
+  const rowOf = ({ key, value, help, unit, choices }) => {
+    const id = `key-${key.replaceAll(/[^a-z0-9]/gi, "-")}`;
+    const attributes = { id, "aria-describedby": `${id}-help ${id}-said`, oninput: checkLater };
+    const field = choices.length
+      ? h("select", attributes, [...(value ? [] : [""]), ...choices].map((one) => h("option", { value: one, selected: one === value }, one || "default")))
+      : h("input", { ...attributes, value, placeholder: "default", autocomplete: "off", spellcheck: "false" });
+    const said = h("p", { class: "error", id: `${id}-said` });
+    rows.set(key, { field, said });
+    return h("div", { class: "key" }, h("label", { for: id }, key, unit && h("small", {}, ` [${unit.replace("^2", "²").replace("^3", "³")}]`)), field,
+      h("p", { class: "quiet", id: `${id}-help` }, help), said);
+  };
+  const groups = new Map();
+  for (const one of form.fields) {
+    const group = one.key.includes(".") ? one.key.split(".")[0] : "case";
+    groups.set(group, [...(groups.get(group) ?? []), one]);
+  }
+  const sections = [...groups].map(([group, fields]) => {
+    const rest = fields.filter(({ value }) => value === "");
+    return h("fieldset", {}, h("legend", {}, group), fields.filter(({ value }) => value !== "").map(rowOf),
+      rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} more keys of ${group}`), rest.map(rowOf)));
+  });
+  const failed = h("p", { class: "error", role: "alert" });
+  place.replaceChildren(
+    h("p", { class: "path" }, h("a", { href: "#/" }, "Runs"), " / new run"), h("h1", {}, "New run"),
+    h("form", { class: "case", onsubmit: async (event) => {
+      event.preventDefault();
+      start.disabled = true;
+      failed.textContent = "";
+      try {
+        const { id } = await (await send("api/start", { case: name, settings: settings(), name: folder.value.trim() })).json();
+        location.hash = `#/run/${id}`;
+      } catch (error) {
+        if (signal.aborted) return;
+        failed.textContent = error.message;
+        start.disabled = false;
+      }
+    } },
+    h("div", { class: "keys" },
+      h("div", { class: "key" }, h("label", { for: "case" }, "shipped case"), h("select", { id: "case", onchange: (event) => { location.hash = `#/new/${event.target.value}`; } },
+        form.cases.map((one) => h("option", { value: one, selected: one === name }, one)))), sections),
+    h("aside", {}, h("label", { for: "folder" }, "name of its folder"), folder, start, failed, result)));
+  folder.id = "folder-name";
+  place.querySelector("aside label").setAttribute("for", folder.id);
+  checkLater();
+}
