@@ -33,6 +33,7 @@ class Server(http.server.ThreadingHTTPServer):
 
     def __init__(self, folder):
         self.folder, self.failures, self.asked, self.frames = folder, 0, [], None
+        self.held, self.release = "", threading.Event()
         super().__init__(("127.0.0.1", 0), Answer)
         threading.Thread(target=self.serve_forever, daemon=True).start()
         self.address = f"http://127.0.0.1:{self.server_address[1]}/"
@@ -65,6 +66,8 @@ class Answer(http.server.BaseHTTPRequestHandler):
         else:
             name = path.removeprefix("api/block/")
             self.server.asked.append(name)
+            if name == self.server.held:
+                self.server.release.wait()
             kind, body = "application/octet-stream", particle_block(self.server.folder, name)
             if self.server.failures:
                 self.server.failures -= 1
@@ -210,6 +213,23 @@ def test_a_lost_frame_is_tried_again(page, server):
     lost = [text for text in page.complaints if "503" in text]
     assert page.complaints == lost
     page.complaints.clear()
+
+
+def test_a_late_frame_is_dropped(page, server):
+    """What was asked for before, and comes after, is not drawn over what is looked at now."""
+    open_viewer(page, server)
+    index = server.index()
+    place = f"{index['blocks']['temperature'][0]}.{index['counts'][0]}.{index['stamp']}"
+    server.held = f"particles.temperature.{place}"
+    page.get_by_label("Time").fill("0")
+    expect(page.locator("output")).to_have_text("0 s")
+    page.get_by_label("Time").fill(str(index["start"]))
+    wait_for_frame(page, index["start"])
+    with page.expect_response(lambda answer: server.held in answer.url) as answer:
+        server.release.set()
+    answer.value.finished()
+    hot, _, _ = three_pixels(picture(page))
+    assert_color(hot, "#fdf6c5")
 
 
 def test_live_is_a_state_of_its_own(page, server):
