@@ -72,7 +72,7 @@ def _entry(
     """A picture named after what it shows."""
     store = store_picture
     if picture.endswith(".gif"):
-        store = partial(store_animation, width=560, every=1)
+        store = partial(store_animation, width=520, every=1)
     figure = StoredFigure(
         name,
         partial(_draw, commands, picture, store),

@@ -53,8 +53,7 @@ def store_animation(file: Path, target: Path, *, width: int, every: int) -> None
         frames = [frame.convert("RGB") for frame in ImageSequence.Iterator(movie)][::every]
     height = round(frames[0].height * width / frames[0].width)
     small = [frame.resize((width, height), Image.Resampling.LANCZOS) for frame in frames]
-    palette = small[len(small) // 2].quantize(48)
-    plain = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in small]
+    plain = [frame.quantize(80, dither=Image.Dither.NONE) for frame in small]
     plain[0].save(target, save_all=True, append_images=plain[1:], duration=120, loop=0)
 
 
