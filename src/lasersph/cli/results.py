@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from lasersph.cli.arguments import RunFolder, read_quantity
+from lasersph.cli.arguments import RunFolder, Settings, read_quantity
 from lasersph.cli.failures import WrongCommand
+from lasersph.cli.light import light_rows
 from lasersph.cli.tables import aligned, sparkline
 
 if TYPE_CHECKING:
@@ -16,6 +18,8 @@ if TYPE_CHECKING:
 
 Kind = Annotated[Literal["png", "svg", "pdf"], typer.Option("--kind", help="Of the files.")]
 
+SHOWN_OF_LIGHT = ("pattern", "fluence of a pulse", "spot", "pulse energy", "fluence at its center")
+"""Rows about the light that stand above its maps."""
 Animate = Annotated[
     bool,
     typer.Option("--animate", help="Write an animation of temperature and speed instead."),
@@ -27,6 +31,10 @@ Scene = Annotated[
 NoScene = Annotated[
     bool,
     typer.Option("--no-scene", help="Leave out the viewer and its particles, at most 5 MB."),
+]
+Beams = Annotated[
+    bool,
+    typer.Option("--beams", help="Draw the fluence of a case's light: DIR is the case instead."),
 ]
 ExportFormat = Annotated[
     Literal["csv", "stl", "ply", "x3p", "sdf"],
@@ -80,10 +88,17 @@ def plot(
     animate: Animate = False,
     format: Format = "gif",
     scene: Scene = False,
+    beams: Beams = False,
+    settings: Settings = None,
 ) -> None:
     """Draw the figures of a run into DIR/figures, or an animation or a 3-D scene of it."""
     from lasersph.plots import animate_run, crater_scene, draw_run
 
+    if beams:
+        print(_draw_beams(str(folder), settings or (), kind))
+        return
+    if settings:
+        raise WrongCommand("--set changes a case and belongs to --beams")
     run = opened(folder)
     if scene:
         target = run.path / "figures" / "crater-scene.png"
@@ -95,6 +110,24 @@ def plot(
         return
     for file in draw_run(folder, kind=kind):
         print(file)
+
+
+def _draw_beams(name: str, settings: Sequence[str], kind: str) -> Path:
+    """Draw the fluence of a pulse of a case into NAME-beams.KIND here."""
+    from lasersph.case import load_case
+    from lasersph.lasers import fluence_maps
+    from lasersph.plots import style
+    from lasersph.plots.fluence import fluence_figure
+
+    case = load_case(name, settings)
+    if case.laser is None:
+        raise WrongCommand(f"{name} has no laser")
+    try:
+        maps = fluence_maps(case.laser)
+    except ValueError as error:
+        raise WrongCommand(f"{name}: {error}") from None
+    rows = [f"{key}: {text}" for key, text in light_rows(case.laser) if key in SHOWN_OF_LIGHT]
+    return style.save(fluence_figure(maps, "\n".join(rows)), Path(f"{case.name}-beams.{kind}"))
 
 
 def report(folder: RunFolder, no_scene: NoScene = False) -> None:

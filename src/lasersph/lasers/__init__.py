@@ -5,12 +5,14 @@ pulses                when it comes: exact shares between two times
 absorption            how deep it is left: exact shares of depth cells
 reflectivity          what does not enter, as a function of the surface temperature
 spot                  the envelope under which a pattern lies, and its local fluence
+fluence_map           the fluence of a pulse as maps
 path                  where a moving spot is
 laser                 all of them together, and the energy that sets the scale
 """
 
 from lasersph.lasers.absorption import Absorption, BeerLambertAbsorption, SurfaceAbsorption
 from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
+from lasersph.lasers.fluence_map import FluenceMap, fluence_maps
 from lasersph.lasers.interference import InterferenceBeam, Wave
 from lasersph.lasers.laser import Beam, Laser
 from lasersph.lasers.path import LinearPath, Path, TabulatedPath
@@ -22,6 +24,7 @@ __all__ = [
     "Absorption",
     "Beam",
     "BeerLambertAbsorption",
+    "FluenceMap",
     "GaussianBeam",
     "GaussianPulse",
     "InterferenceBeam",
@@ -39,4 +42,5 @@ __all__ = [
     "TopHatBeam",
     "UniformBeam",
     "Wave",
+    "fluence_maps",
 ]

@@ -280,6 +280,8 @@ class Laser(Model):
         """Of the spot from one pulse to the next [m]; None where it rests or turns."""
         if self.spot is not None and self.spot.shift is not None:
             return self.spot.shift
+        if isinstance(self.beam, InterferenceBeam) and self.beam.shift:
+            return abs(self.beam.shift)
         speed = self.path.speed if isinstance(self.path, LinearPath) else None
         if self.spot is not None and self.spot.scan_speed is not None:
             speed = self.spot.scan_speed

@@ -1,4 +1,4 @@
-"""Width, depth and life of the melt pool.
+"""Width, depth, surface and life of the melt pool.
 
 A cell counts as fluid where its melt fraction reaches a level: 1 (completely fluid; the size of
 the pool in the paper), 0.5 (which depends least on the cell size) or anything above 0. The depth
@@ -16,8 +16,10 @@ melting range rests at a center while that cell melts. So their mean is taken, w
     z = z_1 + (z_2 - z_1) (s_f + s_T) / 2,   s_f = (f_1 - 1/2) / (f_1 - f_2)
     s_T = (T_1 - T_m) / (T_1 - T_2),         T_m = (T_solidus + T_liquidus) / 2
 
-Left out: pools that wrap around a periodic boundary, and the second lateral direction in 3-D (the
-width is taken along x through the hottest surface cell).
+In 3-D the width is taken along x through the hottest surface cell, and the area is that of all
+surface cells that reach the level, of all dots in the domain.
+
+Left out: pools that wrap around a periodic boundary.
 """
 
 from __future__ import annotations
@@ -55,6 +57,16 @@ def sizes(name: str, cells: float) -> tuple[Quantity, ...]:
 
 
 DEPTHS, WIDTHS = sizes("depth", 1.0), sizes("width", 2.0)
+AREAS = tuple(
+    Quantity(
+        f"melt_area{level}_m2",
+        "m^2",
+        f"area at the surface of {words}; both halves where one is computed",
+        largest=f"melt.area{level}_max_m2",
+        is_main=level != "_any",
+    )
+    for level, (_, words) in LEVELS.items()
+)
 VOLUME = Quantity(
     "melt_volume_m3",
     "m^3",
@@ -65,7 +77,7 @@ VOLUME = Quantity(
 
 
 class MeltPool(Observer):
-    """Observes the melt pool; in 1-D it has a depth and no width."""
+    """Observes the melt pool; in 1-D it has a depth and no width, in 3-D also an area."""
 
     title = "melt pool"
     note = (
@@ -73,7 +85,7 @@ class MeltPool(Observer):
         " width of one pool at the surface. Sizes are whole cells, but those at f_m = 0.5 are"
         " interpolated between cells."
     )
-    columns = (*DEPTHS, *WIDTHS, VOLUME)
+    columns = (*DEPTHS, *WIDTHS, *AREAS, VOLUME)
     results = (
         *(
             Quantity(f"melt.{name}{level}_s", "s", f"{text} {words}", is_main=level == "")
@@ -85,8 +97,8 @@ class MeltPool(Observer):
     kept = ("span", "end_time")
 
     def __init__(self, dimension: int) -> None:
-        if dimension == 1:
-            self.columns = (*DEPTHS, VOLUME)
+        if dimension < 3:
+            self.columns = (*DEPTHS, *(WIDTHS if dimension == 2 else ()), VOLUME)
         super().__init__()
         self.dimension = dimension
         self.span = {level: Span() for level in LEVELS}
@@ -97,17 +109,19 @@ class MeltPool(Observer):
         fraction = remaining_fraction(view)
         largest = float(np.max(fraction))
         faces = lower_faces(view) if largest > 0.0 else np.zeros(0)
-        depth, width = dict.fromkeys(LEVELS, 0.0), dict.fromkeys(LEVELS, 0.0)
+        depth, width, area = (dict.fromkeys(LEVELS, 0.0) for _ in range(3))
         for level, (least, _) in LEVELS.items():
             exists = largest > 0.0 and largest >= least
             self.span[level].update(exists, view.time)
             if exists:
                 depth[level] = pool_depth(view, fraction, faces, least)
                 width[level] = pool_width(view, least) if self.dimension > 1 else 0.0
+                area[level] = pool_area(view, fraction, least) if self.dimension > 2 else 0.0
         self.end_time = view.time
         volume = float(np.sum(fraction * view.volume)) if largest > 0.0 else 0.0
         widths = width.values() if self.dimension > 1 else ()
-        return self.record(view.time, (*depth.values(), *widths, volume))
+        areas = area.values() if self.dimension > 2 else ()
+        return self.record(view.time, (*depth.values(), *widths, *areas, volume))
 
     def values(self) -> dict[str, object]:
         """Times, None where no such cell was seen; in 1-D there are no widths."""
@@ -195,6 +209,17 @@ def pool_width(view: View, least: float) -> float:
     mirrors = (True, True) if view.symmetry_factor == 2 else view.halves_spot
     is_half = (first == 0 and mirrors[0]) or (last == row.size - 1 and mirrors[1])
     return 2.0 * total if is_half else total
+
+
+def pool_area(view: View, fraction: np.ndarray, least: float) -> float:
+    """Area of the surface cells that are fluid [m^2], twice that of half a period.
+
+    Args:
+        view: the state in 3-D. fraction, least: as of `pool_depth`.
+    """
+    cells = view.surface[is_fluid(fraction[view.surface], least)]
+    area = view.width[0, cells] * view.width[1, cells]
+    return view.symmetry_factor * float(np.sum(area))
 
 
 def cell_edges(view: View, row: np.ndarray) -> np.ndarray:

@@ -10,8 +10,8 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 NAMES = (
     "ablation-aluminium", "ablation-depth", "dam-break", "dlip-aluminium", "dlip-steel",
-    "hydrostatic-column", "lid-driven-cavity", "marangoni-layer", "moving-film",
-    "natural-convection", "pulsed-heating", "sound-wave", "stefan", "taylor-green",
+    "dots-steel", "hydrostatic-column", "lid-driven-cavity", "marangoni-layer",
+    "moving-film", "natural-convection", "pulsed-heating", "sound-wave", "stefan", "taylor-green",
     "texture-aluminium", "texture-steel",
 )  # fmt: skip
 
@@ -48,6 +48,16 @@ def test_dlip(name, fluence, depth):
     assert (case.particles.spacing, case.time.end) == (8e-9, 2e-7)
     assert case.initial_temperature == 298.15
     assert abs(depth / (10 * 2 * (case.material.diffusivity_reference * 1e-8) ** 0.5) - 1) < 0.25
+
+
+def test_dots():
+    """Four beams on a square lattice of 5 um, in 3-D, one dot in the middle of the cell."""
+    case = load_case("dots-steel")
+    beam = case.laser.beam if case.laser else None
+    assert isinstance(beam, InterferenceBeam) and beam.count == 4
+    assert (beam.lateral_period, beam.lateral_period_y) == pytest.approx((5e-6, 5e-6))
+    assert case.domain.lateral(3) == ((0.0, 2.5e-6), (-2.5e-6, 2.5e-6))
+    assert case.solver.dimensions == 3
 
 
 def test_pulsed_heating():

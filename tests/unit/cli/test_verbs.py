@@ -145,6 +145,9 @@ def test_new_then_check(capsys):
         ([*SURE, "material.conductivity=5 K"], "is a temperature, not a conductivity"),
         (["info", "."], "is not a run folder"),
         (["plot", "none"], "is not a run folder"),
+        (["plot", "none", "--set", "time.end=1 ns"], "--set changes a case and belongs to --beams"),
+        (["plot", "--beams", "stefan"], "stefan has no laser"),
+        (["plot", "--beams", "pulsed-heating"], "a uniform beam without a spot is the same"),
         (["report", "none"], "is not a run folder"),
     ],
 )
@@ -155,6 +158,27 @@ def test_wrong_commands(arguments, text, capsys, tmp_path):
     assert text in error
     assert len(error.splitlines()) == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def test_light_of_a_data_sheet(capsys):
+    """Check tells pattern, fluences, pulses per spot and overlap; plot --beams draws both maps."""
+    sheet = [
+        "laser.fluence=", "laser.fluence_kind=", "laser.pulse_energy=10 uJ",
+        'laser.spot={diameter="50 um", definition="1/e^2", scan_speed="0.1 m/s"}',
+        "laser.pulse.repetition_rate=10 kHz",
+    ]  # fmt: skip
+    settings = [part for one in sheet for part in ("--set", one)]
+    text = " ".join(said(capsys, "check", "dlip-steel", *settings).split())
+    for words in (
+        "pattern 2 beams, period 5 um along x, contrast 1",
+        "fluence at its center 1.019 J/cm^2, mean over a period; at most 2.037 J/cm^2",
+        "fluence over the spot 0.5093 J/cm^2",
+        "repetition 10 kHz, 100 mW on average",
+        "pulses per spot 5, 10 um apart, overlap 80 %",
+    ):
+        assert words in text
+    assert said(capsys, "plot", "--beams", "dlip-steel", *settings) == "dlip-steel-beams.png\n"
+    assert Path("dlip-steel-beams.png").stat().st_size > 10_000
 
 
 def test_run_and_what_follows(capsys):

@@ -223,3 +223,15 @@ def test_state_survives_a_restart():
     for view in views[2:]:
         second.observe(view)
     assert second.summary() == whole.summary()
+
+
+def test_area_at_the_surface_of_dots():
+    """Two of four surface cells of 10 nm fully molten, three half; half a cell is mirrored."""
+    flat = view_of([[1.0, 0.6, 1.0, 0.2]])
+    x = flat.position[0]
+    position = np.array([x % 20e-9, x // 20e-9 * 10e-9, flat.position[1]])
+    view = replace(flat, position=position, width=np.full((3, 4), 10e-9))
+    row = MeltPool(3).observe(view)
+    assert row["melt_area_m2"] == pytest.approx(2 * 2 * 1e-16)
+    assert row["melt_area_half_m2"] == pytest.approx(2 * 3 * 1e-16)
+    assert row["melt_area_any_m2"] == pytest.approx(2 * 4 * 1e-16)
