@@ -49,6 +49,10 @@ VERBS = {
             "Show the runs and sweeps of a folder as a page in a browser: live curves, particles, "
             "maps.",
         ),
+        "compare": (
+            "measured.compare",
+            "Level and align a measured profile or height map, and say how ours differs from it.",
+        ),
         "export": (
             "results.export",
             "Write the surface of a crater or a relief as CSV, STL, PLY, X3P or SDF.",

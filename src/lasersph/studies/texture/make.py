@@ -245,7 +245,12 @@ def answer(plan: TexturePlan, table: CellTable, maps: Maps, pixel: float) -> dic
             "fluence_at_center_J_m2": plan.spot.center,
             "fluence_over_spot_J_m2": plan.spot.mean,
         },
-        "cells": {"fluence_J_m2": table.fluence.tolist(), "key": KEY},
+        "cells": {
+            "key": KEY,
+            "fluence_J_m2": table.fluence.tolist(),
+            "x_m": table.x.tolist(),
+            "height_m": table.values["height"].tolist(),
+        },
         "interpolation_error": interpolation,
         "areal_parameters": areal_parameters(height, pixel, pixel)._asdict(),
         "depth_max_m": float(max(-height.min(), 0.0)),

@@ -1,0 +1,58 @@
+"""`lasersph compare`: a measured profile or height map beside ours."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from lasersph.cli.arguments import Out
+from lasersph.cli.failures import WrongCommand
+from lasersph.cli.tables import aligned
+
+Ours = Annotated[
+    Path, typer.Argument(metavar="DIR", help="The folder of a texture, or of a run of one period.")
+]
+Profile = Annotated[
+    Path,
+    typer.Argument(metavar="PROFILE", help="A measured profile or height map: csv, x3p, sdf."),
+]
+
+
+def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
+    """Level and align a measured profile or height map, and say how ours differs from it."""
+    from lasersph.output import OutputError
+    from lasersph.output.atomic import replace_json, replace_text
+    from lasersph.output.errors import clear_errors
+    from lasersph.output.surface_files.read import read_surface
+    from lasersph.plots import style
+    from lasersph.plots.texture_comparison import comparison_figure
+    from lasersph.report.comparison_page import difference_rows, unknown_rows, write_comparison
+    from lasersph.studies.texture import compare as comparing
+
+    try:
+        relief, surface = comparing.read_relief(folder), read_surface(profile)
+        found = comparing.compare(relief, surface)
+    except (OutputError, comparing.NoComparison) as error:
+        name = f"{profile}: " if isinstance(error, comparing.NoComparison) else ""
+        raise WrongCommand(f"{name}{error}") from None
+    content = comparing.answer(found)
+    target = out or folder / f"compare-{profile.stem}"
+    with clear_errors("write", target):
+        target.mkdir(parents=True, exist_ok=True)
+    replace_json(target / "comparison.json", content)
+    columns = np.stack([found.x, found.y, found.measured, found.ours, found.residual], axis=1)
+    lines = [",".join(f"{one:.9g}" for one in row) for row in columns]
+    head = "x_m,y_m,measured_m,computed_m,difference_m"
+    replace_text(target / "aligned.csv", "\n".join([head, *lines]) + "\n")
+    width = 0.51 * surface.steps[1] if surface.y.size > 1 else np.inf
+    near = np.abs(found.y - found.y[np.argmin(np.abs(found.y))]) < width
+    picture = comparison_figure(found.x[near], found.measured[near], found.ours[near], content)
+    file = style.save(picture, target / "comparison.png")
+    print(aligned([["", "value", "standard error", "95 %"], *unknown_rows(content)], header=True))
+    print(aligned(difference_rows(content)))
+    print(content["sentence"])
+    title = f"{profile.name} beside {relief.name}"
+    print(write_comparison(target / "comparison.html", content, file, title))

@@ -1,0 +1,65 @@
+"""The page of a comparison with a measurement: sentence, picture, numbers."""
+
+from __future__ import annotations
+
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from lasersph.input import format_quantity
+from lasersph.output.atomic import replace_text
+from lasersph.report.page import figure, heading, page, paragraph, table
+
+WORDS = {
+    "shift_x_m": ("shift along x", "m"),
+    "shift_y_m": ("shift along y", "m"),
+    "lateral_scale": ("lateral scale of the measurement", ""),
+    "fluence_factor": ("factor on the local fluence", ""),
+}
+
+
+def unknown_rows(content: dict[str, Any]) -> list[list[str]]:
+    """What was aligned: value, standard error, 95 % interval, in words."""
+    rows = []
+    for name, one in content["unknowns"].items():
+        words, unit = WORDS[name]
+        low, high = (format_quantity(end, unit, 5) for end in one["interval_95"])
+        value, error = (
+            format_quantity(one[k], unit, n) for k, n in (("value", 5), ("standard_error", 2))
+        )
+        rows.append([words, value, error, f"{low} to {high}"])
+    return rows
+
+
+def difference_rows(content: dict[str, Any]) -> list[list[str]]:
+    """How measured and computed heights differ, in words."""
+    found, factor = content["difference"], content["height_factor"]
+    shown = {
+        "difference, rms": found["rms_m"],
+        "largest difference": found["largest_m"],
+        "noise from point to point": found["noise_m"],
+        "interpolation between cells": found["interpolation_m"],
+    }
+    rows = [[words, format_quantity(value, "m", 3)] for words, value in shown.items()]
+    text = f"{factor['value']:.4g} +- {factor['standard_error']:.2g}"
+    return [*rows, ["measured over computed heights", text]]
+
+
+def write_comparison(path: Path, content: dict[str, Any], picture: Path, title: str) -> Path:
+    """Write the page. Raises OutputError."""
+    body = [
+        f"<h1>{escape(title)}</h1>",
+        paragraph(content["sentence"], "result"),
+        figure(
+            picture,
+            "Above: measured and computed heights after leveling and alignment. Below: "
+            "their difference; the band is twice what noise and interpolation explain.",
+            1,
+        ),
+        heading("Alignment"),
+        table(unknown_rows(content), ("", "value", "standard error", "95 %")),
+        heading("Difference"),
+        table(difference_rows(content), ("", "value")),
+    ]
+    replace_text(path, page(title, body))
+    return path

@@ -1,0 +1,129 @@
+"""A measured profile beside ours: a hidden factor is found, what cannot be compared is refused."""
+
+import json
+
+import numpy as np
+import pytest
+from texture_cells import HIGHEST, PERIOD, spot, table
+
+from lasersph.cli import main
+from lasersph.output.height_map import HeightMap
+from lasersph.output.image_file import Maps
+from lasersph.studies.texture import compare as comparing
+from lasersph.studies.texture.compare import NoComparison, Relief, compare
+
+NM, UM = 1e-9, 1e-6
+
+
+@pytest.fixture(scope="module")
+def ours():
+    """A spot with 0.9 of the fluence that the cells reach."""
+    x = np.arange(-24e-6, 24.01e-6, 0.125e-6)
+    fluence = spot(center=0.9 * HIGHEST).at(*np.meshgrid(x, x))
+    return Relief("texture", table(), x, x, fluence, 0.1 * NM)
+
+
+def measurement(ours, factor, seed, scale=1.01, noise=5 * NM, rows=1):
+    """A profile (or a map) of 44 um of a relief with a factor on its fluence, tilted and moved."""
+    random = np.random.default_rng(seed)
+    x, y = np.linspace(-22 * UM, 22 * UM, 500), np.linspace(-8 * UM, 8 * UM, rows)
+    y = np.zeros(1) if rows == 1 else y
+    X, Y = np.meshgrid(x, y)
+    z = ours.at(((X - 0.7 * UM) / scale).ravel(), (Y / scale).ravel(), factor).reshape(X.shape)
+    z = z + 3 * NM + 2e-3 * X + 1e-3 * Y + noise * random.normal(size=X.shape)
+    return HeightMap(x - x[0], y - y[0], z)
+
+
+def test_hidden_factor(ours):
+    """Factor, lateral scale and place come back , at two factors."""
+    for seed, factor in enumerate((0.87, 1.05)):
+        found = compare(ours, measurement(ours, factor, seed, scale=0.99))
+        for name, hidden in (("fluence_factor", factor), ("lateral_scale", 0.99)):
+            assert abs(found.values[name] - hidden) < 3.0 * found.errors[name]
+            assert found.errors[name] < 0.01
+        assert found.noise == pytest.approx(5 * NM, rel=0.15)
+        assert found.height_factor[0] == pytest.approx(1.0, abs=4.0 * found.height_factor[1])
+        assert "no more than noise" in comparing.sentence(found)
+
+
+def test_map(ours):
+    """A height map is leveled in both directions; it tells the factor more surely."""
+    found = compare(ours, measurement(ours, 0.95, 1, rows=9))
+    assert abs(found.values["fluence_factor"] - 0.95) < 3.0 * found.errors["fluence_factor"]
+    assert found.errors["fluence_factor"] < 0.004
+
+
+def test_end_of_the_cells(ours):
+    """A factor above what the cells cover is said, not extrapolated."""
+    hot = Relief("hot", ours.table, ours.x, ours.y, ours.fluence / 0.9, 0.0)
+    found = compare(hot, measurement(ours, 1.0 / 0.9, 3))
+    assert "compute a texture of more pulse energy" in comparing.sentence(found)
+
+
+def test_wrong_model_is_said(ours):
+    """Heights twice as large at the same widths are more than noise, and the errors grow."""
+    good, wrong = measurement(ours, 1.0, 4), measurement(ours, 1.0, 4, noise=0.0)
+    found = compare(ours, HeightMap(wrong.x, wrong.y, 2.0 * wrong.z + (good.z - wrong.z)))
+    assert "more than noise" in comparing.sentence(found)
+    assert found.tau > 1.5
+
+
+def odd(x_factor=1.0, z_factor=1.0, count=500, width=44 * UM, period=PERIOD):
+    """A cosine of some period, in some unit."""
+    x = np.linspace(0.0, width, count)
+    z = 30 * NM * np.cos(2.0 * np.pi * x / period)
+    return HeightMap(x_factor * x, np.zeros(1), z_factor * z[None, :])
+
+
+REFUSED = {
+    "short": (odd(x_factor=1e-3), "shorter than a period of 5 um: is its unit right"),
+    "coarse": (odd(count=30), "do not show a period of 5 um"),
+    "high": (odd(z_factor=1e6), "is the unit of the heights right"),
+    "flat": (odd(z_factor=0.0), "all measured heights are the same"),
+    "other period": (odd(period=3 * UM), "the measured period of 2.98"),
+}
+
+
+@pytest.mark.parametrize(("surface", "message"), REFUSED.values(), ids=REFUSED.keys())
+def test_refused(ours, surface, message):
+    """Each is one line."""
+    with pytest.raises(NoComparison, match=message):
+        compare(ours, surface)
+
+
+def test_command(ours, tmp_path, capsys, monkeypatch):
+    """Numbers, aligned heights, a figure, a page; a wrong file is one line and writes nothing."""
+    monkeypatch.setattr(comparing, "read_relief", lambda folder: ours)
+    measured = measurement(ours, 0.95, 5).write(tmp_path / "line.x3p")
+    assert main(["compare", str(tmp_path), str(measured)]) == 0
+    assert "factor on the local fluence" in capsys.readouterr().out
+    folder = tmp_path / "compare-line"
+    content = json.loads((folder / "comparison.json").read_text())
+    low, high = content["unknowns"]["fluence_factor"]["interval_95"]
+    assert low - 0.01 < 0.95 < high + 0.01
+    lines = np.loadtxt(folder / "aligned.csv", delimiter=",", skiprows=1)
+    assert lines[:, 4] == pytest.approx(lines[:, 2] - lines[:, 3], abs=1e-14)
+    assert content["sentence"].split(";")[0] in (folder / "comparison.html").read_text()
+    (tmp_path / "bad.csv").write_text("x,z\n1,2\n")
+    assert main(["compare", str(tmp_path), str(tmp_path / "bad.csv")]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert not (tmp_path / "compare-bad").exists()
+
+
+def test_texture_read_back(tmp_path):
+    """The folder of a texture tells its relief at any factor without its runs."""
+    x = np.arange(-20, 21) * 1e-6
+    fluence = spot().at(*np.meshgrid(x, x))
+    from lasersph.output.atomic import replace_json
+    from lasersph.output.image_file import write_maps
+
+    write_maps(tmp_path / "maps.vtkhdf", Maps(x, x, {"fluence": fluence}, {"fluence": "J/m^2"}))
+    one = table()
+    cells = {"fluence_J_m2": one.fluence, "x_m": one.x, "height_m": one.values["height"]}
+    content = {"period_m": PERIOD, "pulses": 1, "cells": cells}
+    content["interpolation_error"] = {"height": {"rms": 1e-10}}
+    replace_json(tmp_path / "texture.json", content)
+    found = comparing.read_relief(tmp_path)
+    places = np.array([0.0, 1e-6, 7e-6])
+    expected = one.at("height", 0.8 * spot().at(places), places)
+    assert found.at(places, 0.0 * places, 0.8) == pytest.approx(expected, abs=0.3 * NM)
