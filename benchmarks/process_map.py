@@ -49,7 +49,15 @@ def compare(out: Path, durations: list[str]) -> None:
         options = [f"--set={key}={value}" for key, value in settings.items()]
         options += [f"--set=laser.pulse.fwhm={text}", f"--set=laser.fluence={expected} J/m^2"]
         options += ["--tolerance", "0.005", "--json", str(out / f"threshold-{text}.json")]
-        options += ["--resume", "--threads", "1", "--out", str(out / f"threshold-{text}")]
+        options += [
+            "--resume",
+            "--workers",
+            "2",
+            "--threads",
+            "1",
+            "--out",
+            str(out / f"threshold-{text}"),
+        ]
         main(["threshold", "dlip-steel", "--of", "melt", *options])
         answer = json.loads((out / f"threshold-{text}.json").read_text(encoding="utf-8"))
         bisected = 0.5 * (answer["below"] + answer["above"])
