@@ -262,7 +262,7 @@ def test_before_the_first_frame(page, server):
 
 
 def test_space_turns_and_is_cut(page, folders, tmp_path):
-    """Spheres: turning changes the picture, a cut takes away what lies before it."""
+    """Spheres: the mouse turns and, by its right button, moves them; a cut shows the inside."""
     server = Server(folders[3])
     open_viewer(page, server)
     first = picture(page, tmp_path / "spheres.png")
@@ -273,7 +273,12 @@ def test_space_turns_and_is_cut(page, folders, tmp_path):
     page.mouse.up()
     turned = picture(page)
     assert np.mean(np.abs(turned - first) > 20) > 0.02
-    covered = np.mean(turned.max(axis=2) > 100)
+    page.mouse.down(button="right")
+    page.mouse.move(box["x"] + 450, box["y"] + 230, steps=3)
+    page.mouse.up(button="right")
+    moved = picture(page)
+    assert np.mean(np.abs(moved[:, 100:400] - turned[:, 130:430]) > 20) < 0.02
+    covered = np.mean(moved.max(axis=2) > 100)
     page.get_by_label("Cut", exact=True).select_option("x")
     assert np.mean(picture(page).max(axis=2) > 100) < 0.9 * covered
     server.shutdown()

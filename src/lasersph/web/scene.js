@@ -349,11 +349,11 @@ export class Scene {
         const other = [...fingers.values()].find((one) => one.pointerId !== event.pointerId);
         const far = (one) => Math.hypot(one.clientX - other.clientX, one.clientY - other.clientY);
         this.zoom(far(before) / Math.max(far(event), 1), event);
-      } else if (this.index.dimensions === 3 && !event.shiftKey && before.button !== 2) {
+      } else if (this.index.dimensions === 3 && !event.shiftKey && !(event.buttons & 2)) {
         this.yaw -= TURN * x;
         this.pitch = Math.max(-1.57, Math.min(1.57, this.pitch + TURN * y));
       } else this.shift(-x, y);
-      fingers.set(event.pointerId, Object.assign(event, { down: before.button }));
+      fingers.set(event.pointerId, event);
       this.request(true);
     });
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
