@@ -40,7 +40,7 @@ bibtex_reference_style = "author_year"
 bibtex_default_style = "unsrt"
 nb_execution_mode = "force"
 nb_execution_in_temp = True
-nb_execution_timeout = 120
+nb_execution_timeout = 600
 nb_execution_raise_on_error = True
 
 html_title = f"lasersph {version}"
