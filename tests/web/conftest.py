@@ -163,7 +163,7 @@ class Server:
             env=environment,
         )
         line = self.process.stdout.readline()
-        self.port = int(re.search(r":(\d+)/\?token=", line)[1])
+        self.port = int(line.partition("/?token=")[0].rpartition(":")[2])
 
     @property
     def address(self):

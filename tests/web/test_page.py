@@ -97,7 +97,7 @@ def test_live_run_is_watched_to_its_end(open_page, serve, tmp_path):
     lost = []
 
     def lose_once(route):
-        kind = re.search(r"(history|particles|block)", route.request.url)[1]
+        kind = re.findall(r"history|particles|block", route.request.url)[0]
         if kind in lost:
             route.continue_()
         else:
@@ -110,6 +110,8 @@ def test_live_run_is_watched_to_its_end(open_page, serve, tmp_path):
     expect(state).to_contain_text("complete")
     expect(chart).not_to_have_attribute("aria-label", before)
     expect(slider).to_have_js_property("max", "20")
+    expect(slider).to_have_value("20")  # the picture of the last frame, not of an earlier one
+    expect(page.get_by_text("The run does not answer")).to_have_count(0)
     assert frames < 20
     expect(page.locator(".verdict")).to_contain_text("The metal reached")
     expect(page.locator("#connection")).to_be_empty()

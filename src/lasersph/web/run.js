@@ -116,7 +116,7 @@ export async function showRun(place, signal, head, id) {
           run = await getJson(`api/run/${id}`, { signal });
           drawTop();
           if (!before || run.figures.length !== figures || run.state !== state) drawBelow();
-          if (run.state !== state) viewer.setLive(run.state === "running");
+          if (run.state !== state && run.state === "running") viewer.setLive(true); // it ends that itself, with the last frame
         }
       }
     } finally {

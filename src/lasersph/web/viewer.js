@@ -85,6 +85,7 @@ const HTML = `
 </section>`;
 // Steps of play [ms], pauses between tries [ms], between two looks at a growing run, memory [bytes]
 const STEP = 120, PAUSE = 300, LONGEST_PAUSE = 8000, LOOK = 1000, KEPT = 3e8;
+const SILENT = "The run does not answer; trying again";
 const PREFIXES = [[1e-12, "p"], [1e-9, "n"], [1e-6, "µ"], [1e-3, "m"], [1, ""], [1e3, "k"],
   [1e6, "M"], [1e9, "G"]];
 
@@ -183,12 +184,14 @@ export function mount(element, source, options = {}) {
         const found = await source.index();
         if (gone) return;
         const grown = found.times.length > (index?.times.length ?? 0) || found.stamp !== index?.stamp;
+        const following = live;  // the last index of a run ends the live state
         takeIndex(found);
-        if (grown && live) show(index.times.length - 1);
+        if (message.textContent === SILENT) say("");
+        if (grown && following) show(index.times.length - 1);
         else if (grown && !loaded) show(options.frame);
         pause = LOOK;
       } catch (error) {
-        if (live) say("The run does not answer; trying again");
+        if (live) say(SILENT);
         pause = Math.min(2 * pause, LONGEST_PAUSE);
       }
     }
