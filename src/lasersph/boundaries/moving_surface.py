@@ -15,11 +15,11 @@ as slope and curvature are. Without those terms the surface of a film of steel 2
 off after a pulse. A ghost across the surface has p = 2 p_b - p_i; in the pressure equation the
 surface is a boundary of given pressure.
 
-While the flow of a step is computed the line is where the advected particles have carried it: left
-where it was, it lies w dt off among them, and a film of aluminium under 1000 K loses 5 % of its
-height with steps of 0.3 ns. Its curvature is that of the line at the begin of the step. It moves
-from there with the velocity at the end, explicitly, which keeps its waves stable while omega dt < 2
-for the fastest of those that the smoothed line shows; half of one is taken.
+While the flow of a step is computed the line over a film is where the advected particles have
+carried it: left where it was, it lies w dt off among them, and a film of aluminium under 1000 K
+loses 5 % of its height with steps of 0.3 ns. Its curvature is that of the line at the begin of the
+step. It moves from there with the velocity at the end, explicitly, which keeps its waves stable
+while omega dt < 2 for the fastest of those that the smoothed line shows; half of one is taken.
 Waves shorter than the smoothing length are damped within the time of that wave.
 """
 
@@ -261,7 +261,13 @@ class MovingSurface:
         return count
 
     def carry(self, now: SurfaceStep) -> None:
-        """Take the line as far as advected particles have come; `move` starts where it was."""
+        """Take the line as far as advected particles have come; `move` starts where it was.
+
+        The line over a pool, held at edges that retreat, waits: carried along, pools of few rows
+        of particles became unstable as they froze.
+        """
+        if not self.segments.is_molten.all():
+            return
         begin, end = now.interval
         flux, height = self._volume_flux(now), self.line.height.copy()
         for part, own in self.segments.parts:
