@@ -22,11 +22,12 @@ settings.load_profile("any-machine")
 
 
 def pytest_collection_modifyitems(config, items):
-    """Deselect tests that nobody asked for."""
+    """Deselect tests that nobody asked for; last come those that wait for another process."""
     marks = [mark for mark in ONLY_ASKED if mark not in config.getoption("-m")]
     unasked = [item for item in items if any(map(item.get_closest_marker, marks))]
     config.hook.pytest_deselected(items=unasked)
-    items[:] = [item for item in items if item not in unasked]
+    left = (item for item in items if item not in unasked)
+    items[:] = sorted(left, key=lambda item: "simulated" in getattr(item, "fixturenames", ()))
 
 
 def pytest_collection_finish(session):
