@@ -22,12 +22,11 @@ settings.load_profile("any-machine")
 
 
 def pytest_collection_modifyitems(config, items):
-    """Deselect tests that nobody asked for; last come those that wait for another process."""
+    """Deselect tests that nobody asked for."""
     marks = [mark for mark in ONLY_ASKED if mark not in config.getoption("-m")]
     unasked = [item for item in items if any(map(item.get_closest_marker, marks))]
     config.hook.pytest_deselected(items=unasked)
-    left = (item for item in items if item not in unasked)
-    items[:] = sorted(left, key=lambda item: "simulated" in getattr(item, "fixturenames", ()))
+    items[:] = [item for item in items if item not in unasked]
 
 
 def pytest_collection_finish(session):

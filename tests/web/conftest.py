@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -74,8 +75,8 @@ def watched_page(browser):
     return page
 
 
-@pytest.fixture
-def page(browser):
+@contextmanager
+def page_without_complaints(browser):
     """A page in which nothing may be reported as wrong."""
     found = watched_page(browser)
     yield found
@@ -85,13 +86,17 @@ def page(browser):
 
 
 @pytest.fixture
+def page(browser):
+    """A page in which nothing may be reported as wrong."""
+    with page_without_complaints(browser) as found:
+        yield found
+
+
+@pytest.fixture
 def page_without_webgl(browser_without_webgl):
     """The same without WebGL."""
-    found = watched_page(browser_without_webgl)
-    yield found
-    complaints = found.complaints
-    found.close()
-    assert not complaints
+    with page_without_complaints(browser_without_webgl) as found:
+        yield found
 
 
 class Watched:
