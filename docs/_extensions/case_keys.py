@@ -6,11 +6,11 @@ defaults, units and descriptions all come from the models.
 """
 
 import json
-import re
 from collections.abc import Iterator
 from typing import Any
 
 from lasersph.input import KINDS, format_quantity
+from lasersph.input.schema import described
 
 Schema = dict[str, Any]
 
@@ -43,7 +43,7 @@ def _sections(
 ) -> Iterator[str]:
     """The section of a table, then those of the tables in it."""
     rows, inner = [], []
-    meanings = _described(schema)[1]
+    meanings = described(schema)[1]
     for name, raw in schema.get("properties", {}).items():
         where = f"{path}.{name}" if path else name
         choices = _alternatives(raw, definitions)
@@ -66,23 +66,12 @@ def _sections(
 
 
 def _heading(schema: Schema, path: str, array: bool) -> str:
-    text, _ = _described(schema)
+    text, _ = described(schema)
     title = f"`[[{path}]]`" if array else f"`[{path}]`" if path else "Top of the file"
     kind = schema.get("properties", {}).get("kind", {})
     if path and "const" in kind:
         title += f' with `kind = "{kind["const"]}"`'
     return f"### {title}\n\n" + (f"{text}\n\n" if text else "")
-
-
-def _described(schema: Schema) -> tuple[str, dict[str, str]]:
-    """A model's docstring, and what its "Attributes:" say of each key."""
-    text, _, attributes = schema.get("description", "").partition("\n\nAttributes:\n")
-    meanings = {}
-    for names, meaning in re.findall(
-        r"^    ([\w, ]+): (.+(?:\n     +.+)*)", attributes, re.MULTILINE
-    ):
-        meanings |= dict.fromkeys(names.split(", "), " ".join(meaning.split()))
-    return text.strip(), meanings
 
 
 def _table(rows: list[str]) -> str:
@@ -92,9 +81,7 @@ def _table(rows: list[str]) -> str:
 def _row(name: str, raw: Schema, choices: list[Schema], where: str, required: bool) -> str:
     kinds = dict.fromkeys(_kind_of_value(choice, where) for choice in choices)
     default = "**required**" if required else _default(raw, choices)
-    meaning = raw["description"] or (
-        "" if "properties" in choices[0] else _described(choices[0])[0]
-    )
+    meaning = raw["description"] or ("" if "properties" in choices[0] else described(choices[0])[0])
     cells = [f"`{name}`", " or ".join(kinds), default, " ".join(meaning.split())]
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 

@@ -221,15 +221,16 @@ def sweep_address(serve, tmp_path):
     """Of a server that shows a sweep with a calibration."""
     folder = tmp_path / "runs" / "map"
     made_up_sweep(folder, grid_points(), failed=(2,))
-    draws = np.random.default_rng(3).normal(1.05, 0.02, 4000)
-    (folder / "posterior.csv").write_text(
-        "factor,weight\n" + "".join(f"{draw},1.0\n" for draw in draws)
-    )
+    draws = np.random.default_rng(3).normal(1.05, 0.02, (4000, 2)) @ [[1.0, -0.5], [0.0, 0.5]]
+    lines = [f"{factor},{share},1.0\n" for factor, share in draws]
+    (folder / "posterior.csv").write_text("factor,share,weight\n" + "".join(lines))
     unknown = {"mean": 1.05, "sd": 0.02, "low_95": 1.01, "high_95": 1.09, "unit": ""}
+    share = {"mean": 0.0, "sd": 0.014, "low_95": -0.03, "high_95": 0.03, "unit": ""}
     datum = {"measurement": 1, "number": "melt.depth_max_m", "unit": "m", "measured": 2.1e-7}
     datum |= {"standard_error": 1.2e-8, "computed": 2.05e-7, "pull": 0.4}
     answer = {
-        "unknowns": {"factor": unknown},
+        "unknowns": {"factor": unknown, "share": share},
+        "covariance": [[4e-4, -2e-4], [-2e-4, 2e-4]],
         "warnings": [],
         "data": [datum],
         "chi_squared": {"value": 0.16, "degrees_of_freedom": 0, "probability": 1.0},

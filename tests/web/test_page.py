@@ -38,6 +38,11 @@ def serious(page):
     ]
 
 
+def width_of(page):
+    """How far the page reaches to the right [pixels]."""
+    return page.evaluate("document.documentElement.scrollWidth")
+
+
 def test_list_is_sorted_and_filtered_and_opens_a_run(open_page, address):
     """Cards with state and numbers; the damaged folder says so on its own card."""
     watched = open_page(address)
@@ -180,10 +185,13 @@ def test_two_runs_are_compared(open_page, address):
     page.wait_for_timeout(300)
     assert serious(page) == []
     watched.keep("compare")
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert width_of(page) == 390
+    watched.keep("narrow-compare")
 
 
 def test_sweep_opens_its_runs(open_page, sweep_address):
-    """The points of its map are links; keys and number can be chosen."""
+    """A field with the lines of melting and boiling, points that are links, what can be chosen."""
     watched = open_page(sweep_address, expected=[LOST])
     page = watched.page
     page.get_by_role("link", name="map").click()
@@ -191,7 +199,12 @@ def test_sweep_opens_its_runs(open_page, sweep_address):
     page.locator(".tools select").nth(2).select_option("melt.depth_max_m")
     points = page.locator(".axes a")
     expect(points).to_have_count(23)
+    expect(page.locator(".axes image")).to_have_count(1)
+    expect(page.locator(".map figcaption")).to_contain_text("melting")
+    expect(page.locator(".map")).to_contain_text("1 of 24 runs has no result")
+    expect(page.locator(".point.lost")).to_have_count(1)
     expect(page.get_by_role("img", name=re.compile("posterior of factor: 1.05"))).to_be_visible()
+    expect(page.get_by_role("img", name=re.compile("correlation -0.71"))).to_be_visible()
     assert serious(page) == []
     watched.keep("sweep")
     points.nth(5).focus()
@@ -243,6 +256,37 @@ def test_run_is_typed_started_stopped_and_resumed(open_page, serve, tmp_path):
     expect(page.locator("pre").last).to_contain_text("resumed at step")
 
 
+def test_list_of_a_case_is_edited_with_the_keyboard(open_page, serve, tmp_path):
+    """Rows of cells: the wrong one is marked, rows are added and removed; also on 390 pixels."""
+    watched = open_page(serve(tmp_path, "--allow-run").address + "#/new/dlip-steel", width=390)
+    page = watched.page
+    start = page.get_by_role("button", name="Start the run")
+    expect(start).to_be_enabled()
+    depth = page.get_by_label("probes depth").nth(1)
+    depth.fill("1 kg")
+    expect(depth).to_have_attribute("aria-invalid", "true")
+    expect(page.locator(".rows [aria-invalid]")).to_have_count(1)
+    expect(page.get_by_text("probes[2].depth: ")).to_be_visible()
+    depth.fill("10 nm")
+    expect(start).to_be_enabled()
+    page.get_by_role("button", name="Add to probes").press("Enter")
+    page.keyboard.type("inside")
+    page.keyboard.press("Tab")
+    with page.expect_request("**/api/check") as asked:
+        page.keyboard.type("0.2 um")
+    assert asked.value.post_data_json["settings"] == [
+        'probes=[{ name = "maximum", depth = "0 nm", method = "even" }, '
+        '{ name = "minimum", depth = "10 nm", x = "2.5 um", method = "even" }, '
+        '{ name = "inside", depth = "0.2 um" }]'
+    ]
+    expect(start).to_be_enabled()
+    assert width_of(page) == 390
+    assert serious(page) == []
+    watched.keep("narrow-form")
+    page.get_by_role("button", name="Remove this row of probes").nth(2).press("Enter")
+    expect(page.get_by_label("probes depth")).to_have_count(2)
+
+
 def test_wrong_token(open_page, address):
     """A plain sentence, and nothing of the runs."""
     watched = open_page(f"{address}x", expected=[LOST])
@@ -259,7 +303,7 @@ def test_narrow_screen(open_page, address, part):
         page.get_by_role("link", name="hot").click()
         expect(page.locator(".plot canvas").first).to_be_visible()
         expect(page.locator(".figures figure").first).to_be_visible()
-    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    assert width_of(page) == 390
     watched.keep(f"narrow-{part or 'list'}")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -43,6 +44,14 @@ class Schema:
         parts = [part.get("properties", {}) for part in self.parts(path, None)]
         known = [part["kind"].get("const") for part in parts if key in part and "kind" in part]
         return [kind for kind in known if kind]
+
+    def meaning(self, path: Path, data: Any) -> str:
+        """What a key means, empty where the schema does not say: of the key itself, of the table
+        around it, or of the tables that stand there."""
+        parts, around = self.parts(path, data), self.parts(path[:-1], data)
+        told = [described(part)[1].get(str(path[-1]), "") for part in around]
+        told += [described(part)[0] for part in parts]
+        return next(filter(None, told), "")
 
     def needs(self, path: Path, data: Any) -> bool:
         """Whether the table around a key cannot do without."""
@@ -116,9 +125,20 @@ class Schema:
         branches = [branch for name in ("anyOf", "oneOf", "allOf") for branch in part.get(name, ())]
         if not branches:
             return [part]
-        shown = {key: part[key] for key in ("examples",) if key in part}
+        shown = {key: part[key] for key in ("examples", "description") if part.get(key)}
         found = [leaf | shown for branch in branches for leaf in self._alternatives(branch)]
         return [leaf for leaf in found if leaf.get("type") != "null"]
+
+
+def described(part: dict[str, Any]) -> tuple[str, dict[str, str]]:
+    """The description in a part of a schema without, and by key, what its "Attributes:" say."""
+    text, _, attributes = part.get("description", "").partition("\n\nAttributes:\n")
+    meanings = {}
+    for names, meaning in re.findall(
+        r"^    ([\w, ]+): (.+(?:\n     +.+)*)", attributes, re.MULTILINE
+    ):
+        meanings |= dict.fromkeys(names.split(", "), " ".join(meaning.split()))
+    return text.strip(), meanings
 
 
 def as_toml(value: Any) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from lasersph.output.errors import OutputError, install_hint
 from lasersph.output.frame_blocks import particle_block, particle_index
 
-FILES = ("scene.js", "viewer.js")
+FILES = ("shaders.js", "scene.js", "sources.js", "viewer_look.js", "viewer.js")
 
 
 def viewer_module() -> str:

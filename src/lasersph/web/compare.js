@@ -3,7 +3,8 @@
 import { chart, History } from "./charts.js";
 import { chip, h, table } from "./dom.js";
 import { getJson, listen } from "./net.js";
-import { http, mount } from "./viewer.js";
+import { http } from "./sources.js";
+import { mount } from "./viewer.js";
 
 export async function showComparison(place, signal, head, ...ids) {
   const runs = await Promise.all(ids.map((id) => getJson(`api/run/${id}`, { signal })));

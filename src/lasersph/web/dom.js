@@ -71,6 +71,23 @@ export function quantity(value, unit = "", digits = 4) {
   return `${number(value / size, digits)} ${name}`.trim();
 }
 
+/** Ticks of an axis {low, high, isLogarithmic} at round numbers, as [value, words], and the name of their unit. */
+export function ticksOf({ low, high, isLogarithmic }, unit) {
+  const most = Math.max(Math.abs(low), Math.abs(high));
+  const [name, size] = unit === "J/m^2" ? ["J/cm²", 1e4] : fittingUnit(most, unit);
+  const found = [];
+  if (isLogarithmic) {
+    for (let ten = 10 ** Math.floor(Math.log10(low / size)); ten * size <= high; ten *= 10) {
+      for (const one of [1, 2, 5]) if (one * ten * size >= low && one * ten * size <= high) found.push([one * ten * size, number(one * ten)]);
+    }
+    return [found, name];
+  }
+  const rough = (high - low) / size / 5 || 1, ten = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].find((one) => one * ten >= rough) * ten;
+  for (let k = Math.ceil(low / size / step - 1e-9); k * step <= (high / size) * (1 + 1e-9); k += 1) found.push([k * step * size, number(k * step)]);
+  return [found, name];
+}
+
 /** Unit that a key of a result ends in: depth_max_m, temperature_max_K. */
 export function unitOf(key) {
   const ends = [["_K_s", "K/s"], ["_K_m", "K/m"], ["_m_s", "m/s"], ["_m3", "m^3"], ["_m2", "m^2"],

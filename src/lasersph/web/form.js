@@ -1,6 +1,7 @@
 /** A new run: the keys of a shipped case, checked while they are typed, and its start. */
 
 import { h, table } from "./dom.js";
+import { inUnit, listEditor } from "./list_editor.js";
 import { ask, getJson, pause } from "./net.js";
 
 const STILL = 350; // without a key for so long, what was typed is checked
@@ -12,8 +13,7 @@ export async function showForm(place, signal, head, name = "dlip-steel") {
   const result = h("div", { class: "result", "aria-live": "polite" });
   const folder = h("input", { name: "folder", required: true, pattern: "[A-Za-z0-9][A-Za-z0-9._\\-]*", value: `${name}-1` });
   const start = h("button", { class: "primary", type: "submit", disabled: true }, "Start the run");
-  const settings = () => form.fields.filter(({ key, value }) => rows.get(key).field.value.trim() !== value)
-    .map(({ key }) => `${key}=${rows.get(key).field.value.trim()}`);
+  const settings = () => [...rows].filter(([, { text, before }]) => text() !== before).map(([key, { text }]) => `${key}=${text()}`);
   const send = (path, content) => ask(path, { signal, method: "POST", body: JSON.stringify(content), headers: { "content-type": "application/json" } });
 
   let last = 0;
@@ -24,17 +24,18 @@ export async function showForm(place, signal, head, name = "dlip-steel") {
     if (mine !== last) return;
     const found = await (await send("api/check", { case: name, settings: settings() })).json();
     if (mine !== last) return;
-    for (const { field, said } of rows.values()) {
-      field.removeAttribute("aria-invalid");
+    for (const { fields, said } of rows.values()) {
+      for (const field of fields()) field.removeAttribute("aria-invalid");
       said.textContent = "";
     }
     const others = [];
     for (const { key, text } of found.problems) {
-      const row = rows.get(key);
+      // of a list: probes[2].depth
+      const [, inside, place, column] = key.match(/^(.*?)(?:\[(\d+)\](?:\.(\w+)|\[\d+\])?)?$/), row = rows.get(key) ?? rows.get(inside);
       if (!row) others.push(h("p", { class: "error" }, `${key ? `${key}: ` : ""}${text}`));
       else {
-        row.field.setAttribute("aria-invalid", "true");
-        row.said.textContent = text;
+        for (const field of row.fields(place, column)) field.setAttribute("aria-invalid", "true");
+        row.said.textContent = [row.said.textContent, key === inside ? text : `${key}: ${text}`].filter(Boolean).join("; ");
       }
     }
     start.disabled = found.problems.length > 0;
@@ -45,15 +46,21 @@ export async function showForm(place, signal, head, name = "dlip-steel") {
     if (!signal.aborted) throw error;
   });
 
-  const rowOf = ({ key, value, help, unit, choices }) => {
+  const rowOf = ({ key, value, help, unit, choices, list }) => {
     const id = `key-${key.replaceAll(/[^a-z0-9]/gi, "-")}`;
+    const said = h("p", { class: "error", id: `${id}-said` });
+    if (list) {
+      const editor = listEditor(key, list, checkLater);
+      rows.set(key, { ...editor, before: editor.text(), said });
+      return h("div", { class: "key", role: "group", "aria-labelledby": id, "aria-describedby": `${id}-said` }, h("span", { class: "label", id }, key), editor.element,
+        h("p", { class: "quiet" }, help, editor.help), said);
+    }
     const attributes = { id, "aria-describedby": `${id}-help ${id}-said`, oninput: checkLater };
     const field = choices.length
       ? h("select", attributes, [...(value ? [] : [""]), ...choices].map((one) => h("option", { value: one, selected: one === value }, one || "default")))
       : h("input", { ...attributes, value, placeholder: "default", autocomplete: "off", spellcheck: "false" });
-    const said = h("p", { class: "error", id: `${id}-said` });
-    rows.set(key, { field, said });
-    return h("div", { class: "key" }, h("label", { for: id }, key, unit && h("small", {}, ` [${unit.replace("^2", "²").replace("^3", "³")}]`)), field,
+    rows.set(key, { fields: () => [field], text: () => field.value.trim(), before: value, said });
+    return h("div", { class: "key" }, h("label", { for: id }, key, unit && h("small", {}, inUnit(unit))), field,
       h("p", { class: "quiet", id: `${id}-help` }, help), said);
   };
   const groups = new Map();
@@ -62,9 +69,10 @@ export async function showForm(place, signal, head, name = "dlip-steel") {
     groups.set(group, [...(groups.get(group) ?? []), one]);
   }
   const sections = [...groups].map(([group, fields]) => {
-    const rest = fields.filter(({ value }) => value === "");
-    return h("fieldset", {}, h("legend", {}, group), fields.filter(({ value }) => value !== "").map(rowOf),
-      rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} more keys of ${group}`), rest.map(rowOf)));
+    const isGiven = ({ value, list }) => value !== "" || list?.rows.flat().some((cell) => cell !== "");
+    const rest = fields.filter((one) => !isGiven(one));
+    return h("fieldset", {}, h("legend", {}, group), fields.filter(isGiven).map(rowOf),
+      rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} more key${rest.length > 1 ? "s" : ""} of ${group}`), rest.map(rowOf)));
   });
   const failed = h("p", { class: "error", role: "alert" });
   place.replaceChildren(

@@ -3,7 +3,8 @@
 import { chart, History } from "./charts.js";
 import { chip, h, quantity, table } from "./dom.js";
 import { ask, getJson, listen } from "./net.js";
-import { http, mount } from "./viewer.js";
+import { http } from "./sources.js";
+import { mount } from "./viewer.js";
 
 const BESIDE = 2; // charts beside the particles; the others stand below
 

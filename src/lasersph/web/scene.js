@@ -4,77 +4,11 @@
 // turn (p - center) / metersPerPixel. In the plane x points right and z up; in space the mouse
 // turns the view about the body. While a large cloud moves, a random part of it is drawn.
 
-// Colors from low to high. Cold metal is light gray: it reflects, it does not glow.
-const COLORS = {
-  heat: ["#d3d7dc", "#b9aeb9", "#93678f", "#b03a63", "#dd4b3a", "#f5832a", "#fcbf38", "#fdf6c5"],
-  share: ["#d3d7dc", "#f0d9a8", "#f7b955", "#ee7f2d", "#d94a1e"],
-  amount: ["#d3d7dc", "#a9cbe0", "#63a6d0", "#2f7fbe", "#1c56a0", "#3f2f86", "#7c2a90"],
-  signed: ["#2166ac", "#67a9cf", "#d3d7dc", "#ef8a62", "#b2182b"],
-};
+import { COLORS, ramp, CELL, FLAT, PLAIN, ROUND, SEGMENT, SPHERE, VIEW } from "./shaders.js";
+
 const MOVING = 100000;  // particles drawn while a cloud moves that takes longer than SLOW to draw
 const SLOW = 60;        // [ms]
 const TURN = 0.008;     // radians per pixel of the mouse
-
-const VIEW = `#version 300 es
-precision highp float;
-uniform mat3 turn; uniform vec3 center; uniform vec2 halfWindow; uniform float metersPerPixel, reach;
-uniform vec2 range, kept; uniform vec4 cut; uniform float side;
-out float shade;
-vec3 place(vec3 p) { return turn * (vec3(side * p.x, p.yz) - center) / metersPerPixel; }
-vec4 onScreen(vec3 p) { return vec4(p.xy / halfWindow, p.z * metersPerPixel / reach, 1.0); }
-bool isHidden(vec3 p, float melt) {
-  return melt < kept.x || melt > kept.y || dot(cut.xyz, vec3(side * p.x, p.yz)) > cut.w;
-}
-`;
-const CELL = `
-in vec2 corner; in vec3 position, width; in float value, melt; uniform float column, grow;
-void main() {
-  shade = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
-  vec3 size = width.x > 0.0 ? width : vec3(column, 0.0, width.z);
-  vec3 p = place(position) + vec3(corner * (0.5 * (size.xz + grow) / metersPerPixel + 0.35), 0.0);
-  gl_Position = isHidden(position, melt) ? vec4(2.0, 2.0, 2.0, 1.0) : onScreen(p);
-}`;
-const SPHERE = `
-in vec3 position, width; in float value, melt; uniform float swell; out float depth;
-void main() {
-  shade = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
-  float radius = swell * pow(width.x * width.y * width.z, 1.0 / 3.0) / metersPerPixel;
-  gl_Position = isHidden(position, melt) ? vec4(2.0, 2.0, 2.0, 1.0) : onScreen(place(position));
-  gl_PointSize = max(2.0 * radius, 1.5);
-  depth = radius * metersPerPixel / reach;
-}`;
-const SEGMENT = `
-in vec2 corner; in vec3 from, to; uniform float thickness;
-void main() {
-  vec3 a = place(from), b = place(to);
-  vec2 along = normalize(b.xy - a.xy + vec2(1e-9, 0.0));
-  vec3 p = corner.x < 0.0 ? a : b;
-  p.xy += 0.5 * thickness * (corner.x * along + corner.y * vec2(-along.y, along.x));
-  gl_Position = onScreen(p);
-  shade = 0.0;
-}`;
-const FLAT = `#version 300 es
-precision highp float;
-in float shade; uniform sampler2D colors; out vec4 color;
-void main() { color = texture(colors, vec2(shade, 0.5)); }`;
-const ROUND = `#version 300 es
-precision highp float;
-in float shade, depth; uniform sampler2D colors; out vec4 color;
-void main() {
-  vec2 at = 2.0 * gl_PointCoord - 1.0;
-  float inside = 1.0 - dot(at, at);
-  if (inside < 0.0) discard;
-  vec3 normal = vec3(at.x, -at.y, sqrt(inside));
-  float light = max(dot(normal, normalize(vec3(-0.45, 0.75, 0.65))), 0.0);
-  float sky = 0.5 + 0.5 * normal.y;
-  vec3 own = texture(colors, vec2(shade, 0.5)).rgb;
-  color = vec4(own * (0.34 + 0.16 * sky + 0.56 * light) + 0.10 * pow(light, 24.0), 1.0);
-  gl_FragDepth = gl_FragCoord.z - 0.5 * depth * normal.z;
-}`;
-const PLAIN = `#version 300 es
-precision highp float;
-in float shade; uniform vec4 ink; out vec4 color;
-void main() { color = ink + 0.0 * shade; }`;
 
 export class Scene {
   constructor(canvas) {
@@ -101,7 +35,7 @@ export class Scene {
     this.segments = this.program(VIEW + SEGMENT, PLAIN);
     this.arrays = new Map();
     this.buffers = {};
-    for (const name of ["position", "width", "value", "melt", "line", "corner", "order"])
+    for (const name of ["position", "width", "value", "gate", "line", "corner", "order"])
       this.buffers[name] = gl.createBuffer();
     this.fill("corner", new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
     this.texture = gl.createTexture();
@@ -140,7 +74,7 @@ export class Scene {
     if (this.arrays.get("width") !== frame.width)
       this.smallest = frame.width.reduce((low, one) => (one > 0 && one < low ? one : low), Infinity);
     for (const name of ["position", "width", "value"]) this.fill(name, frame[name]);
-    if (frame.melt) this.fill("melt", frame.melt);
+    if (frame.gate) this.fill("gate", frame.gate);
     if (frame.line) this.fill("line", frame.line);
     if (index.dimensions === 3 && this.arrays.get("order")?.length !== this.count) {
       const order = shuffled(this.count);
@@ -164,7 +98,8 @@ export class Scene {
     return COLORS[colors];
   }
 
-  // Show shares of melt between two ends; cut away what lies before a plane, at a part of the body.
+  // Show what lies between two ends of the gate, a field of its own; cut away what lies before a
+  // plane, at a part of the body.
   filter(kept, axis, part) {
     this.kept = kept;
     this.cut = [0, 0, 0, 3e38];
@@ -260,8 +195,8 @@ export class Scene {
     this.attach(program, "position", "position", 3, step);
     this.attach(program, "width", "width", 3, step);
     this.attach(program, "value", "value", 1, step);
-    this.attach(program, "melt", this.frame.melt ? "melt" : "value", 1, step);
-    if (!this.frame.melt) gl.uniform2f(gl.getUniformLocation(program, "kept"), -3e38, 3e38);
+    this.attach(program, "gate", this.frame.gate ? "gate" : "value", 1, step);
+    if (!this.frame.gate) gl.uniform2f(gl.getUniformLocation(program, "kept"), -3e38, 3e38);
     this.attach(program, "corner", "corner", 2, 0);
     (dimensions === 3 ? gl.enable : gl.disable).call(gl, gl.DEPTH_TEST);
     for (const side of mirrored ? [-1, 1] : [1]) {
@@ -396,17 +331,4 @@ function shuffled(count) {
     [order[k], order[other]] = [order[other], order[k]];
   }
   return order;
-}
-
-// 256 colors between the given ones, as bytes.
-function ramp(colors) {
-  const stops = COLORS[colors].map((text) =>
-    [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)));
-  const bytes = new Uint8Array(256 * 4).fill(255);
-  for (let k = 0; k < 256; k++) {
-    const place = (k / 255) * (stops.length - 1), before = Math.min(Math.floor(place), stops.length - 2);
-    for (let part = 0; part < 3; part++)
-      bytes[4 * k + part] = stops[before][part] + (place - before) * (stops[before + 1][part] - stops[before][part]);
-  }
-  return bytes;
 }

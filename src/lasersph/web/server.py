@@ -73,6 +73,7 @@ class Pages:
             Route("/api/alive", lambda request: Response(status_code=204)),
             Route("/api/runs", self.runs),
             Route("/api/sweep/{id}", self.sweep),
+            Route("/api/sweep/{id}/map", self.map),
             Route("/api/run/{id}", self.run),
             Route("/api/run/{id}/history", self.history),
             Route("/api/run/{id}/log", self.log),
@@ -114,6 +115,13 @@ class Pages:
         """One sweep."""
         entry = self.folders.find(request.path_params["id"], "sweep")
         return JSONResponse(self._sweeps.details(entry))
+
+    def map(self, request: Request) -> Response:
+        """A number of a sweep between its runs."""
+        entry = self.folders.find(request.path_params["id"], "sweep")
+        asked = request.query_params
+        keys = [key for key in (asked.get("x", ""), asked.get("y", "")) if key]
+        return JSONResponse(self._sweeps.map(entry, keys, asked.get("show", "")))
 
     def history(self, request: Request) -> Response:
         """New rows of history.csv; the header X-Next says where the next ones begin."""

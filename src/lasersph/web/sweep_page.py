@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from lasersph.observers.observer_list import RESULTS
 from lasersph.output import OutputError
 from lasersph.output.reader import read_json
 from lasersph.sweeps import Table
@@ -18,7 +20,11 @@ from lasersph.web.run_page import telling_damage
 
 CALIBRATION, POSTERIOR = "calibration.json", "posterior.csv"
 BINS = 40
-"""Of the histogram of an unknown."""
+"""Of the histogram of an unknown that is not on a grid."""
+MOST_LINES = 120
+"""Values of an unknown that are taken for the lines of a grid."""
+DIGITS = 4
+"""Of the numbers of a map, finer than its colors."""
 
 
 class Sweeps:
@@ -69,9 +75,41 @@ class Sweeps:
                 "title": _title(entry.path),
                 "units": dict(table.units),
                 "columns": list(table.columns),
+                "words": {key: RESULTS[key].words for key in table.columns if key in RESULTS},
                 "counts": Counter(table.status),
                 "rows": rows,
                 "calibration": _calibration(entry.path),
+            }
+
+    def map(self, entry: Entry, keys: Sequence[str], column: str) -> dict[str, Any]:
+        """What `lasersph map` draws of a number over keys: axes, field between the runs, lines.
+
+        Where it cannot be drawn, `refused` says why. Raises OutputError.
+        """
+        from lasersph.studies.maps import process_map
+
+        with telling_damage(entry):
+            table = self._table(entry)
+            if set(keys) != set(table.varied):
+                return {"refused": f"a map is over all that varies: {', '.join(table.varied)}"}
+            try:
+                shown = process_map(table, *keys, show=column)
+            except (KeyError, ValueError) as error:
+                return {"refused": str(error.args[0])}
+            axes = [
+                {"grid": _rounded(one.grid, 9), "is_logarithmic": one.is_logarithmic}
+                for one in shown.axes
+            ]
+            lines = {
+                name: [_rounded(part, 6) for part in all_] for name, all_ in shown.lines.items()
+            }
+            values = zip(shown.names, _rounded(shown.values, DIGITS), strict=True)
+            return {
+                "axes": axes,
+                "values": dict(values),
+                "field": _rounded(shown.field, DIGITS),
+                "lines": lines,
+                "notes": list(shown.notes),
             }
 
     def _table(self, entry: Entry) -> Table:
@@ -89,16 +127,40 @@ def _finite(numbers: Any) -> dict[str, float]:
     return {key: value for key, value in numbers.items() if np.isfinite(value)}
 
 
+def _rounded(values: Any, digits: int) -> Any:
+    """Nested lists of numbers with so many significant digits; None for what is not finite."""
+    if np.ndim(values):
+        return [_rounded(one, digits) for one in values]
+    return float(f"{values:.{digits}g}") if np.isfinite(values) else None
+
+
 def _calibration(folder: Path) -> dict[str, Any] | None:
-    """Content of calibration.json with a histogram of the posterior of each unknown."""
+    """Content of calibration.json with a histogram of the posterior of each unknown, and the shares
+    of each pair in its cells, rows from low to high, the largest 1."""
     if not (folder / CALIBRATION).exists() or not (folder / POSTERIOR).exists():
         return None
     found = read_json(folder / CALIBRATION)
     with (folder / POSTERIOR).open(newline="", encoding="utf-8") as stream:
         names, *rows = csv.reader(stream)
     values = np.array(rows, dtype=float)
-    posterior = {}
-    for name, column in zip(names[:-1], values.T, strict=False):
-        density, edges = np.histogram(column, BINS, weights=values[:, -1], density=True)
-        posterior[name] = {"edges": edges.tolist(), "density": density.tolist()}
-    return found | {"posterior": posterior}
+    weights, names = values[:, -1], names[:-1]
+    edges = [_edges(column) for column in values.T[:-1]]
+    posterior, pairs = {}, {}
+    for row, name in enumerate(names):
+        density, _ = np.histogram(values[:, row], edges[row], weights=weights, density=True)
+        posterior[name] = {"edges": edges[row].tolist(), "density": density.tolist()}
+        for column in range(row):
+            across, up = values[:, column], values[:, row]
+            bins = [edges[column], edges[row]]
+            cells, _, _ = np.histogram2d(across, up, bins, weights=weights)
+            pairs[f"{names[column]} {name}"] = _rounded(cells.T / cells.max(), DIGITS)
+    return found | {"posterior": posterior, "pairs": pairs}
+
+
+def _edges(values: Any) -> Any:
+    """Edges of the cells of an unknown: around the lines of a grid, or of even size."""
+    lines = np.unique(values)
+    if not 1 < lines.size <= MOST_LINES:
+        return np.histogram_bin_edges(values, BINS)
+    middles = 0.5 * (lines[1:] + lines[:-1])
+    return np.array([1.5 * lines[0] - 0.5 * lines[1], *middles, 1.5 * lines[-1] - 0.5 * lines[-2]])

@@ -4,88 +4,18 @@
 //
 // `works` is false where there is no WebGL 2, which the viewer then says itself.
 // A source has `index()`, which resolves to what `lasersph.output.frame_blocks.particle_index`
-// gives, and `block(name)`, which resolves to an ArrayBuffer of little-endian float32. Three are
-// here: http(base), inline(json) of a report, kernel(model) of a notebook.
+// gives, and `block(name)`, which resolves to an ArrayBuffer of little-endian float32: sources.js.
 // Options: frame (number), field (name), live (true), ranges ({field: [low, high]}, so that two
 // viewers have the same scale), onFrame(number, time) after a frame was drawn.
 import { Scene } from "./scene.js";
+import { kernel } from "./sources.js";
+import { CSS, HTML } from "./viewer_look.js";
 
-const CSS = `
-:host { display: block; font: 13px/1.4 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
-* { box-sizing: border-box; }
-.viewer { background: #161d29; color: #e8ecf2; border-radius: 10px; overflow: hidden; }
-.stage { position: relative; aspect-ratio: 16 / 9; min-height: 220px; max-height: 72vh; width: 100%;
-  background: radial-gradient(ellipse at 50% 35%, #2b3648 0%, #161d29 75%); }
-canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block;
-  touch-action: none; cursor: grab; }
-canvas:active { cursor: grabbing; }
-.title { position: absolute; left: 14px; top: 10px; font-size: 14px; font-weight: 600;
-  max-width: calc(100% - 28px); white-space: nowrap; overflow: hidden; text-overflow: ellipsis;
-  pointer-events: none; text-shadow: 0 1px 3px #000a; }
-.legend { position: absolute; right: 12px; top: 10px; bottom: 44px; max-height: 310px; width: 136px;
-  display: flex; flex-direction: column; align-items: flex-end; pointer-events: none;
-  padding: 4px 6px 10px; border-radius: 6px; background: #161d2970; text-shadow: 0 1px 3px #000a; }
-.legend b { font-weight: 600; text-align: right; margin-bottom: 10px; }
-.bar { position: relative; flex: 1; width: 14px; border-radius: 3px; border: 1px solid #ffffff40; }
-.bar span { position: absolute; right: 20px; transform: translateY(50%); white-space: nowrap;
-  font-variant-numeric: tabular-nums; }
-.bar span.level { color: #ffd08a; }
-.bar span::after { content: ""; position: absolute; right: -7px; top: 50%; width: 5px;
-  border-top: 1px solid currentColor; }
-.scale { position: absolute; left: 16px; bottom: 12px; border: 2px solid #fff; border-top: 0;
-  height: 7px; pointer-events: none; }
-.scale span { position: absolute; left: 50%; bottom: 6px; transform: translateX(-50%);
-  white-space: nowrap; text-shadow: 0 1px 3px #000; }
-.message { position: absolute; left: 50%; bottom: 16px; transform: translateX(-50%);
-  background: #0b0f16e0; padding: 4px 14px; border-radius: 14px; max-width: 70%; }
-.message:empty { display: none; }
-.controls { display: flex; flex-wrap: wrap; gap: 8px 12px; align-items: center;
-  padding: 9px 14px; background: #1d2635; }
-.time { flex: 1 1 240px; display: flex; gap: 10px; align-items: center; }
-.time input { flex: 1; min-width: 90px; }
-output { min-width: 5.6em; text-align: right; font-variant-numeric: tabular-nums; }
-label { display: inline-flex; gap: 6px; align-items: center; white-space: nowrap; color: #c3ccd9; }
-input[type=range] { accent-color: #ff9d3c; }
-button, select { font: inherit; color: #f2f5f9; background: #30405a; border: 1px solid #4a5c78;
-  border-radius: 6px; padding: 4px 10px; cursor: pointer; min-height: 28px; }
-button:hover, select:hover { background: #3d5070; }
-button[aria-pressed=true] { background: #b3261e; border-color: #e5574f; }
-button:disabled { opacity: .55; cursor: default; }
-:focus-visible { outline: 2px solid #ffc46b; outline-offset: 1px; }
-[hidden] { display: none !important; }
-@media (max-width: 520px) { .stage { aspect-ratio: 4 / 3; } .title { font-size: 12px; }
-  .legend { font-size: 11px; right: 4px; top: 30px; width: 104px; } }
-`;
-const HTML = `
-<section class="viewer" aria-label="Particle viewer">
-  <div class="stage">
-    <canvas tabindex="0" role="img" aria-label="Particles"></canvas>
-    <div class="title"></div>
-    <div class="legend" hidden><b></b><div class="bar"></div></div>
-    <div class="scale" hidden><span></span></div>
-    <div class="message" role="status"></div>
-  </div>
-  <div class="controls">
-    <button class="play" type="button" title="Play all frames (space)">▶ Play</button>
-    <button class="live" type="button" aria-pressed="false" title="Follow the newest frame"
-      hidden>● Live</button>
-    <span class="time"><input type="range" min="0" value="0" step="1" aria-label="Time">
-      <output></output></span>
-    <label>Color <select class="field" aria-label="Color"></select></label>
-    <label class="phases">Show <select class="phase" aria-label="Show">
-      <option value="-1,2">all</option><option value="0.001,2">any melt</option>
-      <option value="0.5,2">half molten and more</option><option value="0.999,2">fluid only</option>
-      <option value="-1,0.999">solid and mushy</option></select></label>
-    <label class="cuts">Cut <select class="axis" aria-label="Cut"><option value="-1">none</option>
-      <option value="0">x</option><option value="1">y</option><option value="2">z</option></select>
-      <input class="cut" type="range" min="0" max="1" step="0.005" value="0.5"
-        aria-label="Place of the cut" hidden></label>
-    <button class="home" type="button" title="Show all again (h)">Whole view</button>
-  </div>
-</section>`;
 // Steps of play [ms], pauses between tries [ms], between two looks at a growing run, memory [bytes]
 const STEP = 120, PAUSE = 300, LONGEST_PAUSE = 8000, LOOK = 1000, KEPT = 3e8;
 const SILENT = "The run does not answer; trying again";
+const BEYOND = 3e38;   // of every number of a field
+const FREE = "limits"; // the choice for which limits are typed
 const PREFIXES = [[1e-12, "p"], [1e-9, "n"], [1e-6, "µ"], [1e-3, "m"], [1, ""], [1e3, "k"],
   [1e6, "M"], [1e9, "G"]];
 
@@ -109,6 +39,7 @@ export function mount(element, source, options = {}) {
   }
 
   let index = null, frame = 0, field = options.field, loaded = null;
+  let gate = null;  // what is shown: {field, low, high}; null shows all
   let live = Boolean(options.live), playing = null, generation = 0, gone = false, home = true;
   const kept = new Map();
 
@@ -134,11 +65,12 @@ export function mount(element, source, options = {}) {
   }
 
   async function loadFrame(number, name) {
-    const names = ["position", "width", name, ...("melt_fraction" in index.blocks ? ["melt_fraction"] : [])];
-    const [position, width, value, melt] = await Promise.all(
-      names.map((one) => fetchBlock("particles", one, number)));
+    const names = [...new Set(["position", "width", name, ...(gate ? [gate.field] : [])])];
+    const blocks = await Promise.all(names.map((one) => fetchBlock("particles", one, number)));
+    const block = Object.fromEntries(names.map((one, k) => [one, blocks[k]]));
     const line = index.surface ? await fetchBlock("surface", "position", number) : null;
-    return { position, width, value, melt: melt ?? null, line };
+    return { position: block.position, width: block.width, value: block[name], line,
+      gate: gate && block[gate.field] };
   }
 
   // Draw a frame; errors are tried again with growing pauses until something else is wanted.
@@ -206,10 +138,9 @@ export function mount(element, source, options = {}) {
     if (!first || !index.fields.length) return;
     part(".title").textContent = index.case;
     part(".cuts").hidden = index.dimensions < 3;
-    const melts = index.fields.some((one) => one.name === "melt_fraction" && one.range[1] > 0);
-    part(".phases").hidden = !melts;
-    const choice = part(".field");
-    choice.replaceChildren(...index.fields.map((one) => new Option(one.label, one.name)));
+    for (const choice of [".field", ".measure"])
+      part(choice).replaceChildren(...index.fields.map((one) => new Option(one.label, one.name)));
+    part(".gate").replaceChildren(...gateOptions(index));
   }
 
   // ----- drawing
@@ -232,7 +163,7 @@ export function mount(element, source, options = {}) {
   function applyFilters() {
     const axis = Number(part(".axis").value);
     part(".cut").hidden = axis < 0;
-    scene.filter(part(".phase").value.split(",").map(Number), axis, Number(part(".cut").value));
+    scene.filter(gate ? [gate.low, gate.high] : [-BEYOND, BEYOND], axis, Number(part(".cut").value));
   }
 
   function drawLegend(info, low, high, colors) {
@@ -269,7 +200,7 @@ export function mount(element, source, options = {}) {
     const aim = scene.metersPerPixel * 130, ten = 10 ** Math.floor(Math.log10(aim));
     const length = ten * (aim / ten >= 5 ? 5 : aim / ten >= 2 ? 2 : 1);
     part(".scale").hidden = false;
-    part(".scale").style.width = `${length / scene.metersPerPixel}px`;
+    part(".scale i").style.width = `${length / scene.metersPerPixel}px`;
     part(".scale span").textContent = quantity(length, "m");
   };
 
@@ -293,6 +224,38 @@ export function mount(element, source, options = {}) {
     if (index?.times.length) show(index.times.length - 1);
   }
 
+  // Limits of a field: those of a choice, or what was typed, in the unit that is shown.
+  function chooseGate() {
+    const choice = part(".gate").value, isFree = choice === FREE;
+    part(".span").hidden = !isFree;
+    if (!isFree) return setGate(JSON.parse(choice));
+    const info = index.fields.find((one) => one.name === part(".measure").value);
+    const { factor, unit } = unitOfLimits(info);
+    part(".unit").textContent = unit;
+    const limit = (name, none) => (part(name).value === "" ? none : Number(part(name).value) / factor);
+    return setGate({ field: info.name, low: limit(".least", -BEYOND), high: limit(".most", BEYOND) });
+  }
+
+  function setGate(wanted) {
+    gate = wanted;
+    if (gate && loaded && index.blocks[gate.field]) return show(frame);
+    return loaded && applyFilters();
+  }
+
+  // A field to be limited begins where the metal melts, or in the middle of its range.
+  function beginLimits(name) {
+    const info = index.fields.find((one) => one.name === name);
+    const { factor } = unitOfLimits(info), { melts } = index.levels ?? {};
+    const begin = name === "temperature" && melts ? melts : 0.5 * (info.range[0] + info.range[1]);
+    part(".measure").value = name;
+    part(".least").value = Number((begin * factor).toPrecision(4));
+    part(".most").value = "";
+  }
+
+  function unitOfLimits({ unit, range }) {
+    return scaled(unit, Math.max(...range.map(Math.abs)));
+  }
+
   async function play(wanted) {
     if (Boolean(playing) === wanted) return;
     const mine = wanted ? {} : null;
@@ -310,8 +273,17 @@ export function mount(element, source, options = {}) {
   part(".live").addEventListener("click", () => setLive(!live));
   part(".play").addEventListener("click", () => { setLive(false); play(!playing); });
   part(".home").addEventListener("click", () => loaded && scene.goHome());
-  for (const name of [".phase", ".axis", ".cut"])
+  for (const name of [".axis", ".cut"])
     part(name).addEventListener("input", () => loaded && applyFilters());
+  part(".gate").addEventListener("input", () => {
+    if (part(".gate").value === FREE && !part(".measure").dataset.begun) {
+      part(".measure").dataset.begun = "yes";
+      beginLimits(index.fields.some((one) => one.name === "temperature") ? "temperature" : field);
+    }
+    chooseGate();
+  });
+  part(".measure").addEventListener("input", (event) => { beginLimits(event.target.value); chooseGate(); });
+  for (const name of [".least", ".most"]) part(name).addEventListener("input", chooseGate);
   canvas.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (step) { play(false); setFrame(frame + step); }
@@ -332,6 +304,23 @@ export function mount(element, source, options = {}) {
     root.replaceChildren();
   }
   return { works: true, setFrame, setField, setLive, destroy };
+}
+
+// What can be shown of a run: all, phases where it melts, what is hotter than its levels, any limits.
+function gateOptions({ fields, levels }) {
+  const options = [new Option("all", "null")];
+  const add = (words, field, low, high) => options.push(new Option(words, JSON.stringify({ field, low, high })));
+  const range = (name) => fields.find((one) => one.name === name)?.range ?? [0, 0];
+  if (range("melt_fraction")[1] > 0) {
+    add("any melt", "melt_fraction", 0.001, BEYOND);
+    add("half molten and more", "melt_fraction", 0.5, BEYOND);
+    add("fluid only", "melt_fraction", 0.999, BEYOND);
+    add("solid and mushy", "melt_fraction", -BEYOND, 0.999);
+  }
+  for (const [word, value] of Object.entries(levels ?? {}))
+    if (range("temperature")[1] >= value) add(`hotter than where it ${word}`, "temperature", value, BEYOND);
+  options.push(new Option("limits …", FREE));
+  return options;
 }
 
 // ----- numbers in words
@@ -362,72 +351,6 @@ function scaled(unit, size) {
 function quantity(value, unit) {
   const { factor, unit: name } = scaled(unit, Math.abs(value));
   return `${number(value * factor)} ${name}`;
-}
-
-// ----- sources
-
-export function http(base) {
-  const get = async (path, cache) => {
-    const answer = await fetch(base + path, { cache });
-    if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
-    return answer;
-  };
-  return {
-    index: async () => (await get("particles", "no-store")).json(),
-    block: async (name) => (await get(`block/${name}`, "default")).arrayBuffer(),
-  };
-}
-
-// Blocks of a report: 16-bit numbers between the ends of their range, the differences from the
-// first block of their field, low bytes before high ones, compressed, in base64.
-export function inline(json) {
-  const decoded = new Map();
-  async function steps(name) {
-    const { data } = json.blocks[name];
-    const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    const plain = new Uint8Array(await new Response(stream).arrayBuffer());
-    const half = plain.length / 2, result = new Uint16Array(half);
-    for (let k = 0; k < half; k++) result[k] = plain[k] | (plain[k + half] << 8);
-    return result;
-  }
-  async function block(name) {
-    const { range, first } = json.blocks[name];
-    const counts = await steps(name), before = first ? await steps(first) : null;
-    const parts = range.length, count = counts.length / parts;
-    const values = new Float32Array(counts.length);
-    for (let part = 0; part < parts; part++) {
-      const [low, high] = range[part], unit = (high - low) / 65535;
-      for (let k = 0, at = part * count; k < count; k++, at++)
-        values[k * parts + part] = low + unit * (before ? (counts[at] + before[at]) & 65535 : counts[at]);
-    }
-    return values.buffer;
-  }
-  return {
-    index: async () => json.index,
-    block: (name) => decoded.get(name) ?? decoded.set(name, block(name)).get(name),
-  };
-}
-
-// Messages to and from the Python side of an anywidget.
-export function kernel(model) {
-  const waiting = new Map();
-  let last = 0;
-  model.on("msg:custom", (answer, buffers) => {
-    const one = waiting.get(answer.id);
-    waiting.delete(answer.id);
-    if (!one) return;
-    if (answer.error) return one.fail(new Error(answer.error));
-    const view = buffers?.[0];
-    one.done(answer.index ?? view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
-  });
-  const ask = (what) => new Promise((done, fail) => {
-    const id = ++last;
-    waiting.set(id, { done, fail });
-    setTimeout(() => waiting.delete(id) && fail(new Error("no answer")), 30000);
-    model.send({ id, ...what });
-  });
-  return { index: () => ask({ ask: "index" }), block: (name) => ask({ ask: "block", name }) };
 }
 
 export default {

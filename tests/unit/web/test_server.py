@@ -8,7 +8,7 @@ import shutil
 import pytest
 from starlette.testclient import TestClient
 from synthetic_run import make_run
-from synthetic_sweep import grid_points, made_up_sweep
+from synthetic_sweep import grid_points, made_up_depth, made_up_sweep
 
 from lasersph.output import open_run
 from lasersph.output.folder_lock import FolderLock
@@ -227,6 +227,27 @@ def test_page_of_a_sweep(root, browser):
     assert browser.get(f"/api/sweep/{id_of('complete')}").status_code == 404
 
 
+def test_map_of_a_sweep(root, browser):
+    """The field of `lasersph map`, nothing beside a run without a result; or why there is none."""
+    made_up_sweep(root / "map", grid_points(), failed=(2,))
+    address = f"/api/sweep/{id_of('map')}/map"
+    keys = {"x": "laser.fluence", "y": "laser.pulse.fwhm"}
+    shown = browser.get(address, params=keys | {"show": "melt.depth_max_m"}).json()
+    assert [len(axis["grid"]) for axis in shown["axes"]] == [161, 161]
+    assert [axis["is_logarithmic"] for axis in shown["axes"]] == [False, True]
+    cold, hot = shown["field"][-1][0], shown["field"][0][-1]
+    assert cold is None and hot == pytest.approx(made_up_depth(1.2e4, 1e-9), rel=1e-3)
+    assert set(shown["lines"]) == {"melts", "boils"}
+    for asked, words in (
+        (keys | {"show": "melt.depht_max_m"}, "do you mean"),
+        (keys | {"y": "laser.fluence", "show": "melt.depth_max_m"}, "over all that varies"),
+        ({"x": "laser.fluence", "show": "melt.depth_max_m"}, "over all that varies"),
+        ({}, "over all that varies"),
+    ):
+        assert words in browser.get(address, params=asked).json()["refused"]
+    assert browser.get(f"/api/sweep/{id_of('complete')}/map").status_code == 404
+
+
 def test_page_of_a_calibration(root, browser):
     """The answer with a histogram of the posterior, weighted."""
     made_up_sweep(root / "map", grid_points())
@@ -235,6 +256,12 @@ def test_page_of_a_calibration(root, browser):
     found = browser.get(f"/api/sweep/{id_of('map')}").json()["calibration"]
     density = found["posterior"]["factor"]["density"]
     assert density[-1] == pytest.approx(3.0 * density[0])
+    lines = ("0.1,1.0,1.0", "0.1,2.0,1.0", "0.2,2.0,2.0")
+    rows = "".join(f"{one}\n" for one in ("share,factor,weight", *lines))
+    (root / "map" / "posterior.csv").write_text(rows)
+    found = browser.get(f"/api/sweep/{id_of('map')}").json()["calibration"]
+    assert found["pairs"] == {"share factor": [[0.5, 0.0], [0.5, 1.0]]}
+    assert found["posterior"]["share"]["edges"] == pytest.approx([0.05, 0.15, 0.25])
     (root / "map" / "posterior.csv").write_text("factor,weight\n1.0,x\n")
     assert browser.get(f"/api/sweep/{id_of('map')}").status_code == 422
 

@@ -52,6 +52,16 @@ def test_form_has_units_help_and_choices(browser):
     assert fields["solver.plateau"]["help"]
     assert fields["laser.wavelength"]["value"] == ""
     assert browser.get("/api/form/..").status_code == 404
+    probes = fields["probes"]["list"]
+    assert [one["name"] for one in probes["columns"]] == ["name", "depth", "x", "y", "method"]
+    assert probes["rows"][1] == ["minimum", "0 nm", "2.5 um", "", "even"]
+    assert probes["columns"][1]["unit"] == "m" and probes["columns"][4]["choices"]
+    shapes = {key: one["list"]["shape"] for key, one in fields.items() if "list" in one}
+    assert shapes["laser.position"] == "row" and shapes["output.snapshots.times"] == "values"
+    assert not fields["output.snapshots.times"]["list"]["rows"]
+    # what a key means: of the key, of the table around it, of what stands in the list
+    for key in ("solver.plateau", "laser.fluence", "probes"):
+        assert fields[key]["help"], key
 
 
 def test_check_names_the_key_and_what_is_right(browser):
