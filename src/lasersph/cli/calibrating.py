@@ -56,6 +56,7 @@ def calibrate(
     from lasersph.plots.calibration import calibration_figure
     from lasersph.simulation.time_loop import Stopped
     from lasersph.studies import calibration_run
+    from lasersph.studies.calibration_answer import answer_lines
     from lasersph.studies.calibration_reading import read_calibration_plan
 
     loaded = read_calibration_plan(plan)
@@ -71,10 +72,12 @@ def calibrate(
             )
         except Stopped as error:
             raise _stopped(error, signals.code, "calibrate", plan, folder, engine) from None
-    for line in calibration_run.answer_lines(found):
+    for line in answer_lines(found):
         print(line)
     content, points = calibration_run.read_answer(folder)
-    print(style.save(calibration_figure(content, points), folder / calibration_run.FIGURE))
+    profiles = calibration_run.read_profiles(folder, content)
+    figure = calibration_figure(content, points, profiles)
+    print(style.save(figure, folder / calibration_run.FIGURE))
 
 
 @takes_engine

@@ -31,12 +31,14 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
     from lasersph.plots.texture_comparison import comparison_figure
     from lasersph.report.comparison_page import difference_rows, unknown_rows, write_comparison
     from lasersph.studies.texture import compare as comparing
+    from lasersph.studies.texture import relief as ours
+    from lasersph.studies.texture.measurement import NoComparison
 
     try:
-        relief, surface = comparing.read_relief(folder), read_surface(profile)
+        relief, surface = ours.read_relief(folder), read_surface(profile)
         found = comparing.compare(relief, surface)
-    except (OutputError, comparing.NoComparison) as error:
-        name = f"{profile}: " if isinstance(error, comparing.NoComparison) else ""
+    except (OutputError, NoComparison) as error:
+        name = f"{profile}: " if isinstance(error, NoComparison) else ""
         raise WrongCommand(f"{name}{error}") from None
     content = comparing.answer(found)
     target = out or folder / f"compare-{profile.stem}"

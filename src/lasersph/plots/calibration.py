@@ -10,6 +10,8 @@ from lasersph.observers.quantity import suffix
 from lasersph.plots import style
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
@@ -17,22 +19,30 @@ BINS = 40
 """Of the histograms of the posterior."""
 
 
-def calibration_figure(content: dict[str, Any], points: np.ndarray) -> Figure:
+def calibration_figure(
+    content: dict[str, Any], points: np.ndarray, profiles: Sequence[np.ndarray] = ()
+) -> Figure:
     """Above: a panel for each measured number, data with standard errors over the computed values
-    and their errors. Below: the posterior of each unknown, and of each pair.
+    and their errors, and for each measured profile. Below: the posterior of each unknown, and of
+    each pair.
 
     Args:
         content: of calibration.json. points: unknowns and weights (n, p + 1) of posterior.csv.
+        profiles: columns x, y, measured, computed (n, 4) [m] of each.
     """
     from matplotlib.figure import Figure
 
-    columns = list(dict.fromkeys(one["number"] for one in content["data"]))
+    components = {name for one in content["profiles"] for name in one["components"]}
+    every = dict.fromkeys(one["number"] for one in content["data"])
+    columns = [column for column in every if column not in components]
     unknowns = content["unknowns"]
     corner = 2.2 * len(unknowns) + 0.6
     figure = Figure(figsize=(style.WIDTH, 3.0 + corner), layout="constrained")
     above, below = np.ravel(figure.subfigures(2, 1, height_ratios=(3.0, corner)))
-    all_axes = above.subplots(1, len(columns), squeeze=False)[0]
-    for axes, column in zip(all_axes, columns, strict=True):
+    all_axes = above.subplots(1, len(columns) + len(profiles), squeeze=False)[0]
+    for axes, profile in zip(all_axes[len(columns) :], profiles, strict=True):
+        _draw_profile(axes, profile)
+    for axes, column in zip(all_axes, columns, strict=False):
         data = [one for one in content["data"] if one["number"] == column]
         _draw_data(axes, data, content["units"])
     style.legend(all_axes[0])
@@ -66,6 +76,18 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], units: dict[str, str]) ->
         name = f"{varied[0]} [{units.get(varied[0]) or '1'}]"
     style.label(axes, name, f"{number.removesuffix(suffix(data[0]['unit']))} [{unit.name}]")
     axes.yaxis.label.set_fontsize(8.5)
+
+
+def _draw_profile(axes: Axes, profile: np.ndarray) -> None:
+    """The measured and the most probable heights along the line of a map nearest to y = 0."""
+    near = profile[profile[:, 1] == profile[np.argmin(np.abs(profile[:, 1])), 1]]
+    x, _, measured, computed = near[np.argsort(near[:, 0], kind="stable")].T
+    along = style.unit_for(float(np.max(np.abs(x))), style.LENGTHS)
+    up = style.fitting_unit("m", float(np.max(np.abs(measured))))
+    x = along.factor * x
+    axes.plot(x, up.factor * measured, ".", ms=2.5, color=style.COLORS[1], label="measured")
+    axes.plot(x, up.factor * computed, color=style.COLORS[0], linewidth=1.2, label="model")
+    style.label(axes, f"x [{along.name}]", f"height [{up.name}]")
 
 
 def _draw_corner(figure: SubFigure, unknowns: dict[str, Any], points: np.ndarray) -> None:

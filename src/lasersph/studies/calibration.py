@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaincc
 
-from lasersph.studies.calibration_plan import CalibrationPlan
+from lasersph.studies.calibration_plan import CalibrationPlan, NoCalibration
+from lasersph.studies.calibration_profile import ProfileFit, reduce_profiles
 from lasersph.studies.emulator import Emulator, box_of, fit_emulator
 from lasersph.studies.identifiability import Combination, find_combinations
 from lasersph.studies.posterior import Model, Posterior, find_posterior
@@ -42,10 +43,6 @@ IMPROBABLE = 0.01
 """Probability of so large a chi^2 below which the model does not describe the data."""
 
 
-class NoCalibration(ValueError):
-    """The runs allow no answer; the text says why."""
-
-
 @dataclass(frozen=True)
 class Calibration:
     """What measured values say of the unknowns of a case.
@@ -55,6 +52,7 @@ class Calibration:
         settings, numbers: of all runs in their order; None for numbers of runs that failed.
         ratio: largest standard deviation of the emulator over the measured one in the posterior.
         combinations: unknowns that the data do not fix one by one.
+        profiles: measured ones, whose components are among the data of `plan`.
     """
 
     plan: CalibrationPlan
@@ -64,6 +62,7 @@ class Calibration:
     numbers: tuple[Numbers | None, ...]
     ratio: float
     combinations: list[Combination] = field(default_factory=list)
+    profiles: list[ProfileFit] = field(default_factory=list)
 
     @property
     def chi_squared(self) -> tuple[float, int, float]:
@@ -106,6 +105,12 @@ class Calibration:
                 f"degrees of freedom (p = {probability:.1g}); farthest off is {column} of "
                 f"measurement {place + 1}, by {abs(self.pulls[worst]):.1f} standard deviations"
             )
+        for fit in self.profiles:
+            if fit.probability < IMPROBABLE:
+                found.append(
+                    f"no sum of the runs has profile {fit.number}: {1e9 * fit.left_over:.3g} nm "
+                    "rms of it are left over, more than its standard error explains"
+                )
         for column, emulator in self.model.emulators.items():
             error = float(np.sqrt(np.mean(emulator.leave_one_out()[0] ** 2)))
             least = min(
@@ -141,8 +146,8 @@ def calibrate_with(
     """
     settings = first_settings(plan)
     while True:
-        numbers = list(make(settings))
-        model = emulate(plan, settings, numbers)
+        reduced, numbers, profiles = reduce_profiles(plan, make(settings))
+        model = emulate(reduced, settings, numbers)
         posterior = find_posterior(model, plan.runs.seed)
         ratio, wanted = _next_runs(model, posterior)
         report(
@@ -155,7 +160,9 @@ def calibrate_with(
             break
         settings += fresh
     found = find_combinations(plan, posterior)
-    return Calibration(plan, model, posterior, tuple(settings), tuple(numbers), ratio, found)
+    return Calibration(
+        reduced, model, posterior, tuple(settings), tuple(numbers), ratio, found, profiles
+    )
 
 
 def first_settings(plan: CalibrationPlan) -> list[Settings]:

@@ -16,11 +16,16 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from lasersph.input import Count, Model
+from lasersph.studies.calibration_target import ProfileTarget
 from lasersph.studies.measured_value import Measured
 from lasersph.sweeps import CaseTemplate, Study
 
 Array = NDArray[np.float64]
 Relation = Literal["key", "scales", "complements"]
+
+
+class NoCalibration(ValueError):
+    """The runs allow no answer; the text says why."""
 
 
 class RunBudget(Model):
@@ -59,10 +64,12 @@ class Unknown:
 
 @dataclass(frozen=True)
 class Condition:
-    """Settings (SI, by key) of one measurement, and what was measured, by number of summaries."""
+    """Settings (SI, by key) of one measurement, and what was measured, by number of summaries
+    or as a profile."""
 
     settings: Mapping[str, float]
     values: Mapping[str, Measured]
+    profile: ProfileTarget | None = None
 
 
 @dataclass(frozen=True)

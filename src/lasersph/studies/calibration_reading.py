@@ -9,6 +9,7 @@
     [[measured]]
     set = { "laser.fluence" = "0.6 J/cm^2" }
     values = { "melt.width_half_max_m" = "2.9 +- 0.1 um" }
+    profile = { file = "line.csv", error = "5 nm", scale_error = "1 %" }    # of a moving surface
     [runs]
     first = 8
     most = 32
@@ -20,12 +21,14 @@ key, such as the absorptivity of laser.reflectivity.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import BaseModel, Field
 
+from lasersph.case.contents import CaseContents
 from lasersph.case.conversion import present_place
 from lasersph.input import (
     CaseError,
@@ -39,6 +42,7 @@ from lasersph.input import (
     read_toml,
 )
 from lasersph.input.findings import steps_of
+from lasersph.output import OutputError
 from lasersph.studies.calibration_plan import (
     CalibrationPlan,
     Condition,
@@ -46,7 +50,9 @@ from lasersph.studies.calibration_plan import (
     RunBudget,
     Unknown,
 )
+from lasersph.studies.calibration_target import ProfileEntry, read_target
 from lasersph.studies.measured_value import kind_of_number, read_measured
+from lasersph.studies.texture.measurement import NoComparison
 from lasersph.sweeps import CaseTemplate
 
 KeyPath = tuple[str | int, ...]
@@ -66,7 +72,8 @@ class MeasuredEntry(Model):
     """What was measured at some settings."""
 
     set: dict[str, Any] = Field(default_factory=dict)
-    values: dict[str, str]
+    values: dict[str, str] = Field(default_factory=dict)
+    profile: ProfileEntry | None = None
 
 
 class PlanEntry(Model):
@@ -109,12 +116,12 @@ class _Reader:
         contents = self.template.file.contents(self.template.overrides({}))
         self._learn_kinds(sets)
         unknowns = tuple(self._unknown(name, one) for name, one in entry.unknown.items())
-        conditions = [self._condition(number, sets[number]) for number in range(len(sets))]
+        conditions = [self._condition(number, one, contents) for number, one in enumerate(sets)]
         self._raise_any()
         self._complete(conditions, unknowns, contents)
         count = sum(len(one.values) for one in conditions)
         loose = [one for one in unknowns if one.known is None]
-        if count < len(loose):
+        if count < len(loose) and all(one.profile is None for one in conditions):
             self._add(
                 ("unknown",),
                 f"{len(loose)} unknowns need at least as many measured values, not {count}",
@@ -133,6 +140,8 @@ class _Reader:
             key: f"{value!r} {self.template.unit(key)}".strip() for key, value in same.items()
         }
         fixed = CaseTemplate(self.case, {**self.template.settings, **shared})
+        for _, values in self._trials(sets):
+            fixed.learn_kinds(values)
         units = {key: self.template.unit(key) for key in (*every, *touched) if key not in same}
         plan = CalibrationPlan(
             self.document.text, fixed, unknowns, tuple(conditions), dict(units), entry.runs
@@ -183,7 +192,7 @@ class _Reader:
                 if named[0] in self.template.settings:
                     self._add(path, f"{named[0]} is given in [set] as well", "remove one")
         for number, settings in enumerate(sets):
-            if not self.entry.measured[number].values:
+            if not self.entry.measured[number].values and not self.entry.measured[number].profile:
                 self._add(
                     ("measured", number),
                     "nothing is measured here",
@@ -203,8 +212,8 @@ class _Reader:
                     "remove one",
                 )
 
-    def _learn_kinds(self, sets: list[dict[str, Any]]) -> None:
-        """Which quantity each key reads; a key or value that the case refuses is said here."""
+    def _trials(self, sets: list[dict[str, Any]]) -> list[tuple[KeyPath, dict[str, Any]]]:
+        """A value of each key that the plan gives, and where."""
         trials: list[tuple[KeyPath, dict[str, Any]]] = [
             (("measured", number, "set", key), {key: value})
             for number, settings in enumerate(sets)
@@ -216,7 +225,11 @@ class _Reader:
                 if key == one.complements:
                     value = 1.0 - value if isinstance(value, float) else value
                 trials.append((("unknown", name), {str(key): value}))
-        for path, values in trials:
+        return trials
+
+    def _learn_kinds(self, sets: list[dict[str, Any]]) -> None:
+        """Which quantity each key reads; a key or value that the case refuses is said here."""
+        for path, values in self._trials(sets):
             try:
                 self.template.learn_kinds(values)
             except CaseError as error:
@@ -251,7 +264,9 @@ class _Reader:
             raise QuantityError(f"{value} has no unit; write between as text with units")
         return float(value)
 
-    def _condition(self, number: int, settings: dict[str, Any]) -> Condition:
+    def _condition(
+        self, number: int, settings: dict[str, Any], contents: CaseContents
+    ) -> Condition:
         values, read = {}, {}
         for key, value in settings.items():
             si = self.template.to_si(key, value)
@@ -266,7 +281,13 @@ class _Reader:
                 values[column] = read_measured(text, kind_of_number(column))
             except QuantityError as error:
                 self._add(("measured", number, "values", column), str(error))
-        return Condition(read, values)
+        profile, target = self.entry.measured[number].profile, None
+        if profile is not None:
+            try:
+                target = read_target(profile, Path(self.document.file).parent, contents)
+            except (NoComparison, OutputError) as error:
+                self._add(("measured", number, "profile"), str(error))
+        return Condition(read, values, target)
 
     def _complete(
         self, conditions: list[Condition], unknowns: tuple[Unknown, ...], contents: BaseModel
@@ -283,7 +304,7 @@ class _Reader:
                     path = ("unknown", scaled[key]) if key in scaled else ("measured", number)
                     self._add(path, f"the case gives no number at {key}", "set it in [[measured]]")
             known = {key: value for key, value in nominal.items() if value is not None}
-            conditions[number] = Condition({**known, **one.settings}, one.values)
+            conditions[number] = replace(one, settings={**known, **one.settings})
 
     def _check_box(self, plan: CalibrationPlan) -> None:
         """Refuse bounds that lead out of what the case takes."""

@@ -4,13 +4,12 @@ runs/, table.csv, points.json, plan.toml, sweep.jsonl    as of every sweep
 calibration.json    the unknowns with their bands, what fits how well, warnings, the check
 posterior.csv       points of the posterior with their weights
 best.toml           the case with the most probable unknowns, at the first measurement's settings
+profile-1.csv       a measured profile, aligned, and the most probable one
 calibration.png     data over bands of the model; the posterior
 """
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -21,18 +20,27 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.case.overrides import override
-from lasersph.input.schema import as_toml
-from lasersph.output import OutputError
+from lasersph.output import OutputError, open_run
 from lasersph.output.atomic import replace_json, replace_text
 from lasersph.output.errors import install_hint
 from lasersph.simulation.time_loop import Stopped
 from lasersph.studies.calibration import Calibration, Numbers, Settings, calibrate_with
+from lasersph.studies.calibration_answer import (
+    PROFILE,
+    answer,
+    best_case_text,
+    best_settings,
+    computed_profile,
+    posterior_text,
+    profile_text,
+)
 from lasersph.studies.calibration_plan import CalibrationPlan
+from lasersph.studies.calibration_profile import height_numbers, heights_of
 from lasersph.studies.calibration_reading import read_calibration_plan
-from lasersph.studies.measured_value import unit_of_number
 from lasersph.studies.posterior import GRID
 from lasersph.sweeps import Engine, Event, LocalEngine, Point, Study, Table, make_runs
+from lasersph.sweeps.folder import RUNS
+from lasersph.sweeps.table import Row
 
 ANSWER, POINTS, BEST, FIGURE = (
     "calibration.json",
@@ -40,12 +48,6 @@ ANSWER, POINTS, BEST, FIGURE = (
     "best.toml",
     "calibration.png",
 )
-SCHEMA = 1
-SHARES = {"low_68": 0.16, "high_68": 0.84, "low_95": 0.025, "high_95": 0.975}
-LEAST_WEIGHT = 1e-6
-"""Part of the largest weight below which a point is not written."""
-MOST_POINTS = 4000
-"""Points of a chain that are written, evenly taken."""
 
 
 def calibrate(
@@ -93,6 +95,8 @@ def calibrate(
     replace_json(path / ANSWER, content)
     replace_text(path / POINTS, posterior_text(found))
     replace_text(path / BEST, best_case_text(found))
+    for fit in found.profiles:
+        replace_text(path / PROFILE.format(fit.number), profile_text(found, fit))
     return content
 
 
@@ -109,9 +113,19 @@ class _Runs:
     def make(self, settings: Sequence[Settings]) -> list[Numbers | None]:
         """Numbers of the runs with these settings, None of those that fail."""
         points = [self.plan.template.point(dict(one)) for one in settings]
-        return [
-            row.numbers if row.status == "complete" else None for row in self.table(points).rows
-        ]
+        return [self.numbers(row) for row in self.table(points).rows]
+
+    def numbers(self, row: Row) -> Numbers | None:
+        """Numbers of the run of a row, with its heights where profiles are measured."""
+        if row.status != "complete":
+            return None
+        profile = next((one.profile for one in self.plan.conditions if one.profile), None)
+        if profile is None:
+            return row.numbers
+        return {
+            **row.numbers,
+            **height_numbers(open_run(self.path / RUNS / row.run), profile.period),
+        }
 
     def table(self, points: Sequence[Point]) -> Table:
         """The table of these points, all runs made. Raises Stopped."""
@@ -148,105 +162,11 @@ def make_or_stop(
     return table
 
 
-def answer(found: Calibration) -> dict[str, Any]:
-    """Content of calibration.json but for the check."""
-    plan, posterior, model = found.plan, found.posterior, found.model
-    mean, covariance = posterior.mean, posterior.covariance
-    unknowns = {}
-    for number, one in enumerate(plan.unknowns):
-        quantiles = posterior.quantiles(posterior.unknowns[:, number], list(SHARES.values()))
-        known = None if one.known is None else [one.known.value, one.known.sd]
-        unknowns[one.name] = {
-            "key": one.key,
-            "relation": one.relation,
-            "unit": one.unit,
-            "mean": float(mean[number]),
-            "sd": float(np.sqrt(covariance[number, number])),
-            **{name: float(value) for name, value in zip(SHARES, quantiles, strict=True)},
-            "most_probable": float(posterior.most_probable[number]),
-            "between": [one.low, one.high],
-            "known": known,
-            "emulators_share_of_variance": float(posterior.emulators_share[number]),
-            "is_fixed_by_data": one.name not in found.loose(),
-        }
-    total, freedom, probability = found.chi_squared
-    computed, sd = model.predict(posterior.most_probable)
-    value, error = model.measured
-    data = [
-        {
-            "measurement": place + 1,
-            "settings": dict(plan.conditions[place].settings),
-            "number": column,
-            "unit": unit_of_number(column),
-            "measured": float(value[number]),
-            "standard_error": float(error[number]),
-            "computed": float(computed[0, number]),
-            "emulator_sd": float(sd[0, number]),
-            "numerical_sd": float(model.numerical_sd[number]),
-            "pull": float(found.pulls[number]),
-        }
-        for number, (place, column) in enumerate(model.data)
-    ]
-    emulators = {
-        column: {
-            "runs": int(one.outputs.size),
-            "leave_one_out_rms": float(np.sqrt(np.mean(one.leave_one_out()[0] ** 2))),
-        }
-        for column, one in model.emulators.items()
-    }
-    combinations = [
-        {"unknowns": list(one.unknowns), "known": one.words, "mean": one.value, "sd": one.sd}
-        for one in found.combinations
-        if one.words
-    ]
-    return {
-        "schema_version": SCHEMA,
-        "case": Path(plan.template.file.document.file).stem,
-        "units": dict(plan.units),
-        "unknowns": unknowns,
-        "covariance": covariance.tolist(),
-        "combinations": combinations,
-        "chi_squared": {"value": total, "degrees_of_freedom": freedom, "probability": probability},
-        "data": data,
-        "emulators": emulators,
-        "largest_emulator_ratio": found.ratio,
-        "runs": len(found.settings),
-        "failed_runs": sum(one is None for one in found.numbers),
-        "warnings": found.warnings(),
-    }
-
-
-def answer_lines(content: dict[str, Any]) -> list[str]:
-    """The answer in lines for a terminal."""
-    lines = []
-    for name, one in content["unknowns"].items():
-        if not one["is_fixed_by_data"]:
-            continue
-        unit = f" {one['unit']}" if one["unit"] else ""
-        lines.append(
-            f"{name} = {one['mean']:.5g} +- {one['sd']:.2g}{unit} (95 %: {one['low_95']:.5g} to "
-            f"{one['high_95']:.5g}{unit}); {100.0 * one['emulators_share_of_variance']:.2g} % of "
-            "the variance is the emulator's"
-        )
-    fit = content["chi_squared"]
-    lines.append(
-        f"chi^2 = {fit['value']:.3g} with {fit['degrees_of_freedom']} degrees of freedom (p = "
-        f"{fit['probability']:.2g}), {content['runs']} runs"
-    )
-    lines += [f"warning: {text}" for text in content["warnings"]]
-    for one in content.get("check", {}).get("numbers", []):
-        text = f"check: {one['number']} {one['run']:.5g}, emulated {one['emulated']:.5g}"
-        if one["shift_at_half_spacing"] is not None:
-            text += f"; half the spacing shifts it by {one['shift_at_half_spacing']:.2g}"
-        lines.append(f"{text} ({one['standard_error']:.2g} measured)")
-    return lines
-
-
 def _check(found: Calibration, runs: _Runs) -> dict[str, Any]:
     """Runs of the most probable unknowns, with the spacing of the case and half of it."""
     plan, model = found.plan, found.model
     condition = plan.conditions[0]
-    best = _best_settings(found)
+    best = best_settings(found)
     first = plan.template.point(dict(best))
     if first.case is None:
         return {"numbers": [], "failed": first.reason}
@@ -268,49 +188,23 @@ def _check(found: Calibration, runs: _Runs) -> dict[str, Any]:
                     "standard_error": condition.values[column].sd,
                 }
             )
+    for fit in found.profiles:
+        rows = [runs.numbers(row) for row in (coarse, fine)]
+        if fit.number == 1 and None not in rows:
+            first_rms, fine_rms = (fit.difference(fit.at(heights_of(one))) for one in rows)
+            numbers.append(
+                {
+                    "number": "profile_1.difference_rms_m",
+                    "run": first_rms,
+                    "emulated": fit.difference(computed_profile(found, fit)),
+                    "shift_at_half_spacing": fine_rms - first_rms,
+                    "standard_error": condition.profile.error if condition.profile else 0.0,
+                }
+            )
     failed = "; ".join(
         row.reason or row.status for row in (coarse, fine) if row.status != "complete"
     )
     return {"runs": [coarse.run, fine.run], "numbers": numbers, "failed": failed}
-
-
-def _best_settings(found: Calibration) -> Settings:
-    """Keys of the first measurement with the most probable unknowns."""
-    plan = found.plan
-    inputs = plan.inputs(found.posterior.most_probable[None, :], plan.conditions[0])[0]
-    return {key: float(f"{value:.12g}") for key, value in zip(plan.keys, inputs, strict=True)}
-
-
-def posterior_text(found: Calibration) -> str:
-    """Points of the posterior as CSV: the unknowns in SI and the weight."""
-    posterior = found.posterior
-    keep = np.flatnonzero(posterior.weights > LEAST_WEIGHT * posterior.weights.max())
-    if len(found.plan.unknowns) not in GRID:
-        keep = keep[:: max(1, len(keep) // MOST_POINTS)]
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*(one.name for one in found.plan.unknowns), "weight"])
-    for point, weight in zip(posterior.unknowns[keep], posterior.weights[keep], strict=True):
-        writer.writerow([repr(float(value)) for value in (*point, weight)])
-    return text.getvalue()
-
-
-def best_case_text(found: Calibration) -> str:
-    """The case with the most probable unknowns, as a case file."""
-    plan = found.plan
-    document = plan.template.file.document
-    data = override(document, plan.template.overrides(dict(_best_settings(found)))).data
-    material = data.get("material")
-    if isinstance(material, str) and material.endswith(".toml"):
-        data["material"] = str((Path(document.file).parent / material).absolute())
-    values = zip(plan.unknowns, found.posterior.most_probable, strict=True)
-    told = ", ".join(f"{one.name} = {value:.6g} {one.unit}".rstrip() for one, value in values)
-    lines = [f"# The most probable unknowns at the settings of the first measurement: {told}"]
-    tables = {name: value for name, value in data.items() if isinstance(value, dict)}
-    lines += [f"{name} = {as_toml(value)}" for name, value in data.items() if name not in tables]
-    for name, table in tables.items():
-        lines += ["", f"[{name}]", *(f"{key} = {as_toml(value)}" for key, value in table.items())]
-    return "\n".join(lines) + "\n"
 
 
 def read_answer(folder: str | PathLike[str]) -> tuple[dict[str, Any], np.ndarray]:
@@ -326,6 +220,12 @@ def read_answer(folder: str | PathLike[str]) -> tuple[dict[str, Any], np.ndarray
     except (OSError, ValueError) as error:
         raise OutputError(f"{folder} holds no finished calibration: {error}") from None
     return content, points
+
+
+def read_profiles(folder: str | PathLike[str], content: dict[str, Any]) -> list[np.ndarray]:
+    """Columns x, y, measured, computed (n, 4) [m] of each profile of an answer."""
+    files = [Path(folder) / one["line"] for one in content["profiles"]]
+    return [np.loadtxt(file, delimiter=",", skiprows=1, ndmin=2) for file in files]
 
 
 def _refuse_missing_libraries(plan: CalibrationPlan) -> None:

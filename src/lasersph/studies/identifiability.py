@@ -8,6 +8,7 @@ the combination across it is known.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -72,6 +73,26 @@ def find_combinations(plan: CalibrationPlan, posterior: Posterior) -> list[Combi
             continue
         found.append(_combination(names, involved, covariance, points, curved, posterior))
     return found
+
+
+def told_apart(
+    plan: CalibrationPlan, posterior: Posterior, combinations: Sequence[Combination]
+) -> str:
+    """Which unknowns the data fix one by one, how well, and which they confuse most; a sentence."""
+    loose = {name for one in combinations for name in one.unknowns}
+    names = [one.name for one in plan.unknowns]
+    fixed = [number for number, name in enumerate(names) if name not in loose]
+    if not fixed:
+        return f"the data fix none of {', '.join(names)} by itself"
+    sd, mean = np.sqrt(np.diag(posterior.covariance)), posterior.mean
+    told = [f"{names[k]} to {100.0 * sd[k] / abs(mean[k]):.2g} %" for k in fixed]
+    text = f"the data tell {' and '.join(told)}"
+    if len(fixed) == 1:
+        return text
+    correlation = np.tril(posterior.covariance / np.outer(sd, sd), -1)[np.ix_(fixed, fixed)]
+    a, b = np.unravel_index(int(np.argmax(np.abs(correlation))), correlation.shape)
+    pair = f"{names[fixed[b]]} and {names[fixed[a]]}"
+    return f"{text} apart; most alike are {pair}, with a correlation of {correlation[a, b]:.2f}"
 
 
 def _combination(

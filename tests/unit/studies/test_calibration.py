@@ -8,8 +8,8 @@ import pytest
 
 from lasersph.studies import posterior
 from lasersph.studies.calibration import NoCalibration, calibrate_with, emulate
+from lasersph.studies.calibration_answer import answer, best_case_text, posterior_text
 from lasersph.studies.calibration_reading import read_calibration_plan
-from lasersph.studies.calibration_run import answer, best_case_text, posterior_text
 from lasersph.studies.posterior import Model, find_posterior
 
 HIDDEN = 1.0947

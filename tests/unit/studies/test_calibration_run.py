@@ -11,6 +11,7 @@ from lasersph.cli import main
 from lasersph.output import FolderRefused
 from lasersph.simulation.time_loop import Stopped
 from lasersph.studies import calibration_run, read_calibration_plan
+from lasersph.studies.calibration_answer import answer_lines
 from lasersph.sweeps import Event
 
 PLAN = """case = "dlip-steel"
@@ -87,7 +88,7 @@ def test_answer_in_a_folder(plan, tmp_path):
     content, points = calibration_run.read_answer(out)
     assert content["unknowns"].keys() == {"factor"}
     assert np.sum(points[:, 0] * points[:, 1]) == pytest.approx(factor["mean"], rel=1e-3)
-    assert any("factor = 1." in line for line in calibration_run.answer_lines(found))
+    assert any("factor = 1." in line for line in answer_lines(found))
 
 
 @pytest.mark.parametrize("stop_after", [2, 4, 5])

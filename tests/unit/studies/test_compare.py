@@ -10,7 +10,10 @@ from lasersph.cli import main
 from lasersph.output.height_map import HeightMap
 from lasersph.output.image_file import Maps
 from lasersph.studies.texture import compare as comparing
-from lasersph.studies.texture.compare import NoComparison, Relief, compare
+from lasersph.studies.texture import relief
+from lasersph.studies.texture.compare import compare
+from lasersph.studies.texture.measurement import NoComparison
+from lasersph.studies.texture.relief import Relief, read_relief
 
 NM, UM = 1e-9, 1e-6
 
@@ -93,7 +96,7 @@ def test_refused(ours, surface, message):
 
 def test_command(ours, tmp_path, capsys, monkeypatch):
     """Numbers, aligned heights, a figure, a page; a wrong file is one line and writes nothing."""
-    monkeypatch.setattr(comparing, "read_relief", lambda folder: ours)
+    monkeypatch.setattr(relief, "read_relief", lambda folder: ours)
     measured = measurement(ours, 0.95, 5).write(tmp_path / "line.x3p")
     assert main(["compare", str(tmp_path), str(measured)]) == 0
     assert "factor on the local fluence" in capsys.readouterr().out
@@ -123,7 +126,7 @@ def test_texture_read_back(tmp_path):
     content = {"period_m": PERIOD, "pulses": 1, "cells": cells}
     content["interpolation_error"] = {"height": {"rms": 1e-10}}
     replace_json(tmp_path / "texture.json", content)
-    found = comparing.read_relief(tmp_path)
+    found = read_relief(tmp_path)
     places = np.array([0.0, 1e-6, 7e-6])
     expected = one.at("height", 0.8 * spot().at(places), places)
     assert found.at(places, 0.0 * places, 0.8) == pytest.approx(expected, abs=0.3 * NM)

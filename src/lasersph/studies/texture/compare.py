@@ -17,102 +17,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.output import OutputError, open_run
 from lasersph.output.height_map import HeightMap
-from lasersph.output.image_file import read_maps
-from lasersph.output.reader import read_json
-from lasersph.studies.texture.cells import read_cell
-from lasersph.studies.texture.table import CellTable
+from lasersph.studies.texture.measurement import (
+    NoComparison,
+    correlation_length,
+    point_noise,
+    points_of,
+    refuse_odd,
+)
+from lasersph.studies.texture.relief import Relief
 
 Array = NDArray[np.float64]
 SCALE_ERROR = 0.03
 """Standard deviation of the lateral scale of microscopes before they are calibrated, beforehand."""
-MOST_POINTS = 40_000
-"""Of a measured map that are compared; of finer ones every n-th in both directions."""
-FEWEST_POINTS = 8
-"""Of a measurement in a period: fewer do not show its shape."""
 STARTS, STARTS_A_PERIOD = 3, 12
 """Minima that are followed, and places of a period among which they are looked for."""
 LOWEST_FACTOR = 0.3
 NORMAL_95 = 1.959964
 """Half width of the 95 % interval of a normal distribution in standard deviations."""
-
-
-class NoComparison(ValueError):
-    """The two cannot be compared; the text says why, in one line."""
-
-
-@dataclass(frozen=True, eq=False)
-class Relief:
-    """Our relief, of a texture or of a cell that repeats.
-
-    Attributes:
-        name: of the folder. table: cells. x, y: of the fluence of a texture (nx,), (ny,) [m].
-        fluence: (ny, nx) [J/m^2]; of a cell that repeats one value.
-        error: of the interpolation, rms [m]; 0 of a cell.
-    """
-
-    name: str
-    table: CellTable
-    x: Array
-    y: Array
-    fluence: Array
-    error: float = 0.0
-
-    @property
-    def is_spot(self) -> bool:
-        """Whether it is that of a spot, whose fluence changes."""
-        return self.fluence.size > 1
-
-    @property
-    def largest_factor(self) -> float:
-        """Largest factor on the fluence that the cells cover."""
-        return float(self.table.fluence[-1] / self.fluence.max()) if self.is_spot else 1.0
-
-    def at(self, x: Array, y: Array, factor: float) -> Array:
-        """Heights at places (n,) [m] with a factor on the fluence."""
-        if not self.is_spot:
-            return self.table.at("height", np.full(x.shape, self.fluence.item()), x)
-        from scipy.ndimage import map_coordinates
-
-        steps = [(side[-1] - side[0]) / (side.size - 1) for side in (self.y, self.x)]
-        places = [(y - self.y[0]) / steps[0], (x - self.x[0]) / steps[1]]
-        local = factor * map_coordinates(self.fluence, places, order=1, mode="constant")
-        return self.table.at("height", np.minimum(local, self.table.fluence[-1]), x)
-
-
-def read_relief(folder: Path) -> Relief:
-    """Our relief in the folder of a texture, or of a run of one period.
-
-    Raises:
-        OutputError: it holds neither.
-    """
-    if (folder / "texture.json").exists():
-        content, maps = read_json(folder / "texture.json"), read_maps(folder / "maps.vtkhdf")
-        if content["pulses"] > 1:
-            raise OutputError(f"{folder} has pulses that are moved: compare one spot")
-        cells = content["cells"]
-        fluence, x = np.array(cells["fluence_J_m2"]), np.array(cells["x_m"])
-        values = {"height": np.array(cells["height_m"])}
-        table = CellTable(fluence, x, content["period_m"], values, 0.0)
-        error = content["interpolation_error"]["height"]["rms"]
-        return Relief(folder.name, table, maps.x, maps.y, maps.fields["fluence"], error)
-    run = open_run(folder)
-    if not run.is_complete:
-        raise OutputError(f"{folder} is not complete")
-    period = (run.case.get("laser") or {}).get("beam", {}).get("period")
-    if period is None:
-        raise OutputError(f"{folder} has no pattern with a period, and is no texture")
-    cell = read_cell(run, period)
-    values = {"height": np.tile(cell.values["height"], (3, 1))}  # the same at any fluence
-    table = CellTable(np.array([0.5, 1.0, 2.0]), cell.x, period, values, 0.0)
-    return Relief(folder.name, table, np.zeros(1), np.zeros(1), np.ones((1, 1)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,8 +78,11 @@ class Comparison:
         return value - half, value + half
 
 
-def compare(relief: Relief, surface: HeightMap) -> Comparison:
+def compare(relief: Relief, surface: HeightMap, scale_error: float = SCALE_ERROR) -> Comparison:
     """Align a measured profile or map with our relief.
+
+    Args:
+        scale_error: standard deviation of the lateral scale beforehand.
 
     Raises:
         NoComparison: it is shorter than a period, too coarse for one, too flat to align, or its
@@ -160,9 +90,9 @@ def compare(relief: Relief, surface: HeightMap) -> Comparison:
     """
     from scipy.optimize import least_squares
 
-    x, y, z = _points(surface)
+    x, y, z = points_of(surface)
     period = relief.table.period
-    _refuse_odd(surface, relief)
+    refuse_odd(surface, period)
     columns = [np.ones_like(x), x - x.mean()] + ([y - y.mean()] if np.ptp(y) > 0.0 else [])
     basis = np.linalg.qr(np.stack(columns, axis=1))[0]
     low, high = LOWEST_FACTOR, relief.largest_factor
@@ -184,7 +114,7 @@ def compare(relief: Relief, surface: HeightMap) -> Comparison:
         left = z - heights(unknowns)
         left = (left - basis @ (basis.T @ left)) / noise
         scale = unknowns[names.index("lateral_scale")]
-        return np.append(left, (scale - 1.0) / SCALE_ERROR)
+        return np.append(left, (scale - 1.0) / scale_error)
 
     start = _start(relief, x, y, z, basis, names)
     bounds = {"lateral_scale": (0.8, 1.25), "fluence_factor": (low, high * (1.0 + 1e-12))}
@@ -206,7 +136,7 @@ def compare(relief: Relief, surface: HeightMap) -> Comparison:
     jacobian = noise * best.jac[:-1]
     precision = jacobian.T @ jacobian / (variance * tau)
     place = names.index("lateral_scale")
-    precision[place, place] += 1.0 / SCALE_ERROR**2
+    precision[place, place] += 1.0 / scale_error**2
     covariance = np.linalg.pinv(precision, hermitian=True)
     units = [period if name.startswith("shift") else 1.0 for name in names]
     errors = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * units
@@ -236,82 +166,6 @@ def compare(relief: Relief, surface: HeightMap) -> Comparison:
         (factor, float(np.sqrt(variance * tau / (flat @ flat)))),
         relief.error,
     )
-
-
-def correlation_length(residual: Array, surface: HeightMap) -> float:
-    """tau of residuals along x, in points; 1 where they are independent."""
-    length = surface.z.shape[1] if residual.size == surface.z.size else residual.size
-    rows = residual[: residual.size // length * length].reshape(-1, length)
-    variance = float(np.mean(rows**2)) or 1.0
-    tau = 1.0
-    for lag in range(1, length // 4):
-        rho = float(np.mean(rows[:, lag:] * rows[:, :-lag])) / variance
-        # of independent residuals rho scatters by 1/sqrt(n): smaller ones tell nothing
-        if rho < 2.0 / np.sqrt(residual.size):
-            break
-        tau += 2.0 * rho
-    return tau
-
-
-def point_noise(z: Array) -> float:
-    """Noise from point to point along x [m], from second differences: rms / sqrt 6."""
-    bend = np.diff(z, 2, axis=1)
-    return float(np.sqrt(np.nanmean(bend**2) / 6.0))
-
-
-def _points(surface: HeightMap) -> tuple[Array, Array, Array]:
-    thin = max(1, int(np.ceil(np.sqrt(surface.z.size / MOST_POINTS))))
-    thin_y = thin if surface.y.size > 1 else 1
-    x, y = np.meshgrid(surface.x[::thin], surface.y[::thin_y])
-    z = surface.z[::thin_y, ::thin]
-    known = np.isfinite(z)
-    x, y, z = x[known], y[known], z[known]
-    return x - x.mean(), y - y.mean(), z - z.mean()
-
-
-def _refuse_odd(surface: HeightMap, relief: Relief) -> None:
-    period, width = relief.table.period, float(np.ptp(surface.x))
-    if width < period:
-        raise NoComparison(
-            f"the measurement is {1e6 * width:.4g} um long, shorter than a period of "
-            f"{1e6 * period:.4g} um: is its unit right?"
-        )
-    if surface.steps[0] > period / FEWEST_POINTS:
-        raise NoComparison(
-            f"points {1e6 * surface.steps[0]:.4g} um apart do not show a period of "
-            f"{1e6 * period:.4g} um: measure {FEWEST_POINTS} or more a period"
-        )
-    rough = float(np.nanmax(surface.z) - np.nanmin(surface.z))
-    if rough > width:
-        raise NoComparison(
-            f"heights differ by {1e6 * rough:.4g} um over a width of {1e6 * width:.4g} um: is the "
-            "unit of the heights right?"
-        )
-    z = surface.z - np.nanmean(surface.z)
-    if not np.nanmax(np.abs(z)) > 0.0:
-        raise NoComparison("all measured heights are the same")
-    measured = dominant_period(surface)
-    if measured is not None and abs(measured / period - 1.0) > 0.2:
-        raise NoComparison(
-            f"the measured period of {1e6 * measured:.4g} um does not fit ours of "
-            f"{1e6 * period:.4g} um"
-        )
-
-
-def dominant_period(surface: HeightMap) -> float | None:
-    """Period of the strongest wave along x, of the mean over y [m]; None where none stands out from
-    the others by five times, or where fewer than three lie in the measurement."""
-    line = np.nanmean(surface.z, axis=0)
-    x = surface.x - surface.x.mean()
-    line = np.where(np.isfinite(line), line, 0.0)
-    line = (line - np.polyval(np.polyfit(x, line, 1), x)) * np.hanning(x.size)
-    count = 8 * x.size
-    power = np.abs(np.fft.rfft(line, count)) ** 2
-    lowest = int(np.ceil(3.0 * count / x.size))
-    strongest = lowest + int(np.argmax(power[lowest:]))
-    if strongest <= lowest or power[strongest] < 5.0 * np.mean(power[lowest:]) * 4.0:
-        return None
-    return float(count * surface.steps[0] / strongest)
 
 
 def _start(

@@ -1,0 +1,90 @@
+"""Our relief beside which a measurement is put: that of a texture, or of a cell that repeats."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.output import OutputError, open_run
+from lasersph.output.image_file import read_maps
+from lasersph.output.reader import read_json
+from lasersph.studies.texture.cells import read_cell
+from lasersph.studies.texture.table import CellTable
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Relief:
+    """Our relief, of a texture or of a cell that repeats.
+
+    Attributes:
+        name: of the folder. table: cells. x, y: of the fluence of a texture (nx,), (ny,) [m].
+        fluence: (ny, nx) [J/m^2]; of a cell that repeats one value.
+        error: of the interpolation, rms [m]; 0 of a cell.
+    """
+
+    name: str
+    table: CellTable
+    x: Array
+    y: Array
+    fluence: Array
+    error: float = 0.0
+
+    @property
+    def is_spot(self) -> bool:
+        """Whether it is that of a spot, whose fluence changes."""
+        return self.fluence.size > 1
+
+    @property
+    def largest_factor(self) -> float:
+        """Largest factor on the fluence that the cells cover."""
+        return float(self.table.fluence[-1] / self.fluence.max()) if self.is_spot else 1.0
+
+    def at(self, x: Array, y: Array, factor: float) -> Array:
+        """Heights at places (n,) [m] with a factor on the fluence."""
+        if not self.is_spot:
+            height = self.table.values["height"][0]
+            return np.interp(x, self.table.x, height, period=self.table.period)
+        from scipy.ndimage import map_coordinates
+
+        steps = [(side[-1] - side[0]) / (side.size - 1) for side in (self.y, self.x)]
+        places = [(y - self.y[0]) / steps[0], (x - self.x[0]) / steps[1]]
+        local = factor * map_coordinates(self.fluence, places, order=1, mode="constant")
+        return self.table.at("height", np.minimum(local, self.table.fluence[-1]), x)
+
+
+def read_relief(folder: Path) -> Relief:
+    """Our relief in the folder of a texture, or of a run of one period.
+
+    Raises:
+        OutputError: it holds neither.
+    """
+    if (folder / "texture.json").exists():
+        content, maps = read_json(folder / "texture.json"), read_maps(folder / "maps.vtkhdf")
+        if content["pulses"] > 1:
+            raise OutputError(f"{folder} has pulses that are moved: compare one spot")
+        cells = content["cells"]
+        fluence, x = np.array(cells["fluence_J_m2"]), np.array(cells["x_m"])
+        values = {"height": np.array(cells["height_m"])}
+        table = CellTable(fluence, x, content["period_m"], values, 0.0)
+        error = content["interpolation_error"]["height"]["rms"]
+        return Relief(folder.name, table, maps.x, maps.y, maps.fields["fluence"], error)
+    run = open_run(folder)
+    if not run.is_complete:
+        raise OutputError(f"{folder} is not complete")
+    period = (run.case.get("laser") or {}).get("beam", {}).get("period")
+    if period is None:
+        raise OutputError(f"{folder} has no pattern with a period, and is no texture")
+    cell = read_cell(run, period)
+    return repeating_relief(folder.name, cell.x, cell.values["height"], period)
+
+
+def repeating_relief(name: str, x: Array, height: Array, period: float) -> Relief:
+    """The relief of heights (columns,) at places (columns,) of a period that repeats [m]."""
+    values = {"height": np.tile(height, (3, 1))}  # the same at any fluence
+    table = CellTable(np.array([0.5, 1.0, 2.0]), x, period, values, 0.0)
+    return Relief(name, table, np.zeros(1), np.zeros(1), np.ones((1, 1)))
