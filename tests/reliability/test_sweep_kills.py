@@ -6,9 +6,10 @@ import signal
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from reliability_runs import LONGEST_WAIT, wait_until
-from sweep_runs import SETTINGS, children, contents, is_alive
+from sweep_runs import SETTINGS, children, contents, is_alive, plan_text
 
 from lasersph.sweeps import LocalEngine, Table, build_plan, make_runs
 from lasersph.sweeps.local import _Pool
@@ -145,22 +146,56 @@ def test_killed_driver_leaves_nobody(undisturbed, tmp_path):
     assert contents(folder, table) == contents(*undisturbed)
 
 
-def test_studies_are_made_by_workers(tmp_path, capfd):
-    """Several runs at a time give what one after the other gives, and are found when their turn
-    comes."""
+def study(*words, but=()):
+    """Answer of `lasersph` with these words and the settings of a run of a second."""
     from lasersph.cli import main
 
-    command = ["converge", "dlip-steel", "--spacing", "200nm,150nm,100nm", "--threads", "1"]
-    for key, value in {**SETTINGS, "time.end": "50 ns"}.items():
-        if key != "particles.spacing":
-            command += ["--set", f"{key}={value}"]
+    settings = {**SETTINGS, "time.end": "50 ns"}
+    given = [f"--set={key}={value}" for key, value in settings.items() if key not in but]
+    assert main([*map(str, words), *given, "--threads", "1"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("verb", "options", "workers", "made"),
+    [
+        ("converge", ["--spacing", "200nm,150nm,100nm"], 2, "spacing-150nm: complete"),
+        ("threshold", ["--of", "melt", "--tolerance", "0.2"], 3, "fluence-4500: complete"),
+    ],
+)
+def test_studies_are_made_by_workers(tmp_path, capfd, verb, options, workers, made):
+    """Several runs at a time give what one after the other gives, and are found when their turn
+    comes."""
     answers = []
-    for workers in ("1", "2"):
-        folder, answer = tmp_path / workers, tmp_path / f"{workers}.json"
-        out = ["--out", str(folder), "--json", str(answer), "--workers", workers]
-        assert main([*command, *out]) == 0
+    for count in (1, workers):
+        folder, answer = tmp_path / str(count), tmp_path / f"{count}.json"
+        out = ["--out", folder, "--json", answer, "--workers", count]
+        study(verb, "dlip-steel", *options, *out, but=("particles.spacing",) * (verb == "converge"))
         answers.append(json.loads(answer.read_text()))
-        logs = [file.read_text().count("finished") for file in folder.glob("*/run.log")]
-        assert logs == [1, 1, 1]
+        assert {log.read_text().count("finished") for log in folder.glob("*/run.log")} == {1}
     assert answers[0] == answers[1]
-    assert "spacing-150nm: complete" in capfd.readouterr().err
+    assert made in capfd.readouterr().err
+
+
+def test_found_by_real_runs(tmp_path, capfd):
+    """Two workers make the runs of `find`; the same command finds them, and the same answer."""
+    from lasersph.cli import main
+
+    plan, out = tmp_path / "plan.toml", tmp_path / "out"
+    vary = (
+        '"laser.fluence" = { from = "0.2 J/cm^2", to = "0.4 J/cm^2" }\n[runs]\nfirst = 3\nmost = 4'
+    )
+    wish = 'want = ["temperature_max_K = 1800 +- 20 K"]\n'
+    plan.write_text(wish + plan_text([]).partition("[vary]")[0] + "[vary]\n" + vary)
+    command = ["find", str(plan), "--out", str(out), "--workers", "2", "--threads", "1"]
+    answers = []
+    for _ in range(2):
+        assert main(command) == 0
+        answers.append(capfd.readouterr().out)
+    assert answers[0] == answers[1]
+    best = float(answers[0].splitlines()[2].split()[2])
+    # hand: the rise of temperature is in proportion to the fluence but for the heat of melting
+    table = Table.read(out)
+    fluence, hottest = table.values("laser.fluence"), table.values("temperature_max_K")
+    order = np.argsort(hottest)
+    assert best == pytest.approx(np.interp(1800.0, hottest[order], fluence[order]), rel=0.02)
+    assert [event for _, event in events_of(out)].count("started") == len(table.rows)

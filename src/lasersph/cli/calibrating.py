@@ -12,11 +12,12 @@ import typer
 from lasersph.cli.arguments import Out
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
-from lasersph.cli.sweeping import DryRun
+from lasersph.cli.sweeping import DryRun, forecast_rows, tell_refused
 from lasersph.cli.tables import aligned
 
 if TYPE_CHECKING:
     from lasersph.studies.calibration_plan import CalibrationPlan
+    from lasersph.studies.find_runs import FindPlan
 
 PlanName = Annotated[
     Path,
@@ -61,7 +62,7 @@ def calibrate(
 
     loaded = read_calibration_plan(plan)
     if dry_run:
-        print(aligned(_forecast(loaded)))
+        _forecast_calibration(loaded, engine)
         return
     folder = out or Path("runs") / plan.stem
     chosen = engine.engine()
@@ -82,7 +83,12 @@ def calibrate(
 
 @takes_engine
 def find(
-    place: Place, engine: EngineOptions, want: Wants = None, under: Under = None, out: Out = None
+    place: Place,
+    engine: EngineOptions,
+    want: Wants = None,
+    under: Under = None,
+    out: Out = None,
+    dry_run: DryRun = False,
 ) -> None:
     """Find settings of a sweep that reach wanted values inside limits, and how probably."""
     from lasersph.cli.stop_signals import StopSignals
@@ -94,13 +100,16 @@ def find(
     from lasersph.sweeps.table import name_with_unit
 
     folder = place if place.is_dir() else out or Path("runs") / place.stem
-    if place.is_dir() and (out is not None or engine.words() or not want):
+    if place.is_dir() and (out is not None or engine.words() or dry_run or not want):
         raise WrongCommand(
             f"{place} is a folder, whose runs are looked at: it takes --want and --under; a plan "
             "(lasersph new --plan find FILE) has runs of its own"
         )
     if not place.is_dir() and want:
         raise WrongCommand("--want is for the folder of a sweep: a plan says what is wanted")
+    if dry_run:
+        _forecast_find(find_runs.read_find_plan(place), engine)
+        return
     with StopSignals() as signals:
         try:
             found = find_runs.find(
@@ -139,25 +148,33 @@ def _stopped(
     return StoppedBySignal(f"{error}; continue with: {shlex.join(words)}", code)
 
 
-def _forecast(plan: CalibrationPlan) -> list[tuple[str, str]]:
-    from lasersph.input import format_duration
+def _forecast_calibration(plan: CalibrationPlan, engine: EngineOptions) -> None:
     from lasersph.studies.calibration import first_settings
-    from lasersph.sweeps.forecast import forecast_seconds
 
     points = [plan.template.point(dict(one)) for one in first_settings(plan)]
-    seconds, _ = forecast_seconds(points, 1)
-    share = plan.runs.most / len(points)
+    (name, count), times = forecast_rows(points, engine, plan.runs.most)
     rows = zip(plan.keys, plan.units.values(), *plan.box(), strict=True)
-    return [
-        ("unknown", ", ".join(one.name for one in plan.unknowns)),
-        ("measured values", str(sum(len(one.values) for one in plan.conditions))),
-        *((key, f"{low:.6g} to {high:.6g} {unit}") for key, unit, low, high in rows),
-        ("runs", f"{len(points)} to {plan.runs.most}" + ", and two checks" * plan.runs.check),
-        (
-            "one after the other",
-            f"roughly {format_duration(seconds)} to {format_duration(share * seconds)}",
-        ),
-    ]
+    print(
+        aligned(
+            [
+                ("unknown", ", ".join(one.name for one in plan.unknowns)),
+                ("measured values", str(sum(len(one.values) for one in plan.conditions))),
+                *((key, f"{low:.6g} to {high:.6g} {unit}") for key, unit, low, high in rows),
+                (name, count + ", and two checks" * plan.runs.check),
+                *times,
+            ]
+        )
+    )
+    tell_refused(points)
+
+
+def _forecast_find(plan: FindPlan, engine: EngineOptions) -> None:
+    points = plan.sweep.points()
+    counts, times = forecast_rows(points, engine, plan.budget.most)
+    wanted = ", ".join(dict.fromkeys(one.column for one in plan.wishes))
+    varied = ", ".join(plan.sweep.choices)
+    print(aligned([("wanted", wanted), ("varied", varied), counts, *times]))
+    tell_refused(points)
 
 
 def _say(line: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -16,7 +17,7 @@ from lasersph.cli.failures import DONE, FAILED, StoppedBySignal, WrongCommand
 from lasersph.cli.tables import aligned
 
 if TYPE_CHECKING:
-    from lasersph.sweeps import Engine, Event, SweepPlan, Table
+    from lasersph.sweeps import Engine, Event, Point, SweepPlan, Table
     from lasersph.sweeps.progress import SweepStatus
 
 PlanName = Annotated[
@@ -158,33 +159,51 @@ def _remake(folder: Path) -> int:
 
 def forecast(plan: SweepPlan, engine: EngineOptions) -> None:
     """Say how many runs there are, how long they take, and which the case refuses."""
+    points = plan.points()
+    rows = [("case", Path(plan.template.file.document.file).stem)]
+    counts, times = forecast_rows(points, engine)
+    print(aligned([*rows, counts, ("varied", ", ".join(plan.choices)), *times]))
+    tell_refused(points)
+
+
+def forecast_rows(
+    points: Sequence[Point], engine: EngineOptions, most: int = 0
+) -> tuple[tuple[str, str], list[tuple[str, str]]]:
+    """How many runs there are, and how long they take, as rows of a table.
+
+    Args:
+        most: runs at most, where a study adds some to these.
+    """
     from lasersph.compute.threads import available
     from lasersph.input import format_duration
     from lasersph.sweeps.forecast import forecast_seconds
 
-    points = plan.points()
-    right = [point for point in points if point.case is not None]
-    count = min(engine.workers or available(), max(1, len(right)))
+    right = sum(point.case is not None for point in points)
+    count = min(engine.workers or available(), max(1, right))
     of_each = engine.threads or max(1, available() // count)
-    seconds, sampled = forecast_seconds(right, of_each)
-    source = "" if sampled == len(right) else f", estimated from {sampled} of them"
-    refused = [point for point in points if point.case is None]
-    more = f", and {len(refused)} points that the case refuses" if refused else ""
-    rows = [
-        ("case", Path(plan.template.file.document.file).stem),
-        ("runs", f"{len(right)}{more}"),
-        ("varied", ", ".join(plan.choices)),
-        ("one after the other", f"roughly {format_duration(seconds)}{source}"),
-        (
-            "together",
-            f"roughly {format_duration(seconds / count)} by {count} workers with "
-            f"{of_each} thread{'s' * (of_each > 1)} each",
-        ),
-    ]
-    print(aligned(rows))
-    for point in refused:
-        values = ", ".join(f"{key} = {value}" for key, value in point.settings.items())
-        print(f"refused: {values}: {point.reason}")
+    seconds, sampled = forecast_seconds(points, of_each)
+    shares = (1.0, most / len(points)) if most > len(points) else (1.0,)
+
+    def duration(workers: int) -> str:
+        each = (format_duration(share * seconds / workers) for share in shares)
+        return f"roughly {' to '.join(each)}"
+
+    source = "" if sampled == right else f", estimated from {sampled} of them"
+    more = f" to {most}" if most > len(points) else ""
+    more += f", and {len(points) - right} points that the case refuses" * (right < len(points))
+    times = [("one after the other", f"{duration(1)}{source}")]
+    if not engine.is_distant:
+        who = f"{count} workers with {of_each} thread{'s' * (of_each > 1)} each"
+        times.append(("together", f"{duration(count)} by {who}"))
+    return ("runs", f"{right}{more}"), times
+
+
+def tell_refused(points: Sequence[Point]) -> None:
+    """Say which points the case refuses, and why."""
+    for point in points:
+        if point.case is None:
+            values = ", ".join(f"{key} = {value}" for key, value in point.settings.items())
+            print(f"refused: {values}: {point.reason}")
 
 
 def _say(line: str) -> None:

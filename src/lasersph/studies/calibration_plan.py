@@ -13,11 +13,10 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
-from lasersph.input import Count, Model
 from lasersph.studies.calibration_target import ProfileTarget
 from lasersph.studies.measured_value import Measured
+from lasersph.studies.run_budget import RunBudget
 from lasersph.sweeps import CaseTemplate, Study
 
 Array = NDArray[np.float64]
@@ -28,18 +27,10 @@ class NoCalibration(ValueError):
     """The runs allow no answer; the text says why."""
 
 
-class RunBudget(Model):
-    """How many runs a calibration may take.
+class CalibrationBudget(RunBudget):
+    """How many runs a calibration may take: of the design, and whether the best point is run as
+    well, also at half the spacing."""
 
-    Attributes:
-        first: runs before the first look at the data; None for four more than twice the keys.
-        most: runs of the design at most. check: whether the best point is run, also at half the
-            spacing.
-    """
-
-    first: Count | None = None
-    most: Count = 32
-    seed: int = Field(default=1, ge=0, strict=True)
     check: bool = True
 
 
@@ -86,7 +77,7 @@ class CalibrationPlan:
     unknowns: tuple[Unknown, ...]
     conditions: tuple[Condition, ...]
     units: Mapping[str, str]
-    runs: RunBudget
+    runs: CalibrationBudget
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -101,8 +92,7 @@ class CalibrationPlan:
     @property
     def first_runs(self) -> int:
         """Runs before the first look at the data."""
-        first = self.runs.first or 4 + 2 * len(self.units)
-        return min(max(first, len(self.units) + 2), self.runs.most)
+        return self.runs.first_runs(len(self.units))
 
     def inputs(self, unknowns: Array, condition: Condition) -> Array:
         """Keys of the runs (n, keys) in SI that a measurement is, were the unknowns (n, p) so."""

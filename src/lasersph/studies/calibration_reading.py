@@ -29,33 +29,35 @@ from typing import Any, Literal
 from pydantic import BaseModel, Field
 
 from lasersph.case.contents import CaseContents
-from lasersph.case.conversion import present_place
 from lasersph.input import (
     CaseError,
     Document,
     Model,
-    Problem,
     QuantityError,
     build,
-    dotted,
     parse_quantity,
     read_toml,
 )
-from lasersph.input.findings import steps_of
 from lasersph.output import OutputError
 from lasersph.studies.calibration_plan import (
+    CalibrationBudget,
     CalibrationPlan,
     Condition,
     Relation,
-    RunBudget,
     Unknown,
 )
 from lasersph.studies.calibration_target import ProfileEntry, read_target
 from lasersph.studies.measured_value import kind_of_number, read_measured
 from lasersph.studies.texture.measurement import NoComparison
 from lasersph.sweeps import CaseTemplate
-
-KeyPath = tuple[str | int, ...]
+from lasersph.sweeps.plan_reading import (
+    KeyPath,
+    Mistakes,
+    entries_of,
+    read_template,
+    refuse_twice,
+)
+from lasersph.sweeps.points import find_key
 
 
 class UnknownEntry(Model):
@@ -84,7 +86,7 @@ class PlanEntry(Model):
     set: dict[str, Any] = Field(default_factory=dict)
     unknown: dict[str, UnknownEntry]
     measured: tuple[MeasuredEntry, ...]
-    runs: RunBudget = RunBudget()
+    runs: CalibrationBudget = CalibrationBudget()
 
 
 def read_calibration_plan(file: str | PathLike[str]) -> CalibrationPlan:
@@ -101,33 +103,33 @@ class _Reader:
     """Compares a plan with its case."""
 
     def __init__(self, document: Document, entry: PlanEntry) -> None:
-        self.document, self.entry = document, entry
-        self.problems: list[Problem] = []
-        folder, case = Path(document.file).parent, entry.case
-        is_file = case.endswith(".toml") or "/" in case
-        self.case = folder / case if is_file else case
-        self.template = CaseTemplate(self.case, _flat(entry.set))
+        self.entry, self.mistakes = entry, Mistakes(document)
+        self.template = read_template(self.mistakes, entry.case, self._settings(entry.set, "set"))
 
     def plan(self) -> CalibrationPlan:
         """The plan. Raises CaseError."""
-        entry, sets = self.entry, [_flat(one.set) for one in self.entry.measured]
+        entry = self.entry
+        sets = [
+            self._settings(one.set, "measured", number, "set")
+            for number, one in enumerate(entry.measured)
+        ]
         self._check_unknowns(sets)
-        self._raise_any()
+        self.mistakes.raise_any()
         contents = self.template.file.contents(self.template.overrides({}))
         self._learn_kinds(sets)
         unknowns = tuple(self._unknown(name, one) for name, one in entry.unknown.items())
         conditions = [self._condition(number, one, contents) for number, one in enumerate(sets)]
-        self._raise_any()
+        self.mistakes.raise_any()
         self._complete(conditions, unknowns, contents)
         count = sum(len(one.values) for one in conditions)
         loose = [one for one in unknowns if one.known is None]
         if count < len(loose) and all(one.profile is None for one in conditions):
-            self._add(
+            self.mistakes.add(
                 ("unknown",),
                 f"{len(loose)} unknowns need at least as many measured values, not {count}",
                 'measure more, or say what is known, e.g. known = "10 +- 0.5 ns"',
             )
-        self._raise_any()
+        self.mistakes.raise_any()
         touched = {one.key for one in unknowns}
         every = dict.fromkeys(key for one in conditions for key in one.settings)
         seen = {key: {one.settings[key] for one in conditions} for key in every}
@@ -139,43 +141,40 @@ class _Reader:
         shared = {
             key: f"{value!r} {self.template.unit(key)}".strip() for key, value in same.items()
         }
-        fixed = CaseTemplate(self.case, {**self.template.settings, **shared})
+        fixed = CaseTemplate(self.template.name, {**self.template.settings, **shared})
         for _, values in self._trials(sets):
             fixed.learn_kinds(values)
         units = {key: self.template.unit(key) for key in (*every, *touched) if key not in same}
         plan = CalibrationPlan(
-            self.document.text, fixed, unknowns, tuple(conditions), dict(units), entry.runs
+            self.mistakes.document.text, fixed, unknowns, tuple(conditions), dict(units), entry.runs
         )
+        entry.runs.refuse_too_few(len(units), self.mistakes)
         self._check_box(plan)
-        self._raise_any()
+        self.mistakes.raise_any()
         return plan
 
-    def _add(self, path: KeyPath, problem: str, hint: str = "") -> None:
-        file, line = self.document.place(path)
-        found = Problem(problem, hint, dotted(path), file, line)
-        if found not in self.problems:
-            self.problems.append(found)
-
-    def _raise_any(self) -> None:
-        if self.problems:
-            raise CaseError(sorted(self.problems, key=lambda one: one.line or 0))
+    def _settings(self, table: Mapping[str, Any], *path: str | int) -> dict[str, Any]:
+        """Settings by key of the case."""
+        entries = entries_of(table, path)
+        refuse_twice(self.mistakes, entries)
+        return {key: raw for key, _, raw in entries}
 
     def _check_unknowns(self, sets: list[dict[str, Any]]) -> None:
         """What can be said without the case: how unknowns and settings name their keys."""
         owners: dict[str, str] = {}
         if not self.entry.unknown:
-            self._add(
+            self.mistakes.add(
                 ("unknown",),
                 "nothing is unknown",
                 'write e.g. factor = { scales = "laser.fluence", between = [0.7, 1.6] }',
             )
         if not self.entry.measured:
-            self._add((), "nothing is measured", "write a [[measured]] table")
+            self.mistakes.add((), "nothing is measured", "write a [[measured]] table")
         for name, one in self.entry.unknown.items():
             path = ("unknown", name)
             named = [key for key in (one.key, one.scales, one.complements) if key is not None]
             if len(named) != 1:
-                self._add(
+                self.mistakes.add(
                     path,
                     "needs one of key, scales and complements",
                     'write e.g. scales = "laser.fluence"',
@@ -183,17 +182,17 @@ class _Reader:
                 continue
             if one.scales is None:
                 if named[0] in owners:
-                    self._add(
+                    self.mistakes.add(
                         path,
                         f"{named[0]} is unknown twice, by {owners[named[0]]} as well",
                         "remove one",
                     )
                 owners[named[0]] = name
                 if named[0] in self.template.settings:
-                    self._add(path, f"{named[0]} is given in [set] as well", "remove one")
+                    self.mistakes.add(path, f"{named[0]} is given in [set] as well", "remove one")
         for number, settings in enumerate(sets):
             if not self.entry.measured[number].values and not self.entry.measured[number].profile:
-                self._add(
+                self.mistakes.add(
                     ("measured", number),
                     "nothing is measured here",
                     'write e.g. values = { "melt.depth_max_m" = "200 +- 20 nm" }',
@@ -201,12 +200,12 @@ class _Reader:
             for key in settings:
                 if key in owners or key in self.template.settings:
                     other = f"unknown ({owners[key]})" if key in owners else "given in [set]"
-                    self._add(
+                    self.mistakes.add(
                         ("measured", number, "set"), f"{key} is {other} as well", "remove one"
                     )
         for name, one in self.entry.unknown.items():
             if one.scales in owners:
-                self._add(
+                self.mistakes.add(
                     ("unknown", name),
                     f"{one.scales} is unknown itself, by {owners[one.scales]}",
                     "remove one",
@@ -234,8 +233,8 @@ class _Reader:
                 self.template.learn_kinds(values)
             except CaseError as error:
                 first = error.problems[0]
-                self._add(path, f"{first.key}: {first.problem}", first.hint)
-        self._raise_any()
+                self.mistakes.add(path, f"{first.key}: {first.problem}", first.hint)
+        self.mistakes.raise_any()
 
     def _unknown(self, name: str, one: UnknownEntry) -> Unknown:
         relation: Relation = "key" if one.key else "scales" if one.scales else "complements"
@@ -246,13 +245,17 @@ class _Reader:
             ends = [self._end(value, kind) for value in one.between]
             known = None if one.known is None else read_measured(one.known, kind)
         except QuantityError as error:
-            self._add(path, str(error))
-        if not ends[1] > ends[0]:
-            self._add((*path, "between"), "the range has no width", "write the lower value first")
-        if relation == "scales" and not ends[0] > 0.0:
-            self._add((*path, "between"), "a factor must be above zero")
-        if known is not None and not ends[0] < known.value < ends[1]:
-            self._add((*path, "known"), "what is known lies outside of between", "widen the range")
+            self.mistakes.add(path, str(error))
+        else:
+            between = (*path, "between")
+            if not ends[1] > ends[0]:
+                hint = "write the lower value first"
+                self.mistakes.add(between, "the range has no width", hint)
+            if relation == "scales" and not ends[0] > 0.0:
+                self.mistakes.add(between, "a factor must be above zero")
+            if known is not None and not ends[0] < known.value < ends[1]:
+                problem = "what is known lies outside of between"
+                self.mistakes.add((*path, "known"), problem, "widen the range")
         unit = self.template.unit(key) if relation == "key" else ""
         return Unknown(name, key, relation, ends[0], ends[1], unit, known)
 
@@ -271,7 +274,7 @@ class _Reader:
         for key, value in settings.items():
             si = self.template.to_si(key, value)
             if isinstance(si, bool) or not isinstance(si, int | float):
-                self._add(
+                self.mistakes.add(
                     ("measured", number, "set", key), "must be a number", "write words in [set]"
                 )
                 continue
@@ -280,13 +283,13 @@ class _Reader:
             try:
                 values[column] = read_measured(text, kind_of_number(column))
             except QuantityError as error:
-                self._add(("measured", number, "values", column), str(error))
+                self.mistakes.add(("measured", number, "values", column), str(error))
         profile, target = self.entry.measured[number].profile, None
         if profile is not None:
             try:
-                target = read_target(profile, Path(self.document.file).parent, contents)
+                target = read_target(profile, Path(self.mistakes.document.file).parent, contents)
             except (NoComparison, OutputError) as error:
-                self._add(("measured", number, "profile"), str(error))
+                self.mistakes.add(("measured", number, "profile"), str(error))
         return Condition(read, values, target)
 
     def _complete(
@@ -295,14 +298,25 @@ class _Reader:
         """Give every condition a value of each key that another one sets or a factor scales."""
         scaled = {one.key: one.name for one in unknowns if one.relation == "scales"}
         wanted = dict.fromkeys([*(key for one in conditions for key in one.settings), *scaled])
-        nominal = {key: _number_at(contents, key) for key in wanted}
+        nominal: dict[str, float | None] = {}
+        for key in wanted:
+            try:
+                found, _ = find_key(contents, key)
+            except QuantityError as error:
+                self.mistakes.add(("unknown", scaled.get(key, "")), str(error))
+                continue
+            is_number = isinstance(found, int | float) and not isinstance(found, bool)
+            nominal[key] = float(found) if is_number else None
+        self.mistakes.raise_any()
         for number, one in enumerate(conditions):
             for key in wanted:
                 if key in one.settings:
                     continue
                 if nominal[key] is None:
                     path = ("unknown", scaled[key]) if key in scaled else ("measured", number)
-                    self._add(path, f"the case gives no number at {key}", "set it in [[measured]]")
+                    self.mistakes.add(
+                        path, f"the case gives no number at {key}", "set it in [[measured]]"
+                    )
             known = {key: value for key, value in nominal.items() if value is not None}
             conditions[number] = replace(one, settings={**known, **one.settings})
 
@@ -312,32 +326,14 @@ class _Reader:
         middle = dict(zip(plan.keys, (0.5 * (low + high)).tolist(), strict=True))
         for number, key in enumerate(plan.keys):
             if not high[number] > low[number]:
-                self._add(("unknown",), f"nothing changes {key}", "remove it")
+                self.mistakes.add(("unknown",), f"nothing changes {key}", "remove it")
             for value in (low[number], high[number]):
                 point = plan.template.point({**middle, key: float(value)})
                 if point.reason:
                     name = next((one.name for one in plan.unknowns if one.key == key), "")
                     path: KeyPath = ("unknown", name) if name else ("measured",)
-                    self._add(
+                    self.mistakes.add(
                         path,
                         f"reaches {key} = {value:.6g} {plan.units[key]}, which the case refuses: "
                         f"{point.reason}",
                     )
-
-
-def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Settings by dotted key, written with quotes or without."""
-    found: dict[str, Any] = {}
-    for name, value in table.items():
-        key = prefix + name
-        found |= _flat(value, f"{key}.") if isinstance(value, dict) else {key: value}
-    return found
-
-
-def _number_at(contents: BaseModel, key: str) -> float | None:
-    """The number at a key of a case, in SI; None where there is none."""
-    found: object = contents
-    for step in present_place(steps_of(key)):
-        found = getattr(found, step, None) if isinstance(step, str) else None
-    is_number = isinstance(found, int | float) and not isinstance(found, bool)
-    return float(found) if is_number else None  # pyright: ignore[reportArgumentType]

@@ -9,16 +9,17 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from lasersph.analytic.melt_depth import MeltEstimate
 from lasersph.case import Case
 from lasersph.case.quick import largest_spacing
-from lasersph.input import QuantityError, did_you_mean, format_quantity, quantity_kind
+from lasersph.input import QuantityError, format_quantity
 from lasersph.materials import Law
 from lasersph.materials.uncertainty import relative_uncertainty
 from lasersph.simulation.layers import fine_depth
 from lasersph.studies.variation import changed
+from lasersph.sweeps.points import find_key
 
 USUAL_RATIO = 2.0
 LEAST_RATIO = 1.3
@@ -65,21 +66,11 @@ def read_input(case: Case, text: str) -> Input:
 
 def _value_at(case: Case, key: str) -> tuple[Law | float, str]:
     """Number or law at a key of a case, and the kind of its quantity. Raises QuantityError."""
-    found: object = case
-    kind = ""
-    for name in key.split("."):
-        if found is None:
-            break
-        known = list(type(found).model_fields) if isinstance(found, BaseModel) else []
-        if not isinstance(found, BaseModel) or name not in known:
-            raise QuantityError(f'"{key}" is no key of this case{did_you_mean(name, known)}')
-        kind, found = quantity_kind(type(found), name), getattr(found, name)
-    if isinstance(found, Law):
-        return found, quantity_kind(type(found), "value")
-    if isinstance(found, bool) or not isinstance(found, float):
-        given = "is not given in this case" if found is None else "is no number with a unit"
-        raise QuantityError(f'"{key}" {given}; name a number that it gives')
-    return found, kind
+    found, kind = find_key(case, key)
+    if isinstance(found, Law | float):
+        return found, kind
+    given = "is not given in this case" if found is None else "is no number with a unit"
+    raise QuantityError(f'"{key}" {given}; name a number that it gives')
 
 
 def shifted(case: Case, one: Input, sign: int) -> Case | str:

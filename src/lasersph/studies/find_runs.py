@@ -22,11 +22,19 @@ from pathlib import Path
 
 from pydantic import Field
 
-from lasersph.input import CaseError, Count, Model, Problem, QuantityError, build, read_toml
+from lasersph.input import QuantityError, build, read_toml
 from lasersph.studies.calibration_run import make_or_stop, read_answer
-from lasersph.studies.find_settings import FoundSettings, Wish, find_settings, read_wish
+from lasersph.studies.find_settings import (
+    FoundSettings,
+    Wish,
+    find_settings,
+    read_wish,
+    refuse_other_keys,
+)
+from lasersph.studies.run_budget import RunBudget
 from lasersph.sweeps import Engine, LocalEngine, SweepPlan, Table
 from lasersph.sweeps.plan import Sampling, VariedCase, compare_with_case
+from lasersph.sweeps.plan_reading import Mistakes, entries_of
 from lasersph.sweeps.sampling import DIGITS
 
 MOST_DOUBT = 0.05
@@ -36,19 +44,11 @@ AT_ONCE = 2
 """Runs added at a time; a fixed number, so that results do not depend on the workers."""
 
 
-class FindBudget(Model):
-    """Runs before the first look, and at most; seed of all that is random."""
-
-    first: Count = 8
-    most: Count = 16
-    seed: int = Field(default=1, ge=0, strict=True)
-
-
 class FindEntry(VariedCase):
     """The keys of a plan to find settings."""
 
     want: tuple[str, ...] = Field(examples=[["melt.depth_half_max_m = 200 +- 10 nm"]])
-    runs: FindBudget = FindBudget()
+    runs: RunBudget = RunBudget()
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class FindPlan:
 
     sweep: SweepPlan
     wishes: tuple[Wish, ...]
-    budget: FindBudget
+    budget: RunBudget
 
 
 def read_find_plan(file: str | PathLike[str]) -> FindPlan:
@@ -68,20 +68,20 @@ def read_find_plan(file: str | PathLike[str]) -> FindPlan:
     """
     document = read_toml(Path(file), tolerant=True)
     entry = build(FindEntry, document)
-    problems, wishes = [], []
+    mistakes, wishes = Mistakes(document), []
     for number, text in enumerate(entry.want):
         try:
             wishes.append(read_wish(text))
         except QuantityError as error:
-            problems.append(Problem(str(error), "", "want", *document.place(("want", number))))
+            mistakes.add(("want", number), str(error), key="want")
     if not entry.want:
-        text = 'write e.g. want = ["melt.depth_half_max_m = 200 +- 10 nm"]'
-        problems.append(Problem("nothing is wanted", text, "want", *document.place(("want",))))
-    if problems:
-        raise CaseError(problems)
-    first = min(entry.runs.first, entry.runs.most)
+        hint = 'write e.g. want = ["melt.depth_half_max_m = 200 +- 10 nm"]'
+        mistakes.add(("want",), "nothing is wanted", hint)
+    keys = len(entries_of(entry.vary, ("vary",)))
+    entry.runs.refuse_too_few(keys, mistakes)
+    first = entry.runs.first_runs(keys)
     sampling = Sampling(kind="sobol", runs=first, seed=entry.runs.seed)
-    sweep = compare_with_case(document, Path(document.file).parent, entry, sampling)
+    sweep = compare_with_case(mistakes, entry, sampling)
     return FindPlan(sweep, tuple(wishes), entry.runs)
 
 
@@ -122,6 +122,7 @@ def find(
         raise ValueError("a plan says itself what is wanted, and its runs need a folder")
     loaded = read_find_plan(plan)
     sweep, points = loaded.sweep, loaded.sweep.points()
+    refuse_other_keys(known, tuple(sweep.choices))
     while True:
         table = make_or_stop(
             points, Path(out), sweep.study, engine or LocalEngine(), report, should_stop

@@ -38,6 +38,8 @@ DRAWS = 32
 """Points of a posterior over which probabilities are averaged."""
 APART = 0.1
 """Least distance of two answers, in ranges of their keys."""
+Answer = tuple[dict[str, Any], Array]
+"""Of a calibration: content of calibration.json, points of the posterior with their weights."""
 World = list[tuple[int, Relation, float]]
 """What unknowns may be: place of the key, relation and value of each."""
 _WISH = re.compile(r"\s*([\w.]+)\s*(=|<=?|>=?)\s*(.+)")
@@ -96,7 +98,7 @@ def find_settings(
     table: Table,
     wishes: Sequence[Wish],
     *,
-    calibration: tuple[dict[str, Any], Array] | None = None,
+    calibration: Answer | None = None,
     count: int = 5,
     seed: int = 1,
 ) -> list[FoundSettings]:
@@ -117,7 +119,12 @@ def find_settings(
     for column, noise in numerical.items():
         values = sizes_of(table, column)
         has = np.isfinite(values)
-        emulators[column] = fit_emulator(points[has], values[has], box=box, noise=noise, seed=seed)
+        given = points[has], values[has]
+        try:
+            emulators[column] = fit_emulator(*given, box=box, noise=noise, seed=seed)
+        except ValueError as error:
+            raise ValueError(f"{column}: {error}") from None
+    refuse_other_keys(calibration, table.varied)
     worlds = _worlds(table.varied, calibration, seed)
 
     def probabilities(settings: Array, *, are_exact: bool = False) -> Array:
@@ -174,19 +181,21 @@ def _reached(settings: Array, world: World) -> Array:
     return reached
 
 
-def _worlds(
-    keys: Sequence[str], calibration: tuple[dict[str, Any], Array] | None, seed: int
-) -> list[World]:
+def refuse_other_keys(calibration: Answer | None, keys: Sequence[str]) -> None:
+    """Raise ValueError where an unknown of a calibration belongs to none of the keys that vary."""
+    for name, one in calibration[0]["unknowns"].items() if calibration is not None else ():
+        if one["key"] not in keys:
+            raise ValueError(
+                f"{name} of the calibration belongs to {one['key']}, which the sweep does not vary"
+            )
+
+
+def _worlds(keys: Sequence[str], calibration: Answer | None, seed: int) -> list[World]:
     """Unknowns as drawn from a posterior; one world without unknowns where there is none."""
     if calibration is None:
         return [[]]
     content, points = calibration
     unknowns = content["unknowns"]
-    for name, one in unknowns.items():
-        if one["key"] not in keys:
-            raise ValueError(
-                f"{name} of the calibration belongs to {one['key']}, which the sweep does not vary"
-            )
     weights = points[:, -1] / np.sum(points[:, -1])
     drawn = np.random.default_rng(seed).choice(len(weights), DRAWS, p=weights)
     return [

@@ -36,7 +36,7 @@ def read_measured(text: str, kind: str) -> Measured:
     """
     example = KINDS[kind].example if kind else "1.1"
     number, _, unit = example.partition(" ")
-    hint = f'write e.g. "{number} +- {0.05 * float(number):g} {unit}"'.replace(' "', '"')
+    hint = f'write e.g. "{f"{number} +- {0.05 * float(number):g} {unit}".strip()}"'
     parts = _SIGN.split(text.strip())
     if len(parts) != 2:
         raise QuantityError(f'"{text}" needs a value and its standard error; {hint}')

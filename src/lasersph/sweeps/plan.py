@@ -33,15 +33,22 @@ from lasersph.input.findings import steps_of
 from lasersph.input.model import did_you_mean
 from lasersph.input.schema import as_toml
 from lasersph.sweeps.folder import Study
+from lasersph.sweeps.plan_reading import (
+    RANGE_KEYS,
+    Entry,
+    KeyPath,
+    Mistakes,
+    entries_of,
+    read_template,
+    refuse_twice,
+)
 from lasersph.sweeps.points import CaseTemplate, Point, Value, as_override
 from lasersph.sweeps.sampling import Choices, Range, grid, latin_hypercube, morris, sobol, together
 
-RANGE_KEYS = ("from", "to", "count", "scale")
 NUMBERS = {"sobol": "runs", "latin-hypercube": "runs", "morris": "trajectories"}
 """Key of [sampling] that says how many points a kind of sampling has."""
 MOST_RUNS = 10_000
 """Of one plan: listing and checking them takes half a minute."""
-KeyPath = tuple[str | int, ...]
 
 
 class Sampling(Model):
@@ -140,8 +147,7 @@ def read_plan(file: str | PathLike[str]) -> SweepPlan:
     Raises:
         CaseError: every mistake of the plan, or of its case, in one line with file and line.
     """
-    document = read_toml(Path(file), tolerant=True)
-    return _plan_of_file(document, Path(document.file).parent)
+    return _plan_of_file(read_toml(Path(file), tolerant=True))
 
 
 def build_plan(
@@ -169,17 +175,16 @@ def build_plan(
     for name, table in tables.items():
         lines += ["", f"[{name}]", *(f"{as_toml(k)} = {as_toml(v)}" for k, v in table.items())]
     data = {"case": str(case), **tables}
-    return _plan_of_file(Document(data, text="\n".join(lines) + "\n"), Path())
+    return _plan_of_file(Document(data, text="\n".join(lines) + "\n"))
 
 
-def _plan_of_file(document: Document, folder: Path) -> SweepPlan:
+def _plan_of_file(document: Document) -> SweepPlan:
     entry = build(PlanFile, document)
-    return compare_with_case(document, folder, entry, entry.sampling, entry.table.columns)
+    return compare_with_case(Mistakes(document), entry, entry.sampling, entry.table.columns)
 
 
 def compare_with_case(
-    document: Document,
-    folder: Path,
+    mistakes: Mistakes,
     plan: VariedCase,
     sampling: Sampling,
     columns: tuple[str, ...] = (),
@@ -187,84 +192,49 @@ def compare_with_case(
     """The plan of a sweep whose keys and values the case takes.
 
     Args:
-        document: the file, for lines. folder: of the plan, from which case files are found.
+        mistakes: of the file, those that are known already.
 
     Raises:
         CaseError: every mistake of the plan, or of its case.
     """
-    problems = _Problems(document)
-    settings, varied = _by_key(plan.set, ("set",)), _by_key(plan.vary, ("vary",))
+    settings, varied = entries_of(plan.set, ("set",)), entries_of(plan.vary, ("vary",))
     if not varied:
-        problems.add(("vary",), "", "nothing varies", 'write e.g. "laser.fluence" = ["1 J/cm^2"]')
-    seen: dict[KeyPath, KeyPath] = {}
-    for key, path, _ in [*settings, *varied]:
-        place = present_place(steps_of(key))
-        if place in seen:
-            _, line = document.place(seen[place])
-            problems.add(path, key, f"given twice, in line {line} as well", "remove one")
-        seen[place] = path
+        mistakes.add(("vary",), "nothing varies", 'write e.g. "laser.fluence" = ["1 J/cm^2"]')
+    refuse_twice(mistakes, [*settings, *varied])
     for key, path, raw in varied:
         for problem, hint, where in _mistakes(raw, sampling):
-            problems.add((*path, *where), key, problem, hint)
-    problems.extend(_sampling_mistakes(sampling, varied))
-    problems.raise_any()
-    case = folder / plan.case if plan.case.endswith(".toml") or "/" in plan.case else plan.case
-    template = CaseTemplate(case, {key: raw for key, _, raw in settings})
-    _check_with_case(template, settings, varied, problems)
-    problems.raise_any()
+            mistakes.add((*path, *where), problem, hint, key=key)
+    for path, problem, hint in _sampling_mistakes(sampling, varied):
+        mistakes.add(path, problem, hint)
+    mistakes.raise_any()
+    template = read_template(mistakes, plan.case, {key: raw for key, _, raw in settings})
+    _check_with_case(template, settings, varied, mistakes)
+    mistakes.raise_any()
     choices: Choices = {}
     for key, path, raw in varied:
         if isinstance(raw, list):
             choices[key] = tuple(template.to_si(key, value) for value in raw)
             same = len(choices[key]) - len({str(value) for value in choices[key]})
             if same:
-                problems.add(path, key, "a value is given twice", "remove one")
+                mistakes.add(path, "a value is given twice", "remove one", key=key)
         else:
-            choices[key] = _range(template, key, raw, path, problems)
-    problems.raise_any()
-    _refuse_uneven(choices, sampling, problems)
-    problems.raise_any()
-    return SweepPlan(document.text, template, choices, sampling, columns)
-
-
-class _Problems:
-    """Mistakes of a plan, with their lines."""
-
-    def __init__(self, document: Document) -> None:
-        self.document, self.found = document, list[Problem]()
-
-    def add(self, path: KeyPath, key: str, problem: str, hint: str = "") -> None:
-        file, line = self.document.place(path)
-        self.found.append(Problem(problem, hint, key or dotted(path), file, line))
-
-    def extend(self, found: Iterator[tuple[KeyPath, str, str]]) -> None:
-        for path, problem, hint in found:
-            self.add(path, "", problem, hint)
-
-    def raise_any(self) -> None:
-        if self.found:
-            raise CaseError(sorted(self.found, key=lambda one: one.line or 0))
-
-
-def _by_key(table: Mapping[str, Any], path: KeyPath) -> list[tuple[str, KeyPath, Any]]:
-    """Key of the case, path in the plan and raw value, of keys written with quotes or without."""
-    found: list[tuple[str, KeyPath, Any]] = []
-    for name, raw in table.items():
-        here = (*path, name)
-        if isinstance(raw, dict) and not set(raw) & set(RANGE_KEYS):
-            found += [(f"{name}.{key}", below, one) for key, below, one in _by_key(raw, here)]
-        else:
-            found.append((name, here, raw))
-    return found
+            choices[key] = _range(template, key, raw, path, mistakes)
+    mistakes.raise_any()
+    counts = {key: len(values) for key, values in choices.items()}
+    if sampling.kind == "zip" and len(set(counts.values())) > 1:
+        shown = ", ".join(f"{key} has {count}" for key, count in counts.items())
+        mistakes.add(("vary",), f"zip needs as many values of each key: {shown}")
+    mistakes.raise_any()
+    return SweepPlan(mistakes.document.text, template, choices, sampling, columns)
 
 
 def _mistakes(raw: Any, sampling: Sampling) -> Iterator[tuple[str, str, KeyPath]]:
     """What is wrong with a list or range before the case sees it: problem, hint, path below."""
-    is_random, kind = sampling.is_random, sampling.kind
+    is_random = sampling.is_random
     example = '{ from = "0.3 J/cm^2", to = "1 J/cm^2"' + (" }" if is_random else ", count = 8 }")
     if isinstance(raw, list):
         if is_random:
-            yield f"{kind} samples a range, not a list", f"write e.g. {example}", ()
+            yield "points are drawn from a range, not from a list", f"write e.g. {example}", ()
         elif not raw:
             yield "an empty list", "write at least one value", ()
         for number, value in enumerate(raw):
@@ -285,8 +255,7 @@ def _mistakes(raw: Any, sampling: Sampling) -> Iterator[tuple[str, str, KeyPath]
         if isinstance(raw.get(name), bool | list | dict):
             yield f'"{name}" must be a number or text with a unit', f"write e.g. {example}", (name,)
     if "count" in raw and is_random:
-        number = NUMBERS[kind]
-        yield f"count is for grid and zip; of {kind} the number is {number} in [sampling]", "", ()
+        yield "count is for grid and zip; points are drawn from this range", "remove it", ()
     elif "count" in raw and not (type(raw["count"]) is int and raw["count"] >= 2):
         yield "count must be a whole number of at least 2", "", ("count",)
     if raw.get("scale", "linear") not in ("linear", "log"):
@@ -294,7 +263,7 @@ def _mistakes(raw: Any, sampling: Sampling) -> Iterator[tuple[str, str, KeyPath]
 
 
 def _sampling_mistakes(
-    sampling: Sampling, varied: list[tuple[str, KeyPath, Any]]
+    sampling: Sampling, varied: list[Entry]
 ) -> Iterator[tuple[KeyPath, str, str]]:
     wanted = NUMBERS.get(sampling.kind)
     if wanted and getattr(sampling, wanted) is None:
@@ -318,9 +287,9 @@ def _sampling_mistakes(
 
 def _check_with_case(
     template: CaseTemplate,
-    settings: list[tuple[str, KeyPath, Any]],
-    varied: list[tuple[str, KeyPath, Any]],
-    problems: _Problems,
+    settings: list[Entry],
+    varied: list[Entry],
+    mistakes: Mistakes,
 ) -> None:
     """Try every value by itself: its key, unit and limits, not what contradicts other keys.
 
@@ -345,8 +314,8 @@ def _check_with_case(
             if key is None:
                 own.append(one)
             elif key in template.settings:
-                problems.add(places[key], key, one.problem, one.hint)
-        if own and not problems.found:
+                mistakes.add(places[key], one.problem, one.hint, key=key)
+        if own and not mistakes.found:
             raise CaseError(own) from None
     for key, values in ends.items():
         others = [as_override(k, v) for k, v in firsts.items() if k != key]
@@ -360,7 +329,7 @@ def _check_with_case(
                     if one.problem == "unknown key":  # plans write keys in full
                         table = key.rpartition(".")[0]
                         hint = re.sub(r'^(do you mean ")(\w+"\?)$', rf"\1{table}.\2", hint)
-                    problems.add((*places[key], *below), key, one.problem, hint)
+                    mistakes.add((*places[key], *below), one.problem, hint, key=key)
 
 
 def _concerns(place: str, key: str) -> bool:
@@ -370,24 +339,17 @@ def _concerns(place: str, key: str) -> bool:
 
 
 def _range(
-    template: CaseTemplate, key: str, raw: dict[str, Any], path: KeyPath, problems: _Problems
+    template: CaseTemplate, key: str, raw: dict[str, Any], path: KeyPath, mistakes: Mistakes
 ) -> Range:
     first, last = (template.to_si(key, raw[name]) for name in ("from", "to"))
     scale = raw.get("scale", "linear")
     if isinstance(first, str) or isinstance(last, str):
-        problems.add(path, key, "a range needs numbers", "write a list of values instead")
+        mistakes.add(path, "a range needs numbers", "write a list of values instead", key=key)
         return Range(0.0, 1.0)
     if first == last:
-        problems.add(path, key, "from and to are the same", "write a list of one value instead")
+        mistakes.add(path, "from and to are the same", "write a list of one value instead", key=key)
     if scale == "log" and min(first, last) <= 0.0:
-        problems.add(path, key, "a log scale needs from and to above 0", 'write scale = "linear"')
+        problem = "a log scale needs from and to above 0"
+        mistakes.add(path, problem, 'write scale = "linear"', key=key)
     is_whole = isinstance(first, int) and isinstance(last, int)
     return Range(float(first), float(last), raw.get("count", 0), scale, is_whole)
-
-
-def _refuse_uneven(choices: Choices, sampling: Sampling, problems: _Problems) -> None:
-    """Lists that are zipped have one length."""
-    counts = {key: len(values) for key, values in choices.items()}
-    if sampling.kind == "zip" and len(set(counts.values())) > 1:
-        shown = ", ".join(f"{key} has {count}" for key, count in counts.items())
-        problems.add(("vary",), "", f"zip needs as many values of each key: {shown}")

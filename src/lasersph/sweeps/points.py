@@ -11,13 +11,21 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
+from typing import Any
 
 from pydantic import BaseModel
 
 from lasersph.case import Case, CaseFile, refuse_if_too_large
 from lasersph.case.conversion import present_place
 from lasersph.case.overrides import override
-from lasersph.input import KINDS, CaseError, parse_quantity, quantity_kind
+from lasersph.input import (
+    KINDS,
+    CaseError,
+    QuantityError,
+    did_you_mean,
+    parse_quantity,
+    quantity_kind,
+)
 from lasersph.input.findings import steps_of
 from lasersph.input.schema import as_toml
 from lasersph.output import hash_of_case
@@ -95,14 +103,14 @@ class CaseTemplate:
         """
         given = {**self.settings, **values}
         contents = self.file.contents([as_override(key, value) for key, value in given.items()])
-        self._kinds |= {key: kind_at(contents, key) for key in given}
+        self._kinds |= {key: _kind_at(contents, key) for key in given}
 
     def kind(self, key: str) -> str:
         """Kind of quantity that a key reads ("fluence"); empty for a bare number or a word, and
         where neither the case nor `learn_kinds` has a value for it. Raises CaseError."""
         if key not in self._kinds:
             contents = self.file.contents([as_override(*each) for each in self.settings.items()])
-            self._kinds[key] = kind_at(contents, key)
+            self._kinds[key] = _kind_at(contents, key)
         return self._kinds[key]
 
     def unit(self, key: str) -> str:
@@ -125,20 +133,37 @@ class CaseTemplate:
         return f"{value!r} {unit}" if unit else value
 
 
-def kind_at(contents: BaseModel, key: str) -> str:
-    """Kind of quantity at a key of a case ("laser.fluence"); empty where there is none."""
-    found: object = contents
+def find_key(contents: BaseModel, key: str) -> tuple[Any, str]:
+    """What a case holds at a key ("laser.fluence"), and which kind of quantity that is; None and
+    "" where it gives nothing there.
+
+    Raises:
+        QuantityError: there is no such key.
+    """
+    found: Any = contents
     kind = ""
     for step in present_place(steps_of(key)):
-        if isinstance(found, BaseModel) and step in type(found).model_fields:
-            kind, found = quantity_kind(type(found), str(step)), getattr(found, str(step))
-        elif isinstance(found, tuple) and isinstance(step, int) and step < len(found):
+        known = type(found).model_fields if isinstance(found, BaseModel) else {}
+        if found is None:
+            return None, ""
+        if isinstance(found, tuple) and isinstance(step, int) and step < len(found):
             kind, found = "", found[step]
+        elif isinstance(found, BaseModel) and step in known:
+            kind, found = quantity_kind(type(found), str(step)), getattr(found, str(step))
         else:
-            return ""
+            raise QuantityError(f'"{key}" is no key of this case{did_you_mean(str(step), known)}')
     if isinstance(found, BaseModel) and "value" in type(found).model_fields:  # a law of a metal
-        return quantity_kind(type(found), "value")
-    return kind
+        kind = quantity_kind(type(found), "value")
+    return found, kind
+
+
+def _kind_at(contents: BaseModel, key: str) -> str:
+    """Kind of quantity at a key; empty where the model of a case has no such key: the file may
+    (material.base), or the case says so when it is asked for the point."""
+    try:
+        return find_key(contents, key)[1]
+    except QuantityError:
+        return ""
 
 
 def as_override(key: str, value: Value | list | dict) -> str:

@@ -1,13 +1,15 @@
 """Settings for wanted values, from the emulated runs of a made-up sweep."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from bad_plans import assert_mistake
 from sweep_runs import PretendingEngine
 
 from lasersph.cli import main
-from lasersph.input import CaseError, QuantityError
+from lasersph.input import QuantityError
 from lasersph.studies import Wish, find, find_settings, read_wish
 from lasersph.sweeps import Row, Table
 
@@ -58,6 +60,13 @@ def test_limits_exclude(table):
     assert find_settings(table, [deep, Wish("temperature_max_K", -np.inf, 2000.0)]) == []
     found = find_settings(table, [deep, Wish("temperature_max_K", -np.inf, 2800.0)])
     assert 6000.0 < found[0].settings["laser.fluence"] < 7000.0
+
+
+def test_a_number_that_never_changes_is_named(table):
+    """All runs reach the same temperature."""
+    rows = [replace(row, numbers={"temperature_max_K": 3000.0}) for row in table.rows]
+    with pytest.raises(ValueError, match="temperature_max_K: all 8 runs give 3000"):
+        find_settings(replace(table, rows=tuple(rows)), [Wish("temperature_max_K", 0.0, 2000.0)])
 
 
 def test_under_a_calibration(table):
@@ -119,21 +128,24 @@ def test_runs_are_added_where_the_answer_is_unsure(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "text"),
+    ("old", "new", "line", "words"),
     [
-        ("60 +- 1 nm", "60 nm", "2: want: "),
-        ('["melt.depth_max_m = 60 +- 1 nm"]', "[]", "2: want: nothing is wanted"),
-        ("first = 4", "fist = 4", "6: runs.fist: unknown key"),
-        ('from = "0.3 J/cm^2"', 'from = "0.3 J"', "4: laser.fluence"),
+        ("60 +- 1 nm", "60 nm", 2, "want: "),
+        ('["melt.depth_max_m = 60 +- 1 nm"]', "[]", 2, "want: nothing is wanted"),
+        ("first = 4", "fist = 4", 6, "runs.fist: unknown key"),
+        ('from = "0.3 J/cm^2"', 'from = "0.3 J"', 4, "laser.fluence"),
+        ('"1 J/cm^2"', '"1 J/cm^2", count = 4', 4, "laser.fluence: count is for grid and zip"),
+        ("first = 4", "first = 9", 6, "runs.first: more than most, 8; write most = 9"),
+        ("most = 8", "most = 2", 7, "runs.most: too few: an emulator of 1 key needs 3 runs"),
     ],
 )
-def test_wrong_plans(tmp_path, old, new, text):
+def test_wrong_plans(tmp_path, old, new, line, words):
     """One line with file and line, and nothing is written."""
-    plan = tmp_path / "plan.toml"
-    plan.write_text(PLAN.replace(old, new))
-    with pytest.raises(CaseError) as error:
+
+    def find_in_folder(plan):
         find(plan, tmp_path / "out")
-    assert f"plan.toml:{text}" in str(error.value) and not (tmp_path / "out").exists()
+
+    assert_mistake(find_in_folder, tmp_path, PLAN.replace(old, new), line, words)
 
 
 def test_folders_and_plans_take_their_own_options(tmp_path, capsys):
@@ -144,5 +156,9 @@ def test_folders_and_plans_take_their_own_options(tmp_path, capsys):
     assert "takes --want" in capsys.readouterr().err
     assert main(["new", "--plan", "find", str(tmp_path / "a.toml")]) == 0
     assert len(read_find_plan(tmp_path / "a.toml").sweep.points()) == 8
+    assert main(["find", str(tmp_path / "a.toml"), "--out", str(tmp_path), "--dry-run"]) == 0
+    said = capsys.readouterr().out
+    assert "8 to 16" in said and "laser.fluence, laser.pulse.fwhm" in said
+    assert [one.name for one in tmp_path.iterdir()] == ["a.toml"]
     assert main(["find", str(tmp_path / "a.toml"), "--want", "temperature_max_K < 9 K"]) == 2
     assert "a plan says what is wanted" in capsys.readouterr().err
