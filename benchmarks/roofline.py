@@ -22,7 +22,7 @@ import lasersph
 from lasersph.case.size import in_words, memories
 from lasersph.cli.arguments import Backend, Threads, refuse_backend
 from lasersph.cli.failures import WrongCommand, exit_code_of
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 from lasersph.output.atomic import replace_json
 
 SCHEMA_VERSION = 1
@@ -59,11 +59,13 @@ def roofline(
     else:
         measure(wanted, threads, report=report)
     print(f"\n{max(wanted)} particles; numbers are per particle and pass")
-    print(aligned(table(loops), header=True))
+    head, *rows = table(loops)
+    print(text_table(rows, head))
     if len(wanted) > 1:
         where = "on the card" if backend == "cuda" else f"with {limits[-1].threads} threads"
         print(f"\ntime per particle {where}")
-        print(aligned(growth(loops), header=True))
+        head, *rows = growth(loops)
+        print(text_table(rows, head))
     if json_file is not None:
         head = {"schema_version": SCHEMA_VERSION, "lasersph": lasersph.__version__}
         replace_json(json_file, head | as_dict(limits, loops))

@@ -36,7 +36,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     wants_traceback = "--debug" in given
     given = [argument for argument in given if argument != "--debug"]
-    return exit_code_of(lambda: _run(given), wants_traceback=wants_traceback)
+    verb = given[0] if given else ""
+    return exit_code_of(lambda: _run(given), wants_traceback=wants_traceback, verb=verb)
 
 
 def _run(given: Sequence[str]) -> int:

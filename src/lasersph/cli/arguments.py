@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -13,8 +15,25 @@ from lasersph.cli.failures import WrongCommand
 if TYPE_CHECKING:
     from lasersph.case import Case
 
+
+def completion_of(room: str, lister: str) -> Callable[[str], list[str]]:
+    """What completes a name: those that a function of a room lists and that begin so. A shell adds
+    files where there is none."""
+
+    def complete(begun: str) -> list[str]:
+        names = getattr(import_module(f"lasersph.{room}"), lister)()
+        return [name for name in names if name.startswith(begun)]
+
+    return complete
+
+
 CaseName = Annotated[
-    str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")
+    str,
+    typer.Argument(
+        metavar="CASE",
+        help="A case file, or the name of a shipped case.",
+        autocompletion=completion_of("case", "available_cases"),
+    ),
 ]
 Settings = Annotated[
     list[str] | None,

@@ -13,7 +13,7 @@ from lasersph.cli.arguments import Out
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
 from lasersph.cli.sweeping import DryRun, forecast_rows, tell_refused
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
     from lasersph.studies.calibration_plan import CalibrationPlan
@@ -131,11 +131,11 @@ def find(
         raise WrongCommand(f"no settings inside the runs of {folder} do all of this")
     table = Table.read(folder)
     names = [name_with_unit(key, unit) for key, unit in table.units.items()]
-    rows = [["probability", *names, *found[0].numbers]]
+    rows = []
     for one in found:
         numbers = (*one.settings.values(), *one.numbers.values())
         rows.append([f"{100.0 * one.probability:.3g} %", *(f"{value:.5g}" for value in numbers)])
-    print(aligned(rows, header=True))
+    print(text_table(rows, ("probability", *names, *found[0].numbers)))
     if found[0].probability < 0.5:
         _say("note: none of these is likelier than not; more runs near them may help")
 
@@ -155,7 +155,7 @@ def _forecast_calibration(plan: CalibrationPlan, engine: EngineOptions) -> None:
     (name, count), times = forecast_rows(points, engine, plan.runs.most)
     rows = zip(plan.keys, plan.units.values(), *plan.box(), strict=True)
     print(
-        aligned(
+        text_table(
             [
                 ("unknown", ", ".join(one.name for one in plan.unknowns)),
                 ("measured values", str(sum(len(one.values) for one in plan.conditions))),
@@ -173,7 +173,7 @@ def _forecast_find(plan: FindPlan, engine: EngineOptions) -> None:
     counts, times = forecast_rows(points, engine, plan.budget.most)
     wanted = ", ".join(dict.fromkeys(one.column for one in plan.wishes))
     varied = ", ".join(plan.sweep.choices)
-    print(aligned([("wanted", wanted), ("varied", varied), counts, *times]))
+    print(text_table([("wanted", wanted), ("varied", varied), counts, *times]))
     tell_refused(points)
 
 

@@ -18,7 +18,7 @@ from lasersph.cli.arguments import (
 )
 from lasersph.cli.failures import WrongCommand
 from lasersph.cli.light import light_rows
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
     from lasersph.case import Case
@@ -61,7 +61,7 @@ def list_cases() -> None:
     from lasersph.input import read_toml
 
     rows = [(name, read_toml(path).data["title"]) for name, path in available_cases().items()]
-    print(aligned(rows))
+    print(text_table(rows))
 
 
 def schema() -> None:
@@ -93,7 +93,7 @@ def check(
     count = chosen(threads)
     expected = forecast(loaded, threads=count)
     refuse_if_too_large(loaded, backend, Size(expected.particles, expected.memory))
-    print(aligned(_rows(loaded, expected, count, backend)))
+    print(text_table(_rows(loaded, expected, count, backend)))
     for warning in expected.warnings:
         print(f"warning: {warning}")
     print("the case is right" + ("; think about the warnings" if expected.warnings else ""))

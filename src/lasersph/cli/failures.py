@@ -13,6 +13,35 @@ from collections.abc import Callable
 DONE, FAILED, WRONG, INTERRUPTED, TERMINATED = 0, 1, 2, 130, 143
 
 
+PAGES = {
+    "calibrate": "calibration",
+    "cases": "cases",
+    "check": "cases",
+    "compare": "texture",
+    "converge": "methods/uncertainty",
+    "export": "results",
+    "find": "calibration",
+    "info": "results",
+    "map": "maps",
+    "material": "metals",
+    "new": "cases",
+    "plot": "results",
+    "report": "results",
+    "run": "start",
+    "sensitivity": "maps",
+    "serve": "web",
+    "spot": "methods/ablation",
+    "sweep": "sweeps",
+    "texture": "texture",
+    "threshold": "start",
+    "validate": "validation",
+}
+"""Pages of the documentation by verb: what a wrong command of it, or a wrong file, asks for."""
+
+WITH_PLANS = ("calibrate", "find", "sweep")
+"""Verbs whose file is a plan; that of the others is a case or a metal."""
+
+
 class WrongCommand(Exception):
     """The command asks for something that makes no sense; the text says what would."""
 
@@ -25,8 +54,12 @@ class StoppedBySignal(Exception):
         self.code = code
 
 
-def exit_code_of(command: Callable[[], int], *, wants_traceback: bool) -> int:
-    """Run a command; say failures in one line on standard error, or raise them with --debug."""
+def exit_code_of(command: Callable[[], int], *, wants_traceback: bool, verb: str = "") -> int:
+    """Run a command; say failures in one line on standard error, or raise them with --debug.
+
+    Args:
+        verb: whose page of the documentation a refusal names.
+    """
     try:
         code = command()
         sys.stdout.flush()
@@ -40,7 +73,24 @@ def exit_code_of(command: Callable[[], int], *, wants_traceback: bool) -> int:
         text, code = _described(error)
         if wants_traceback and code == FAILED:
             raise
-        return _say(text, code)
+        page = page_of(error, verb) if code == WRONG else ""
+        return _say(f"{text}; see docs/{page}.md" if page else text, code)
+
+
+def page_of(error: Exception, verb: str) -> str:
+    """The page of the documentation that says more about a refusal; empty where --help does, or
+    nothing more is to be said."""
+    from lasersph.compute.cuda_device import NoDevice
+    from lasersph.input import CaseError
+
+    if isinstance(error, NoDevice):
+        return "gpu"
+    if isinstance(error, CaseError) and verb not in WITH_PLANS:
+        of_metal = verb == "material" or error.key.partition(".")[0] == "material"
+        return "" if not error.key else "metals" if of_metal else "cases"
+    if isinstance(error, CaseError):
+        return PAGES[verb]
+    return PAGES.get(verb, "") if isinstance(error, WrongCommand) else ""
 
 
 def _say(text: str, code: int) -> int:

@@ -10,7 +10,7 @@ import typer
 
 from lasersph.cli.arguments import read_quantity
 from lasersph.cli.failures import WrongCommand
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
     from lasersph.plots.process_map import ProcessMap
@@ -89,24 +89,22 @@ def sensitivity(folder: SweepFolder, of: Of = "melt.depth_half_max_m") -> None:
     except (KeyError, ValueError) as error:
         raise WrongCommand(str(error.args[0])) from None
     if found.sobol is not None:
-        rows = [["key", "first order", "total"]]
-        one = found.sobol
+        rows, one = [], found.sobol
         columns = (one.first, one.first_error, one.total, one.total_error)
         for key, s, ds, t, dt in zip(found.keys, *columns, strict=True):
             rows.append([key, f"{s:.3f} +- {ds:.3f}", f"{t:.3f} +- {dt:.3f}"])
-        print(aligned(rows, header=True))
+        print(text_table(rows, ("key", "first order", "total")))
         lost = 100.0 * (1.0 - (found.predictivity or 0.0))
         print(
             f"from {found.runs} runs; the others predict each but for {lost:.2g} % of the variance"
         )
     if found.screening is not None:
-        rows = [["key", "mean size", "deviation", "effects"]]
-        one, unit = found.screening, unit_of(of)
+        rows, one, unit = [], found.screening, unit_of(of)
         for key, *sizes, count in zip(
             found.keys, one.mean_size, one.deviation, one.count, strict=True
         ):
             rows.append([key, *(in_field_units(size, unit) for size in sizes), str(count)])
-        print(aligned(rows, header=True))
+        print(text_table(rows, ("key", "mean size", "deviation", "effects")))
         print(f"changes of {of} over the whole range of a key, from {found.runs} runs")
 
 

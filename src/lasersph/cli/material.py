@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from lasersph.cli.app import HELP
-from lasersph.cli.tables import aligned
+from lasersph.cli.arguments import completion_of
+from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
     from lasersph.materials import Law, Material
@@ -16,7 +17,16 @@ if TYPE_CHECKING:
 app = typer.Typer(
     help="List, show and check materials.", add_completion=False, context_settings=HELP
 )
-Name = Annotated[str, typer.Argument(metavar="NAME", help="A material, or the path of a file.")]
+
+
+Name = Annotated[
+    str,
+    typer.Argument(
+        metavar="NAME",
+        help="A material, or the path of a file.",
+        autocompletion=completion_of("materials", "available_materials"),
+    ),
+]
 Plot = Annotated[
     Path | None,
     typer.Option("--plot", metavar="FILE", help="Draw all properties, e.g. into steel.png."),
@@ -28,7 +38,7 @@ def list_materials() -> None:
     """List the materials that a case can name."""
     from lasersph.materials import available_materials, load_material
 
-    print(aligned([(name, load_material(name).title) for name in available_materials()]))
+    print(text_table([(name, load_material(name).title) for name in available_materials()]))
 
 
 @app.command()
@@ -43,10 +53,10 @@ def show(name: Name, plot: Plot = None) -> None:
     if material.note:
         print(" ".join(material.note.split()))
     print()
-    print(aligned([("quantity", "value", "range", "source"), *_rows(material)], header=True))
+    print(text_table(_rows(material), ("quantity", "value", "range", "source")))
     if stated := material.uncertainties():
-        print("\nstandard uncertainties")
-        print(aligned([(key, f"{100 * u:.3g} %", source) for key, (u, source) in stated.items()]))
+        rows = [(key, f"{100 * u:.3g} %", source) for key, (u, source) in stated.items()]
+        print("\n" + text_table(rows, ("quantity", "standard uncertainty", "source")))
 
 
 @app.command()
@@ -58,7 +68,8 @@ def check(name: Name, plot: Plot = None) -> None:
     if plot is not None:
         _draw(material, plot)
     findings = check_material(material)
-    print(aligned([(found.level, found.subject, found.text) for found in findings]))
+    rows = [(found.level, found.subject, found.text) for found in findings]
+    print(text_table(rows, ("level", "subject", "what")))
     warnings = sum(found.level == "warning" for found in findings)
     print(f"{material.name}: {warnings} warnings" if warnings else f"{material.name}: no warnings")
 

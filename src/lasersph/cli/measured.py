@@ -10,7 +10,7 @@ import typer
 
 from lasersph.cli.arguments import Out
 from lasersph.cli.failures import WrongCommand
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 
 Ours = Annotated[
     Path, typer.Argument(metavar="DIR", help="The folder of a texture, or of a run of one period.")
@@ -53,8 +53,11 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
     near = np.abs(found.y - found.y[np.argmin(np.abs(found.y))]) < width
     picture = comparison_figure(found.x[near], found.measured[near], found.ours[near], content)
     file = style.save(picture, target / "comparison.png")
-    print(aligned([["", "value", "standard error", "95 %"], *unknown_rows(content)], header=True))
-    print(aligned(difference_rows(content)))
+    print(
+        text_table(unknown_rows(content), ("unknown", "value", "standard error", "95 %")),
+        end="\n\n",
+    )
+    print(text_table(difference_rows(content)))
     print(content["sentence"])
     title = f"{profile.name} beside {relief.name}"
     print(write_comparison(target / "comparison.html", content, file, title))

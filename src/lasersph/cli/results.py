@@ -11,7 +11,8 @@ import typer
 from lasersph.cli.arguments import RunFolder, Settings, read_quantity
 from lasersph.cli.failures import WrongCommand
 from lasersph.cli.light import light_rows
-from lasersph.cli.tables import aligned, sparkline
+from lasersph.cli.sparkline import sparkline
+from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
     from lasersph.output import Run
@@ -55,14 +56,14 @@ def info(folder: RunFolder) -> None:
 
     found = opened(folder)
     if found.is_complete:
-        print(aligned([*summary_rows(found.summary, found.uncertainty), *_curves(found)]))
+        print(text_table([*summary_rows(found.summary, found.uncertainty), *_curves(found)]))
         print(f"{folder}: complete")
         return
     times = [float(time) for time in found.history.get("time_s", ())]
     end = format_quantity(float(found.case["time"]["end"]), "s")
     now = format_quantity(times[-1] if times else 0.0, "s")
     known = [("case", found.case["title"]), ("history", f"up to {now} of {end}")]
-    print(aligned([*known, *_curves(found)]))
+    print(text_table([*known, *_curves(found)]))
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
 
 

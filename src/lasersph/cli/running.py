@@ -175,11 +175,11 @@ def _compute(
 def _tell(folder: Path) -> None:
     """The main numbers of a finished run."""
     from lasersph.cli.results import summary_rows
-    from lasersph.cli.tables import aligned
+    from lasersph.input.text_table import text_table
     from lasersph.output import open_run
 
     found = open_run(folder)
-    print(aligned(summary_rows(found.summary, found.uncertainty)))
+    print(text_table(summary_rows(found.summary, found.uncertainty)))
     print(f"{folder}: complete")
 
 

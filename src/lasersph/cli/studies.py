@@ -22,7 +22,7 @@ from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
 from lasersph.cli.side_by_side import preparation, refuse_workers
 from lasersph.cli.stop_signals import StopSignals
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 
 Spacings = Annotated[
     str, typer.Option("--spacing", metavar="A,B,C", help="Three or more, e.g. 32nm,16nm,8nm.")
@@ -74,7 +74,7 @@ def converge(
     _refuse_missing_folder(json_file)
     folder = _folder(out or Path("runs") / f"{loaded.name}-converge", resume)
     found = studies.converge(loaded, wanted, folder, **options)
-    print(aligned(found.table(), header=True))
+    print(text_table(*found.table()))
     _write(json_file, found.as_dict())
 
 
@@ -140,7 +140,7 @@ def spot(
         raise WrongCommand(f"{loaded.name}: {reason}")
     folder = _folder(out or Path("runs") / f"{loaded.name}-spot", resume)
     found = studies.spot_threshold(loaded, wanted, folder, **options)
-    print(aligned(found.table(), header=True))
+    print(text_table(*found.table()))
     print(found.answer())
     _write(json_file, found.as_dict())
     print(style.save(spot_threshold_figure(found.as_dict()), folder / "spot-threshold.png"))

@@ -14,7 +14,7 @@ from lasersph.cli.arguments import Out
 from lasersph.cli.cluster import RunsInHand, Slurm, SlurmDask, write_scripts
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import DONE, FAILED, StoppedBySignal, WrongCommand
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
     from lasersph.sweeps import Engine, Event, Point, SweepPlan, Table
@@ -136,7 +136,7 @@ def tell(table: Table) -> int:
     print(f"{table.count('complete')} of {len(table.rows)} runs complete: {table.path / TABLE}")
     shown = [(row.run, row.status, row.reason) for row in others[:MOST_SHOWN]]
     if shown:
-        print(aligned(shown))
+        print(text_table(shown, ("run", "status", "reason")))
     if len(others) > MOST_SHOWN:
         print(f"and {len(others) - MOST_SHOWN} more, see {table.path / TABLE}")
     failed = next((row for row in others if row.status == "failed"), None)
@@ -162,7 +162,7 @@ def forecast(plan: SweepPlan, engine: EngineOptions) -> None:
     points = plan.points()
     rows = [("case", Path(plan.template.file.document.file).stem)]
     counts, times = forecast_rows(points, engine)
-    print(aligned([*rows, counts, ("varied", ", ".join(plan.choices)), *times]))
+    print(text_table([*rows, counts, ("varied", ", ".join(plan.choices)), *times]))
     tell_refused(points)
 
 

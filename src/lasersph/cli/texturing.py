@@ -13,7 +13,7 @@ from lasersph.cli.arguments import CaseName, Out, Settings, read_quantity
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import WrongCommand
 from lasersph.cli.sweeping import DryRun, forecast, make
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
     from lasersph.studies.texture.make import TexturePlan
@@ -57,7 +57,7 @@ def texture(
     try:
         plan = plan_texture(case, given, cells)
         if dry_run:
-            print(aligned(_rows(plan)))
+            print(text_table(_rows(plan)))
             forecast(plan.cells, engine)
             return
         folder = out or Path("runs") / f"{plan.case.name}-texture"
@@ -77,7 +77,7 @@ def texture(
         content = assemble(plan, folder, size)
     except NoTexture as error:
         raise OutputError(str(error)) from None
-    print(aligned([*_rows(plan), *_answer_rows(content)]))
+    print(text_table([*_rows(plan), *_answer_rows(content)]))
     for note in content["notes"]:
         print(f"note: {note}")
     print(style.save(texture_figure(read_maps(folder / MAPS), content), folder / "texture.png"))

@@ -57,10 +57,10 @@ def validate(
     Runs are kept in the output folder: the same command goes on where it was interrupted.
     """
     from lasersph import validation
-    from lasersph.cli.tables import aligned
+    from lasersph.input.text_table import text_table
 
     if only_list:
-        print(aligned(validation.titles().items()))
+        print(text_table(validation.titles().items()))
         return
     if every and names:
         raise WrongCommand("--all is for no NAME")
@@ -110,11 +110,12 @@ def _compute(
 
 def _say_states(names: Iterable[str], folder: Path) -> None:
     """Print a line of each record; exit code 1 where one is failed, stale or missing."""
-    from lasersph.cli.tables import aligned
+    from lasersph.input.text_table import text_table
     from lasersph.validation.records import state_of
 
     states = [state_of(name, folder) for name in names]
-    print(aligned((state.name, state.word, state.text) for state in states))
+    rows = [(state.name, state.word, state.text) for state in states]
+    print(text_table(rows, ("validation", "record", "of")))
     if any(state.word not in ("current", "confirmed") for state in states):
         raise typer.Exit(FAILED)
 

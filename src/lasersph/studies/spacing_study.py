@@ -59,15 +59,15 @@ class SpacingStudy:
                 return row
         raise KeyError(name)
 
-    def table(self) -> list[list[str]]:
-        """Header and rows as text: number, values, kind, order, extrapolated value, GCI."""
-        header = ["number", *(format_quantity(d, "m") for d in self.spacings)]
-        lines = [[*header, "behavior", "order", "at zero spacing", "GCI"]]
+    def table(self) -> tuple[list[list[str]], list[str]]:
+        """Rows and head as text: number, values, kind, order, extrapolated value, GCI."""
+        spacings = [format_quantity(d, "m") for d in self.spacings]
+        head, lines = ["number", *spacings, "behavior", "order", "at zero spacing", "GCI"], []
         for row in self.rows:
             c = row.convergence
             texts = [row.name, *(_shown(v) for v in row.values), c.kind, _shown(c.order, "{:.2f}")]
             lines.append([*texts, _shown(c.extrapolated), _shown(100.0 * c.gci, "{:.2g} %")])
-        return lines
+        return lines, head
 
     def as_dict(self) -> dict[str, Any]:
         """The study as plain data for JSON; nan becomes None."""

@@ -70,15 +70,15 @@ class SpotThreshold:
     beam_radius: float
     scatter: float
 
-    def table(self) -> list[list[str]]:
-        """Header and one row a run, as text."""
-        rows = [["fluence", "diameter", "depth", "volume", "efficiency"]]
+    def table(self) -> tuple[list[list[str]], list[str]]:
+        """One row a run, and the head, as text."""
+        rows = []
         for one in self.craters:
             fluence, diameter = f"{1e-4 * one.fluence:.5g} J/cm2", f"{1e6 * one.diameter:.4g} um"
             efficiency = f"{CUBIC_MICROMETERS_PER_MICROJOULE * one.efficiency:.4g} um3/uJ"
             depth = f"{1e6 * one.depth:.4g} um"
             rows.append([fluence, diameter, depth, one.shown_volume, efficiency])
-        return rows
+        return rows, ["fluence", "diameter", "depth", "volume", "efficiency"]
 
     def answer(self) -> str:
         """Threshold and radius in one line."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from lasersph.input.text_table import text_table
 from lasersph.validation.comparison import Row
 
 HEAD = ("quantity", "unit", "published", "reference", "computed", "tolerance", "verdict")
@@ -62,7 +63,7 @@ class Report:
     def table(self) -> str:
         """Plain text: title, one line per number, remarks, verdict."""
         lines = [f"{self.name}: {self.title}" + (" (quick)" if self.quick else ""), ""]
-        lines += columns([HEAD, *(_cells(row) for row in self.rows)])
+        lines += [text_table(map(_cells, self.rows), HEAD)]
         lines += ["", *(f"- {text}" for text in self.remarks)]
         lines += [f"- changed: {text}" for text in unique(row.changed for row in self.rows)]
         lines += [f"figure {path}" for path in self.figures]
@@ -75,18 +76,6 @@ class Report:
 def unique(texts: Iterable[str]) -> list[str]:
     """Texts that are not empty, each once."""
     return [text for text in dict.fromkeys(texts) if text]
-
-
-def columns(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Lines of a table with aligned columns; the first column to the left, numbers to the right."""
-    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return [
-        "  ".join(
-            cell.ljust(width) if k < 2 else cell.rjust(width)
-            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]
 
 
 def _cells(row: Row) -> tuple[str, ...]:

@@ -39,4 +39,7 @@ def test_no_graphics_card(monkeypatch, capsys):
 
     monkeypatch.setattr(cuda_device, "checked", no_card)
     assert roofline.main(["--backend", "cuda"]) == 2
-    assert capsys.readouterr().err == "lasersph: --backend cuda: no CUDA device found\n"
+    assert (
+        capsys.readouterr().err
+        == "lasersph: --backend cuda: no CUDA device found; see docs/gpu.md\n"
+    )

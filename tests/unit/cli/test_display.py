@@ -5,15 +5,24 @@ from dataclasses import replace
 import pytest
 
 from lasersph.cli.progress import ProgressDisplay, describe
-from lasersph.cli.tables import aligned
+from lasersph.input.text_table import text_table
 from lasersph.simulation import RunProgress
 
 
-def test_aligned_columns():
-    """Columns as wide as their widest cell, a rule below the header, nothing trailing."""
-    text = aligned([("a", "long name", "x"), ("bbb", "c")], header=True)
-    assert text.splitlines() == ["a    long name  x", "---  ---------  -", "bbb  c"]
-    assert aligned([]) == ""
+def test_text_table():
+    """Columns as wide as their widest cell, a rule below the head, numbers below one another."""
+    rows = [("first", "12.5 nm", "–", "7 runs failed"), ("second", "8 nm"), ("3rd", "-", "40", "x")]
+    assert text_table(rows, ("run", "depth", "order", "remark")).splitlines() == [
+        "run       depth  order  remark",
+        "------  -------  -----  -------------",
+        "first   12.5 nm      –  7 runs failed",
+        "second     8 nm",
+        "3rd           -     40  x",
+    ]
+    assert text_table([("case", "1"), ("time", "20 ns")]) == "case  1\ntime  20 ns"
+    assert text_table([]) == ""
+    with pytest.raises(ValueError, match="more than two need a head"):
+        text_table(rows)
 
 
 STATUS = RunProgress(time=0.2194, end=1.0, steps=1207, hottest=301.6, work_done=0.42)

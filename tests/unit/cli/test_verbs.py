@@ -17,6 +17,7 @@ import lasersph
 from lasersph.case import available_cases
 from lasersph.cli import main
 from lasersph.cli.app import VERBS as HEADINGS
+from lasersph.cli.failures import PAGES
 from lasersph.compute import cuda_device
 
 VERBS = {name: verb for verbs in HEADINGS.values() for name, verb in verbs.items()}
@@ -62,9 +63,11 @@ def test_every_verb_explains_itself(verb, capsys):
         ("lasersph cal", "calibrate"),
         ("lasersph run --qu", "--quick"),
         ("lasersph material l", "list"),
+        ("lasersph run dlip-s", "dlip-steel"),
+        ("lasersph material show cop", "copper"),
     ],
 )
-def test_shell_completes_verbs_and_options(words, wanted, capsys, monkeypatch):
+def test_shell_completes_verbs_options_and_names(words, wanted, capsys, monkeypatch):
     """The answer to what bash asks when the Tab key is pressed."""
     monkeypatch.setenv("_LASERSPH_COMPLETE", "complete_bash")
     monkeypatch.setenv("COMP_WORDS", words)
@@ -115,6 +118,31 @@ def test_new_then_check(capsys):
         assert word in answer
     assert main(["new", "dlip-steel", "mine.toml"]) == 2
     assert capsys.readouterr().err == ("lasersph: mine.toml: exists already; choose another name\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "page"),
+    [
+        (["check", "dlip-steel", "--set", "laser.fluence=3kg"], "cases"),
+        (["run", "dlip-steel", "--set", "material.melting.solidus=3kg"], "metals"),
+        (["sweep", "."], "sweeps"),
+        (["map", ".", "--levels", "1nm"], "maps"),
+        (["find", ".", "--out", "a"], "calibration"),
+        (["info", "."], "results"),
+        (["serve", "none"], "web"),
+    ],
+)
+def test_refusals_name_the_page_of_the_docs(arguments, page, capsys):
+    """At the end of the line, and there is such a page."""
+    assert main(arguments) == 2
+    assert capsys.readouterr().err.rstrip().endswith(f"; see docs/{page}.md")
+
+
+def test_pages_of_refusals_are_pages_of_the_docs():
+    """Each verb that has one is a verb, and its page lies in the documentation."""
+    docs = Path(__file__).resolve().parents[3] / "docs"
+    assert set(PAGES) <= set(VERBS)
+    assert all((docs / f"{page}.md").is_file() for page in PAGES.values())
 
 
 @pytest.mark.parametrize(
@@ -361,7 +389,7 @@ def test_records_of_validations(monkeypatch, capsys):
     monkeypatch.setattr("lasersph.validation.records.make_record", make)
     monkeypatch.setattr("lasersph.validation.records.confirm", lambda *_, threads: ["front"])
     text = said(capsys, "validate", "--status", code=1)
-    assert text.splitlines()[1].split() == ["stefan", "stale"]
+    assert text.splitlines()[3].split() == ["stefan", "stale"]
     text = said(capsys, "validate", "--confirm", "--record", "r", code=1)
     assert "stefan: not confirmed: front" in text and "kernels: " not in text
     said(capsys, "validate", "--all", "--record", "r")
@@ -391,9 +419,12 @@ def test_no_graphics_card(command, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(cuda_device, "checked", no_card)
     command = [*command, "--backend", "cuda", "--out", "out"]
     assert main(command) == 2
-    assert capsys.readouterr().err == "lasersph: --backend cuda: no CUDA device found\n"
+    assert (
+        capsys.readouterr().err
+        == "lasersph: --backend cuda: no CUDA device found; see docs/gpu.md\n"
+    )
     assert main([*command, "--threads", "2"]) == 2
-    assert capsys.readouterr().err == "lasersph: --threads is for --backend cpu\n"
+    assert capsys.readouterr().err.startswith("lasersph: --threads is for --backend cpu; see docs/")
     assert not any(tmp_path.iterdir())
 
 

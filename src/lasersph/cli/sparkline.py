@@ -1,28 +1,14 @@
-"""Plain aligned text and small curves: the same on a terminal, in a file and in a pipe."""
+"""Small curves: the same on a terminal, in a file and in a pipe."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 BLOCKS, PLAIN = "▁▂▃▄▅▆▇█", "_.-:=+*#"
 """Heights of a curve from low to high, and where the output cannot show blocks."""
 CURVE_WIDTH = 48
 """Characters of a curve: with its name and largest value it fits 80 columns."""
-
-
-def aligned(rows: Iterable[Sequence[str]], *, header: bool = False) -> str:
-    """Rows of text in columns, the last one ragged; a rule below the header."""
-    lines = [list(row) for row in rows]
-    if not lines:
-        return ""
-    count = max(len(line) for line in lines)
-    lines = [line + [""] * (count - len(line)) for line in lines]
-    widths = [max(len(line[column]) for line in lines) for column in range(count)]
-    if header:
-        lines.insert(1, ["-" * width for width in widths])
-    padded = (zip(line, widths, strict=True) for line in lines)
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in row).rstrip() for row in padded)
 
 
 def sparkline(times: Sequence[float], values: Sequence[float]) -> str:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from lasersph.cli import tables
+from lasersph.cli import sparkline as curves
 
 
 class Output:
@@ -15,17 +15,17 @@ class Output:
 @pytest.mark.parametrize(("encoding", "marks"), [("utf-8", "▁▄█"), ("ascii", "_:#")])
 def test_sparkline_follows_time(encoding, marks, monkeypatch):
     """It counts times, not steps: many short steps take no more room than their time."""
-    monkeypatch.setattr(tables.sys, "stdout", Output(encoding))
+    monkeypatch.setattr(curves.sys, "stdout", Output(encoding))
     times = [0.0, *(1.0 + 1e-3 * k for k in range(50)), 2.0, 4.0]
     values = [0.0, *(50 * [3.0]), 7.0, 7.0]
-    line = tables.sparkline(times, values)
-    assert len(line) == tables.CURVE_WIDTH
+    line = curves.sparkline(times, values)
+    assert len(line) == curves.CURVE_WIDTH
     low, middle, high = marks
-    quarter = tables.CURVE_WIDTH // 4
+    quarter = curves.CURVE_WIDTH // 4
     assert line == low * quarter + middle * quarter + high * 2 * quarter
 
 
 def test_sparkline_of_a_constant():
     """Nothing that varies is a low line."""
-    assert len(set(tables.sparkline([0.0, 1.0], [5.0, 5.0]))) == 1
-    assert len(tables.sparkline([1.0], [5.0])) == tables.CURVE_WIDTH
+    assert len(set(curves.sparkline([0.0, 1.0], [5.0, 5.0]))) == 1
+    assert len(curves.sparkline([1.0], [5.0])) == curves.CURVE_WIDTH
