@@ -89,18 +89,22 @@ def wait_until(process: subprocess.Popen, ready) -> None:
 
 
 def results(folder: Path, but: tuple[str, ...] = ()):
-    """Summary without times of the clock, history as bytes, and the last snapshot."""
+    """Summary without times of the clock, history as bytes, the last snapshot, and all lines of a
+    surface that moves."""
     run = open_run(folder)
     left_out = ("wall_time_s", *but)
     summary = {key: value for key, value in run.summary.items() if key not in left_out}
-    return json.dumps(summary), (folder / "history.csv").read_bytes(), run.snapshots[-1]
+    lines = [(step["time"], step["position"].tobytes()) for step in run.surface]
+    return json.dumps(summary), (folder / "history.csv").read_bytes(), run.snapshots[-1], lines
 
 
 def assert_same(folder: Path, reference: Path, but: tuple[str, ...] = ()) -> None:
     """Both folders hold the same results to the last bit, but for some keys of the summary."""
-    (summary, history, snapshot), expected = results(folder, but), results(reference, but)
+    found, expected = results(folder, but), results(reference, but)
+    summary, history, snapshot, lines = found
     assert summary == expected[0]
     assert history == expected[1]
+    assert lines == expected[3]
     assert list(snapshot) == list(expected[2])
     for name, values in snapshot.items():
         assert np.array_equal(values, expected[2][name]), name

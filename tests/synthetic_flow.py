@@ -154,6 +154,7 @@ def write_run(folder, views, *, box, end, complete, times=()):
         "title": "made-up box" if box else "made-up melt pool",
         "material": {"name": "steel-304-demuth"},
         "laser": None if box else {"fluence": 6000.0},
+        "domain": {"extent": "full" if box else "half"},
         "particles": {"spacing": 50 * NM},
         "time": {"end": end},
     }

@@ -120,6 +120,7 @@ def make_run(
         "title": "made-up steel",
         "material": {"name": "steel-304-demuth", "vaporization": BOILING},
         "laser": {"fluence": fluence, "pulse": {"kind": "gaussian", "duration": 10 * NS}},
+        "domain": {"extent": "half"},
         "particles": {"spacing": 50 * NM},
         "time": {"end": END},
     }

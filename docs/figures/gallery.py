@@ -100,6 +100,7 @@ SPOT = ("lasersph run ablation-aluminium --quick --out runs/ablation",)
 SPOT_FROM = (_case("ablation-aluminium"), f"{RECIPES}.ablation")
 FILM = ("lasersph run moving-film --quick --out runs/film",)
 FILM_FROM = (_case("moving-film"), f"{RECIPES}.melt_pool")
+TEXTURE_FROM = (_case("texture-steel"), f"{RECIPES}.melt_pool", _plots("relief"))
 
 GALLERY = (
     _entry(
@@ -192,6 +193,25 @@ GALLERY = (
         "runs/film/figures/topography.png",
         *FILM_FROM,
         _plots("relief"),
+    ),
+    _entry(
+        "texture-steel-relief",
+        "A texture is made",
+        "Steel between two interfering beams: the surface while it is molten, and as it freezes.",
+        ("lasersph run texture-steel --out runs/one",),
+        "runs/one/figures/relief.png",
+        *TEXTURE_FROM,
+    ),
+    _entry(
+        "texture-steel-pulses",
+        "A texture of ten pulses",
+        "Each pulse melts the relief of the one before. Takes ten times as long as one.",
+        (
+            "lasersph run texture-steel --set laser.pulse.count=10 --set laser.pulse.period=1ms "
+            "--set time.end=9.0003ms --out runs/ten",
+        ),
+        "runs/ten/figures/relief-pulses.png",
+        *TEXTURE_FROM,
     ),
     _entry(
         "moving-spot",

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 from flow_boxes import pool_case
 from reliability_runs import assert_same
+from scipy.sparse import csr_matrix
 
+from lasersph import compute, load_case
 from lasersph.simulation import run
+from lasersph.simulation.recipes import recipe_of
 from lasersph.simulation.time_loop import Stopped
 
 SETTINGS = (
@@ -60,13 +63,16 @@ def test_second_pulse_is_one_on_the_relief_of_the_first(runs):
 
 def test_heat_of_the_pause_is_booked(runs):
     """What the pause takes away is said in the budget and where it happened."""
-    _, two, _, summary = runs
+    one, two, _, summary = runs
     energy = summary["energy"]
     events = [json.loads(line) for line in (two / "events.jsonl").read_text().splitlines()]
     (pause,) = (event for event in events if event["event"] == "pause")
     assert pause["heat_removed_J"] == energy["pauses_J"]
     assert 0.45 * energy["absorbed_J"] < energy["pauses_J"] < 0.55 * energy["absorbed_J"]
     assert pause["time_s"] == PERIOD
+    (height,) = summary["topography"]["after_pulses_m"]
+    assert height == pytest.approx(np.ptp(relief(one)), rel=0.05)  # of parabolas, of columns
+    assert abs(pause["volume_added_m2"]) < 1e-9 * 1.5e-6 * 2.5e-6
     assert energy["imbalance_relative"] < 1e-4
 
 
@@ -89,3 +95,21 @@ def test_heat_may_be_spread(tmp_path):
     energy = run(case, tmp_path / "spread", threads=1).summary["energy"]
     assert abs(energy["pauses_J"]) < 1e-12 * energy["absorbed_J"]
     assert energy["imbalance_relative"] < 1e-4
+
+
+def test_pairs_below_a_relief_are_symmetric():
+    """Laid out below a relief, each particle conducts to its neighbor what that one conducts to it,
+    in graded layers too."""
+    wave = ("amplitude=20nm", "period=5.05um")
+    settings = [f"solver.flow.initial_surface.{one}" for one in wave]
+    case = load_case("texture-steel", ("particles.spacing=32nm", *settings))
+    pairs = recipe_of(case).build(compute.cpu(threads=1)).body.pairs
+    start, neighbor = (
+        np.asarray(one, int) for one in (pairs.neighbors.row_start, pairs.neighbors.neighbor)
+    )
+    row = np.repeat(np.arange(start.size - 1), np.diff(start))
+    shape = 2 * (start.size - 1,)
+    weights = csr_matrix(
+        (np.asarray(pairs.weights)[: row.size], (row, neighbor[: row.size])), shape
+    )
+    assert abs(weights - weights.T).max() < 1e-9 * weights.max()

@@ -1,6 +1,6 @@
 """Runs that flow, stopped or killed anywhere: resumed, they end with the same bits.
 
-A steel pool of some 30 particles lives from step 65 to 185 of some 205.
+A steel pool under a flat surface of some 30 particles lives from step 65 to 185 of some 205.
 """
 
 import numpy as np
@@ -14,6 +14,17 @@ from lasersph.simulation import run
 from lasersph.simulation.time_loop import Stopped
 
 POOL = ("solver.kind=melt-pool", "particles.spacing=64nm", "time.end=100ns")
+MOVING = (
+    "solver.kind=melt-pool",
+    "solver.flow.surface=moving",
+    "material.base=steel-304-demuth",
+    "material.surface_tension=1.6 N/m",
+    "particles.fine_depth=1.5um",
+    "laser.fluence=2 J/cm^2",
+    "laser.pulse.center=25ns",
+    "time.end=60ns",
+    "output.snapshots.interval=1ns",
+)
 HEAT = {"left": "fixed-temperature", "left_temperature": 310.0, "right": "fixed-temperature"}
 
 
@@ -65,6 +76,28 @@ def test_pool_killed_in_the_middle_of_melting(tmp_path, pool):
     run(case, folder, resume=True, threads=2)
     assert_same_state(folder, pool)
     assert_same(folder, pool, but=("threads",))
+
+
+def lines_of(folder):
+    """Times and lines of a surface that moves."""
+    return [(step["time"], step["position"].tobytes()) for step in open_run(folder).surface]
+
+
+def test_pool_killed_while_its_surface_moves(tmp_path):
+    """Killed anywhere, the file of the surface can be read and holds what an uninterrupted run
+    wrote; resumed and ended, all of it."""
+    case, folder, whole = small_case(*MOVING), tmp_path / "run", tmp_path / "whole"
+    summary = run(case, whole, threads=1).summary
+    assert summary["topography"]["peak_to_valley_m"] > 1e-9
+    kill_after(folder, summary["steps"] - 35, 0.005, *MOVING)
+    heights = load(max(candidates(folder / "checkpoint"))).arrays["surface_height"]
+    assert np.ptp(heights) > 1e-9
+    found, expected = lines_of(folder), lines_of(whole)
+    assert 10 < len(found) < len(expected)
+    assert found == expected[: len(found)]
+    run(case, folder, resume=True, threads=1)
+    assert_same_state(folder, whole)
+    assert_same(folder, whole)
 
 
 def test_box_stopped_twice(tmp_path):

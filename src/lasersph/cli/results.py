@@ -169,8 +169,8 @@ def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> No
     """Write the surface of a crater or a relief as CSV, STL, PLY, X3P or SDF.
 
     A crater goes to DIR/crater.FORMAT, a surface that moved to DIR/surface-profile.FORMAT: its
-    profile, as STL or PLY extruded along the lines by its width. The height of a texture goes to
-    DIR/height.FORMAT.
+    profile, as STL or PLY extruded along the lines by its width; where half a period was computed,
+    the mirror image belongs to it. The height of a texture goes to DIR/height.FORMAT.
     """
     from lasersph.output import OutputError
     from lasersph.output.height_map import extruded_map, height_map
@@ -187,9 +187,11 @@ def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> No
     steps = run.surface if moves else run.snapshots
     step = steps[-1] if time is None else steps.nearest(time)
     try:
-        surface = (
-            extruded_map(step, 2 if format in ("stl", "ply") else 1) if moves else height_map(step)
-        )
+        if moves:
+            rows, is_half = 2 if format in ("stl", "ply") else 1, run.symmetry_factor == 2
+            surface = extruded_map(step, rows, is_half=is_half)
+        else:
+            surface = height_map(step)
     except OutputError as error:
         raise WrongCommand(f"{folder}: {error}") from None
     print(surface.write(Path(folder) / f"{'surface-profile' if moves else 'crater'}.{format}"))

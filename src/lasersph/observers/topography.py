@@ -95,15 +95,18 @@ class Topography(Observer):
     results = (
         Quantity("topography.lowest_x_m", "m", "place of the surface's lowest point"),
         Quantity("topography.rim_x_m", "m", "place of the surface's highest point"),
+        Quantity(
+            "topography.after_pulses_m", "m", "peak to valley after each pulse before a pause"
+        ),
     )
-    kept = ("places",)
+    kept = ("places", "after_pulses")
 
     def __init__(self, period: float | None = None) -> None:
         self.period = period
         if period is None:
             self.columns = self.columns[:-1]
         super().__init__()
-        self.places = [0.0, 0.0]
+        self.places, self.after_pulses = [0.0, 0.0], list[float]()
 
     def observe(self, view: View) -> Row:
         """Depth, rim, profile parameters and first harmonic [m]."""
@@ -112,6 +115,8 @@ class Topography(Observer):
             raise ValueError("the surface of this run does not move")
         (lowest_x, lowest), (rim_x, rim) = relief.lowest(), relief.highest()
         self.places = [lowest_x, rim_x]
+        if view.limit == "pause":  # jumped over after a pulse
+            self.after_pulses.append(rim - lowest)
         parameters = profile_parameters(relief)
         harmonic = [] if self.period is None else [first_harmonic(relief, self.period)]
         values = (max(-lowest, 0.0), max(rim, 0.0), rim - lowest, *parameters, *harmonic)
@@ -119,4 +124,8 @@ class Topography(Observer):
 
     def values(self) -> dict[str, object]:
         """Places of the lowest and the highest point."""
-        return {"topography.lowest_x_m": self.places[0], "topography.rim_x_m": self.places[1]}
+        found: dict[str, object] = {
+            "topography.lowest_x_m": self.places[0],
+            "topography.rim_x_m": self.places[1],
+        }
+        return found | {"topography.after_pulses_m": self.after_pulses}

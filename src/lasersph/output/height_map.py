@@ -155,13 +155,16 @@ def height_map(step: Mapping[str, Any]) -> HeightMap:
     return HeightMap(x, y, z.reshape(shape), top.reshape(shape), float(step["time"]))
 
 
-def extruded_map(step: Mapping[str, Any], rows: int) -> HeightMap:
+def extruded_map(step: Mapping[str, Any], rows: int, *, is_half: bool) -> HeightMap:
     """Height map of a line of a surface: the profile, or extruded along y by its width.
 
     Args:
         step: of `Run.surface`. rows: number of rows along y, 1 for the profile.
+        is_half: whether the mirror image about x = 0 belongs to it.
     """
     x, z = step["position"]
+    if is_half:
+        x, z = np.concatenate([-x[::-1], x]), np.concatenate([z[::-1], z])
     y = np.linspace(0.0, float(x[-1] - x[0]), rows) if rows > 1 else np.zeros(1)
     z = np.broadcast_to(z, (rows, x.size)).copy()
     return HeightMap(x, y, z, np.full(z.shape, -1), float(step["time"]))

@@ -62,6 +62,11 @@ class Run:
         """The case with all defaults, SI."""
         return self.resolved["case"]
 
+    @property
+    def symmetry_factor(self) -> int:
+        """2 where half a period was computed, mirrored about x = 0 by the other half; else 1."""
+        return 2 if self.case["domain"].get("extent") == "half" else 1
+
     @cached_property
     def case_text(self) -> str:
         """The case file as given."""

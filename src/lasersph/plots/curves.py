@@ -127,8 +127,3 @@ def summary_of(run: Run) -> dict[str, Any]:
 def material_of(run: Run) -> dict[str, Any]:
     """Corner temperatures of the material, where the summary gives them."""
     return summary_of(run).get("material", {})
-
-
-def symmetry_of(run: Run) -> int:
-    """2 where half a period was computed, else 1."""
-    return int(summary_of(run).get("surface", {}).get("symmetry_factor", 1))

@@ -9,7 +9,7 @@ import numpy as np
 from lasersph.observers.box_sections import Box
 from lasersph.observers.interpolation import interpolate
 from lasersph.output import Run
-from lasersph.plots.curves import summary_of, symmetry_of
+from lasersph.plots.curves import summary_of
 from lasersph.plots.particle_map import PIXELS, Cells, Snapshot
 
 MARGIN = 1.12
@@ -121,7 +121,7 @@ def plane_flow(run: Run, time: float) -> PlaneFlow:
     count = step["position"].shape[1]
     cells = Cells(step["position"], step["width"], np.arange(count))
     velocity = step.get("velocity", np.zeros(step["position"].shape))
-    if symmetry_of(run) == 2:
+    if run.symmetry_factor == 2:
         cells = cells.mirrored()
         velocity = np.concatenate([velocity * np.array([[-1.0], [1.0]]), velocity], axis=1)
     return PlaneFlow(float(step["time"]), step, cells, velocity)

@@ -9,7 +9,7 @@ import numpy as np
 
 from lasersph.output import Run
 from lasersph.plots import style
-from lasersph.plots.curves import draw_corner_temperatures, material_of, summary_of, symmetry_of
+from lasersph.plots.curves import draw_corner_temperatures, material_of, summary_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -97,7 +97,7 @@ def particle_map(run: Run, time: float | None = None) -> Figure | None:
     if run.snapshots.dimension == 1:
         return depth_profile(step, depth, material_of(run))
     cells = cells_of_cut(step, depth)
-    cells = cells.mirrored() if symmetry_of(run) == 2 else cells
+    cells = cells.mirrored() if run.symmetry_factor == 2 else cells
     left, right, _, _ = cells.frame
     shape = (right - left) / depth
     stretch = max(1.0, shape / LARGEST_STRETCH)

@@ -1,21 +1,28 @@
-"""The relief of a surface that moves, from surface.vtkhdf: profiles, the section below, a map."""
+"""The relief of a surface that moves, from surface.vtkhdf: profiles, the section below, a map.
+
+Of several pulses they show the last one, as pauses are a million times as long as the melt lasts;
+one figure has the relief after each.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lasersph.input import format_quantity
 from lasersph.output import Run
 from lasersph.plots import style
-from lasersph.plots.curves import draw_columns, symmetry_of
+from lasersph.plots.curves import draw_columns
 from lasersph.plots.particle_map import cells_of_cut
-from lasersph.plots.surface_profiles import looks_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PROFILES = 7
+COUNTS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
+"""Of pulses after which a relief is shown beside the last one."""
 SECTION = 1.6
 """The section is shown this many times as deep as the melt was, or as the relief is."""
 
@@ -25,26 +32,56 @@ def lines_of(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     steps = list(run.surface)
     x = np.array(steps[0]["position"][0])
     height = np.array([step["position"][1] for step in steps])
-    if symmetry_of(run) == 2:
+    if run.symmetry_factor == 2:
         x, height = np.concatenate([-x[::-1], x]), np.hstack([height[:, ::-1], height])
     return run.surface.times, x, height
+
+
+def starts_after_pauses(run: Run) -> list[float]:
+    """Times at which pulses begin after a pause that was jumped over [s]."""
+    return [float(event["time_s"]) for event in run.events if event["event"] == "pause"]
+
+
+def lines_of_last_pulse(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """As `lines_of`, since the last pause; times count from it."""
+    times, x, height = lines_of(run)
+    start = max(starts_after_pauses(run), default=0.0)
+    since = times >= start
+    return times[since] - start, x, height[since]
+
+
+def relief_after_pulses(run: Run) -> Figure | None:
+    """The surface as it froze after 1, 2, 5, 10 ... pulses; None unless a pause was left out."""
+    starts = starts_after_pauses(run)
+    if not starts or len(run.surface) < 2:
+        return None
+    times, x, height = lines_of(run)
+    ends = np.array([*(np.searchsorted(times, starts) - 1), times.size - 1])
+    shown = np.array([*(count for count in COUNTS if count < ends.size), ends.size])
+    words = ["1 pulse" if count == 1 else f"{count} pulses" for count in shown]
+    return profiles_figure(x, height[ends[shown - 1]], words)
 
 
 def relief_profiles(run: Run) -> Figure | None:
     """The surface at several times while it moves; None in a run whose surface is flat."""
     if len(run.surface) < 2:
         return None
-    times, x, height = lines_of(run)
+    times, x, height = lines_of_last_pulse(run)
     moves = np.flatnonzero(np.any(np.diff(height, axis=0), axis=1))
     first, last = (moves[0], moves[-1] + 1) if moves.size else (0, times.size - 1)
     shown = np.unique(np.linspace(first, last, PROFILES).round().astype(int))
+    words = [format_quantity(float(time), "s", typographic=True) for time in times[shown]]
+    return profiles_figure(x, height[shown], words)
+
+
+def profiles_figure(x: np.ndarray, height: np.ndarray, words: Sequence[str]) -> Figure:
+    """Heights (profiles, columns) [m] over places (columns,) [m], each with its words."""
     figure, (axes,) = style.new_figure(height=3.6)
-    length, up = (
-        style.fitting_unit("m", np.max(np.abs(x))),
-        style.fitting_unit("m", largest(height)),
-    )
-    for number, look in zip(shown, looks_of(times[shown]), strict=True):
-        axes.plot(x * length.factor, height[number] * up.factor, lw=1.2, **look)
+    length = style.fitting_unit("m", np.max(np.abs(x)))
+    up = style.fitting_unit("m", largest(height))
+    colors = style.color_scale("viridis", len(words))
+    for profile, color, text in zip(height, colors, words, strict=True):
+        axes.plot(x * length.factor, profile * up.factor, lw=1.2, color=color, label=text)
     axes.set_xlim(x[0] * length.factor, x[-1] * length.factor)
     style.label(axes, f"x [{length.name}]", f"height of the surface [{up.name}]")
     style.legend_above(figure, axes, columns=7)
@@ -55,7 +92,7 @@ def relief_map(run: Run) -> Figure | None:
     """Height of the surface over place and time; None where it stays flat."""
     if len(run.surface) < 3:
         return None
-    times, x, height = lines_of(run)
+    times, x, height = lines_of_last_pulse(run)
     length, time = style.fitting_unit("m", np.max(np.abs(x))), style.fitting_unit("s", times[-1])
     up = style.fitting_unit("m", largest(height))
     figure, (axes,) = style.new_figure(height=3.6)
@@ -80,16 +117,19 @@ def final_relief(run: Run) -> Figure | None:
     """The surface at the end over the particles, which tell how far each has ever been molten."""
     if not len(run.surface) or not len(run.snapshots) or run.snapshots.dimension != 2:
         return None
-    last = run.snapshots[-1]
-    if any(step["melt_fraction"].size != last["melt_fraction"].size for step in run.snapshots):
+    # particles are laid out anew in a pause: what lies where since then
+    since = run.snapshots.times >= max(starts_after_pauses(run), default=0.0)
+    steps = [run.snapshots[int(number)] for number in np.flatnonzero(since)]
+    last = steps[-1]
+    if any(step["melt_fraction"].size != last["melt_fraction"].size for step in steps):
         return None
-    molten = np.max([step["melt_fraction"] for step in run.snapshots], axis=0)
+    molten = np.max([step["melt_fraction"] for step in steps], axis=0)
     _, x, height = lines_of(run)
     surface = height[-1]
     deepest = -np.min(np.where(molten > 0.5, last["position"][1], 0.0))
     depth = SECTION * max(deepest, largest(surface))
     cells = cells_of_cut(last, depth)
-    cells = cells.mirrored() if symmetry_of(run) == 2 else cells
+    cells = cells.mirrored() if run.symmetry_factor == 2 else cells
     unit = style.fitting_unit("m", np.max(np.abs(x)))
     figure, (axes,) = style.new_figure(height=3.2)
     picture = cells.picture()

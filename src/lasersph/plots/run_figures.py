@@ -19,6 +19,7 @@ from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
 from lasersph.plots.particle_map import arrangement, particle_map
 from lasersph.plots.relief import (
     final_relief,
+    relief_after_pulses,
     relief_map,
     relief_profiles,
     topography_history,
@@ -149,16 +150,27 @@ DRAWINGS = (
     ),
     Drawing(
         "relief",
-        "The surface at several times. It counts from the original surface.",
+        "The surface at several times, of several pulses during the last. It counts from the"
+        " original surface.",
         relief_profiles,
     ),
     Drawing(
+        "relief-pulses",
+        "The surface after 1, 2, 5, 10 ... pulses, as it froze.",
+        relief_after_pulses,
+    ),
+    Drawing(
         "relief-section",
-        "The surface at the end over the metal, colored by how far it has ever been molten; the"
-        " height is drawn larger than the width. Dashed: the original surface.",
+        "The surface at the end over the metal, colored by how far it has been molten, of several"
+        " pulses by the last; the height is drawn larger than the width. Dashed: the original"
+        " surface.",
         final_relief,
     ),
-    Drawing("relief-map", "Height of the surface over place and time.", relief_map),
+    Drawing(
+        "relief-map",
+        "Height of the surface over place and time, of several pulses during the last.",
+        relief_map,
+    ),
     Drawing(
         "topography",
         "Depth of the lowest point and height of the rim over time (above); arithmetic and root"

@@ -11,7 +11,7 @@ import numpy as np
 from lasersph.input import format_quantity
 from lasersph.output import Run
 from lasersph.plots import style
-from lasersph.plots.curves import draw_corner_temperatures, material_of, symmetry_of
+from lasersph.plots.curves import draw_corner_temperatures, material_of
 from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.particle_map import Snapshot, in_cut
 
@@ -33,13 +33,13 @@ def surface_profiles(run: Run, times: Sequence[float] | None = None) -> Figure |
         return None
     figure, (axes,) = style.new_figure(height=3.6)
     steps, looks = steps_at(run, warm_times(run) if times is None else times)
-    curves = [profile(step, symmetry_of(run), "temperature") for step in steps]
+    curves = [profile(step, run.symmetry_factor, "temperature") for step in steps]
     half_width = max(float(np.max(np.abs(x))) for x, _ in curves)
     length = style.fitting_unit("m", half_width)
     for (x, temperature), look in zip(curves, looks, strict=True):
         axes.plot(x * length.factor, temperature, **look)
     right = half_width * length.factor
-    axes.set_xlim(-right if symmetry_of(run) == 2 else None, right)
+    axes.set_xlim(-right if run.symmetry_factor == 2 else None, right)
     draw_corner_temperatures(axes, material_of(run))
     style.label(axes, f"x [{length.name}]", "surface temperature [K]")
     style.legend_above(figure, axes, columns=7)
@@ -71,7 +71,7 @@ def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Fig
     )
     for axes, letter, (name, text, factor) in zip(all_axes, "abc", panels, strict=True):
         for step, look in zip(steps, looks, strict=True):
-            x, values = profile(step, symmetry_of(run), name)
+            x, values = profile(step, run.symmetry_factor, name)
             seen = np.abs(x) <= half_width
             axes.plot(x[seen] * length.factor, values[seen] * factor, lw=1.1, **look)
         lowest = f"x [{length.name}]" if letter == "c" else ""

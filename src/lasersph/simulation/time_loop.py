@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import platform
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -160,10 +160,10 @@ class _Loop:
                 until = max(self.snapshots.next_time - state.time, 0.0)
                 limits["snapshot"] = until or float("inf")
             self.limit, step, unclipped_step = choose_step(limits)
-            heat = state.energy.get("pauses", 0.0)
+            before = self.solver.checkpoint_scalars() if self.limit == PAUSE else {}
             taken = self._step(step, unclipped_step)
             if self.limit == PAUSE:
-                self._begin_pulse(taken, state.energy["pauses"] - heat)
+                self._begin_pulse(taken, before)
             self.folder.confirm_lock()
             if taken == step and self.limit in ("end", "snapshot"):
                 state.time = end if self.limit == "end" else self.snapshots.next_time
@@ -179,12 +179,21 @@ class _Loop:
                     f"stopped at {format_quantity(state.time, 's')} after {self.steps} steps"
                 )
 
-    def _begin_pulse(self, pause: float, heat: float) -> None:
-        """Count snapshots anew after a pause of a length [s] in which heat was taken away [J]."""
-        time = self.solver.state.time
+    def _begin_pulse(self, pause: float, before: Mapping[str, float]) -> None:
+        """Count snapshots anew after a pause of a length [s], and write what it has changed.
+
+        Args:
+            before: the numbers of the solver before it.
+        """
+        time, now = self.solver.state.time, self.solver.checkpoint_scalars()
         self.snapshots.begin_again(time)
         self.folder.events.append(
-            "pause", time=time, step=self.steps + 1, length_s=pause, heat_removed_J=heat
+            "pause",
+            time=time,
+            step=self.steps + 1,
+            length_s=pause,
+            heat_removed_J=now["energy.pauses"] - before["energy.pauses"],
+            volume_added_m2=now["rearranged"] - before["rearranged"],
         )
 
     def _progress(self) -> RunProgress:

@@ -215,7 +215,7 @@ def compare_with_case(
         if isinstance(raw, list):
             choices[key] = tuple(template.to_si(key, value) for value in raw)
             same = len(choices[key]) - len({str(value) for value in choices[key]})
-            if same:
+            if same and sampling.kind != "zip":
                 mistakes.add(path, "a value is given twice", "remove one", key=key)
         else:
             choices[key] = _range(template, key, raw, path, mistakes)
@@ -224,6 +224,10 @@ def compare_with_case(
     if sampling.kind == "zip" and len(set(counts.values())) > 1:
         shown = ", ".join(f"{key} has {count}" for key, count in counts.items())
         mistakes.add(("vary",), f"zip needs as many values of each key: {shown}")
+    elif sampling.kind == "zip":
+        rows = [str(row) for row in together(choices)]
+        if len(set(rows)) < len(rows):
+            mistakes.add(("vary",), "two runs of the zip have the same values", "remove one")
     mistakes.raise_any()
     return SweepPlan(mistakes.document.text, template, choices, sampling, columns)
 

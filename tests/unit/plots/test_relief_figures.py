@@ -20,6 +20,7 @@ from lasersph.plots import style
 from lasersph.plots.relief import (
     final_relief,
     lines_of,
+    relief_after_pulses,
     relief_map,
     relief_profiles,
     topography_history,
@@ -68,6 +69,27 @@ def test_figures_name_their_units(pool):
     assert lowest == pytest.approx(-50.0, rel=1e-3)
 
 
+def test_trains(pool):
+    """The relief after each pulse before a pause and after the last; the rest shows the last pulse,
+    whose time counts from its start."""
+    train = open_run(pool.path)
+    times, _, z = lines_of(pool)
+    train.events = [{"event": "pause", "time_s": times[number]} for number in (4, 7, 9)]
+    figure = relief_after_pulses(train)
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
+        "1 pulse",
+        "2 pulses",
+        "4 pulses",
+    ]
+    shown = [line.get_ydata() / 1e9 for line in figure.axes[0].lines]
+    assert shown == [pytest.approx(z[number]) for number in (3, 6, -1)]
+    lines = relief_profiles(train).axes[0].lines
+    assert len(lines) <= times.size - 9
+    assert lines[0].get_ydata() / 1e9 == pytest.approx(z[9])
+    assert relief_map(train).axes[0].get_ylim()[1] < 1.1e9 * (times[-1] - times[9])
+    assert relief_after_pulses(pool) is None
+
+
 def test_flat_run_has_none(pool, monkeypatch, tmp_path):
     """Without lines no figure is drawn."""
     monkeypatch.setattr(style, "save", lambda figure, path: path)
@@ -100,15 +122,19 @@ def test_line_in_the_layout_of_vtkhdf(pool):
 
 
 def test_export(pool, capsys):
-    """The profile as CSV, and triangles extruded by the width."""
+    """The whole period as CSV, whose half was computed, and triangles extruded by its width."""
     assert main(["export", str(pool.path)]) == 0
     rows = (pool.path / "surface-profile.csv").read_text().splitlines()
-    assert rows[0] == "x_m,y_m,z_m" and len(rows) == 1 + X.size
-    assert float(rows[1].split(",")[2]) == pytest.approx(height(1.0)[0], rel=1e-6)
+    assert rows[0] == "x_m,y_m,z_m" and len(rows) == 1 + 2 * X.size
+    x, _, z = np.array([[float(text) for text in row.split(",")] for row in rows[1:]]).T
+    assert np.ptp(np.diff(x)) < 1e-6 * (x[1] - x[0]) and x[0] == pytest.approx(-X[-1])
+    assert z == pytest.approx(-50 * NM * np.cos(2 * np.pi * x / PERIOD), rel=1e-6)
     assert main(["export", str(pool.path), "--format", "ply"]) == 0
     text = (pool.path / "surface-profile.ply").read_text()
-    assert f"element vertex {2 * X.size}" in text
-    assert f"element face {2 * (X.size - 1)}" in text
+    assert f"element vertex {4 * X.size}" in text
+    corners = np.array([line.split() for line in text.splitlines()[10 : 10 + 4 * X.size]], float)
+    assert np.ptp(corners[:, 1]) == pytest.approx(np.ptp(corners[:, 0]))
+    assert f"element face {2 * (2 * X.size - 1)}" in text
     capsys.readouterr()
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from bad_plans import assert_mistake, written
 
+from lasersph.input import CaseError
 from lasersph.sweeps import build_plan, read_plan
 
 PLAN = """\
@@ -51,6 +52,16 @@ def test_log_scale_and_zip():
     )
     found = [tuple(p.settings.values()) for p in plan.points()]
     assert found == [(1000.0, 10), (2000.0, 20), (4000.0, 30)]
+
+
+def test_zip_may_repeat_values():
+    """One key at a time differs from the first run; a run that is there twice is refused."""
+    fwhm = ["10 ns", "10 ns", "12 ns"]
+    vary = {"laser.fluence": ["0.5 J/cm^2", "0.6 J/cm^2", "0.5 J/cm^2"], "laser.pulse.fwhm": fwhm}
+    assert len(build_plan("dlip-steel", vary, sampling={"kind": "zip"}).points()) == 3
+    vary["laser.pulse.fwhm"][2] = "10 ns"
+    with pytest.raises(CaseError, match="two runs of the zip have the same values; remove one"):
+        build_plan("dlip-steel", vary, sampling={"kind": "zip"})
 
 
 BOX = {

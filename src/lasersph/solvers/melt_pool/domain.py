@@ -12,7 +12,7 @@ from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
-from lasersph.solvers.melt_pool.block import Block, StaticParticleData
+from lasersph.solvers.melt_pool.block import SKIN, Block, StaticParticleData
 from lasersph.solvers.melt_pool.face_conditions import FACES, FaceConditions
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.step_control import StepFailed
@@ -44,8 +44,8 @@ class PoolDomain:
 
     Attributes:
         box: ((x0, x1), (z0, z1)) [m]. periods: width along each axis where it repeats, else 0.
-        spacing, support: of the particles that move [m]. block_layers: layers whose rows are
-            complete in the present block. volume: (n,) of the particles [m^2].
+        spacing, support: of the particles that move [m]. block_layers: layers of the
+            present block but for its margin. volume: (n,) of the particles [m^2].
     """
 
     def __init__(
@@ -108,6 +108,20 @@ class PoolDomain:
         if needed > self.block_layers:
             self.block_layers = min(needed + ROOM, self._bottom.size)
 
+    def _complete_layers(self, last: int) -> int:
+        """Layers all of whose neighbors lie in a block of `last` layers.
+
+        Layers below the finest grow, and so does the support of their pairs, between particles of
+        two layers at most the mean of both.
+        """
+        if last == self._bottom.size:
+            return self.block_layers
+        center = self._bottom - 0.5 * self.layers.thickness
+        support = self.lattice.support[self._starts[:-1]]
+        reach = SKIN * 0.5 * (support[:last] + support[last])
+        complete = int(np.count_nonzero(center[:last] + reach <= center[last]))
+        return min(self.block_layers, complete)
+
     def block_for(self, position: Array, kinds: ParticleKinds) -> Block:
         """Block that holds what flows, with room below it; it grows and never shrinks.
 
@@ -137,7 +151,7 @@ class PoolDomain:
                 self.volume,
                 fine_depth=self.fine_depth,
                 layers=self.block_layers,
-                complete_rows=int(self._starts[self.block_layers]),
+                complete_rows=int(self._starts[self._complete_layers(last)]),
                 count=int(self._starts[last]),
                 bottom=-float(self._bottom[last - 1]),
                 has_bottom=last == total,
