@@ -15,11 +15,11 @@ as slope and curvature are. Without those terms the surface of a film of steel 2
 off after a pulse. A ghost across the surface has p = 2 p_b - p_i; in the pressure equation the
 surface is a boundary of given pressure.
 
-While the flow of a step is computed the line over a film is where the advected particles have
-carried it: left where it was, it lies w dt off among them, and a film of aluminium under 1000 K
-loses 5 % of its height with steps of 0.3 ns. Its curvature is that of the line at the begin of the
-step. It moves from there with the velocity at the end, explicitly, which keeps its waves stable
-while omega dt < 2 for the fastest of those that the smoothed line shows; half of one is taken.
+The line goes half of its way through a step with the velocity at its begin, the flow of the step is
+found with particles and line there, and it goes the other half with the velocity at the end: a
+leapfrog, of second order as the particles' own way (71). Curvature and stress are those of the
+middle. Waves neither grow nor decay by it while omega dt < 2 for the fastest of those that the
+smoothed line shows; half of one is taken.
 Waves shorter than the smoothing length are damped within the time of that wave.
 """
 
@@ -261,29 +261,26 @@ class MovingSurface:
         return count
 
     def carry(self, now: SurfaceStep) -> None:
-        """Take the line as far as advected particles have come; `move` starts where it was.
-
-        The line over a pool, held at edges that retreat, waits: carried along, pools of few rows
-        of particles became unstable as they froze.
-        """
-        if not self.segments.is_molten.all():
-            return
-        begin, end = now.interval
-        flux, height = self._volume_flux(now), self.line.height.copy()
+        """Move the line through half of a step: the first, with the velocity at its begin."""
+        height, flux = self.line.height.copy(), self._volume_flux(now)
+        half = 0.5 * (now.interval[1] - now.interval[0])
         for part, own in self.segments.parts:
-            height[part] = own.heights_after(end - begin, flux_through(own, part, flux))
-        self._set_tables(height)
+            height[part] = own.heights_after(half, flux_through(own, part, flux))
+        self.line.height = height
+        self._renew()
 
     def move(self, now: SurfaceStep) -> None:
-        """Move the line for a step with the velocity at its end, and find the particles again."""
-        line, (begin, end) = self.line, now.interval
-        flux, moved, lost = self._volume_flux(now), line.height.copy(), np.zeros(line.count)
+        """Move the line through the second half of a step, with the velocity at its end; then take
+        what leaves in the step, damp short waves, and find the particles again."""
+        self.carry(now)
+        line, step = self.line, now.interval[1] - now.interval[0]
+        moved, lost = line.height.copy(), np.zeros(line.count)
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
+        self.segments.follow()
         for part, own in self.segments.parts:
-            loss = self._loss(own, part, now)
-            own.height = own.heights_after(end - begin, flux_through(own, part, flux), loss)
-            lost[part] = (end - begin) * loss
-            own.damp_short_waves((end - begin) * rate)
+            lost[part] = step * self._loss(own, part, now)
+            own.height = own.height - lost[part]
+            own.damp_short_waves(step * rate)
             moved[part] = own.height
         line.height = moved
         self._renew()

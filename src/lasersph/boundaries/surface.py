@@ -125,7 +125,7 @@ class Surface(Protocol):
         ...
 
     def carry(self, now: SurfaceStep) -> None:
-        """Go ahead with particles that are advected through the step; `now` is from its begin."""
+        """Follow the melt through the first half of a step; `now` is from its begin."""
         ...
 
     def rest(self) -> None:
@@ -157,7 +157,7 @@ class Surface(Protocol):
         ...
 
     def move(self, now: SurfaceStep) -> None:
-        """Follow the melt, whose positions and velocities are those at the end of the step."""
+        """Follow the melt through the second half; `now` is from the end of the step."""
         ...
 
     def confine(self, position: Array, flows: Array) -> None:

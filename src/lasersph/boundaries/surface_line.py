@@ -161,14 +161,13 @@ class SurfaceLine:
         second = self._stencil(SECOND, smoothed, EVEN) / self.width**2
         return -second / (1.0 + slope**2) ** 1.5
 
-    def heights_after(self, step: float, flux: Array, loss: Array | float = 0.0) -> Array:
+    def heights_after(self, step: float, flux: Array) -> Array:
         """Heights after `step` [s], (count,) [m].
 
         Args:
             flux: (count + 1,) Q through the sides of the columns, toward larger x [m^2/s].
-            loss: (count,) speed at which the surface recedes, along z [m/s].
         """
-        return self.height - step * (np.diff(flux) / self.width + loss)
+        return self.height - step * np.diff(flux) / self.width
 
     def damp_short_waves(self, share: float) -> None:
         """Take `share` (at most 1) of the way to the smoothed line of the same volume.

@@ -15,9 +15,13 @@ from lasersph.compute.vectors import dot, vector
 PINNED, MIRROR, PERIODIC = 0.0, 1.0, 2.0
 """Kinds of ends in loops."""
 ROW = 1.5
-"""Particles whose velocity is that of the surface lie within as many spacings of it."""
+"""Particles whose temperature is that of the surface lie within as many spacings of it."""
+DEEP = 2.5
+"""The same for velocities, which are carried on with their curvature."""
 LEAST_SHARE = 0.05
 """Least weight of such a particle, which falls with its distance from the surface."""
+LEAST_DEPTH = 0.2
+"""Least variance of the squares of depths, of all, with which a parabola is fitted."""
 WINDOW = 2.5
 """Columns at either side from which a column takes values of particles."""
 
@@ -224,42 +228,61 @@ def surface_velocity(
 ):
     """Velocity [m/s] and temperature [K] of the surface in the middle of a column, and a weight.
 
-    A line fitted to what the particles near the surface have, their velocity carried on to it by
-    half their ghosts' jump. 0 and the weight 0 where there are none.
+    Fits to what the particles near the surface have, linear along it. Velocities are carried on to
+    it by half their ghosts' jump, which leaves a parabola of the depth: that is fitted too. 0 and
+    the weight 0 where there are no particles.
     """
     center, middle = int(k), k + 0.5
-    s_0, s_1, s_2, u_0, u_1, w_0, w_1, T_0, T_1 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    s_0, s_1, s_2, s_d, s_1d, s_dd = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    u_0, u_1, u_d, w_0, w_1, w_d = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    n_0, n_1, n_2, T_0, T_1 = 0.0, 0.0, 0.0, 0.0, 0.0
     for c in range(center - 2, center + 3):
         column = source_column(c, columns, low_end, high_end)
         if column >= 0:
             sign = seen_sign(c, columns, low_end, high_end)
             for p in range(row_start[column], row_start[column + 1]):
                 j = member[p]
-                part = depth[j] / (ROW * spacing)
-                if part < 1.0:
+                rows = depth[j] / spacing
+                if rows < DEEP:
                     place = seen_place((x[j] - start) * inverse, c, columns, low_end, high_end)
-                    r = place - middle
+                    r, d = place - middle, rows * rows
                     near = max(1.0 - r * r / (WINDOW * WINDOW), 0.0)
-                    share = max(1.0 - part, LEAST_SHARE) * near * near
+                    share = max(1.0 - rows / DEEP, LEAST_SHARE) * near * near
                     u_j, w_j = sign * (u[j] + 0.5 * jump_x[j]), w[j] + 0.5 * jump_z[j]
                     s_0 += share
                     s_1 += share * r
                     s_2 += share * r * r
+                    s_d += share * d
+                    s_1d += share * r * d
+                    s_dd += share * d * d
                     u_0 += share * u_j
                     u_1 += share * r * u_j
+                    u_d += share * d * u_j
                     w_0 += share * w_j
                     w_1 += share * r * w_j
-                    T_0 += share * T[j]
-                    T_1 += share * r * T[j]
-    det = s_0 * s_2 - s_1 * s_1
-    if det <= 1.0e-9 * s_0 * s_0:
-        whole = max(s_0, 1.0e-300)
-        return u_0 / whole, w_0 / whole, T_0 / whole, s_0
+                    w_d += share * d * w_j
+                    if rows < ROW:
+                        share = max(1.0 - rows / ROW, LEAST_SHARE) * near * near
+                        n_0 += share
+                        n_1 += share * r
+                        n_2 += share * r * r
+                        T_0 += share * T[j]
+                        T_1 += share * r * T[j]
+    T_s, det = T_0 / max(n_0, 1.0e-300), n_0 * n_2 - n_1 * n_1
+    if det > 1.0e-9 * n_0 * n_0:
+        T_s = (n_2 * T_0 - n_1 * T_1) / det
+    # cofactors of 1, r, d; without the parabola where all are as deep, a mean where all are in line
+    c_0, c_1, c_d = s_2 * s_dd - s_1d * s_1d, s_1d * s_d - s_1 * s_dd, s_1 * s_1d - s_2 * s_d
+    det = s_0 * c_0 + s_1 * c_1 + s_d * c_d
+    if det <= LEAST_DEPTH * s_0 * s_2 * s_dd:
+        c_0, c_1, c_d, det = s_2, -s_1, 0.0, s_0 * s_2 - s_1 * s_1
+    if det <= 1.0e-9 * s_0 * c_0:
+        c_0, c_1, c_d, det = 1.0, 0.0, 0.0, max(s_0, 1.0e-300)
     return (
-        (s_2 * u_0 - s_1 * u_1) / det,
-        (s_2 * w_0 - s_1 * w_1) / det,
-        (s_2 * T_0 - s_1 * T_1) / det,
-        s_0,
+        (c_0 * u_0 + c_1 * u_1 + c_d * u_d) / det,
+        (c_0 * w_0 + c_1 * w_1 + c_d * w_d) / det,
+        T_s,
+        n_0,
     )
 
 

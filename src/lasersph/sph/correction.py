@@ -118,6 +118,14 @@ def corrected_symmetric_term(p_i, p_j, C_i, C_j, G_ij):
     return p_i * matvec(C_i, G_ij) + p_j * matvec(C_j, G_ij)
 
 
+def corrected_difference_term(p_i, p_j, C_i, C_j, G_ij):
+    """Term of the corrected G-: (p_j - p_i) C_i G_ij [unit of p / m], exact on linear fields.
+
+    Not adjoint to `corrected_divergence_term`. C_j is not read.
+    """
+    return (p_j - p_i) * matvec(C_i, G_ij)
+
+
 def bounded_inverse(total):
     """M^-1 where M is near the unit tensor, else 1: next to a gap a correction would amplify."""
     size, diagonal = determinant(total), trace(total)

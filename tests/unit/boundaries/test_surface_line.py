@@ -134,7 +134,7 @@ def test_smoother_ends_let_waves_grow(monkeypatch):
     "ends", [("mirror", "mirror"), ("periodic", "periodic"), ("pinned", "mirror")]
 )
 def test_volume(ends):
-    """Fluxes and damping move volume and make none; what leaves is what is taken."""
+    """Fluxes and damping move volume and make none."""
     rng = np.random.default_rng(1)
     found = line(ends)
     flux = rng.normal(size=159)
@@ -143,8 +143,6 @@ def test_volume(ends):
     found.damp_short_waves(0.3)
     moved = np.abs(found.height).sum()
     assert moved > 0.0 and abs(found.height.sum()) < 1e-12 * moved
-    found.height = found.heights_after(1e-9, 0.0 * flux, loss=2.0)
-    assert found.height.mean() == pytest.approx(-2e-9, rel=1e-9)
 
 
 @pytest.mark.parametrize("length", [1.0, 0.3, 0.1])

@@ -27,6 +27,13 @@ def test_terms_by_hand():
     np.testing.assert_allclose(
         correction.correction_term(2.0, x_ij, r_ij, dW_ij), [[1.8, 2.4], [2.4, 3.2]]
     )
+    C_i, C_j, G_ij = np.diag([2.0, 1.0]), np.diag([1.0, 3.0]), np.array([-0.6, -0.8])
+    np.testing.assert_allclose(
+        correction.corrected_difference_term(1.0, 4.0, C_i, C_j, G_ij), [-3.6, -2.4]
+    )
+    np.testing.assert_allclose(
+        correction.corrected_symmetric_term(1.0, 4.0, C_i, C_j, G_ij), [-3.6, -10.4]
+    )
 
 
 def test_schwaiger_terms_by_hand():

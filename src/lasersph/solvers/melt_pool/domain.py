@@ -81,8 +81,12 @@ class PoolDomain:
     def room(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """The box with no upper end where the surface moves [m]."""
         x, (bottom, top) = self.box
-        moves = self.surface is not None and self.surface.ghosts is not None
-        return x, (bottom, inf if moves else top)
+        return x, (bottom, inf if self.surface_moves else top)
+
+    @property
+    def surface_moves(self) -> bool:
+        """Whether the surface is no plane."""
+        return self.surface is not None and self.surface.ghosts is not None
 
     @property
     def width(self) -> float:

@@ -110,8 +110,7 @@ class FaceExchange:
 
     def book_drag(self, block: Block, flow: Flow, step: float) -> None:
         """Add the momentum of a viscous step that has just been taken."""
-        v = flow.velocity if flow.viscous.is_implicit else flow.before
-        fields = {"v": flow.extend_velocity(v), "g_ij": block.weights}
+        fields = {"v": flow.extend_velocity(flow.viscous.velocity), "g_ij": block.weights}
         found = self.backend.pair_sum(
             drag_terms,
             block.pairs,

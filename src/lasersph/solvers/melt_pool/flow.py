@@ -10,6 +10,11 @@ Deviations from the paper: where particles are too dense the projection is asked
 that parts them again (`sph.density_drift`), 0 on a lattice. And the constant of the pressure, which
 nothing fixes, is such that its gradient sees none below 0: where p < 0 the symmetric gradient
 contracts the particles [Monaghan2000].
+
+Below a surface that moves the pressure is given there, and the gradient is that of its differences,
+exact on linear fields: the symmetric one pushes where the kernel sums of neighbors differ, by 0.5 %
+from row to row, and films of aluminium were 4 % off. It is not adjoint to the divergence; shifting
+alone keeps the particles even. Viscosity acts on the velocity in the middle of the step.
 """
 
 from __future__ import annotations
@@ -21,9 +26,9 @@ import numpy as np
 
 from lasersph.boundaries.surface import Surface, upward
 from lasersph.compute.array_types import Array, Rows
-from lasersph.compute.vectors import dot
 from lasersph.particles.particles import Particles
 from lasersph.physics.buoyancy import buoyancy
+from lasersph.solvers.melt_pool import flow_terms as terms
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
@@ -34,11 +39,11 @@ from lasersph.solvers.melt_pool.wall_pressure import WallPressure
 from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.correction import (
     bounded_inverse,
+    corrected_difference_term,
     corrected_divergence_term,
     corrected_symmetric_term,
     moment_term,
 )
-from lasersph.sph.density_drift import density_drift_source
 from lasersph.sph.lattice_sums import kernel_sum
 
 ACCEPTED = 10.0
@@ -59,78 +64,6 @@ class Liquid:
     gravity: float
     diffusivity: float
     surface_tension: float
-
-
-def advect(x, v, step):
-    """x + v dt [m] (67)."""
-    return x + step * v
-
-
-def move(x, v_old, v, step):
-    """x + (v^n + v^(n+1)) dt / 2 [m] (71)."""
-    return x + 0.5 * step * (v_old + v)
-
-
-def stop_solid(v, fluid):
-    """Velocity of what flows, 0 of all others [m/s]; and |v|^2."""
-    flowing = fluid * v
-    return flowing, dot(flowing, flowing)
-
-
-def settle(settled, jump, share):
-    """Jump that the divergence sees [m/s]; at once the present one where there was none."""
-    if settled == 0.0:
-        return 1.0 * jump
-    return settled + share * (jump - settled)
-
-
-def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
-    """Terms of D [1/s] and of the kernel sum S [1], V_j W_ij."""
-    return corrected_divergence_term(v_i, v_j, C_i, G_ij), VW_ij
-
-
-def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):
-    """rho / dt V (D - d) [Pa m^(d-2)]."""
-    return fraction * V * (total_0 - density_drift_source(total_1, lattice_sum, rate))
-
-
-def edge_pressure_terms(p_j, unknown_j, W_ij):
-    """Terms of the mean pressure of the edge."""
-    return unknown_j * p_j * W_ij, unknown_j * W_ij
-
-
-def dummy_pressure(total_0, total_1, p, dummy):
-    """Pressure of a dummy: the mean of the edge within its support; of others their own."""
-    if dummy > 0.0:
-        return total_0 / max(total_1, 1.0e-300)
-    return p
-
-
-def pressure_of(p):
-    """The pressure itself, for its minimum [Pa]."""
-    return 1.0 * p
-
-
-def pressure_over_lowest(source, p, lowest):
-    """Pressure of a particle or ghost over the lowest one [Pa]."""
-    return p[source] - lowest
-
-
-def correct(total, v, v_old, step, density):
-    """v - dt / rho G{p} [m/s] (70), and |dv/dt|^2 of all forces of the step."""
-    new = v - step / density * total
-    a = (new - v_old) / step
-    return new, dot(a, a)
-
-
-def kinetic_energy(v, V, density):
-    """Kinetic energy of a particle [J per meter]."""
-    return 0.5 * density * V * dot(v, v)
-
-
-def divergence_sizes(total):
-    """Square and size of the divergence."""
-    return total * total, abs(total)
 
 
 class Flow:
@@ -228,7 +161,7 @@ class Flow:
         time = self.block.moving_support**2 / self.liquid.viscosity
         fields = {"settled": self.particles["settled_jump"], "jump": self.ghost_velocity_jump()}
         share = 1.0 - exp(-step / time)
-        self.backend.pointwise(settle, fields, fields["settled"], share=share)
+        self.backend.pointwise(terms.settle, fields, fields["settled"], share=share)
 
     def correct_kernel(self, rows: Rows) -> None:
         """Correction matrices of some rows at the present positions."""
@@ -249,11 +182,16 @@ class Flow:
             g=liquid.gravity,
             up=upward(2),
         )
-        self.wall_pressure.find(block, self.pressure, self._C, kinds.unknown, step)
+        # viscosity at the end of the step; of second order, in its middle, below a moving surface
+        ahead = 0.5 * step if self._has_tangents else step
+        self.wall_pressure.find(block, self.pressure, self._C, ahead)
         extended = self.extend_velocity(self.velocity)
         self.iterations["viscosity"] = self.viscous.advance(
-            block, self.velocity, self.body_force, extended, kinds, step
+            block, self.velocity, self.body_force, extended, kinds, ahead
         )
+        if self._has_tangents:
+            fields = {"v": self.velocity, "v_old": self.before}
+            backend.pointwise(terms.continue_from_middle, fields, self.velocity)
         self.stop(kinds)
 
     def extend_velocity(self, v: Array) -> Array:
@@ -273,11 +211,11 @@ class Flow:
         speed = max(self.largest_speed, block.conditions.largest_wall_speed())
         rate = DRIFT_RATE * speed / self.spacing
         backend.pair_sum(
-            divergence_terms,
+            terms.divergence_terms,
             block.pairs,
             self._divergence_fields() | {"VW_ij": block.kernel, "V": self._V},
             self._rhs,
-            finish=divergence_load,
+            finish=terms.divergence_load,
             rows=kinds.unknown_rows,
             fraction=self.liquid.density / step,
             lattice_sum=self._lattice_sum,
@@ -313,20 +251,25 @@ class Flow:
         """
         backend, block = self.backend, self.block
         C = block.extend_tensor(self._C)
-        p = block.pressure_over_lowest(self.pressure, kinds.unknown)
+        gradient, p = corrected_difference_term, block.pressure_across(self.pressure)
         if p is None:
+            gradient = corrected_symmetric_term
             (lowest,) = backend.pointwise(
-                pressure_of, {"p": self.pressure}, (None,), rows=kinds.unknown_rows, reduce=("min",)
+                terms.pressure_of,
+                {"p": self.pressure},
+                (None,),
+                rows=kinds.unknown_rows,
+                reduce=("min",),
             )
             p, ghosts = backend.zeros(block.total), {"source": block.source}
-            backend.pointwise(pressure_over_lowest, ghosts, p, p=self.pressure, lowest=lowest)
+            backend.pointwise(terms.pressure_over_lowest, ghosts, p, p=self.pressure, lowest=lowest)
         (square,) = backend.pair_sum(
-            corrected_symmetric_term,
+            gradient,
             block.pairs,
             {"p": p, "G_ij": block.gradient, "C": C, "v": self.velocity, "v_old": self.before},
             (self.velocity, None),
             rows=kinds.fluid_rows,
-            finish=correct,
+            finish=terms.correct,
             reduce=(None, "max"),
             step=step,
             density=self.liquid.density,
@@ -343,7 +286,7 @@ class Flow:
             self.block.pairs,
             self._divergence_fields(),
             (None, None),
-            finish=divergence_sizes,
+            finish=terms.divergence_sizes,
             rows=kinds.fluid_rows,
             reduce=("sum", "max"),
         )
@@ -353,7 +296,7 @@ class Flow:
         """Of all that flows [J per meter]."""
         fields = self.particles.by_symbol("velocity", "volume")
         (energy,) = self.backend.pointwise(
-            kinetic_energy, fields, (None,), reduce=("sum",), density=self.liquid.density
+            terms.kinetic_energy, fields, (None,), reduce=("sum",), density=self.liquid.density
         )
         return energy
 
@@ -387,14 +330,14 @@ class Flow:
             return
         fields = {"p": block.gather(self.pressure), "unknown": block.gather(kinds.unknown)}
         fields["dummy"], rows = kinds.dummy, kinds.dummy_rows
-        terms, finish = edge_pressure_terms, dummy_pressure
-        backend.pair_sum(terms, block.pairs, fields, self._p, finish=finish, rows=rows)
+        mean, finish = terms.edge_pressure_terms, terms.dummy_pressure
+        backend.pair_sum(mean, block.pairs, fields, self._p, finish=finish, rows=rows)
         backend.copy(self._p, head(self.pressure, block.count))
 
     def stop(self, kinds: ParticleKinds) -> None:
         """Stop everything but the fluid; find the largest speed."""
         fields = {"v": self.velocity, "fluid": kinds.fluid}
         (square,) = self.backend.pointwise(
-            stop_solid, fields, (self.velocity, None), reduce=(None, "max")
+            terms.stop_solid, fields, (self.velocity, None), reduce=(None, "max")
         )
         self.largest_speed = max(square, 0.0) ** 0.5

@@ -21,11 +21,6 @@ from lasersph.solvers.melt_pool import ghost_fields
 from lasersph.solvers.melt_pool.face_conditions import GhostRules
 
 
-def over(value, lowest):
-    """How much a value is over the lowest."""
-    return value - lowest
-
-
 class GhostExtension:
     """Fields (..., n) of all particles on those of a block with ghosts, (..., M).
 
@@ -136,21 +131,13 @@ class GhostExtension:
         n_x, n_z = (self.backend.component(self._beyond.normal, k) for k in (0, 1))
         return {"n_x": n_x, "n_z": n_z, **self._across}
 
-    def pressure_over_lowest(self, p: Array, unknown: Array) -> Array | None:
-        """(M,) pressure over the lowest of all particles with unknown pressures and their ghosts
-        beyond a surface that moves; None where there is none."""
+    def pressure_across(self, p: Array) -> Array | None:
+        """(M,) pressure, carried on beyond a surface that moves; None where there is none."""
         if self._beyond is None:
             return None
-        backend, found = self.backend, self.backend.zeros(self.total)
-        tables = {"p": p, "p_b": self._beyond.pressure, "unknown": unknown, **self._across}
-        (lowest,) = backend.pointwise(
-            ghost_fields.pressure_across,
-            self.sources,
-            (found, None),
-            reduce=(None, "min"),
-            **tables,
-        )
-        backend.pointwise(over, {"value": found}, found, lowest=lowest)
+        found, tables = self.backend.zeros(self.total), {"p": p, "p_b": self._beyond.pressure}
+        function = ghost_fields.pressure_across
+        self.backend.pointwise(function, self.sources, found, **tables, **self._across)
         return found
 
     def prepare_velocity_change(self, d: Array, out: Array, again: Launch | None) -> Launch:

@@ -142,11 +142,9 @@ def tangent_plane(
     return n, dot(x, n) - distance[source]
 
 
-def pressure_across(source, ghost_type, p, p_b, unknown, across):
-    """Pressure [Pa]: that of the source, beyond the surface carried on through p_b there; and that
-    where it counts for the lowest."""
-    value = p[source] + 2.0 * across[ghost_type] * (p_b[source] - p[source])
-    return value, value if unknown[source] > 0.0 else 1.0e300
+def pressure_across(source, ghost_type, p, p_b, across):
+    """Pressure [Pa]: that of the source, beyond the surface carried on through p_b there."""
+    return p[source] + 2.0 * across[ghost_type] * (p_b[source] - p[source])
 
 
 def velocity_change(source, ghost_type, d_x, d_z, factor_x, factor_z):

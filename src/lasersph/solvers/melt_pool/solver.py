@@ -22,7 +22,8 @@ from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.face_exchange import FaceExchange
-from lasersph.solvers.melt_pool.flow import Flow, advect, move
+from lasersph.solvers.melt_pool.flow import Flow
+from lasersph.solvers.melt_pool.flow_terms import advect, move
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
 from lasersph.solvers.melt_pool.layout_renewal import LayoutRenewal
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
@@ -227,10 +228,15 @@ class MeltPool:
         self.kinds.remember()
 
     def advect(self, step: float) -> None:
-        """Advected positions with their pairs, walls and surface (67)."""
+        """Advected positions with their pairs, walls and surface (67).
+
+        Below a surface that moves they are those of the middle of the step, where (71) has half of
+        its way left: particles and line are then of second order in time.
+        """
         domain, flow = self.domain, self.flow
         fields = {"x": self.position, "v": flow.velocity}
-        self.backend.pointwise(advect, fields, self._advected, step=step)
+        way = 0.5 * step if domain.surface_moves else step
+        self.backend.pointwise(advect, fields, self._advected, step=way)
         block = domain.block_for(self.position, self.kinds)
         if block is not flow.current_block:
             flow.enter(block, domain.periods)
@@ -287,7 +293,7 @@ class MeltPool:
         """Displacements that keep the density of particles even (73)."""
         surface = self.domain.surface
         at_face = self.kinds.dummy
-        if surface is not None and surface.ghosts is None:
+        if surface is not None and not self.domain.surface_moves:
             at_face = surface.at_surface
         speed = max(self.flow.largest_speed, self.domain.conditions.largest_wall_speed())
         self.shifting.shift(self.flow.block, self.kinds, at_face, speed, step)

@@ -36,6 +36,9 @@ class ViscousStep:
 
     Args:
         volume: (n,) V [m^2]. viscosity: nu [m^2/s]. kind: "implicit" or "explicit".
+
+    Attributes:
+        velocity: (2, n) from which the forces of the last step follow [m/s].
     """
 
     def __init__(self, backend: Backend, volume: Array, viscosity: float, kind: str) -> None:
@@ -43,7 +46,7 @@ class ViscousStep:
         self.backend, self.nu, self.is_implicit = backend, viscosity, kind == "implicit"
         vectors = 5 if self.is_implicit else 1
         self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
-        self._g_sum = backend.zeros(count)
+        self._g_sum, self.velocity = backend.zeros(count), backend.zeros((2, count))
         self._launches: tuple[Launch | None, ...] = (None,) * 4
 
     def advance(
@@ -61,6 +64,7 @@ class ViscousStep:
         fields = {"v": extended, "g_ij": block.weights, "V": block.V, "b": b}
         if not self.is_implicit:
             pairs, star, nu = block.pairs, self._star, self.nu
+            backend.copy(v, self.velocity)
             backend.pair_sum(
                 momentum, pairs, fields, star, rows=rows, finish=predict, nu=nu, step=step
             )
@@ -113,4 +117,5 @@ class ViscousStep:
             TOLERANCE**2 * r_r,
             MOST,
         )
+        backend.copy(v, self.velocity)
         return int(iterations)

@@ -6,7 +6,8 @@ both known from a = grad p/rho along the wall:
     u* = dt a on the wall before the projection, which then takes dt a away        [Kim1985]
     nu d2u/dn2 = a on the wall, where nothing accelerates: u is not odd about it
 
-so that a ghost at the distance d has -u_s + (2 dt + d^2/nu) a. Without that a film of five rows
+so that a ghost at the distance d has -u_s + (2 dt + d^2/nu) a; dt is that up to the velocity from
+which viscosity is found, in the middle of the step. Without that a film of five rows
 over a wall flows 3 % too fast under a pressure, and liquid slips by dt a. a is that of the step
 before. Only below a surface that moves.
 """
@@ -40,13 +41,13 @@ class WallPressure:
         self.backend, self.density, self.viscosity = backend, density, viscosity
         self._a, self._step = backend.zeros((2, count)), 0.0
 
-    def find(self, block: Block, pressure: Array, C: Array, unknown: Array, step: float) -> None:
+    def find(self, block: Block, pressure: Array, C: Array, step: float) -> None:
         """Take the pressure (n,) [Pa] at the present positions.
 
         Args:
-            C: (2, 2, count) corrections of the gradient. unknown: (n,) 1 where p is one. step: [s].
+            C: (2, 2, count) corrections of the gradient. step: from v^n to what viscosity sees [s].
         """
-        p = block.pressure_over_lowest(pressure, unknown) if block.has_still_walls else None
+        p = block.pressure_across(pressure) if block.has_still_walls else None
         if p is None:
             return
         self._step, fields = step, {"p": p, "G_ij": block.gradient, "C": C}

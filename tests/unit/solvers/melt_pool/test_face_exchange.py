@@ -99,7 +99,7 @@ def test_shear_between_two_walls():
     block = block_of(solver)
     place = solver.backend.to_host(solver.position)
     v = np.array([1.0 + place[1], 0.0 * place[1]])
-    solver.backend.copy(solver.backend.asarray(v), solver.flow.velocity)
+    solver.backend.copy(solver.backend.asarray(v), solver.flow.viscous.velocity)
     exchange = FaceExchange(solver.backend, solver.body.count)
     exchange.book_drag(block, solver.flow, 2.0)
     expected = 2.0 * 0.01

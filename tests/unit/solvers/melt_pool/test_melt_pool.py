@@ -21,7 +21,7 @@ from lasersph.boundaries.flat_surface import ImposedTemperature
 from lasersph.case import load_case
 from lasersph.compute.search import EscapedParticle
 from lasersph.simulation.recipes import recipe_of
-from lasersph.solvers.melt_pool.flow import settle
+from lasersph.solvers.melt_pool.flow_terms import settle
 from lasersph.solvers.step_control import RETRIES, NotConverged
 
 LIFE = 45

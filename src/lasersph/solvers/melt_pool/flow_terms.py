@@ -1,0 +1,84 @@
+"""What the steps of `Flow` do with one particle or one pair."""
+
+from __future__ import annotations
+
+from lasersph.compute.vectors import dot
+from lasersph.sph.correction import corrected_divergence_term
+from lasersph.sph.density_drift import density_drift_source
+
+
+def advect(x, v, step):
+    """x + v dt [m] (67)."""
+    return x + step * v
+
+
+def move(x, v_old, v, step):
+    """x + (v^n + v^(n+1)) dt / 2 [m] (71)."""
+    return x + 0.5 * step * (v_old + v)
+
+
+def continue_from_middle(v, v_old):
+    """Velocity at the end of a step from that in its middle [m/s]."""
+    return 2.0 * v - v_old
+
+
+def stop_solid(v, fluid):
+    """Velocity of what flows, 0 of all others [m/s]; and |v|^2."""
+    flowing = fluid * v
+    return flowing, dot(flowing, flowing)
+
+
+def settle(settled, jump, share):
+    """Jump that the divergence sees [m/s]; at once the present one where there was none."""
+    if settled == 0.0:
+        return 1.0 * jump
+    return settled + share * (jump - settled)
+
+
+def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
+    """Terms of D [1/s] and of the kernel sum S [1], V_j W_ij."""
+    return corrected_divergence_term(v_i, v_j, C_i, G_ij), VW_ij
+
+
+def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):
+    """rho / dt V (D - d) [Pa m^(d-2)]."""
+    return fraction * V * (total_0 - density_drift_source(total_1, lattice_sum, rate))
+
+
+def edge_pressure_terms(p_j, unknown_j, W_ij):
+    """Terms of the mean pressure of the edge."""
+    return unknown_j * p_j * W_ij, unknown_j * W_ij
+
+
+def dummy_pressure(total_0, total_1, p, dummy):
+    """Pressure of a dummy: the mean of the edge within its support; of others their own."""
+    if dummy > 0.0:
+        return total_0 / max(total_1, 1.0e-300)
+    return p
+
+
+def pressure_of(p):
+    """The pressure itself, for its minimum [Pa]."""
+    return 1.0 * p
+
+
+def pressure_over_lowest(source, p, lowest):
+    """Pressure of a particle or ghost over the lowest one [Pa]."""
+    return p[source] - lowest
+
+
+def correct(total, v, v_old, step, density):
+    """v - dt / rho G{p} [m/s] (70), and |dv/dt|^2 of all forces of the step."""
+    new = v - step / density * total
+    a = (new - v_old) / step
+    return new, dot(a, a)
+
+
+def kinetic_energy(v, V, density):
+    """Kinetic energy of a particle [J per meter]."""
+    return 0.5 * density * V * dot(v, v)
+
+
+def divergence_sizes(total):
+    """Square and size of the divergence."""
+    return total * total, abs(total)
