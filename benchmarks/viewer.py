@@ -7,12 +7,12 @@ what draws; "SwiftShader" is the processor, without any graphics card.
 
 from __future__ import annotations
 
-import shutil
 import sys
+
+from browser_page import chromium
 
 from lasersph.output.viewer import viewer_module
 
-FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 FRAMES = 5
 PAGE = "<!doctype html><canvas style='width:1000px;height:560px'></canvas>"
 MEASURE = """
@@ -47,11 +47,8 @@ window.measure = async (side, frames) => {
 
 def main() -> None:
     """Print a line for each number of particles."""
-    from playwright.sync_api import sync_playwright  # pyright: ignore[reportMissingImports]
-
     counts = [int(text) for text in sys.argv[1:]] or [100_000, 1_000_000]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+    with chromium() as browser:
         for number, count in enumerate(counts):
             page = browser.new_page(viewport={"width": 1100, "height": 700})
             page.set_content(PAGE)
@@ -66,7 +63,6 @@ def main() -> None:
             fast, slow = 1000.0 / found["part"], 1000.0 / found["all"]
             print(f"{side**3:9,}   {found['first']:18.0f}   {slow:13.1f}   {fast:23.1f}")
             page.close()
-        browser.close()
 
 
 if __name__ == "__main__":

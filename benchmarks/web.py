@@ -11,31 +11,21 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import re
 import shutil
-import subprocess
-import sys
 import tempfile
 import time
 import urllib.request
-from contextlib import contextmanager
 from importlib.metadata import distribution
 from pathlib import Path
 
 import numpy as np
+from browser_page import TOKEN, chromium, serve
 
 import lasersph
 from lasersph.output import RunFolder
 from lasersph.output.run_folder import Origin
 
-TOKEN = "token-of-the-benchmark"
-FLAGS = (
-    "--no-sandbox",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-background-networking",
-)
 EXTRA = ("starlette", "uvicorn", "anyio", "h11", "click", "idna", "typing_extensions")
 """What `lasersph[web]` installs; typer brings click as well."""
 MEGABYTE = 1e6
@@ -61,25 +51,6 @@ def write_run(folder: Path, particles: int, gigabytes: float) -> None:
     run.close()
 
 
-@contextmanager
-def server_of(folder: Path):
-    """Process and address of a server."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "lasersph", "serve", str(folder), "--port", "0"],
-        stdout=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"LASERSPH_TOKEN": TOKEN},
-    )
-    assert process.stdout is not None
-    found = re.search(r"http://[^/]+/", process.stdout.readline())
-    assert found is not None
-    try:
-        yield process, found[0]
-    finally:
-        process.terminate()
-        process.wait()
-
-
 def ask(address: str) -> bytes:
     """An answer of the server."""
     request = urllib.request.Request(address, headers={"Authorization": f"Bearer {TOKEN}"})
@@ -89,17 +60,16 @@ def ask(address: str) -> bytes:
 
 def first(folder: Path, runs: int, particles: int) -> None:
     """From the address to the list, and from there to the particles of a run."""
-    from playwright.sync_api import expect, sync_playwright
+    from playwright.sync_api import expect
 
     write_run(folder / "run-000", particles, 0.0)
     for number in range(1, runs):
         shutil.copytree(folder / "run-000", folder / f"run-{number:03d}")
-    with server_of(folder) as (_, address), sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=shutil.which("chromium"), args=list(FLAGS))
+    with serve(folder) as (_, address), chromium() as browser:
         for visit in ("first visit", "second visit"):
             page = browser.new_page()
             began = time.perf_counter()
-            page.goto(f"{address}?token={TOKEN}")
+            page.goto(address)
             expect(page.locator(".card")).to_have_count(runs, timeout=60_000)
             listed = time.perf_counter()
             page.get_by_role("link", name=f"run-{runs // 2:03d}").click()
@@ -110,14 +80,14 @@ def first(folder: Path, runs: int, particles: int) -> None:
                 f"{drawn - listed:.2f} s after the click, {drawn - began:.2f} s in all"
             )
             page.close()
-        browser.close()
 
 
 def memory(folder: Path, gigabytes: float, particles: int) -> None:
     """Largest memory of the server when every block of a large run was asked for."""
     write_run(folder / "large", particles, gigabytes)
     size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
-    with server_of(folder) as (process, address):
+    with serve(folder) as (process, tokened):
+        address = tokened.partition("?")[0]
         status = Path(f"/proc/{process.pid}/status")
         (run,) = json.loads(ask(f"{address}api/runs"))["runs"]
         base = f"{address}api/run/{run['id']}"

@@ -18,7 +18,7 @@ LOST = "Failed to load resource|ERR_CONNECTION|ERR_FAILED|ERR_EMPTY"
 
 def names(page):
     """Names on the cards, in their order."""
-    return page.locator(".card h2").all_inner_texts()
+    return page.locator(".card h2").all_text_contents()
 
 
 def pixels_are_drawn(page):

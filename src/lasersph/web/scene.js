@@ -10,6 +10,8 @@ const MOVING = 100000;  // particles drawn while a cloud moves that takes longer
 const SLOW = 60;        // [ms]
 const TURN = 0.008;     // radians per pixel of the mouse
 
+const PROGRAMS = { cells: [CELL, FLAT], spheres: [SPHERE, ROUND], segments: [SEGMENT, PLAIN] };
+
 export class Scene {
   constructor(canvas) {
     this.canvas = canvas;
@@ -30,9 +32,7 @@ export class Scene {
   // Programs and buffers; again after the graphics card was lost.
   build() {
     const gl = this.gl;
-    this.cells = this.program(VIEW + CELL, FLAT);
-    this.spheres = this.program(VIEW + SPHERE, ROUND);
-    this.segments = this.program(VIEW + SEGMENT, PLAIN);
+    this.programs = {};
     this.arrays = new Map();
     this.buffers = {};
     for (const name of ["position", "width", "value", "gate", "line", "corner", "order"])
@@ -41,9 +41,14 @@ export class Scene {
     this.texture = gl.createTexture();
   }
 
-  program(vertex, fragment) {
+  // A program, built when it is first drawn with: that takes a tenth of a second without a card.
+  program(name) {
+    return (this.programs[name] ??= this.linked(...PROGRAMS[name]));
+  }
+
+  linked(vertex, fragment) {
     const gl = this.gl, program = gl.createProgram();
-    for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    for (const [kind, text] of [[gl.VERTEX_SHADER, VIEW + vertex], [gl.FRAGMENT_SHADER, fragment]]) {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, text);
       gl.compileShader(shader);
@@ -186,7 +191,7 @@ export class Scene {
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    const program = dimensions === 3 ? this.spheres : this.cells;
+    const program = this.program(dimensions === 3 ? "spheres" : "cells");
     this.use(program, dense);
     gl.uniform2fv(gl.getUniformLocation(program, "kept"), this.kept);
     gl.uniform4fv(gl.getUniformLocation(program, "cut"), this.cut);
@@ -221,7 +226,7 @@ export class Scene {
 
   // The surface that moves: a white line with a dark edge.
   drawLine(dense) {
-    const gl = this.gl, program = this.segments;
+    const gl = this.gl, program = this.program("segments");
     this.use(program, dense);
     this.attach(program, "corner", "corner", 2, 0);
     this.attach(program, "from", "line", 3, 1);

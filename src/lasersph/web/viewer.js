@@ -28,6 +28,8 @@ export function mount(element, source, options = {}) {
   const part = (name) => root.querySelector(name);
   const canvas = part("canvas"), slider = part(".time input"), message = part(".message");
   const say = (text) => { if (message.textContent !== text) message.textContent = text; };
+  let begun = source.index();  // on its way while the card is made ready
+  begun.catch(() => {});       // it is asked for again
   let scene;
   try {
     scene = new Scene(canvas);
@@ -78,7 +80,7 @@ export function mount(element, source, options = {}) {
     const mine = ++generation;
     for (let pause = PAUSE; !gone; pause = Math.min(2 * pause, LONGEST_PAUSE)) {
       try {
-        if (!index) takeIndex(await source.index());
+        if (!index) takeIndex(await (begun ?? source.index()));
         if (mine !== generation) return;
         if (!index.times.length) {
           say("Waiting for the first snapshot");
@@ -99,6 +101,7 @@ export function mount(element, source, options = {}) {
         return;
       } catch (error) {
         if (mine !== generation) return;
+        begun = null;
         say("The frame did not come; trying again");
         await sleep(pause);
         if (mine !== generation || gone) return;
