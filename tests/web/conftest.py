@@ -196,30 +196,8 @@ def serve():
         server.kill()
 
 
-@pytest.fixture(scope="session")
-def runs(tmp_path_factory):
-    """Three runs, one of them stopped, and a damaged one. Read only."""
-    from lasersph.output import open_run
-    from lasersph.plots import style
-    from lasersph.plots.run_figures import DRAWINGS
-
-    root = tmp_path_factory.mktemp("page") / "runs"
-    make_run(root / "hot", strength=1.2)
-    make_run(root / "cool", strength=0.4)
-    make_run(root / "stopped", complete=False)
-    (root / "damaged").mkdir()
-    (root / "damaged" / "resolved.json").write_text("{")
-    (root / "hot" / "figures").mkdir()
-    figures = {one.name: one.draw(open_run(root / "hot")) for one in DRAWINGS[:2]}
-    for name, figure in figures.items():
-        style.save(figure, root / "hot" / "figures" / f"{name}.png")
-    return root
-
-
-@pytest.fixture
-def sweep_address(serve, tmp_path):
-    """Of a server that shows a sweep with a calibration."""
-    folder = tmp_path / "runs" / "map"
+def write_calibration(folder):
+    """A sweep with the answer of a calibration."""
     made_up_sweep(folder, grid_points(), failed=(2,))
     draws = np.random.default_rng(3).normal(1.05, 0.02, (4000, 2)) @ [[1.0, -0.5], [0.0, 0.5]]
     lines = [f"{factor},{share},1.0\n" for factor, share in draws]
@@ -236,12 +214,38 @@ def sweep_address(serve, tmp_path):
         "chi_squared": {"value": 0.16, "degrees_of_freedom": 0, "probability": 1.0},
     }
     (folder / "calibration.json").write_text(json.dumps(answer))
-    return serve(tmp_path / "runs").address
 
 
 @pytest.fixture(scope="session")
-def address(runs):
-    """Of one server that only shows these runs."""
-    server = Server(runs)
-    yield server.address
+def runs(tmp_path_factory):
+    """Three runs, one of them stopped, a damaged one, and a calibration. Read only."""
+    from lasersph.output import open_run
+    from lasersph.plots import style
+    from lasersph.plots.run_figures import DRAWINGS
+
+    root = tmp_path_factory.mktemp("page") / "runs"
+    make_run(root / "hot", strength=1.2)
+    make_run(root / "cool", strength=0.4)
+    make_run(root / "stopped", complete=False)
+    (root / "damaged").mkdir()
+    (root / "damaged" / "resolved.json").write_text("{")
+    write_calibration(root / "map")
+    (root / "hot" / "figures").mkdir()
+    figures = {one.name: one.draw(open_run(root / "hot")) for one in DRAWINGS[:2]}
+    for name, figure in figures.items():
+        style.save(figure, root / "hot" / "figures" / f"{name}.png")
+    return root
+
+
+@pytest.fixture(scope="session")
+def shown(runs):
+    """One server that shows these runs, with the form for new ones."""
+    server = Server(runs, "--allow-run")
+    yield server
     server.kill()
+
+
+@pytest.fixture
+def address(shown):
+    """Of that server."""
+    return shown.address

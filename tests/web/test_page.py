@@ -47,14 +47,14 @@ def test_list_is_sorted_and_filtered_and_opens_a_run(open_page, address):
     """Cards with state and numbers; the damaged folder says so on its own card."""
     watched = open_page(address)
     page = watched.page
-    expect(page.locator(".card")).to_have_count(4)
+    expect(page.locator(".card")).to_have_count(5)
     assert "token" not in page.url
     page.get_by_label("Order").select_option("highest temperature")
     expect(page.locator(".card h2").first).to_have_text("hot")
     page.get_by_label("Order").select_option("name")
-    assert names(page) == ["cool", "damaged", "hot", "stopped"]
+    assert names(page) == ["cool", "damaged", "hot", "map", "stopped"]
     page.get_by_label("State").select_option("stopped")
-    expect(page.locator(".card h2")).to_have_text(["stopped"])
+    expect(page.locator(".card h2")).to_have_text(["map", "stopped"])
     page.get_by_label("State").select_option("all states")
     page.get_by_label("Find").fill("dam")
     expect(page.locator(".card")).to_contain_text(["it is damaged"])
@@ -80,13 +80,15 @@ def test_list_is_sorted_and_filtered_and_opens_a_run(open_page, address):
 
 
 def test_live_run_is_watched_to_its_end(open_page, serve, tmp_path):
-    """Curves and particles follow; a request that is lost in between is asked again."""
+    """Curves and particles follow; a request that is lost in between is asked again, and while the
+    server is gone the page says so, keeps what it has, and goes on by itself."""
     (tmp_path / "runs").mkdir()
     folder = tmp_path / "runs" / "live"
     command = [sys.executable, str(LIVE_RUN), str(folder)]
     run = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     assert run.stdout.readline() == "waiting\n"
-    watched = open_page(serve(tmp_path / "runs").address, expected=[LOST])
+    server = serve(tmp_path / "runs")
+    watched = open_page(server.address, expected=[LOST])
     page = watched.page
     expect(page.locator(".card .chip")).to_have_text("running")
     page.get_by_role("link", name="live").click()
@@ -99,6 +101,13 @@ def test_live_run_is_watched_to_its_end(open_page, serve, tmp_path):
     expect(page.get_by_role("button", name="Live")).to_have_attribute("aria-pressed", "true")
     frames = int(slider.get_attribute("max"))
     watched.keep("live")
+    server.kill()
+    words = page.get_by_text("The server does not answer; trying again.")
+    expect(words).to_be_visible()
+    expect(page.locator(".plot canvas").first).to_be_visible()
+    watched.keep("no-server")
+    server.start()
+    expect(words).to_have_count(0)
     lost = []
 
     def lose_once(route):
@@ -123,30 +132,10 @@ def test_live_run_is_watched_to_its_end(open_page, serve, tmp_path):
     assert {"history", "particles"} <= set(lost)
 
 
-def test_server_is_killed_and_restarted(open_page, serve, runs):
-    """The page says so, keeps what it has, and goes on by itself."""
-    server = serve(runs)
-    watched = open_page(server.address, expected=[LOST])
-    page = watched.page
-    page.get_by_role("link", name="cool").click()
-    expect(page.locator(".state")).to_contain_text("complete")
-    expect(page.locator(".plot canvas").first).to_be_visible()
-    server.kill()
-    words = page.get_by_text("The server does not answer; trying again.")
-    expect(words).to_be_visible()
-    expect(page.locator(".plot canvas").first).to_be_visible()
-    watched.keep("no-server")
-    server.start()
-    expect(words).to_have_count(0)
-    page.get_by_role("link", name="Runs").click()
-    expect(page.locator(".card")).to_have_count(4)
-
-
-def test_behind_a_proxy_that_strips_a_prefix(open_page, serve, runs):
+def test_behind_a_proxy_that_strips_a_prefix(open_page, shown):
     """As of JupyterHub: all addresses are relative, events come through."""
-    server = serve(runs)
-    with PrefixProxy("/user/x/proxy/8157", server.port) as proxy:
-        watched = open_page(proxy.address_of(server.address.partition("?")[2]))
+    with PrefixProxy("/user/x/proxy/8157", shown.port) as proxy:
+        watched = open_page(proxy.address_of(shown.address.partition("?")[2]))
         page = watched.page
         page.get_by_role("link", name="hot").click()
         expect(page.locator(".state")).to_contain_text("complete")
@@ -190,9 +179,9 @@ def test_two_runs_are_compared(open_page, address):
     watched.keep("narrow-compare")
 
 
-def test_sweep_opens_its_runs(open_page, sweep_address):
+def test_sweep_opens_its_runs(open_page, address):
     """A field with the lines of melting and boiling, points that are links, what can be chosen."""
-    watched = open_page(sweep_address, expected=[LOST])
+    watched = open_page(address, expected=[LOST])
     page = watched.page
     page.get_by_role("link", name="map").click()
     expect(page.locator(".state")).to_contain_text("23 complete, 1 failed")
@@ -256,9 +245,9 @@ def test_run_is_typed_started_stopped_and_resumed(open_page, serve, tmp_path):
     expect(page.locator("pre").last).to_contain_text("resumed at step")
 
 
-def test_list_of_a_case_is_edited_with_the_keyboard(open_page, serve, tmp_path):
+def test_list_of_a_case_is_edited_with_the_keyboard(open_page, address):
     """Rows of cells: the wrong one is marked, rows are added and removed; also on 390 pixels."""
-    watched = open_page(serve(tmp_path, "--allow-run").address + "#/new/dlip-steel", width=390)
+    watched = open_page(f"{address}#/new/dlip-steel", width=390)
     page = watched.page
     start = page.get_by_role("button", name="Start the run")
     expect(start).to_be_enabled()
@@ -298,7 +287,7 @@ def test_narrow_screen(open_page, address, part):
     """On 390 pixels nothing has to be moved sideways."""
     watched = open_page(address, width=390, height=844)
     page = watched.page
-    expect(page.locator(".card")).to_have_count(4)
+    expect(page.locator(".card")).to_have_count(5)
     if part:
         page.get_by_role("link", name="hot").click()
         expect(page.locator(".plot canvas").first).to_be_visible()
@@ -310,7 +299,7 @@ def test_narrow_screen(open_page, address, part):
 def test_keyboard_alone(open_page, address):
     """From the skip link to a run, through its frames, and back."""
     page = open_page(address).page
-    expect(page.locator(".card")).to_have_count(4)
+    expect(page.locator(".card")).to_have_count(5)
     page.keyboard.press("Tab")
     expect(page.get_by_role("link", name="Skip to the content")).to_be_focused()
     page.keyboard.press("Enter")
@@ -330,7 +319,7 @@ def test_keyboard_alone(open_page, address):
     page.keyboard.press("Tab")
     expect(page.get_by_role("link", name="Runs", exact=True)).to_be_focused()
     page.keyboard.press("Enter")
-    expect(page.locator(".card")).to_have_count(4)
+    expect(page.locator(".card")).to_have_count(5)
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
@@ -338,7 +327,7 @@ def test_page_is_accessible(open_page, address, dark):
     """axe-core finds nothing serious: names, contrast, order."""
     watched = open_page(address, dark=dark)
     page = watched.page
-    expect(page.locator(".card")).to_have_count(4)
+    expect(page.locator(".card")).to_have_count(5)
     assert serious(page) == []
     page.get_by_role("link", name="hot").click()
     expect(page.locator(".plot canvas").first).to_be_visible()

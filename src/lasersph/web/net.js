@@ -1,6 +1,6 @@
 /** Requests that are tried again while the server does not answer, and events of a run. */
 
-const PAUSES = [500, 1000, 2000, 4000];
+const PAUSES = [250, 500, 1000]; // the last again and again
 
 /** Says how the connection is, in the head of the page; "" where all is well. */
 export function sayConnection(text) {
