@@ -286,7 +286,8 @@ class MovingSurface:
         self._renew()
         self.find(now.position)
         if lost.any():
-            take_volume(self.backend, now, self.depth, line, lost, self.spacing)
+            gone = self._followed / self.liquid.density
+            take_volume(self.backend, now, self.depth, line, lost, gone, self.spacing)
 
     def _volume_flux(self, now: SurfaceStep) -> HostArray:
         """Q through the sides of all columns, toward larger x (count + 1,) [m^2/s]."""

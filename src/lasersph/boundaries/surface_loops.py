@@ -185,14 +185,18 @@ def thickness_of(k, row_start, member, V, inverse):
     return total * inverse
 
 
-def at_column(x, depth, flows, start, inverse, columns, spacing):
-    """Column of a particle that flows and lies at the surface; `columns` for others."""
-    return column_of(x, flows if depth < ROW * spacing else 0.0 * flows, start, inverse, columns)
+def at_column(x, depth, flows, start, inverse, columns, reach):
+    """Column of a particle that flows less than its `reach` below the surface; `columns` for
+    others."""
+    column = column_of(x, flows, start, inverse, columns)
+    if column < columns and depth >= reach[column]:
+        return int(columns)
+    return column
 
 
-def thinner(x, V, depth, flows, start, inverse, columns, spacing, kept):
-    """Volume of a particle [m^2] after its column has lost mass: that of all at the surface."""
-    column = at_column(x, depth, flows, start, inverse, columns, spacing)
+def thinner(x, V, depth, flows, start, inverse, columns, reach, kept):
+    """Volume of a particle [m^2] after its column has lost mass: that of all within its reach."""
+    column = at_column(x, depth, flows, start, inverse, columns, reach)
     return V * kept[column] if column < columns else 1.0 * V
 
 
@@ -302,10 +306,12 @@ def inner_weight(g_ij, across_j):
 
 
 def mean_weight(g_ij, swapped_ij, across_j):
-    """Weight of a pair: toward a ghost across the surface the mean of both ways, so that it is
-    symmetric."""
+    """Weight of a pair: toward a ghost across the surface the harmonic mean of both ways.
+
+    It is symmetric, and 0 where one of both lies beyond the support: its row has no such pair.
+    """
     if across_j > 0.0:
-        return 0.5 * (g_ij + swapped_ij)
+        return 2.0 * g_ij * swapped_ij / max(g_ij + swapped_ij, 1.0e-300)
     return 1.0 * g_ij
 
 
