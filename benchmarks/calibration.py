@@ -72,7 +72,7 @@ def plan_text(folder: Path, seed: int, workers: int, second: str | None) -> str:
 
 def main() -> None:
     """Print the hidden and the found unknowns, or which combination of them is known."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=2)

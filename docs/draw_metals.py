@@ -30,6 +30,7 @@ def main() -> None:
     for axes, names in zip(grid.T, COLUMNS, strict=True):
         for k, name in enumerate(names):
             metal, color = load_material(name), style.COLORS[k % 8]
+            assert metal.vaporization and metal.solidus and metal.liquidus
             end = min(metal.vaporization.temperature, TOP)
             T = np.unique([*np.linspace(300.0, end, 1700), metal.solidus, metal.liquidus])
             k_T = metal.conductivity_at(T)
@@ -37,7 +38,7 @@ def main() -> None:
             capacity = metal.density_at(T) * metal.heat_capacity_at(T) / 1e6
             draw_phases(axes[1], metal, T, capacity, color, ("density", "heat_capacity"))
             curve = metal.caloric_curve(298.15)
-            h = curve.enthalpy[curve.enthalpy <= curve.enthalpy_vaporizing]
+            h = curve.enthalpy[curve.enthalpy <= (curve.enthalpy_vaporizing or np.inf)]
             axes[2].plot(np.interp(h, curve.enthalpy, curve.temperature), h / 1e6, color=color)
             axes[0].plot([], [], color=color, label=name)
         axes[0].legend(fontsize=9)

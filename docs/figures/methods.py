@@ -31,7 +31,7 @@ METALS = ("aluminium", "copper", "steel-304", "titanium", "tungsten")
 def draw_heating(target: Path) -> None:
     """The fluence over the surface of three beams, and the power of three pulses."""
     x = np.linspace(-7.5e-6, 7.5e-6, 601)
-    beams = {
+    beams: dict[str, dict[str, object]] = {
         "interference, 5 µm": {"kind": "interference", "period": "5 um"},
         "Gaussian, 4 µm": {"kind": "gaussian", "radius_1e2": "4 um"},
         "top-hat, 4 µm": {"kind": "top-hat", "radius": "4 um"},
@@ -99,6 +99,7 @@ def draw_evaporation(target: Path) -> None:
     recoil, flux, heat = [], [], []
     for k, name in enumerate(METALS):
         metal = load_material(name).vaporization
+        assert metal is not None
         c = vapor_constants(metal)
         T = np.linspace(0.6 * c["T_b"], min(1.5 * c["T_b"], c["T_c"]), 150)
         p = np.array([saturation_pressure(one, **c) for one in T])
@@ -141,6 +142,7 @@ def draw_exact(target: Path) -> None:
     ]
     metal: Material = load_material("aluminium-aa6014")
     T_m = metal.solidus
+    assert T_m is not None
     phase = Phase(float(metal.conductivity_at(T_m)), float(metal.heat_capacity_at(T_m)))
     melting = Melting(T_m + 400.0, T_m, 300.0, 397e3, metal.density_reference, phase)
     z = np.linspace(0.0, 20e-6, 300)

@@ -54,7 +54,8 @@ class SteadyRecession:
             heat = self._sensible(T) + self.melting + self.latent_heat(T)
             return self.mass_flux(T) * heat - self.flux
 
-        return float(brentq(surplus, self.melting_temperature, self.hottest, xtol=1e-9))
+        found = brentq(surplus, self.melting_temperature, self.hottest, xtol=1e-9)
+        return float(found)  # pyright: ignore[reportArgumentType]  # the root alone, by default
 
     @property
     def speed(self) -> float:

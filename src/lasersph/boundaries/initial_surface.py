@@ -62,7 +62,7 @@ class InitialSurface(Model):
         """Places of the rows [m]."""
         return np.array([row[0] for row in self.rows])
 
-    def at(self, x: Array, width: float = 0.0) -> Array:
+    def at(self, x: NDArray[np.floating], width: float = 0.0) -> Array:
         """Height [m] at x [m]; of a wave the mean over columns of a width [m] around x."""
         if self.rows:
             return np.interp(x, self.x, [row[1] for row in self.rows])

@@ -48,7 +48,7 @@ from lasersph.boundaries.surface_mass import take_volume
 from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
 from lasersph.boundaries.surface_trouble import FEWEST_ROWS, trouble_of
 from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.materials import Material
 from lasersph.particles.neighbor_lists import NeighborList, members_of
@@ -111,9 +111,10 @@ class MovingSurface:
         self.liquid, self.has_stress, self.drives = liquid, has_stress, drives
         self.normal, self.tangent = upward(2), (1.0, 0.0)
         self.normal_velocity = self.heat_flux = 0.0
-        names = ("at_surface", "near_surface", "depth", "temperature", "gradient", "stress")
-        for name in (*names, "ghost_velocity_jump", "_distance", "_p_b"):
-            setattr(self, name, backend.zeros(count))
+        self.at_surface, self.near_surface, self.depth = (backend.zeros(count) for _ in range(3))
+        self.temperature, self.gradient, self.stress = (backend.zeros(count) for _ in range(3))
+        self.ghost_velocity_jump = backend.zeros(count)
+        self._distance, self._p_b = backend.zeros(count), backend.zeros(count)
         vectors = self._n, self._shift, self._jump, self._stress_jump = tuple(
             backend.zeros((2, count)) for _ in range(4)
         )
@@ -121,10 +122,10 @@ class MovingSurface:
         self.pressure: PressureCondition | None = None
         self._followed = np.zeros(line.count)
         low, high = (END_KINDS[kind] for kind in line.ends)
-        self._grid = {"start": line.start, "inverse": 1.0 / line.width}
+        self._grid: Constants = {"start": line.start, "inverse": 1.0 / line.width}
         self._ends = self._grid | {"columns": line.count, "low_end": low, "high_end": high}
         self._nodes = float(line.count + 4)
-        self._marks = {"near": spacing, "far": support, "closest": CLOSEST * spacing}
+        self._marks: Constants = {"near": spacing, "far": support, "closest": CLOSEST * spacing}
         self._columns = {"k": backend.asarray(np.arange(line.count), "index")}
         if has_stress:
             self._gamma_table = surface_tension_table(liquid.material)
@@ -170,7 +171,8 @@ class MovingSurface:
         u, w = (backend.component(now.velocity, k) for k in (0, 1))
         jump_x, jump_z = (backend.component(self._jump, k) for k in (0, 1))
         found = tuple(backend.zeros(line.count) for _ in range(4))
-        tables = {"row_start": members.row_start, "member": members.neighbor, "x": x, "T": now.T}
+        tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
+        tables |= {"x": x, "T": now.T}
         tables |= {"depth": self.depth, "u": u, "w": w, "jump_x": jump_x, "jump_z": jump_z}
         backend.pointwise(
             loops.surface_velocity,
@@ -376,7 +378,7 @@ class MovingSurface:
     def _set_tables(self, height: HostArray) -> None:
         """Place and slope of the surface for loops, for heights [m]."""
         line, backend = self.line, self.backend
-        self._tables = self._grid | {"nodes": self._nodes}
+        self._tables: Constants = self._grid | {"nodes": self._nodes}
         self._tables["height"] = backend.asarray(line.extend(height))
         self._tables["slope"] = backend.asarray(line.extend(line.derivative(height), ODD))
 

@@ -62,7 +62,7 @@ class SurfaceWave(Model):
             raise refusal(("end", "is not after start; give a later end, or none"))
         return self
 
-    def at(self, x: Array) -> Array:
+    def at(self, x: NDArray[np.floating]) -> Array:
         """The wave at x [m] while it acts, any shape."""
         return self.amplitude * np.cos(2.0 * np.pi * np.asarray(x, float) / self.period)
 
@@ -73,7 +73,7 @@ class SurfaceWave(Model):
             return float(self.start <= begin < last)
         return max(min(end, last) - max(begin, self.start), 0.0) / (end - begin)
 
-    def mean_over(self, x: Array, begin: float, end: float) -> Array:
+    def mean_over(self, x: NDArray[np.floating], begin: float, end: float) -> Array:
         """The wave at x [m], averaged over the time from `begin` to `end` [s]."""
         return self.share_of(begin, end) * self.at(x)
 

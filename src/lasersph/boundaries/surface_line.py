@@ -206,8 +206,9 @@ class SurfaceLine:
 
     def mean_of_neighbors(self, values: Array, counts: NDArray[np.bool_]) -> Array:
         """Binomial mean (count,) of five columns, of those that count; fewer beside a pin."""
+        modes: dict[End, Literal["symmetric", "wrap", "constant"]]
         modes = {"mirror": "symmetric", "periodic": "wrap", "pinned": "constant"}
-        left, right = (modes[end] for end in self.ends)
+        left, right = modes[self.ends[0]], modes[self.ends[1]]
         both = np.stack([values * counts, counts.astype(float)])
         both = np.pad(both, ((0, 0), (2, 0)), mode=left)[:, : self.count + 2]
         both = np.pad(both, ((0, 0), (0, 2)), mode=right)

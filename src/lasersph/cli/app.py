@@ -161,8 +161,9 @@ def complete_in_shell(arguments: Sequence[str]) -> object:
     whole = typer.Typer()
     for name in (name for verbs in VERBS.values() for name in verbs):
         app = app_of(name)
-        if len(app.registered_commands) == 1:
-            whole.command(name)(app.registered_commands[0].callback)
+        commands = [one.callback for one in app.registered_commands if one.callback is not None]
+        if len(commands) == 1:
+            whole.command(name)(commands[0])
         else:
             whole.add_typer(app, name=name)
     return whole(list(arguments), prog_name="lasersph", standalone_mode=False)

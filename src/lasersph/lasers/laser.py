@@ -261,7 +261,7 @@ class Laser(Model):
     @property
     def first_pulse(self) -> Laser:
         """The same laser with its first pulse alone."""
-        single = {"pulse": self.pulse.model_copy(update={"count": 1})}
+        single: dict[str, object] = {"pulse": self.pulse.model_copy(update={"count": 1})}
         if isinstance(self.beam, InterferenceBeam):
             single["beam"] = self.beam.model_copy(update={"shift": 0.0})
         return self.model_copy(update=single)

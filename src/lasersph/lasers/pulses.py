@@ -109,7 +109,7 @@ class PulseTrain(Model, ABC):
 
     def shares(self, start: float, end: float) -> Array:
         """Energy of each pulse delivered from `start` to `end` [s], (count,), in units of one's."""
-        before = np.arange(self.count) * (self.interval or 0.0)
+        before = np.arange(self.count, dtype=np.float64) * (self.interval or 0.0)
         return self.share_until(end - before) - self.share_until(start - before)
 
     def breakpoints(self, start: float = 0.0, end: float = np.inf) -> Array:

@@ -102,9 +102,10 @@ class Vaporization(Observer):
 
     def values(self) -> dict[str, object]:
         """Times at the vaporization temperature."""
-        found = {"vaporization.start_s": self.span.first, "vaporization.end_s": self.span.last}
         is_near = self.near.first is not None
-        return found | {
+        return {
+            "vaporization.start_s": self.span.first,
+            "vaporization.end_s": self.span.last,
             "vaporization.near_critical_start_s": self.near.first,
             "vaporization.near_critical_end_s": self.near.last,
             "vaporization.near_critical_x_m": self.place,

@@ -56,5 +56,6 @@ def lay_below(layers: Layers, height: Array) -> ReliefLayout:
     column, row = column[order], row[order]
     size, (low, high) = thickness / count, layers.bounds[0]
     width = (high - low) / columns
-    position = np.array([low + (column + 0.5) * width, (row + 0.5) * size[column] - depth])
+    x, z = low + (column + 0.5) * width, (row + 0.5) * size[column] - depth
+    position = np.array([x, z], dtype=np.float64)
     return ReliefLayout(position, width * size[column], (float(size.min()), float(size.max())))

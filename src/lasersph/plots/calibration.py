@@ -38,7 +38,7 @@ def calibration_figure(
     unknowns = content["unknowns"]
     corner = 2.2 * len(unknowns) + 0.6
     figure = Figure(figsize=(style.WIDTH, 3.0 + corner), layout="constrained")
-    above, below = np.ravel(figure.subfigures(2, 1, height_ratios=(3.0, corner)))
+    above, below = figure.subfigures(2, 1, height_ratios=(3.0, corner), squeeze=False)[:, 0]
     all_axes = above.subplots(1, len(columns) + len(profiles), squeeze=False)[0]
     for axes, profile in zip(all_axes[len(columns) :], profiles, strict=True):
         _draw_profile(axes, profile)

@@ -172,7 +172,7 @@ def _fit(number: int, target: ProfileTarget, reliefs: Array) -> tuple[ProfileFit
     # s is 1 +- its error beforehand: the one moves the heights, the other widens their errors
     measured = best.measured - stretch * (1.0 - scale) - middle
     free, widened = np.stack([*tilts, slope], axis=1), target.scale_error * stretch
-    tau = 1.0
+    tau, sd, rest = 1.0, target.error, measured
     for _ in range(2):  # the second time with the tau of what the first leaves over
         sd = target.error * np.sqrt(tau)
         left, sizes, right = np.linalg.svd(_project(computed - middle, free, widened / sd), False)

@@ -95,4 +95,4 @@ def test_what_does_not_observe_is_no_observer():
         """Never looks."""
 
     with pytest.raises(TypeError, match="observe"):
-        Blind()
+        Blind()  # pyright: ignore[reportAbstractUsage]

@@ -322,7 +322,7 @@ class Block(GhostExtension):
             return
         backend, beyond = self.backend, self._beyond
         n_x, n_z = (backend.component(beyond.normal, k) for k in (0, 1))
-        fields = self.sources | {"x": place}
+        fields = {**self.sources, "x": place}
         fields |= {name: self.rules[name] for name in ("normal", "plane")}
         backend.pointwise(
             ghost_fields.tangent_plane,

@@ -97,8 +97,8 @@ class GhostExtension:
         """
         a_x, a_z = (self.backend.component(a, k) for k in (0, 1))
         tables: Constants = {"a_x": a_x, "a_z": a_z, **self._walls_along}
-        function, fields = ghost_fields.velocity_at_wall, self.sources | {"v": v}
-        fields["x"] = self.pairs.position
+        fields = {**self.sources, "v": v, "x": self.pairs.position}
+        function = ghost_fields.velocity_at_wall
         self.backend.pointwise(function, fields, v, **tables, step=step, viscosity=nu)
 
     def mirror_velocity(self, v: Array, jump: Array) -> Array:

@@ -125,8 +125,9 @@ def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> Surfa
     x, _ = conditions.box
     width = (x[1] - x[0]) / columns
     kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}
-    left, right = (kinds.get(conditions.flow_kind(side), "pinned") for side in ("left", "right"))
-    line = SurfaceLine(x[0], width, columns, (left, right), cutoff_of(width))
+    left, right = (conditions.flow_kind(side) for side in ("left", "right"))
+    ends = kinds.get(left, "pinned"), kinds.get(right, "pinned")
+    line = SurfaceLine(x[0], width, columns, ends, cutoff_of(width))
     start = case.initial_surface
     if start is not None:
         line.height = start.at(line.x, width)
