@@ -30,6 +30,19 @@ def test_relief():
     assert abs(line.height.sum()) < 1e-10 * np.abs(line.height).sum()
 
 
+def test_one_row_of_melt_moves():
+    """Down to one row of melt, also where a particle has gone over to the next column."""
+    solver = pool(lambda x, z: (x < EDGE) & (z > -1e-7), *MOVING, slope=-2e8)
+    position = host_fields(solver)["position"]
+    position[0, np.argmin(np.hypot(position[0] - 6.9e-7, position[1]))] -= 7e-8
+    solver.backend.copy(solver.backend.asarray(position), solver.position)
+    go(solver, 1)
+    moves = solver.domain.surface.segments.is_molten
+    assert np.array_equal(moves, solver.domain.surface.line.x < EDGE)
+    assert solver.fluid_count == np.count_nonzero(moves)
+    assert solver.flow.largest_speed > 0.0
+
+
 def test_same_bits():
     """Arrays that refuse NumPy, and two threads, give the same bits as one."""
     first, *others = (

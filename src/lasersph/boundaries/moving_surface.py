@@ -46,7 +46,7 @@ from lasersph.boundaries.surface_flux import flux_through, volume_flux
 from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
 from lasersph.boundaries.surface_mass import take_volume
 from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
-from lasersph.boundaries.surface_trouble import FEWEST_ROWS, trouble_of
+from lasersph.boundaries.surface_trouble import trouble_of
 from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
@@ -58,6 +58,9 @@ CLOSEST = 0.2
 """Least distance from the surface over the spacing, for pressures, heat and ghosts."""
 GAP = 0.3
 """Particles stay as far below the surface, over the spacing."""
+THINNEST = 0.5
+"""Thickness of melt over the spacing from which its column moves, as a mean of five columns: less
+is no row of particles."""
 END_KINDS = {"pinned": loops.PINNED, "mirror": loops.MIRROR, "periodic": loops.PERIODIC}
 LINE = ("height", "shear", "stretch", "followed")
 """What of the line survives a step: eta [m], du_t/dn and du_t/ds [1/s], and the evaporated mass per
@@ -249,13 +252,14 @@ class MovingSurface:
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
         """Let what is molten under too thin columns rest; returns how many particles flow."""
-        backend, line = self.backend, self.line
+        backend, line, everywhere = self.backend, self.line, np.ones(self.line.count, bool)
         members = self._members(position, flows)
         found = backend.zeros(line.count)
         tables = {"row_start": members.row_start, "member": members.neighbor, "V": volume}
         inverse = self._grid["inverse"]
         backend.pointwise(loops.thickness_of, self._columns, found, **tables, inverse=inverse)
-        self.segments.choose(backend.to_host(found) >= FEWEST_ROWS * self.spacing)
+        thickness = line.mean_of_neighbors(backend.to_host(found), everywhere)
+        self.segments.choose(thickness >= THINNEST * self.spacing)
         is_molten = backend.asarray(self.segments.is_molten.astype(float))
         grid = self._grid | {"columns": float(line.count), "is_molten": is_molten}
         fields = {"x": position, "flows": flows}
