@@ -2,6 +2,9 @@
 
 python benchmarks/texture.py spot DIR       a spot of 50 um, 5 um period, 24 cells at 16 nm, two
                                             workers; the same command again goes on
+python benchmarks/texture.py direct DIR     a spot of 60 um at 1/e^2, 12 periods, in one run and
+                                            from 24 cells, both at 16 nm: how depths differ, what
+                                            each costs; --share DIR/cells takes those of a spot
 python benchmarks/texture.py recover [DIR]  20 profiles with hidden factors on the fluence, tilts,
                                             5 nm of noise, 1 % in lateral scale, from the cells of
                                             a texture or of a formula: of a spot for compare, of
@@ -20,24 +23,29 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from lasersph.cli import main
+from lasersph.output import open_run
 from lasersph.output.height_map import HeightMap
+from lasersph.plots import style
 from lasersph.studies.calibration import MakeRuns, Numbers, Settings, calibrate_with
 from lasersph.studies.calibration_profile import PLACES
 from lasersph.studies.calibration_reading import read_calibration_plan
+from lasersph.studies.texture.cells import read_cell
 from lasersph.studies.texture.compare import compare
+from lasersph.studies.texture.make import read_table
 from lasersph.studies.texture.relief import Relief, read_relief
 from lasersph.studies.texture.table import CellTable
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 from texture_cells import spot, table
 
-SPOT = (
+STEEL = (
     "solver.flow.surface=moving",
     "material.base=steel-304-demuth",
     "material.surface_tension=1.6 N/m",
     "particles.spacing=16 nm",
-    'laser.spot={diameter="50 um", definition="1/e^2"}',
 )
+PERIOD_UM = 5
+SPOT = 'laser.spot={diameter="%g um", definition="1/e^2", extent="%s"}'
 SEEDS, NOISE = 20, 5e-9
 CASE_SHARE = 0.75
 """Fluence of the lines over that of the highest cell: 1.3 times it is inside."""
@@ -59,16 +67,69 @@ most = 12
 """
 
 
-def spot_cost(folder: str, *more: str) -> int:
-    """Compute the texture of a spot and say how long it took, by the clock and in its runs."""
-    start = time.monotonic()
-    settings = [word for one in SPOT for word in ("--set", one)]
-    command = ["texture", "dlip-steel", *settings, "--cells", "24", "--workers", "2"]
-    code = main([*command, "--threads", "1", "--out", folder, *more])
-    runs = os.times()
-    busy = (runs.children_user + runs.children_system) / 60.0
-    print(f"{(time.monotonic() - start) / 60.0:.1f} minutes, {busy:.1f} of them of processors")
+def words(*settings: str) -> list[str]:
+    """Words of a command that set these keys of a case of steel."""
+    return ["dlip-steel", *(word for one in (*STEEL, *settings) for word in ("--set", one))]
+
+
+def timed(command: list[str]) -> tuple[int, float, float]:
+    """Exit code of a command, minutes by the clock and minutes of the processors it kept busy."""
+
+    def busy() -> float:
+        return sum(os.times()[:4]) / 60.0
+
+    start, before = time.monotonic(), busy()
+    code = main(command)
+    return code, (time.monotonic() - start) / 60.0, busy() - before
+
+
+def spot_texture(folder: Path, diameter: float, more: Sequence[str]) -> int:
+    """Compute the texture of a spot [um] and say what it cost."""
+    command = ["texture", *words(SPOT % (diameter, "cell")), "--cells", "24", "--workers", "2"]
+    code, clock, busy = timed([*command, "--threads", "1", "--out", str(folder), *more])
+    print(f"{clock:.1f} minutes, {busy:.1f} minutes of processors")
     return code
+
+
+def direct(folder: Path, more: Sequence[str]) -> int:
+    """Compare a spot that is assembled from cells with one run that holds all of it."""
+    if code := spot_texture(folder / "assembled", 12 * PERIOD_UM, more):
+        return code
+    settings = words(
+        SPOT % (12 * PERIOD_UM, "whole"),
+        f"domain.width={12 * PERIOD_UM} um",
+        "particles.fine_depth=400 nm",  # the melt is 290 nm deep in the middle
+    )
+    out = folder / "direct"
+    code, clock, busy = timed(
+        ["run", *settings, "--threads", "1", "--no-figures", "--resume", "--out", str(out)]
+    )
+    if code:
+        return code
+    print(f"direct: {clock:.1f} minutes, {busy:.1f} minutes of processors")
+    whole = read_cell(open_run(out), 12e-6 * PERIOD_UM)
+    cells = read_table(folder / "assembled" / "cells", 1e-6 * PERIOD_UM)
+    half = whole.x < 6e-6 * PERIOD_UM
+    x = whole.x[half]
+    local = spot(12e-6 * PERIOD_UM, float(cells.fluence[-1])).at(x, 0.0 * x)
+    figure, panels = style.new_figure(2, height=5.0, share_x=True)
+    for axes, name in zip(panels, ("height", "melt_depth"), strict=True):
+        ours, theirs = cells.at(name, local, x), whole.values[name][half]
+        deepest = float(np.max(-theirs if name == "height" else theirs))
+        off = np.abs(ours - theirs)
+        worst = int(np.argmax(off))
+        print(
+            f"{name}: deepest {1e9 * deepest:.1f} nm; differs by {1e9 * off[worst]:.2f} nm "
+            f"at most, {100.0 * off[worst] / deepest:.1f} % of it, at {1e6 * x[worst]:.2f} um, "
+            f"{1e9 * float(np.sqrt(np.mean(off**2))):.2f} nm rms"
+        )
+        axes.plot(1e6 * x, 1e9 * theirs, color=style.COLORS[1], lw=2.5, label="one run of all")
+        axes.plot(1e6 * x, 1e9 * ours, color=style.COLORS[0], lw=1.0, label="from cells")
+        style.label(axes, "", f"{name.replace('_', ' ')} [nm]")
+    style.legend_above(figure, panels[0], columns=2)
+    style.label(panels[1], "x [um]", "melt depth [nm]")
+    print(style.save(figure, folder / "direct.png"))
+    return 0
 
 
 def recover(folder: str | None = None) -> int:
@@ -125,6 +186,11 @@ def heights_from(cells: CellTable) -> MakeRuns:
 
 if __name__ == "__main__":
     verb, *rest = sys.argv[1:] or [""]
-    if verb not in ("spot", "recover") or (verb == "spot" and not rest):
+    if verb not in ("spot", "direct", "recover") or (verb != "recover" and not rest):
         sys.exit(__doc__)
-    sys.exit(spot_cost(*rest) if verb == "spot" else recover(*rest))
+    if verb == "recover":
+        sys.exit(recover(*rest))
+    folder, *more = rest
+    sys.exit(
+        direct(Path(folder), more) if verb == "direct" else spot_texture(Path(folder), 50, more)
+    )

@@ -53,16 +53,20 @@ At = Annotated[
 def info(folder: RunFolder) -> None:
     """Show what a run folder holds: the case, how far it is, the main numbers."""
     from lasersph.input import format_quantity
+    from lasersph.report.headline import light_text
 
     found = opened(folder)
+    words = light_text(found.case.get("laser") or {}).strip()
+    light = [("light", words)] if words else []
     if found.is_complete:
-        print(text_table([*summary_rows(found.summary, found.uncertainty), *_curves(found)]))
+        rows = summary_rows(found.summary, found.uncertainty)
+        print(text_table([rows[0], *light, *rows[1:], *_curves(found)]))
         print(f"{folder}: complete")
         return
     times = [float(time) for time in found.history.get("time_s", ())]
     end = format_quantity(float(found.case["time"]["end"]), "s")
     now = format_quantity(times[-1] if times else 0.0, "s")
-    known = [("case", found.case["title"]), ("history", f"up to {now} of {end}")]
+    known = [("case", found.case["title"]), *light, ("history", f"up to {now} of {end}")]
     print(text_table([*known, *_curves(found)]))
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
 

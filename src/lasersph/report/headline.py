@@ -52,7 +52,8 @@ def what_was_computed(run: Run) -> str:
 def light_text(laser: dict[str, Any]) -> str:
     """The light of a case after the name of its metal; empty where there is none."""
     fluence, pulse, beam = laser.get("fluence"), laser.get("pulse") or {}, laser.get("beam") or {}
-    if fluence is None and laser.get("intensity") is None:
+    energy, spot = laser.get("pulse_energy"), laser.get("spot") or {}
+    if fluence is None and energy is None and laser.get("intensity") is None:
         return ""
     count = int(pulse.get("count") or 1)
     lasts = pulse.get("fwhm") or pulse.get("duration")
@@ -60,8 +61,11 @@ def light_text(laser: dict[str, Any]) -> str:
     if lasts:
         text += f" of {quantity(lasts, 's', 3)}"
     if fluence is not None:
-        kind = f"a {laser['fluence_kind']} fluence of " if laser.get("fluence_kind") else ""
-        text += f" with {kind}{quantity(1e-4 * fluence, 'J/cm^2', 3)}"
+        text += f" with {quantity(1e-4 * fluence, 'J/cm^2', 3)}{fluence_kind(laser)}"
+    elif energy is not None:
+        text += f" with {quantity(energy, 'J', 3)} in all"
+    if spot.get("diameter"):
+        text += f" in a spot of {quantity(spot['diameter'], 'm', 3)} ({spot['definition']})"
     if beam.get("kind") in (None, "uniform"):
         return text
     if beam["kind"] == "interference":
@@ -73,6 +77,18 @@ def light_text(laser: dict[str, Any]) -> str:
     return f"{text} in a {beam['kind']} beam" + (
         f" (radius {quantity(radius, 'm', 3)})" if radius else ""
     )
+
+
+def fluence_kind(laser: dict[str, Any]) -> str:
+    """What the fluence of a case means, behind its number; empty where it is one everywhere."""
+    kind, is_peak = laser.get("beam", {}).get("kind"), laser.get("fluence_kind") == "peak"
+    if kind == "interference":
+        found = "peak of the pattern" if is_peak else "mean over a period"
+    elif kind == "gaussian":
+        found = "peak" if is_peak else "mean over the circle of 1/e²"
+    else:
+        return ""
+    return f" ({found}, at the center)" if laser.get("spot") else f" ({found})"
 
 
 def large_numbers(run: Run) -> str:

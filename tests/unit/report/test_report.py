@@ -132,8 +132,25 @@ def decode(frames, field, number):
         (
             {"fluence": 9000.0, "fluence_kind": "mean", "pulse": {"count": 1, "fwhm": 1e-8}}
             | {"beam": {"kind": "interference", "period": 5e-6}},
-            " under one pulse of 10 ns with a mean fluence of 0.9 J/cm² of interfering beams"
+            " under one pulse of 10 ns with 0.9 J/cm² (mean over a period) of interfering beams"
             " (period 5 µm)",
+        ),
+        (
+            {"fluence": 9000.0, "fluence_kind": "peak", "pulse": {"count": 1, "fwhm": 1e-8}}
+            | {"beam": {"kind": "gaussian", "radius_1e2": 5e-6}},
+            " under one pulse of 10 ns with 0.9 J/cm² (peak) in a gaussian beam (radius 5 µm)",
+        ),
+        (
+            {"pulse_energy": 6e-6, "spot": {"diameter": 5e-5, "definition": "1/e^2"}}
+            | {"pulse": {"fwhm": 1e-8}, "beam": {"kind": "interference", "period": 5e-6}},
+            " under one pulse of 10 ns with 6 µJ in all in a spot of 50 µm (1/e^2) of interfering"
+            " beams (period 5 µm)",
+        ),
+        (
+            {"fluence": 9000.0, "spot": {"diameter": 5e-5, "definition": "fwhm"}}
+            | {"beam": {"kind": "interference", "period": 5e-6}},
+            " under one pulse with 0.9 J/cm² (mean over a period, at the center) in a spot of 50 µm"
+            " (fwhm) of interfering beams (period 5 µm)",
         ),
         (
             {"fluence": 1e5, "pulse": {"count": 3, "duration": 6e-9}}

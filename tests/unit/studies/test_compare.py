@@ -4,11 +4,17 @@ import json
 
 import numpy as np
 import pytest
+import synthetic_flow
+import synthetic_run
 from texture_cells import HIGHEST, PERIOD, spot, table
+from texture_cells import relief as made_up
 
 from lasersph.cli import main
+from lasersph.output import open_run
+from lasersph.output.atomic import replace_json
 from lasersph.output.height_map import HeightMap
-from lasersph.output.image_file import Maps
+from lasersph.output.image_file import Maps, write_maps
+from lasersph.output.particle_file import ParticleFile
 from lasersph.studies.texture import compare as comparing
 from lasersph.studies.texture import relief
 from lasersph.studies.texture.compare import compare
@@ -113,13 +119,30 @@ def test_command(ours, tmp_path, capsys, monkeypatch):
     assert not (tmp_path / "compare-bad").exists()
 
 
+def test_run_whose_period_follows_from_an_angle(tmp_path):
+    """Its pattern has that period, and the relief of the cell repeats."""
+    run = open_run(synthetic_flow.make_pool_run(tmp_path / "run"))
+    content = run.resolved
+    content["case"]["laser"]["beam"] = {
+        "kind": "interference",
+        "wavelength": 355 * NM,
+        "angle": 2.0 * np.arcsin(0.5 * 355 * NM / synthetic_run.PERIOD),
+    }
+    replace_json(run.path / "resolved.json", content)
+    x = (np.arange(60) + 0.5) * 0.5 * synthetic_run.PERIOD / 60
+    for time in run.snapshots.times:
+        lines = ParticleFile(run.path / "surface.vtkhdf", "Lines")
+        lines.append(float(time), np.array([x, made_up(HIGHEST, x)]), {})
+    found = read_relief(run.path)
+    assert found.table.period == pytest.approx(synthetic_run.PERIOD)
+    there = found.at(x + 3.0 * synthetic_run.PERIOD, 0.0 * x, 1.0)
+    assert there == pytest.approx(made_up(HIGHEST, x), abs=0.1 * NM)
+
+
 def test_texture_read_back(tmp_path):
     """The folder of a texture tells its relief at any factor without its runs."""
     x = np.arange(-20, 21) * 1e-6
     fluence = spot().at(*np.meshgrid(x, x))
-    from lasersph.output.atomic import replace_json
-    from lasersph.output.image_file import write_maps
-
     write_maps(tmp_path / "maps.vtkhdf", Maps(x, x, {"fluence": fluence}, {"fluence": "J/m^2"}))
     one = table()
     cells = {"fluence_J_m2": one.fluence, "x_m": one.x, "height_m": one.values["height"]}

@@ -17,8 +17,9 @@ from lasersph.plots.texture import texture_figure
 from lasersph.studies.texture import make
 from lasersph.studies.texture.cells import depth_below, read_cell
 from lasersph.studies.texture.make import plan_texture
-from lasersph.studies.texture.spot import NoTexture, texture_maps
+from lasersph.studies.texture.spot import NoTexture, half_sizes, texture_maps
 from lasersph.studies.texture.table import CellTable
+from lasersph.sweeps import Table
 
 
 def test_table_between_cells():
@@ -89,6 +90,20 @@ def test_too_many_pixels_and_too_little_light():
         texture_maps(spot(), dark, 1e-6)
 
 
+def test_area_of_a_tilted_spot():
+    """All that melts of an ellipse along a diagonal lies on the maps, its corners as well."""
+
+    class Tilted:
+        diameter = 50e-6
+
+        def at(self, x, y):
+            return HIGHEST * np.exp(-(((x + y) / 50e-6) ** 2) - ((x - y) / 8e-6) ** 2)
+
+    end = 0.5 * 50e-6 * np.sqrt(np.log(HIGHEST / LEAST))  # of what melts, on the diagonal
+    assert min(half_sizes(Tilted(), table())) > end
+    assert max(half_sizes(Tilted(), table())) < end + 2.0 * PERIOD
+
+
 def test_depth_between_two_rows():
     """Of two columns of three rows one has molten to the second: half way between melt fraction and
     temperature; the other has not."""
@@ -107,6 +122,18 @@ REFUSED = {
     "whole": (["laser.spot.extent=whole", "domain.extent=full"], 'write extent = "cell"'),
     "too dark": (["laser.fluence=0.05 J/cm^2"], "melt nothing"),
     "two periods": (["domain.width=10 um"], "a cell is one period wide"),
+    "lines and spot moved": (
+        [
+            "laser.spot.shift=20 um",
+            "laser.beam.shift=1 um",
+            "laser.pulse.count=2",
+            "laser.pulse.period=0.5 us",
+            "time.end=0.6 us",
+            "domain.extent=full",
+            "boundaries.sides=periodic",
+        ],
+        "cells of one pulse know neither",
+    ),
 }
 
 
@@ -166,9 +193,12 @@ def test_shared_runs(plan, tmp_path):
         run.mkdir(parents=True)
         (run / "resolved.json").write_text("{}")
     (run / "summary.json").write_text("{}")
-    assert make.link_runs(plan.cells, tmp_path / "t/cells", [tmp_path / "sweep"]) == 1
+    for count in (1, 0):
+        assert make.link_runs(plan.cells, tmp_path / "t/cells", [tmp_path / "sweep"]) == count
     (linked,) = (tmp_path / "t/cells/runs").iterdir()
     assert linked.is_symlink() and linked.name.endswith(points[1].hash)
+    rows = Table.read(tmp_path / "t/cells").rows  # a sweep that goes on from here
+    assert [row.run for row in rows if row.status == "complete"] == [linked.name]
     with pytest.raises(OutputError, match="no runs to share"):
         make.link_runs(plan.cells, tmp_path / "t/cells", [tmp_path / "none"])
 

@@ -29,7 +29,7 @@ from lasersph.studies.texture.cells import PERIOD_FITS, UNITS, read_cell
 from lasersph.studies.texture.spot import NoTexture, texture_maps
 from lasersph.studies.texture.table import CellTable
 from lasersph.sweeps import CaseTemplate, SweepPlan, Table, build_plan
-from lasersph.sweeps.folder import RUNS
+from lasersph.sweeps.folder import RUNS, SweepFolder
 from lasersph.sweeps.points import Value
 
 ANSWER, MAPS, HEIGHTS, PROFILE, CELLS = (
@@ -111,6 +111,11 @@ def plan_texture(
             f"a cell is one period wide: write domain.width = {1e6 * period:.6g} um, not "
             f"{1e6 * width:.6g} um"
         )
+    if laser.displacement is not None and laser.beam.shift:
+        raise NoTexture(
+            "laser.beam.shift moves the lines from pulse to pulse, and the spot moves as well: "
+            "cells of one pulse know neither; leave one of the two out"
+        )
     if laser.fluence_kind == "peak":
         raise NoTexture('laser.fluence_kind is "peak", cells count their mean; write "mean"')
     bare = {key: one for key, one in given.items() if not key.startswith((KEY, "laser.spot"))}
@@ -185,18 +190,20 @@ def link_runs(plan: SweepPlan, folder: Path, share: Sequence[Path]) -> int:
     Raises:
         OutputError: one of the folders holds no runs, or ours cannot be written.
     """
-    wanted = {point.hash for point in plan.points()}
-    count = 0
     for other in share:
         if not (other / RUNS).is_dir():
             raise OutputError(f"{other} holds no runs to share: it has no folder {RUNS}")
-        with clear_errors("write", folder):
-            (folder / RUNS).mkdir(parents=True, exist_ok=True)
-            wanted -= {entry.name.partition("-")[2] for entry in (folder / RUNS).iterdir()}
-            for run in sorted((other / RUNS).iterdir()):
-                if run.name.partition("-")[2] in wanted and open_run(run).is_complete:
-                    (folder / RUNS / run.name).symlink_to(run.absolute())
-                    count += 1
+    if not share:
+        return 0
+    points, count = plan.points(), 0
+    with SweepFolder(folder, plan.study) as home, clear_errors("write", folder):
+        names = dict(zip((point.hash for point in points), home.list_points(points), strict=True))
+        for run in (run for other in share for run in sorted((other / RUNS).iterdir())):
+            ours = folder / RUNS / names.get(run.name.partition("-")[2], run.name)
+            is_wanted = ours.name in names.values() and not ours.exists()
+            if is_wanted and open_run(run).is_complete:
+                ours.symlink_to(run.absolute())
+                count += 1
     return count
 
 

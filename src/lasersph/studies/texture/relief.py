@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from lasersph.lasers import InterferenceBeam
 from lasersph.output import OutputError, open_run
 from lasersph.output.image_file import read_maps
 from lasersph.output.reader import read_json
@@ -76,7 +77,9 @@ def read_relief(folder: Path) -> Relief:
     run = open_run(folder)
     if not run.is_complete:
         raise OutputError(f"{folder} is not complete")
-    period = (run.case.get("laser") or {}).get("beam", {}).get("period")
+    beam = (run.case.get("laser") or {}).get("beam", {})
+    is_pattern = beam.get("kind") == "interference"
+    period = InterferenceBeam.model_validate(beam).lateral_period if is_pattern else None
     if period is None:
         raise OutputError(f"{folder} has no pattern with a period, and is no texture")
     cell = read_cell(run, period)

@@ -25,8 +25,8 @@ from lasersph.studies.texture.table import CellTable
 Array = NDArray[np.float64]
 MOST_PIXELS = 16_000_000
 """Of a map, five of which take 0.6 GB."""
-RAYS = 400
-"""Points on the half axes of a spot among which the last molten one is looked for."""
+RAYS = 200
+"""Points on half a side of a square around a spot among which the last molten one is looked for."""
 UNITS_OF_MAPS = {**UNITS, "fluence": "J/m^2"}
 
 
@@ -47,13 +47,10 @@ def half_sizes(spot: SpotFluence, table: CellTable) -> tuple[float, float]:
             f"no cell up to {1e-4 * table.fluence[-1]:.4g} J/cm^2 melts: there is no texture"
         )
     least = table.fluence[max(changed[0] - 1, 0)]
-    ray = np.linspace(0.0, 1.5 * spot.diameter, RAYS)
-    sizes = []
-    for x, y in (np.array([1.0, 0.0]), np.array([0.0, 1.0])):
-        bright = np.maximum(spot.at(ray * x, ray * y), spot.at(-ray * x, -ray * y)) > least
-        last = ray[np.flatnonzero(bright)[-1]] if bright.any() else 0.0
-        sizes.append(float(last) + table.period)
-    return sizes[0], sizes[1]
+    places = np.linspace(-1.5 * spot.diameter, 1.5 * spot.diameter, 2 * RAYS + 1)
+    bright = spot.at(places[None, :], places[:, None]) > least
+    sizes = [np.abs(places[bright.any(axis=axis)]).max(initial=0.0) for axis in (0, 1)]
+    return float(sizes[0]) + table.period, float(sizes[1]) + table.period
 
 
 def texture_maps(
