@@ -15,14 +15,11 @@ of the spot receives F g(place) f, one that holds the whole spot F g f, whose me
 taken as the product of both means (they differ by dx^2 g' f' / 12, dx the cell's width). Fluence
 and intensity are then those at the spot's center.
 
-For a moving beam the integral over the step is a Gauss-Legendre rule on panels in which the beam
-moves a fraction of its size, its weights scaled to the pulse's exact energy in each panel: the
-total over a surface that catches the whole beam is right to rounding.
+The integral over a step of a moving beam is that of `path`.
 """
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Annotated, Literal
 
 import numpy as np
@@ -42,7 +39,7 @@ from lasersph.input import (
 from lasersph.lasers.absorption import Absorption
 from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
 from lasersph.lasers.interference import InterferenceBeam
-from lasersph.lasers.path import LinearPath, Path
+from lasersph.lasers.path import LinearPath, Path, path_quadrature
 from lasersph.lasers.pulses import Pulse
 from lasersph.lasers.reflectivity import Reflectivity, reflectivity_nodes
 from lasersph.lasers.spot import Spot, SpotFluence, shape_of
@@ -53,7 +50,6 @@ Beam = Annotated[
     UniformBeam | TopHatBeam | GaussianBeam | InterferenceBeam, Field(discriminator="kind")
 ]
 AMOUNTS = ("fluence", "intensity", "pulse_energy", "power")
-PANEL_NODES, PANEL_WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
 class Laser(Model):
@@ -317,7 +313,11 @@ class Laser(Model):
                 return np.zeros(low.shape[1])
             return self.unit_fluence * share * self._cell_means(low, high, self.axis(t0))
         total = np.zeros(low.shape[1])
-        times, shares = self._quadrature(t0, t1)
+        scale = self.beam.scale
+        if self.spot is not None and self.spot.extent == "whole":
+            scale = min(scale, self.spot.envelope.scale)
+        corners = self.path.breakpoints()
+        times, shares = path_quadrature(self.pulse, self.axis, corners, scale, t0, t1)
         for time, share in zip(times, shares, strict=True):
             if share != 0.0:
                 total += share * self._cell_means(low, high, self.axis(time))
@@ -329,37 +329,6 @@ class Laser(Model):
         if self.spot is not None and self.spot.extent == "whole":
             means = means * self.spot.envelope.cell_means(low, high, axis)
         return means
-
-    def _quadrature(self, t0: float, t1: float) -> tuple[Array, Array]:
-        """Times and shares of a pulse's energy that stand for the motion from t0 to t1."""
-        start, end = self._panels(t0, t1)
-        half = 0.5 * (end - start)[:, None]
-        times = start[:, None] + half * (PANEL_NODES + 1.0)
-        tiny = 1e-6 * half
-        power = np.maximum(self.pulse.delivered(times - tiny, times + tiny), 0.0) * PANEL_WEIGHTS
-        sums = power.sum(axis=1, keepdims=True)
-        even = np.broadcast_to(0.5 * PANEL_WEIGHTS, power.shape)
-        weights = np.divide(power, sums, out=even.copy(), where=sums > 0.0)
-        shares = weights * self.pulse.delivered(start, end)[:, None]
-        return times.ravel(), shares.ravel()
-
-    def _panels(self, t0: float, t1: float) -> tuple[Array, Array]:
-        """Starts and ends of panels between breakpoints, short against pulse and beam size."""
-        corners = self.path.breakpoints() if self.path is not None else np.empty(0)
-        scale = self.beam.scale
-        if self.spot is not None and self.spot.extent == "whole":
-            scale = min(scale, self.spot.envelope.scale)
-        marks = np.concatenate([self.pulse.breakpoints(t0, t1), corners])
-        edges = np.unique(np.concatenate([[t0, t1], marks[(marks > t0) & (marks < t1)]]))
-        cuts = [np.empty((2, 0))]
-        for a, b in pairwise(edges):
-            if float(self.pulse.delivered(a, b)) > 0.0:
-                distance = float(np.linalg.norm(self.axis(b) - self.axis(a)))
-                longest = max(2.0 * distance / scale, (b - a) / (20 * self.pulse.resolution))
-                parts = np.linspace(a, b, max(1, int(np.ceil(longest))) + 1)
-                cuts.append(np.array([parts[:-1], parts[1:]]))
-        start, end = np.concatenate(cuts, axis=1)
-        return start, end
 
     def reflectivity_table(
         self, material: Material, lower: float, upper: float

@@ -68,15 +68,19 @@ def of_row(total_0, total_1, total_2, total_3):
 
 
 class FaceExchange:
-    """Heat and momentum exchanged with the faces since the start.
+    """Heat and momentum that a box has exchanged with its faces since the start.
+
+    Args:
+        count: particles of the body. potential: of heat, at the end of each step, (count,) [W/m];
+            None for a pool, of which nothing is booked.
 
     Attributes:
         heat: into the box by face [J/m]. impulse: of the face on the liquid, along x at bottom and
             surface, along z at left and right [N s/m].
     """
 
-    def __init__(self, backend: Backend, count: int) -> None:
-        self.backend = backend
+    def __init__(self, backend: Backend, count: int, potential: Array | None) -> None:
+        self.backend, self.potential = backend, potential
         self.heat: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         self.impulse: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         names = [f"{name}_{k}" for name in "ab" for k in range(len(PLANE))]
@@ -84,7 +88,7 @@ class FaceExchange:
 
     def find_walls(self, block: Block) -> None:
         """Sums over the pairs with each face, while weights toward ghosts are not yet set to 0."""
-        if block.has_walls:
+        if self.potential is not None and block.has_walls:
             fields = {"g_ij": block.weights, "heat_face": block.of_type(block.heat_face)}
             self.backend.pair_sum(
                 heat_terms,
@@ -96,12 +100,12 @@ class FaceExchange:
                 closest=block.closest,
             )
 
-    def book_heat(self, block: Block, potential: Array, step: float) -> None:
-        """Add the heat of a step whose potentials at the end are these, (n,) [W/m]."""
-        if block.has_walls:
+    def book_heat(self, block: Block, step: float) -> None:
+        """Add the heat of a step that has just been taken."""
+        if self.potential is not None and block.has_walls:
             found = self.backend.pointwise(
                 heat_of_row,
-                {"P": potential} | self._sums,
+                {"P": self.potential} | self._sums,
                 (None,) * len(PLANE),
                 rows=block.rows_near_faces,
                 reduce=("sum",) * len(PLANE),
@@ -110,6 +114,8 @@ class FaceExchange:
 
     def book_drag(self, block: Block, flow: Flow, step: float) -> None:
         """Add the momentum of a viscous step that has just been taken."""
+        if self.potential is None:
+            return
         fields = {"v": flow.extend_velocity(flow.viscous.velocity), "g_ij": block.weights}
         found = self.backend.pair_sum(
             drag_terms,

@@ -82,7 +82,10 @@ class MeltPool:
         self.shifting = ParticleShifting(
             backend, count, settings.shifting, domain.spacing, domain.room, domain.periods
         )
-        self.pairs, self.exchange = HeatPairs(heat.body), FaceExchange(backend, count)
+        self.pairs = HeatPairs(heat.body)
+        scheme = heat.scheme
+        potential = scheme.P if domain.is_box and isinstance(scheme, ImplicitStep) else None
+        self.exchange = FaceExchange(backend, count, potential)
         self.layout_renewal = LayoutRenewal(heat.body, domain, self.kinds, self.pairs)
         self.pauses: Pauses | None = None
         if pause != "compute" and heat.laser is not None:
@@ -211,17 +214,13 @@ class MeltPool:
         self.flow.stop(self.kinds)  # what has frozen since the last step
         self.advect(step)
         self.flow.predict(self.particles["temperature"], self.kinds, step)
-        if self.domain.is_box:
-            self.exchange.book_drag(self.flow.block, self.flow, step)
+        self.exchange.book_drag(self.flow.block, self.flow, step)
         self.flow.project(self.kinds, step)
         self.flow.correct(self.kinds, step)
         self.update_positions(step)
         self.illuminate(step)
         self.heat.conduct(step, unclipped_step)
-        if self.domain.is_box:
-            scheme = self.heat.scheme
-            assert isinstance(scheme, ImplicitStep)
-            self.exchange.book_heat(self.flow.block, scheme.P, step)
+        self.exchange.book_heat(self.flow.block, step)
         self.shift(step)
         self.adjust()
         self._measure()
@@ -260,8 +259,7 @@ class MeltPool:
             self.domain.surface.move(self._surface_step(self.position, step))
         block.move(self.position)
         self.flow.correct_kernel(self.kinds.fluid_rows)
-        if self.domain.is_box:
-            self.exchange.find_walls(block)
+        self.exchange.find_walls(block)
         self.pairs.renew(block)
 
     def illuminate(self, step: float) -> None:

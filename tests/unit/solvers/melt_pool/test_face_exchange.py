@@ -57,6 +57,11 @@ def test_drag_by_hand():
     assert drag_terms(**v, wall_j=0.0) == (0.0, 0.0, 0.0, 0.0)
 
 
+def exchange_of(solver):
+    """An exchange with the faces in which nothing is booked yet."""
+    return FaceExchange(solver.backend, solver.body.count, solver.particles["potential"])
+
+
 def linear(solver, place):
     """Let the solver have the linear temperature between the two walls; heat capacity is 1."""
     start_from(solver, -20.0 * place[0])
@@ -69,9 +74,9 @@ def test_slab_between_two_dirichlet_faces(share):
     place = jittered(solver, share)
     block = block_of(solver, place)
     linear(solver, place)
-    exchange = FaceExchange(solver.backend, solver.body.count)
+    exchange = exchange_of(solver)
     exchange.find_walls(block)
-    exchange.book_heat(block, solver.particles["potential"], 2.0)
+    exchange.book_heat(block, 2.0)
     expected = 2.0 * CONDUCTIVITY * 20.0
     # the weights of disordered particles conduct with an error that vanishes on the lattice
     assert exchange.heat["left"] == pytest.approx(expected, rel=1e-9 + 0.3 * share)
@@ -82,9 +87,9 @@ def test_slab_between_two_dirichlet_faces(share):
 def test_prescribed_flux_enters():
     """q times the length of the face."""
     solver = box(flow={}, heat={"bottom": "prescribed-flux", "bottom_flux": 7.0})
-    exchange, block = FaceExchange(solver.backend, solver.body.count), block_of(solver)
+    exchange, block = exchange_of(solver), block_of(solver)
     exchange.find_walls(block)
-    exchange.book_heat(block, solver.particles["potential"], 2.0)
+    exchange.book_heat(block, 2.0)
     assert exchange.heat["bottom"] == pytest.approx(14.0)
     assert exchange.heat["left"] == exchange.heat["surface"] == 0.0
 
@@ -100,7 +105,7 @@ def test_shear_between_two_walls():
     place = solver.backend.to_host(solver.position)
     v = np.array([1.0 + place[1], 0.0 * place[1]])
     solver.backend.copy(solver.backend.asarray(v), solver.flow.viscous.velocity)
-    exchange = FaceExchange(solver.backend, solver.body.count)
+    exchange = exchange_of(solver)
     exchange.book_drag(block, solver.flow, 2.0)
     expected = 2.0 * 0.01
     assert exchange.impulse["surface"] == pytest.approx(expected)
