@@ -1,6 +1,7 @@
 /** The start page: runs and sweeps as cards, sorted and filtered. */
 
-import { ago, chip, h, quantity, sparkline } from "./dom.js";
+import { ago, chip, h, quantity, sparkline, svg } from "./dom.js";
+import { colorAt } from "./map.js";
 import { getJson, pause } from "./net.js";
 
 const EVERY = 2000;
@@ -128,12 +129,19 @@ function pictureOf(run) {
   return h("span", { class: "what" }, "no picture yet");
 }
 
+/** The runs of a sweep over its keys, colored by their main number. */
+function pointsOf(points) {
+  if (!points.length) return null;
+  return svg("svg", { viewBox: "0 0 160 90", class: "points", "aria-hidden": "true" }, points.filter(([, y]) => y !== null).map(([x, y, share]) =>
+    svg("circle", { cx: 12 + 136 * x, cy: 78 - 62 * y, r: points.length > 60 ? 2.2 : 3.4, fill: share === null ? "none" : `rgb(${colorAt(share).join()})`, class: "point" })));
+}
+
 function sweepCard(sweep) {
   if (sweep.state === "damaged") return runCard(sweep);
   const counts = Object.entries(sweep.counts);
   const total = counts.reduce((sum, [, count]) => sum + count, 0);
   return h("article", { class: "card sweep" },
-    h("div", { class: "picture" }, h("span", { class: "count" }, String(total), h("small", {}, " runs"))),
+    h("div", { class: "picture" }, pointsOf(sweep.points), h("span", { class: sweep.points.length ? "what" : "count" }, String(total), h("small", {}, " runs"))),
     h("div", { class: "words" },
       h("h2", {}, h("a", { href: `#/sweep/${sweep.id}` }, sweep.name)), chip(sweep.state),
       h("p", { class: "title" }, sweep.is_calibration ? `calibration: ${sweep.title}` : sweep.title),

@@ -6,13 +6,12 @@ import { getJson, pause } from "./net.js";
 import { calibrationOf } from "./posterior.js";
 
 const EVERY = 3000;
-const PREFERRED = ["melt.depth_half_max_m", "melt.depth_max_m", "crater.depth_m", "temperature_max_K"];
 
 export async function showSweep(place, signal, head, id) {
   let sweep = await getJson(`api/sweep/${id}`, { signal });
   document.title = `${sweep.name} – lasersph`;
   const keys = Object.keys(sweep.units);
-  const chosen = { x: keys[0], y: keys[1] ?? "", column: PREFERRED.find((one) => sweep.columns.includes(one)) ?? sweep.columns[0] ?? "" };
+  const chosen = { x: keys[0], y: keys[1] ?? "", column: sweep.main[0] ?? "" };
   const map = h("div", { class: "map" });
   const rows = h("div", {});
   const state = h("p", { class: "state", "aria-live": "polite" });
@@ -63,7 +62,7 @@ export async function showSweep(place, signal, head, id) {
 
 function drawTable(sweep) {
   const keys = Object.keys(sweep.units);
-  const columns = PREFERRED.filter((one) => sweep.columns.includes(one));
+  const columns = sweep.main;
   const rows = sweep.rows.map((row) => [
     row.id ? h("a", { href: `#/run/${row.id}` }, row.run) : row.run,
     ...keys.map((key) => (typeof row.settings[key] === "number" ? quantity(row.settings[key], sweep.units[key]) : String(row.settings[key]))),

@@ -23,6 +23,8 @@ BINS = 40
 """Of the histogram of an unknown that is not on a grid."""
 MOST_LINES = 120
 """Values of an unknown that are taken for the lines of a grid."""
+MAIN = ("melt.depth_half_max_m", "melt.depth_max_m", "crater.depth_m", "temperature_max_K")
+"""Numbers that a table shows; the first that there is colors the points of a card and of a map."""
 DIGITS = 4
 """Of the numbers of a map, finer than its colors."""
 
@@ -47,6 +49,7 @@ class Sweeps:
                     "keys": list(table.varied),
                     "modified": (entry.path / POINTS).stat().st_mtime,
                     "is_calibration": (entry.path / CALIBRATION).exists(),
+                    "points": _points(table),
                 }
         except OutputError as error:
             return head | {"state": "damaged", "error": str(error)}
@@ -75,6 +78,7 @@ class Sweeps:
                 "title": _title(entry.path),
                 "units": dict(table.units),
                 "columns": list(table.columns),
+                "main": _main_numbers(table),
                 "words": {key: RESULTS[key].words for key in table.columns if key in RESULTS},
                 "counts": Counter(table.status),
                 "rows": rows,
@@ -121,6 +125,27 @@ class Sweeps:
 
 def _title(folder: Path) -> str:
     return str(read_points(folder).get("study", {}).get("title", folder.name))
+
+
+def _main_numbers(table: Table) -> list[str]:
+    """Those of `MAIN` that a run of the table has, or the first of its numbers."""
+    known = {key for row in table.rows for key in row.numbers}
+    return [key for key in MAIN if key in known] or list(table.columns[:1])
+
+
+def _points(table: Table) -> list[list[float | None]]:
+    """For each run its place among the others, 0 to 1, over one or two keys, and the first of the
+    main numbers: x, y, color; None where it is not known. Empty where keys hold words."""
+    names = [*table.varied[:2], *_main_numbers(table)[:1]]
+    try:
+        columns = [table.values(name) for name in names]
+    except (KeyError, ValueError):
+        return []
+    if len(columns) < 2 or not np.any(np.isfinite(columns[-1])):
+        return []
+    columns = [columns[0], columns[1], columns[-1]]  # of one key the number itself goes up
+    shares = [(one - np.nanmin(one)) / (np.nanmax(one) - np.nanmin(one) or 1.0) for one in columns]
+    return _rounded(np.stack(shares, axis=1), DIGITS)
 
 
 def _finite(numbers: Any) -> dict[str, float]:

@@ -215,6 +215,9 @@ def test_page_of_a_sweep(root, browser):
     sweeps = browser.get("/api/runs").json()["sweeps"]
     assert [one["name"] for one in sweeps] == ["map"]
     assert sweeps[0]["counts"] == {"complete": 23, "failed": 1}
+    points = sweeps[0]["points"]
+    assert points[0][:2] == [0.0, 0.0] and points[2][2] is None and points[-1][:2] == [1.0, 1.0]
+    assert points[-4] == [1.0, 0.0, 1.0]  # the shortest pulse of the largest fluence melts deepest
     assert not any(name.startswith("map") for name in cards(browser))
     found = browser.get(f"/api/sweep/{id_of('map')}").json()
     assert found["units"] == {"laser.fluence": "J/m^2", "laser.pulse.fwhm": "s"}
