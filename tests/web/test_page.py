@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
+from accessibility import serious
 from playwright.sync_api import expect
 from prefix_proxy import PrefixProxy
 
@@ -26,16 +26,6 @@ def pixels_are_drawn(page):
     canvas = page.locator("canvas[aria-label]").first
     expect(canvas).to_be_visible()
     return len(set(canvas.screenshot())) > 100
-
-
-def serious(page):
-    """What axe-core finds serious or critical."""
-    found = Axe().run(page).response["violations"]
-    return [
-        (one["id"], [node["html"] for node in one["nodes"]])
-        for one in found
-        if one["impact"] in ("serious", "critical")
-    ]
 
 
 def width_of(page):
@@ -196,6 +186,8 @@ def test_sweep_opens_its_runs(open_page, address):
     expect(page.get_by_role("img", name=re.compile("correlation -0.71"))).to_be_visible()
     assert serious(page) == []
     watched.keep("sweep")
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert width_of(page) == 390
     points.nth(5).focus()
     page.keyboard.press("Enter")
     expect(page.get_by_text("Nothing to show")).to_be_visible()  # made up: without a case file

@@ -4,6 +4,7 @@ import re
 
 import pytest
 import synthetic_run
+from accessibility import serious
 from playwright.sync_api import expect
 
 from lasersph.output import open_run
@@ -40,6 +41,7 @@ def test_viewer_inside_a_file(page, report, tmp_path):
     numbers = page.locator(".numbers")
     assert viewer["y"] < numbers.bounding_box()["y"] < still.bounding_box()["y"]
     page.screenshot(path=tmp_path / "report.png")
+    assert serious(page) == []
     assert [url for url in asked if not re.match("file:|blob:|data:", url)] == []
     paper = page.pdf(path=tmp_path / "report.pdf", format="A4")
     assert paper.startswith(b"%PDF")
