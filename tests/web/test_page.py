@@ -264,6 +264,10 @@ def test_list_of_a_case_is_edited_with_the_keyboard(open_page, address):
     assert width_of(page) == 390
     assert serious(page) == []
     watched.keep("narrow-form")
+    page.locator("#key-laser-beam-kind").select_option("uniform")  # a table of another kind
+    expect(page.locator("#key-laser-beam-period")).to_have_count(0)
+    expect(page.get_by_label("probes depth")).to_have_count(3)
+    expect(start).to_be_enabled()
     page.get_by_role("button", name="Remove this row of probes").nth(2).press("Enter")
     expect(page.get_by_label("probes depth")).to_have_count(2)
 

@@ -7,9 +7,9 @@ import { ask, getJson, pause } from "./net.js";
 const STILL = 350; // without a key for so long, what was typed is checked
 
 export async function showForm(place, signal, head, name = "dlip-steel") {
-  const form = await getJson(`api/form/${name}`, { signal });
+  let form = await getJson(`api/form/${name}`, { signal });
   document.title = "New run – lasersph";
-  const rows = new Map();
+  const rows = new Map(), shipped = new Map(); // what is typed, and what the case file says, by key
   const result = h("div", { class: "result", "aria-live": "polite" });
   const folder = h("input", { name: "folder", required: true, pattern: "[A-Za-z0-9][A-Za-z0-9._\\-]*", value: `${name}-1` });
   const start = h("button", { class: "primary", type: "submit", disabled: true }, "Start the run");
@@ -46,34 +46,52 @@ export async function showForm(place, signal, head, name = "dlip-steel") {
     if (!signal.aborted) throw error;
   });
 
+  /** Another kind of a table has other keys: the form is asked for anew, with all that was typed. */
+  const chooseKind = async (event) => {
+    const asked = new URLSearchParams(settings().map((one) => ["set", one])), { id } = event.target;
+    form = { ...await getJson(`api/form/${name}?${asked}`, { signal }), isAnother: true };
+    keys.replaceChildren(...sectionsOf());
+    document.getElementById(id).focus();
+    checkLater();
+  };
+
   const rowOf = ({ key, value, help, unit, choices, list }) => {
     const id = `key-${key.replaceAll(/[^a-z0-9]/gi, "-")}`;
     const said = h("p", { class: "error", id: `${id}-said` });
     if (list) {
       const editor = listEditor(key, list, checkLater);
-      rows.set(key, { ...editor, before: editor.text(), said });
+      if (!shipped.has(key)) shipped.set(key, form.isAnother ? (list.shape === "row" ? "" : "[]") : editor.text());
+      rows.set(key, { ...editor, before: shipped.get(key), said });
       return h("div", { class: "key", role: "group", "aria-labelledby": id, "aria-describedby": `${id}-said` }, h("span", { class: "label", id }, key), editor.element,
         h("p", { class: "quiet" }, help, editor.help), said);
     }
-    const attributes = { id, "aria-describedby": `${id}-help ${id}-said`, oninput: checkLater };
+    const change = key.endsWith(".kind") && choices.length ? chooseKind : checkLater;
+    const attributes = { id, "aria-describedby": `${id}-help ${id}-said`, oninput: change };
     const field = choices.length
       ? h("select", attributes, [...(value ? [] : [""]), ...choices].map((one) => h("option", { value: one, selected: one === value }, one || "default")))
       : h("input", { ...attributes, value, placeholder: "default", autocomplete: "off", spellcheck: "false" });
-    rows.set(key, { fields: () => [field], text: () => field.value.trim(), before: value, said });
+    if (!shipped.has(key)) shipped.set(key, form.isAnother ? "" : value);
+    rows.set(key, { fields: () => [field], text: () => field.value.trim(), before: shipped.get(key), said });
     return h("div", { class: "key" }, h("label", { for: id }, key, unit && h("small", {}, inUnit(unit))), field,
       h("p", { class: "quiet", id: `${id}-help` }, help), said);
   };
-  const groups = new Map();
-  for (const one of form.fields) {
-    const group = one.key.includes(".") ? one.key.split(".")[0] : "case";
-    groups.set(group, [...(groups.get(group) ?? []), one]);
-  }
-  const sections = [...groups].map(([group, fields]) => {
-    const isGiven = ({ value, list }) => value !== "" || list?.rows.flat().some((cell) => cell !== "");
-    const rest = fields.filter((one) => !isGiven(one));
-    return h("fieldset", {}, h("legend", {}, group), fields.filter(isGiven).map(rowOf),
-      rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} more key${rest.length > 1 ? "s" : ""} of ${group}`), rest.map(rowOf)));
-  });
+  const sectionsOf = () => {
+    rows.clear();
+    const groups = new Map();
+    for (const one of form.fields) {
+      const group = one.key.includes(".") ? one.key.split(".")[0] : "case";
+      // a key of another kind is taken out of the case
+      if (!one.is_known) rows.set(one.key, { fields: () => [], text: () => "", before: shipped.get(one.key) ?? "", said: h("p", {}) });
+      else groups.set(group, [...(groups.get(group) ?? []), one]);
+    }
+    return [...groups].map(([group, fields]) => {
+      const isGiven = ({ value, list }) => value !== "" || list?.rows.flat().some((cell) => cell !== "");
+      const rest = fields.filter((one) => !isGiven(one));
+      return h("fieldset", {}, h("legend", {}, group), fields.filter(isGiven).map(rowOf),
+        rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} more key${rest.length > 1 ? "s" : ""} of ${group}`), rest.map(rowOf)));
+    });
+  };
+  const keys = h("div", {}, sectionsOf());
   const failed = h("p", { class: "error", role: "alert" });
   place.replaceChildren(
     h("p", { class: "path" }, h("a", { href: "#/" }, "Runs"), " / new run"), h("h1", {}, "New run"),
@@ -92,7 +110,7 @@ export async function showForm(place, signal, head, name = "dlip-steel") {
     } },
     h("div", { class: "keys" },
       h("div", { class: "key" }, h("label", { for: "case" }, "shipped case"), h("select", { id: "case", onchange: (event) => { location.hash = `#/new/${event.target.value}`; } },
-        form.cases.map((one) => h("option", { value: one, selected: one === name }, one)))), sections),
+        form.cases.map((one) => h("option", { value: one, selected: one === name }, one)))), keys),
     h("aside", {}, h("label", { for: "folder" }, "name of its folder"), folder, start, failed, result)));
   folder.id = "folder-name";
   place.querySelector("aside label").setAttribute("for", folder.id);

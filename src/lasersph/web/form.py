@@ -7,6 +7,7 @@ from typing import Any
 
 from lasersph.case import Case, available_cases, load_case, refuse_if_too_large
 from lasersph.case.loading import CaseFile
+from lasersph.case.overrides import override
 from lasersph.case.size import Size, in_words
 from lasersph.compute.threads import chosen
 from lasersph.input import CaseError, dotted, format_duration, format_quantity
@@ -17,14 +18,16 @@ from lasersph.simulation import forecast
 MOST_SETTINGS = 200
 
 
-def form_of(name: str) -> dict[str, Any]:
+def form_of(name: str, settings: Sequence[str] = ()) -> dict[str, Any]:
     """Fields of a shipped case: key, value as written, unit, help, choices; empty where not given.
 
-    A field whose key takes a list has a `list` as well, see `_list`.
+    A field whose key takes a list has a `list` as well, see `_list`. `is_known` is false of a key
+    that the kind of its table, which a setting may have changed, does not have.
 
-    Raises KeyError where no case of this name is shipped.
+    Raises:
+        KeyError: no case of this name is shipped. CaseError: a setting is not KEY=VALUE.
     """
-    data = CaseFile(available_cases()[name]).document.data
+    data = override(CaseFile(available_cases()[name]).document, settings).data
     schema = Schema(Case)
     given = list(_given(data))
     fields = [_field(schema, path, data, value) for path, value in given]
@@ -49,6 +52,7 @@ def _given(data: dict[str, Any], above: tuple[str, ...] = ()) -> Iterator[tuple[
 
 def _field(schema: Schema, path: Path, data: Any, value: Any) -> dict[str, Any]:
     field = {"key": dotted(path), "value": _text(value), **_told(schema, path, data)}
+    field["is_known"] = bool(schema.parts(path, data))
     if any(part.get("type") == "array" for part in schema.parts(path, data)):
         field |= {"value": "", "list": _list(schema, path, data, value or [])}
         field["help"] = field["help"] or schema.meaning((*path, 0), data)
@@ -59,7 +63,7 @@ def _told(schema: Schema, path: Path, data: Any) -> dict[str, Any]:
     """What the schema says of a key: help, unit, kind, choices, whether a number may stand there
     and whether a text may."""
     parts = schema.parts(path, data)
-    choices = [one for part in parts for one in part.get("enum", ())]
+    choices = [str(one) for part in parts for one in part.get("enum", ())]
     if any(part.get("type") == "boolean" for part in parts):
         choices = ["true", "false"]
     first = {name: next((p[name] for p in parts if p.get(name)), "") for name in UNIT}
@@ -68,7 +72,7 @@ def _told(schema: Schema, path: Path, data: Any) -> dict[str, Any]:
         "help": schema.meaning(path, data),
         "unit": first["x-unit"],
         "kind": first["x-kind"],
-        "choices": [str(one) for one in choices] if path[-1] != "kind" else [],
+        "choices": schema.kinds(path[:-1], "kind") if path[-1] == "kind" else choices,
         "is_text": bool(types & {"string", None}),
         "is_number": bool(types & {"number", "integer"}),
     }

@@ -41,8 +41,9 @@ class StartingPages(Pages):
         return self._processes.note_of(entry.path)
 
     def form(self, request: Request) -> Response:
-        """Fields of a shipped case."""
-        return JSONResponse(form.form_of(request.path_params["case"]))
+        """Fields of a shipped case, with settings that choose other kinds of its tables."""
+        settings = request.query_params.getlist("set")[: form.MOST_SETTINGS]
+        return JSONResponse(form.form_of(request.path_params["case"], settings))
 
     async def check(self, request: Request) -> Response:
         """Problems, or the forecast."""

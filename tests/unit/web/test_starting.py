@@ -52,6 +52,12 @@ def test_form_has_units_help_and_choices(browser):
     assert fields["solver.plateau"]["help"]
     assert fields["laser.wavelength"]["value"] == ""
     assert browser.get("/api/form/..").status_code == 404
+    assert {"gaussian", "top-hat"} <= set(fields["laser.beam.kind"]["choices"])
+    asked = browser.get("/api/form/dlip-steel", params={"set": "laser.beam.kind=gaussian"}).json()
+    others = {one["key"]: one for one in asked["fields"]}
+    assert not others["laser.beam.period"]["is_known"]
+    assert others["laser.beam.radius_1e2"]["is_known"]
+    assert browser.get("/api/form/dlip-steel", params={"set": "laser"}).status_code == 400
     probes = fields["probes"]["list"]
     assert [one["name"] for one in probes["columns"]] == ["name", "depth", "x", "y", "method"]
     assert probes["rows"][1] == ["minimum", "0 nm", "2.5 um", "", "even"]
