@@ -48,13 +48,22 @@ def test_every_example_explains_itself():
 
 def test_plan_of_a_process_map(capsys):
     """The plan of an example is forecast: every point is a case, and nothing is refused."""
-    (plan,) = (ROOT / "examples").glob("*/plan.toml")
+    plan = ROOT / "examples" / "process-map-steel" / "plan.toml"
     assert main(["sweep", str(plan), "--dry-run"]) == 0
     said = capsys.readouterr().out
     assert re.search(r"^runs +40$", said, flags=re.MULTILINE)
     assert "refused" not in said
     assert plan.with_name("figure.png").exists()
     assert plan.with_name("README.md").read_text(encoding="utf-8").startswith("# ")
+
+
+@pytest.mark.parametrize("name", ["plan", "sensitivity", "sulfur"])
+def test_plans_beside_an_experiment(name, capsys):
+    """Calibration and sweeps of the texture of steel are forecast: every point is a case."""
+    verb = "calibrate" if name == "plan" else "sweep"
+    plan = ROOT / "examples" / "texture-experiment" / f"{name}.toml"
+    assert main([verb, str(plan), "--dry-run"]) == 0
+    assert "refused" not in capsys.readouterr().out
 
 
 def test_notebook_runs(tmp_path, monkeypatch):

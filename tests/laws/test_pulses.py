@@ -61,6 +61,17 @@ def test_second_pulse_is_one_on_the_relief_of_the_first(runs):
     assert np.abs(relief(two) - relief(one)).max() > 1e-2 * height
 
 
+def test_half_a_period_is_half_of_the_whole(runs, tmp_path):
+    """A whole period is symmetric, and its half that of the run of one half."""
+    one, _, _, _ = runs
+    case = pool_case(*SETTINGS, f"time.end={END}s", "domain.extent=full")
+    run(case, tmp_path / "full", threads=1)
+    full, half = relief(tmp_path / "full"), relief(one)
+    depth = -half.min()
+    assert np.abs(full - full[::-1]).max() < 1e-3 * depth
+    assert np.abs(full[half.size :] - half).max() < 1e-3 * depth
+
+
 def test_heat_of_the_pause_is_booked(runs):
     """What the pause takes away is said in the budget and where it happened."""
     one, two, _, summary = runs

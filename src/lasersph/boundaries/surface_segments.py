@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lasersph.boundaries.surface_line import End, SurfaceLine
 
 FEWEST = 12
-"""Columns of a part that moves; fewer are held, since no curvature is seen over them."""
+"""Columns of a part that moves, with those of its image; fewer show no curvature and are held."""
 
 
 class Segment(NamedTuple):
@@ -51,12 +51,13 @@ class SurfaceSegments:
         begins, ends = np.flatnonzero(np.diff(marks) == 1), np.flatnonzero(np.diff(marks) == -1)
         self.parts, self.is_molten = [], np.zeros(count, bool)
         for begin, end in zip(begins, ends, strict=True):
-            if end - begin < FEWEST:
+            left: End = whole.ends[0] if begin == 0 and not repeats else "pinned"
+            right: End = whole.ends[1] if end == count and not repeats else "pinned"
+            with_image = 2 if "mirror" in (left, right) else 1
+            if with_image * (end - begin) < FEWEST:
                 continue
             columns = (np.arange(begin, end) + first) % count
             self.is_molten[columns] = True
-            left: End = whole.ends[0] if begin == 0 and not repeats else "pinned"
-            right: End = whole.ends[1] if end == count and not repeats else "pinned"
             self.parts.append(
                 Segment(columns, self._line(columns.size, (left, right), len(self.parts)))
             )

@@ -52,3 +52,11 @@ def test_lines_of_the_same_length_do_not_share_heights():
     first, second = found.parts
     assert first.line is not second.line
     assert first.line.height[0] == 1.0 and second.line.height[0] == 24.0
+
+
+@pytest.mark.parametrize("width", [FEWEST // 2 - 1, FEWEST // 2])
+def test_half_of_a_pool_moves_as_the_whole_does(width):
+    """At a plane of symmetry the columns of the image count."""
+    whole = segments(("pinned", "pinned"), [0] * 9 + [1] * 2 * width + [0] * 9)
+    half = segments(("mirror", "pinned"), [1] * width + [0] * 9)
+    assert len(half.parts) == len(whole.parts) == (2 * width >= FEWEST)

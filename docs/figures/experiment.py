@@ -1,0 +1,50 @@
+"""The texture of steel beside an experiment, from the runs of the example's calibration."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+from figures.stored import StoredFigure, store_figure
+from lasersph.plots import style
+from lasersph.studies.measured_value import read_measured
+from lasersph.validation.drawing import Panel, draw, line, marks
+
+FOLDER = Path(__file__).parents[2] / "examples" / "texture-experiment"
+FACTOR, LOW, HIGH = 1.403, 1.282, 1.532
+"""The answer of the calibration and its 95 % interval."""
+
+
+def draw_experiment(target: Path) -> None:
+    """Width of the melt and depth of the relief over the factor, with what was measured."""
+    runs = np.genfromtxt(FOLDER / "runs.csv", delimiter=",", names=True)
+    plan = tomllib.loads((FOLDER / "plan.toml").read_text(encoding="utf-8"))
+    values = plan["measured"][0]["values"]
+    sizes = (
+        ("melt_width_m", "melt.width_half_max_m", "width of the melt [µm]", 1e6),
+        ("depth_m", "topography.depth_m", "depth of the relief [nm]", 1e9),
+    )
+    panels = []
+    for column, _, words, scale in sizes:
+        curves = [kind(runs["factor"], scale * runs[column]) for kind in (line, marks)]
+        panels.append(Panel("factor on the fluence [1]", words, curves))
+    figure = draw(panels, height=3.2)
+    for axes, (_, number, _, scale) in zip(figure.axes, sizes, strict=True):
+        measured = read_measured(values[number], "length")
+        low, high = (scale * (measured.value + sign * measured.sd) for sign in (-1.0, 1.0))
+        axes.axhspan(low, high, color=style.COLORS[1], alpha=0.25, lw=0.0, label="measured")
+        axes.axvspan(LOW, HIGH, color=style.GRAY, alpha=0.2, lw=0.0, label="factor, 95 %")
+        axes.axvline(FACTOR, color=style.GRAY, lw=1.0)
+    style.legend(figure.axes[1])
+    store_figure(figure, target)
+
+
+EXPERIMENT = StoredFigure(
+    "texture-experiment",
+    draw_experiment,
+    (
+        "docs/figures/experiment.py",
+        "examples/texture-experiment/plan.toml",
+        "examples/texture-experiment/runs.csv",
+    ),
+)
