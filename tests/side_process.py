@@ -1,6 +1,7 @@
 """A program that runs beside the tests, in a folder of its own; the tests seldom use two cores."""
 
 import os
+import signal
 import subprocess
 import tempfile
 from functools import cached_property
@@ -21,7 +22,7 @@ class SideProcess:
         with (self.folder / "log").open("w") as log:
             self._process = subprocess.Popen(
                 command, cwd=ROOT, env=os.environ | (environment or {}),
-                stdout=log, stderr=subprocess.STDOUT,
+                stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
             )  # fmt: skip
 
     @cached_property
@@ -35,7 +36,8 @@ class SideProcess:
         return (self.folder / "log").read_text()
 
     def end(self):
-        """Stop it where it still runs, and remove its files."""
-        self._process.kill()
+        """Stop it and what it has started where they still run, and remove its files."""
+        if self._process.poll() is None:
+            os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
         self._temporary.cleanup()

@@ -1,19 +1,22 @@
-"""Tests in Numba's CUDA simulator: a process of its own that runs beside the other tests.
+"""Tests in Numba's CUDA simulator, and machine code for a card of every kernel that ran there.
 
-It takes several minutes of one processor, and the other tests seldom use two.
+They take several minutes of one processor, and run beside the other tests, which seldom use two.
 """
 
 import importlib.util
 import json
+import os
+import subprocess
 import sys
 from pathlib import Path
 
 from cuda_simulator import KERNELS
+from machine_code import assembly, newest_card, recorded_kernel, recorded_kind
 from side_process import SideProcess
 
 from lasersph.compute import cuda_device
 
-TESTS = Path(__file__).parent
+TESTS, ASSEMBLY = Path(__file__).parent, "assembly.json"
 FILES = ("unit/compute/test_strict_arrays.py", "unit/compute/test_pair_loops.py",
          "unit/compute/test_search.py", "unit/compute/test_splice.py",
          "unit/compute/test_looking.py", "unit/compute/test_connected.py",
@@ -34,13 +37,32 @@ class SimulatorProcess(SideProcess):
 
     def __init__(self):
         super().__init__()
-        self._kernels = self.folder / "kernels.json"
-        command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-k", "cuda"]
-        files = [str(TESTS / name) for name in FILES]
-        environment = {"NUMBA_ENABLE_CUDASIM": "1", KERNELS: str(self._kernels)}
-        self.start([*command, *files], environment)
+        path = os.pathsep.join(sys.path)
+        self.start([sys.executable, __file__, str(self.folder)], {"PYTHONPATH": path})
 
     @property
     def kernels(self):
-        """Every kernel that ran: source file, name, types of the arguments."""
-        return json.loads(self._kernels.read_text())
+        """Every kernel that ran: source file, name, types of the arguments, assembly."""
+        return json.loads((self.folder / ASSEMBLY).read_text())
+
+
+def main(folder: Path) -> int:
+    """Run the tests, then write the assembly of their kernels; the exit status."""
+    kernels = folder / "kernels.json"
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-k", "cuda"]
+    files = [str(TESTS / name) for name in FILES]
+    environment = os.environ | {"NUMBA_ENABLE_CUDASIM": "1", KERNELS: str(kernels)}
+    if code := subprocess.run([*command, *files], env=environment).returncode:
+        return code
+    found = []
+    with newest_card():
+        for file, name, arguments in json.loads(kernels.read_text()):
+            kinds = [recorded_kind(argument) for argument in arguments]
+            text = assembly(recorded_kernel(file, name), kinds, optimized=False)
+            found.append((file, name, arguments, text))
+    (folder / ASSEMBLY).write_text(json.dumps(found))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))

@@ -209,11 +209,14 @@ def _draw_plane(
 
 
 def _plain_ticks(axes: Axes) -> None:
-    """Logarithmic axes over a decade or two with numbers at 1, 2 and 5."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+    """Logarithmic axes over a decade or two with numbers at 1, 2 and 5; even steps where fewer than
+    three of these are seen."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
     for axis in (axes.xaxis, axes.yaxis):
         if axis.get_scale() == "log":
-            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            few, low, high = LogLocator(subs=(1.0, 2.0, 5.0)), *axis.get_view_interval()
+            seen = [low <= tick <= high for tick in few.tick_values(low, high)]
+            axis.set_major_locator(few if sum(seen) > 2 else MaxNLocator(6, steps=(1, 2, 5, 10)))
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
             axis.set_minor_locator(NullLocator())

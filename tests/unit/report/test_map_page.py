@@ -63,6 +63,18 @@ def test_figures_name_what_they_show(tmp_path, keys):
         assert axes.get_ylabel().endswith("[nm]") and "95 %" in words
 
 
+def test_short_logarithmic_axes_have_numbers(tmp_path):
+    """From 6 to 16 ns lies one of 1, 2 and 5 times a power of ten: numbers are evenly spaced."""
+    points = [
+        (fluence, 6e-9 * (16.0 / 6.0) ** k) for fluence in (3e3, 6e3) for k in (0.0, 0.5, 1.0)
+    ]
+    found = process_map(made_up_sweep(tmp_path, points), show=DEPTH)
+    axes = draw_process_map(found).axes[0]
+    assert axes.get_yscale() == "log"
+    low, high = 0.999 * axes.get_ylim()[0], 1.001 * axes.get_ylim()[1]
+    assert [tick for tick in axes.get_yticks() if low <= tick <= high] == [6, 8, 10, 12, 14, 16]
+
+
 def test_field_units():
     """Fluences and intensities per square centimeter, others with a prefix."""
     assert in_field_units(6e3, "J/m^2") == "0.6 J/cm²"
