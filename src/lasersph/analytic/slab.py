@@ -54,21 +54,3 @@ def slab_step_rise(
         late = late - 2.0 / np.pi**2 * mode
     late = flux * thickness / conductivity * late
     return np.where(fourier < 0.2, early, late)
-
-
-def slab_pulse_train_rise(
-    depth: ArrayLike,
-    time: ArrayLike,
-    *,
-    pulse_duration: float,
-    off_time: float = 0.0,
-    count: int = 1,
-    **slab: float,
-) -> Array:
-    """Rise [K] under `count` square pulses from t = 0; `slab` as for `slab_step_rise`."""
-    time = np.asarray(time, float)
-    total = np.zeros(np.broadcast_shapes(np.shape(depth), time.shape))
-    for start in np.arange(count) * (pulse_duration + off_time):
-        total = total + slab_step_rise(depth, time - start, **slab)
-        total = total - slab_step_rise(depth, time - start - pulse_duration, **slab)
-    return total

@@ -10,12 +10,6 @@ a body. It prints the second sum as sum V_j grad~ W_ij, which leaves 0.222/dx fo
 at a flat 3-D surface; with N_i above a linear function gives exactly zero. Its bracket
 grad(mu f) - f grad mu + mu grad f is 2 mu grad f. Without Gamma the factor in front is 1.
 
-The operator is linear in f: `schwaiger_matrix` assembles it as L_i = sum_j A_ij (f_i - f_j), with
-
-    A_ij = tr(Gamma_i^-1) / d V_j { (mu_i + mu_j) F_ij + 2 mu_i N_i . grad~ W_ij },
-
-which is not symmetric, since each particle corrects with its own C, N and Gamma.
-
 References: [Schwaiger2008], [Alshaer2017].
 """
 
@@ -86,17 +80,6 @@ def scaled(total, mu, df, N, factor):
     return factor * without_gradient(total, mu, df, N)
 
 
-def matrix_term(mu_i, mu_j, C_i, N_i, factor_i, V_j, x_ij, r_ij, dW_ij):
-    """Element A_ij of the operator as a matrix [unit of mu / m^2].
-
-    Args:
-        factor: `prefactor`, or 1 without Gamma. N: shape (d,). Others as above.
-    """
-    normal = (mu_i + mu_j) * normal_weight(C_i, x_ij, r_ij, dW_ij)
-    slope = 2.0 * mu_i * dot(N_i, matvec(C_i, x_ij)) * dW_ij / r_ij
-    return factor_i * V_j * (normal + slope)
-
-
 def schwaiger_laplacian(
     backend: Backend,
     neighbors: NeighborList,
@@ -118,25 +101,6 @@ def schwaiger_laplacian(
     corrected_gradient(backend, neighbors, work, work["df"])
     work |= _moments(backend, neighbors, fields, n, use_gamma)
     backend.pair_sum(second_difference_term, neighbors, work, out, finish=scaled)
-
-
-def schwaiger_matrix(
-    backend: Backend,
-    neighbors: NeighborList,
-    fields: Mapping[str, Array],
-    out: Array,
-    *,
-    use_gamma: bool = True,
-) -> None:
-    """Write the elements A_ij into `out`, shape (pairs,), in the order of the list.
-
-    Args:
-        fields: mu and V, shape (N,); C, shape (d, d, n), as for `schwaiger_laplacian`.
-        use_gamma: divide by Gamma, (17); without it the factor in front is 1.
-    """
-    n = neighbors.row_start.shape[0] - 1
-    work = dict(fields) | _moments(backend, neighbors, fields, n, use_gamma)
-    backend.pair_values(matrix_term, neighbors, work, out)
 
 
 def _moments(

@@ -30,11 +30,10 @@ def test_slab_holds_the_absorbed_heat(time):
 
 
 def test_deep_slab_is_a_half_space():
-    """While nothing reaches the bottom both agree, for a train of pulses."""
+    """While nothing reaches the bottom both agree."""
     depth, time = 1e-6, np.array([5e-8, 1.5e-7, 3e-7])
-    train = {"pulse_duration": 1e-7, "off_time": 1e-7, "count": 2}
-    deep = slab.slab_pulse_train_rise(depth, time, thickness=1e-4, **train, **METAL)
-    assert deep == pytest.approx(half_space.pulse_train_temperature(depth, time, **train, **METAL))
+    deep = slab.slab_step_rise(depth, time, thickness=1e-4, **METAL)
+    assert deep == pytest.approx(half_space.step_rise(depth, time, **METAL))
 
 
 def test_bottom_is_insulated_and_warmer_than_in_a_half_space():

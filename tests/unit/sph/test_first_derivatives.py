@@ -51,9 +51,6 @@ def test_schwaiger_terms_by_hand():
     assert schwaiger.prefactor(0.5 * one) == pytest.approx(2.0)
     df, N = np.array([1.0, 2.0]), np.array([0.5, 0.25])
     assert schwaiger.scaled(3.0, 0.5, df, N, 2.0) == pytest.approx(2.0 * (3.0 - 1.0))
-    A = schwaiger.matrix_term(1.0, 3.0, one, N, 2.0, 2.0, x_ij, r_ij, dW_ij)
-    expected = 2.0 * 2.0 * (4.0 * -0.1 + 2.0 * 1.0 * (0.5 * 3 + 0.25 * 4) * -0.1)
-    assert pytest.approx(expected) == A
 
 
 def test_sums_over_two_particles(backend):

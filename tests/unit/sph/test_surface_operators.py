@@ -10,11 +10,6 @@ from lasersph.sph.laplacian import diffusion
 LINE = 1.0 + 0.25 * np.arange(17)
 
 
-def row_term(A_ij, f_i, f_j):
-    """Term of the matrix times f."""
-    return A_ij * (f_i - f_j)
-
-
 @pytest.fixture
 def line(backend):
     """Particles at 1 + 0.25 i, h = 0.375, and fields V, mu, C."""
@@ -85,27 +80,3 @@ def test_schwaiger_is_exact_on_linear_fields(backend, dimension, use_gamma):
     out = backend.zeros(n)
     schwaiger.schwaiger_laplacian(backend, neighbors, fields, out, use_gamma=use_gamma)
     np.testing.assert_allclose(backend.to_host(out), 0.0, atol=1e-11)
-
-
-@pytest.mark.parametrize("dimension", [1, 2, 3])
-@pytest.mark.parametrize("use_gamma", [True, False])
-@pytest.mark.parametrize("use_correction", [True, False])
-def test_matrix_times_field_is_the_sum(backend, dimension, use_gamma, use_correction):
-    """sum_j A_ij (f_i - f_j) of any field equals the operator, at surfaces too."""
-    position = lattice(dimension, 5)
-    n = position.shape[1]
-    random = np.random.default_rng(dimension)
-    neighbors = with_neighbors(backend, position, 3.0)
-    fields = {name: backend.asarray(0.5 + random.random(n)) for name in ("V", "mu", "f")}
-    fields["C"] = backend.asarray(np.repeat(np.eye(dimension)[:, :, None], n, axis=2))
-    if use_correction:
-        correction.inverse_correction(backend, neighbors, fields, fields["C"])
-    by_sum, by_matrix = backend.zeros(n), backend.zeros(n)
-    schwaiger.schwaiger_laplacian(backend, neighbors, fields, by_sum, use_gamma=use_gamma)
-    A = backend.zeros(backend.to_host(neighbors.neighbor).size)
-    schwaiger.schwaiger_matrix(backend, neighbors, fields, A, use_gamma=use_gamma)
-    backend.pair_sum(row_term, neighbors, {"A_ij": A, "f": fields["f"]}, by_matrix)
-    scale = np.abs(backend.to_host(by_sum)).max()
-    np.testing.assert_allclose(
-        backend.to_host(by_matrix), backend.to_host(by_sum), atol=1e-12 * scale
-    )
