@@ -51,7 +51,7 @@ class Pool:
 
 def main() -> None:
     """Measure and print the two pools and their ratios."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--spacing", default="8nm")
     parser.add_argument("--end", default="45ns", help="in ns, such as 45ns")
     given = parser.parse_args()

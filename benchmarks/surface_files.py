@@ -17,8 +17,8 @@ METERS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9}
 
 def main(table: str, *files: str) -> int:
     """Print how heights and sides of the files differ from those of the table; 1 where they do."""
-    import SurfaceTopography
-    from SurfaceTopography.IO import open_topography
+    import SurfaceTopography  # pyright: ignore[reportMissingImports]
+    from SurfaceTopography.IO import open_topography  # pyright: ignore[reportMissingImports]
 
     x, y, z = np.loadtxt(table, delimiter=",", skiprows=1, unpack=True)
     x, y = np.unique(x), np.unique(y)

@@ -32,7 +32,7 @@ from lasersph.studies.find_settings import (
     refuse_other_keys,
 )
 from lasersph.studies.run_budget import RunBudget
-from lasersph.sweeps import Engine, LocalEngine, SweepPlan, Table
+from lasersph.sweeps import Engine, LocalEngine, Study, SweepPlan, Table
 from lasersph.sweeps.plan import Sampling, VariedCase, compare_with_case
 from lasersph.sweeps.plan_reading import Mistakes, entries_of
 from lasersph.sweeps.sampling import DIGITS
@@ -58,6 +58,12 @@ class FindPlan:
     sweep: SweepPlan
     wishes: tuple[Wish, ...]
     budget: RunBudget
+
+    @property
+    def study(self) -> Study:
+        """What a folder must belong to for this plan to go on in it."""
+        sweep = self.sweep
+        return Study.of("search", sweep.template, sweep.varied, sweep.text)
 
 
 def read_find_plan(file: str | PathLike[str]) -> FindPlan:
@@ -125,7 +131,7 @@ def find(
     refuse_other_keys(known, tuple(sweep.choices))
     while True:
         table = make_or_stop(
-            points, Path(out), sweep.study, engine or LocalEngine(), report, should_stop
+            points, Path(out), loaded.study, engine or LocalEngine(), report, should_stop
         )
         found = find_settings(table, loaded.wishes, calibration=known, seed=loaded.budget.seed)
         unsure = sorted((one for one in found if one.doubt > MOST_DOUBT), key=lambda o: -o.doubt)

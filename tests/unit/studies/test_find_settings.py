@@ -10,8 +10,10 @@ from sweep_runs import PretendingEngine
 
 from lasersph.cli import main
 from lasersph.input import QuantityError
+from lasersph.output.errors import FolderRefused
 from lasersph.studies import Wish, find, find_settings, read_wish
-from lasersph.sweeps import Row, Table
+from lasersph.studies.find_runs import read_find_plan
+from lasersph.sweeps import Row, Table, make_runs
 
 
 @pytest.fixture
@@ -125,6 +127,9 @@ def test_runs_are_added_where_the_answer_is_unsure(tmp_path):
     assert found[0].probability > 0.9 and found[0].doubt < 0.1
     made = list(engine.made)
     assert find(plan, tmp_path / "out", engine=engine) == found and engine.made == made
+    sweep = read_find_plan(plan).sweep
+    with pytest.raises(FolderRefused, match=r"another study \(search of dlip-steel over"):
+        make_runs(sweep.points(), tmp_path / "out", sweep.study, engine=engine)
 
 
 @pytest.mark.parametrize(
@@ -150,8 +155,6 @@ def test_wrong_plans(tmp_path, old, new, line, words):
 
 def test_folders_and_plans_take_their_own_options(tmp_path, capsys):
     """Wishes on the command line are for a folder, engines for a plan; a new plan can be read."""
-    from lasersph.studies.find_runs import read_find_plan
-
     assert main(["find", str(tmp_path)]) == 2
     assert "takes --want" in capsys.readouterr().err
     assert main(["new", "--plan", "find", str(tmp_path / "a.toml")]) == 0
