@@ -66,6 +66,17 @@ def test_plans_beside_an_experiment(name, capsys):
     assert "refused" not in capsys.readouterr().out
 
 
+def test_texture_of_a_spot(capsys):
+    """The case has the fluence of its page at the center, and its cells are forecast."""
+    folder = ROOT / "examples" / "texture-of-a-spot"
+    assert main(["check", str(folder / "steel.toml")]) == 0
+    assert "0.601 J/cm^2, mean over a period" in capsys.readouterr().out
+    assert main(["texture", str(folder / "steel.toml"), "--cells", "16", "--dry-run"]) == 0
+    assert re.search(r"^runs +16$", capsys.readouterr().out, flags=re.MULTILINE)
+    assert (folder / "figure.png").exists()
+    assert (folder / "README.md").read_text(encoding="utf-8").startswith("# ")
+
+
 def test_notebook_runs(tmp_path, monkeypatch):
     """The cells of "Read results in Python" run one after the other."""
     matplotlib.use("Agg")
