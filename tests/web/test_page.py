@@ -12,6 +12,8 @@ from prefix_proxy import PrefixProxy
 
 pytestmark = pytest.mark.web
 LIVE_RUN = Path(__file__).resolve().parents[1] / "live_run.py"
+PATIENCE = 60_000
+"""For the window to follow [ms], on a busy machine."""
 LOST = "Failed to load resource|ERR_CONNECTION|ERR_FAILED|ERR_EMPTY"
 """What the console says of requests that a test lets fail."""
 
@@ -31,6 +33,16 @@ def pixels_are_drawn(page):
 def width_of(page):
     """How far the page reaches to the right [pixels]."""
     return page.evaluate("document.documentElement.scrollWidth")
+
+
+def narrow(page):
+    """Make the window as wide as a telephone; curves follow its size a moment later."""
+    page.set_viewport_size({"width": 390, "height": 844})
+    for _ in range(PATIENCE // 100):
+        if width_of(page) == 390:
+            return
+        page.wait_for_timeout(100)
+    pytest.fail(f"the page is {width_of(page)} pixels wide")
 
 
 def test_list_is_sorted_and_filtered_and_opens_a_run(open_page, address):
@@ -164,8 +176,7 @@ def test_two_runs_are_compared(open_page, address):
     page.wait_for_timeout(300)
     assert serious(page) == []
     watched.keep("compare")
-    page.set_viewport_size({"width": 390, "height": 844})
-    assert width_of(page) == 390
+    narrow(page)
     watched.keep("narrow-compare")
 
 
@@ -186,8 +197,7 @@ def test_sweep_opens_its_runs(open_page, address):
     expect(page.get_by_role("img", name=re.compile("correlation -0.71"))).to_be_visible()
     assert serious(page) == []
     watched.keep("sweep")
-    page.set_viewport_size({"width": 390, "height": 844})
-    assert width_of(page) == 390
+    narrow(page)
     points.nth(5).focus()
     page.keyboard.press("Enter")
     expect(page.get_by_text("Nothing to show")).to_be_visible()  # made up: without a case file

@@ -40,8 +40,9 @@ class Server(http.server.ThreadingHTTPServer):
         self.address = f"http://127.0.0.1:{self.server_address[1]}/"
 
     def index(self):
-        """The index, cut to `frames` as of a run that computes."""
-        found = particle_index(self.folder)
+        """The index, cut to `frames` as of a run that computes; without the mirror image, so that
+        the hot corner is a corner."""
+        found = particle_index(self.folder) | {"mirrored": False}
         if self.frames is not None:
             cut = slice(self.frames)
             found |= {"times": found["times"][cut], "counts": found["counts"][cut]}

@@ -9,6 +9,7 @@ const SHARES = [0.95, 0.68];
 export function calibrationOf(found) {
   const names = Object.keys(found.unknowns);
   return [h("h2", {}, "Calibration"),
+    found.sentence ? h("p", { class: "verdict" }, found.sentence) : "",
     ...found.warnings.map((text) => h("p", { class: "warning" }, text)),
     h("div", { class: "corner" }, names.map((below, row) => h("div", { class: "charts row" },
       names.slice(0, row).map((across, column) => pairOf(found, across, below, column, row)),
