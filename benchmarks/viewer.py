@@ -53,7 +53,7 @@ def main() -> None:
             page = browser.new_page(viewport={"width": 1100, "height": 700})
             page.set_content(PAGE)
             page.add_script_tag(content=viewer_module() + MEASURE, type="module")
-            page.wait_for_function("window.measure")
+            page.wait_for_function("typeof window.measure === 'function'")
             side = round(count ** (1 / 3))
             found = page.evaluate(
                 "([side, frames]) => window.measure(side, frames)", [side, FRAMES]
