@@ -3,18 +3,18 @@
 PYTHON ?= python3
 VENV   ?= .venv
 PIP    := $(VENV)/bin/python -m pip --disable-pip-version-check
-OUT    ?= runs/dlip-steel
+OUT    ?= runs/texture-steel
 
 .PHONY: run test check docs wheel clean help
 
 help:
-	@echo "make run    compute the shipped DLIP case into $(OUT) and write its figures and report"
+	@echo "make run    compute the texture of a pulse on steel into $(OUT) and write its figures and report"
 	@echo "make test   run the tests          make check  format, lint, types, tests"
 	@echo "make docs   build docs/_build/html make wheel  build dist/lasersph-*.whl"
 
 # --resume continues an interrupted run, and only says so when the run is finished already.
 run: $(VENV)/.run
-	$(VENV)/bin/lasersph run dlip-steel --out $(OUT) --resume
+	$(VENV)/bin/lasersph run texture-steel --out $(OUT) --resume
 	@echo "Open $(OUT)/report.html in a browser. Start anew: rm -r $(OUT)"
 
 test: $(VENV)/.test
@@ -54,7 +54,7 @@ $(VENV)/bin/python:
 # compiled with the rest, by a coarse copy of it; later runs of any case find them.
 $(VENV)/.run: pyproject.toml | $(VENV)/bin/python
 	$(PIP) install --quiet --editable .
-	$(VENV)/bin/lasersph cache fill dlip-steel
+	$(VENV)/bin/lasersph cache fill texture-steel
 	@touch $@
 
 $(VENV)/.%: pyproject.toml | $(VENV)/bin/python

@@ -104,12 +104,15 @@ TEXTURE_FROM = (_case("texture-steel"), f"{RECIPES}.melt_pool", _plots("relief")
 
 GALLERY = (
     _entry(
-        "steel-movie",
-        "Melting and freezing",
-        "Steel between two interfering beams melts, flows and freezes within 40 ns.",
-        (*STEEL, "lasersph plot runs/steel --animate"),
-        "runs/steel/figures/animation.gif",
-        *STEEL_FROM,
+        "texture-movie",
+        "Melting, flowing, freezing",
+        "Steel between two interfering beams: the melt is pulled aside, and its relief stays.",
+        (
+            "lasersph run texture-steel --set output.snapshots.interval=3.5ns --out runs/moving",
+            "lasersph plot runs/moving --animate",
+        ),
+        "runs/moving/figures/animation.gif",
+        *TEXTURE_FROM,
         _plots("animation"),
     ),
     _entry(

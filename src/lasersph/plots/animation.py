@@ -178,7 +178,8 @@ class Scene:
             panels[0].images[0].set_data(picture.temperature())
         if self.fastest > 0.0:
             speed = picture.speed() * style.speed_unit(self.fastest).factor
-            panels[-1].images[0].set_data(speed)
+            for image, values in zip(panels[-1].images, (picture.metal(), speed), strict=True):
+                image.set_data(values)
             for arrows in list(panels[-1].collections):
                 arrows.remove()
             self.draw_arrows(panels[-1], flow)

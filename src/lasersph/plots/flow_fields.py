@@ -58,8 +58,8 @@ class PlaneFlow:
         """Velocity on an even grid of a frame, half a step from its edges.
 
         Returns:
-            x (columns,), z (rows,) [m] and velocity (2, rows, columns) [m/s], NaN where the closest
-            particle does not flow.
+            x (columns,), z (rows,) [m] and velocity (2, rows, columns) [m/s], NaN outside the
+            metal and where the closest particle does not flow.
         """
         from scipy.spatial import KDTree
 
@@ -69,7 +69,7 @@ class PlaneFlow:
         near = self.inside(frame, 4.0 * float(np.max(self.cells.size[:, self.flows], initial=0.0)))
         velocity = interpolate(near.cells.center, near.velocity, nodes)
         _, closest = KDTree(near.cells.center.T).query(nodes.T)
-        velocity[:, ~near.flows[closest]] = np.nan
+        velocity[:, ~(near.flows[closest] & near.cells.covers(nodes, closest))] = np.nan
         return x, z, velocity.reshape(2, rows, columns)
 
 
@@ -92,6 +92,10 @@ class Raster:
         if shown is not None:
             seen &= shown[self.number]
         return np.where(seen, values[self.number], np.nan)
+
+    def metal(self) -> np.ndarray:
+        """1 where there is any."""
+        return self.of(np.ones_like(self.step["temperature"]))
 
     def temperature(self) -> np.ndarray:
         """[K]."""
@@ -128,7 +132,7 @@ def plane_flow(run: Run, time: float) -> PlaneFlow:
 
 
 def pool_frame(run: Run, flow: PlaneFlow) -> Box:
-    """Frame of a picture of the melt pool: the largest pool of the run and a margin."""
+    """Frame of a picture of the melt pool: the largest pool and rim of the run and a margin."""
     melt = summary_of(run).get("melt", {})
     wet = flow.step["melt_fraction"][flow.cells.number] > 0.0
     x, z = flow.cells.center
@@ -138,7 +142,9 @@ def pool_frame(run: Run, flow: PlaneFlow) -> Box:
     half_width = max(0.5 * MARGIN * float(wide), 8.0 * size)
     left, right, bottom, _ = flow.cells.frame
     depth = max(DEPTH * float(deep), 6.0 * size)
-    return Box(max(-half_width, left), min(half_width, right), max(-depth, bottom), 0.0)
+    rim = float(np.max(run.history.get("topography.rim_height_m", np.zeros(1))))
+    top = DEPTH * rim + size if rim > 0.0 else 0.0
+    return Box(max(-half_width, left), min(half_width, right), max(-depth, bottom), top)
 
 
 def body_frame(flow: PlaneFlow) -> Box:

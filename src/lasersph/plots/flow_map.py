@@ -32,6 +32,8 @@ BOX_ARROWS = 22
 LONGEST = 1.1
 """Length of the longest arrow over the distance of arrows."""
 STREAM_COLUMNS = 160
+METAL_GRAY = 0.85
+"""Brightness of metal at rest."""
 PHASES = ("solid", "mush", "liquid", "at $T_v$")
 PHASE_COLORS = ("#a3adb8", "#c5dff0", "#fff0b0", "#f2a07b")
 LEAST_SPREAD = 1e-6
@@ -137,9 +139,14 @@ def draw_phase(axes: Axes, picture: Raster, unit: style.Unit) -> None:
 
 
 def draw_speed(axes: Axes, picture: Raster, unit: style.Unit, largest: float) -> None:
-    """Speed of the liquid in color; `largest` is the end of the color scale [m/s]."""
+    """Speed of the liquid in color over the metal in gray, two images of the panel.
+
+    Args:
+        largest: end of the color scale [m/s].
+    """
     speed = style.speed_unit(largest)
-    axes.set_facecolor("0.85")
+    gray = {"cmap": "gray", "vmin": 0.0, "vmax": 1.0 / METAL_GRAY}
+    style.paint(axes, picture.metal(), picture.edges, unit, **gray)
     values, top = picture.speed() * speed.factor, max(largest * speed.factor, 1e-12)
     look = {"cmap": style.SPEED_COLORS, "vmin": 0.0, "vmax": top}
     image = style.paint(axes, values, picture.edges, unit, **look)

@@ -73,8 +73,12 @@ class Cells:
         points = np.array([grid.ravel() for grid in np.meshgrid(across, up)])
         square = np.array([[np.median(self.size[1] / self.size[0])], [1.0]])
         _, cell = KDTree((self.center * square).T).query((points * square).T)
+        return np.where(self.covers(points, cell), self.number[cell], -1).reshape(pixels)
+
+    def covers(self, points: np.ndarray, cell: np.ndarray) -> np.ndarray:
+        """Whether points (2, k) lie within the cells (k,) that are closest to them, (k,)."""
         far = np.abs(points - self.center[:, cell]) > OUTSIDE * self.size[:, cell]
-        return np.where(far.any(axis=0), -1, self.number[cell]).reshape(pixels)
+        return ~far.any(axis=0)
 
 
 def particle_map(run: Run, time: float | None = None) -> Figure | None:

@@ -17,6 +17,7 @@ from lasersph.observers.topography import Topography
 from lasersph.output import open_run
 from lasersph.output.particle_file import ParticleFile
 from lasersph.plots import style
+from lasersph.plots.flow_fields import plane_flow, pool_frame, raster
 from lasersph.plots.relief import (
     final_relief,
     lines_of,
@@ -67,6 +68,17 @@ def test_figures_name_their_units(pool):
         assert all(re.search(r"\[.+\]$", text) for text in texts if text)
     lowest = min(np.min(line.get_ydata()) for line in figures[0].axes[0].lines)
     assert lowest == pytest.approx(-50.0, rel=1e-3)
+
+
+def test_pictures_hold_the_rim(pool):
+    """Their frame ends above the highest rim; above the metal nothing is drawn."""
+    flow = plane_flow(pool, 52e-9)
+    frame = pool_frame(pool, flow)
+    assert 50 * NM < frame.top < 120 * NM
+    _, z, velocity = flow.on_grid(frame, 4, 40)
+    assert np.all(np.isnan(velocity[:, z > 30 * NM]))
+    metal = raster(flow, frame, (40, 4)).metal()
+    assert np.all(np.isnan(metal[z > 30 * NM])) and np.all(metal[z < 0.0] == 1.0)
 
 
 def test_trains(pool):
