@@ -72,7 +72,7 @@ def _entry(
     """A picture named after what it shows."""
     store = store_picture
     if picture.endswith(".gif"):
-        store = partial(store_animation, width=520, every=1)
+        store = partial(store_animation, width=600, every=1)
     figure = StoredFigure(
         name,
         partial(_draw, commands, picture, store),
@@ -108,7 +108,7 @@ GALLERY = (
         "Melting, flowing, freezing",
         "Steel between two interfering beams: the melt is pulled aside, and its relief stays.",
         (
-            "lasersph run texture-steel --set output.snapshots.interval=3.5ns --out runs/moving",
+            "lasersph run texture-steel --set output.snapshots.interval=2.5ns --out runs/moving",
             "lasersph plot runs/moving --animate",
         ),
         "runs/moving/figures/animation.gif",

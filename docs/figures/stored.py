@@ -53,7 +53,11 @@ def store_animation(file: Path, target: Path, *, width: int, every: int) -> None
         frames = [frame.convert("RGB") for frame in ImageSequence.Iterator(movie)][::every]
     height = round(frames[0].height * width / frames[0].width)
     small = [frame.resize((width, height), Image.Resampling.LANCZOS) for frame in frames]
-    plain = [frame.quantize(80, dither=Image.Dither.NONE) for frame in small]
+    strip = Image.new("RGB", (width, height * len(small)))
+    for number, frame in enumerate(small):
+        strip.paste(frame, (0, number * height))
+    palette = strip.quantize(COLORS, dither=Image.Dither.NONE)
+    plain = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in small]
     plain[0].save(target, save_all=True, append_images=plain[1:], duration=120, loop=0)
 
 
