@@ -26,6 +26,7 @@ class Seen:
 
     relief: Relief | None
     time: float = 1.0
+    limit: str = "stability"
 
 
 @pytest.mark.parametrize(("width", "beyond"), [(0.5, "mirror"), (1.0, "periodic"), (2.0, "mirror")])
