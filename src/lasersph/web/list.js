@@ -3,6 +3,7 @@
 import { ago, chip, h, quantity, sparkline, svg } from "./dom.js";
 import { colorAt } from "./map.js";
 import { getJson, pause } from "./net.js";
+import { prepareScene } from "./scene.js";
 
 const EVERY = 2000;
 const ORDERS = {
@@ -70,10 +71,12 @@ export async function showList(place, signal, head) {
       count, compare),
     grid);
 
-  for (;;) {
+  for (let isFirst = true; ; isFirst = false) {
     content = await getJson("api/runs", { signal });
     head(content);
     draw();
+    // whoever reads the list looks at particles next
+    if (isFirst) requestAnimationFrame(() => setTimeout(prepareScene));
     do await pause(EVERY, signal); while (document.hidden);
   }
 }

@@ -1,19 +1,16 @@
 /** The head of the page, and what is shown for which address after the #. */
 
 import { h } from "./dom.js";
-import { Refused } from "./net.js";
-import { showComparison } from "./compare.js";
-import { showForm } from "./form.js";
 import { showList } from "./list.js";
-import { showRun } from "./run.js";
-import { showSweep } from "./sweep.js";
+import { Refused } from "./net.js";
 
+/** What is shown for an address; the list does not wait for the modules of the others. */
 const ADDRESSES = [
-  [/^#\/run\/([0-9a-f]+)$/, showRun],
-  [/^#\/compare\/([0-9a-f]+)\/([0-9a-f]+)$/, showComparison],
-  [/^#\/sweep\/([0-9a-f]+)$/, showSweep],
-  [/^#\/new(?:\/([a-z0-9-]+))?$/, showForm],
-  [/^(#\/)?$/, showList],
+  [/^#\/run\/([0-9a-f]+)$/, async () => (await import("./run.js")).showRun],
+  [/^#\/compare\/([0-9a-f]+)\/([0-9a-f]+)$/, async () => (await import("./compare.js")).showComparison],
+  [/^#\/sweep\/([0-9a-f]+)$/, async () => (await import("./sweep.js")).showSweep],
+  [/^#\/new(?:\/([a-z0-9-]+))?$/, async () => (await import("./form.js")).showForm],
+  [/^(#\/)?$/, () => showList],
 ];
 let shown = null;
 
@@ -39,7 +36,7 @@ async function show() {
   if (wasShown) document.getElementById("content").focus({ preventScroll: true });
   try {
     if (!match) throw new Refused(404, "There is nothing at this address.");
-    await view(place, signal, head, ...match.slice(1).filter(Boolean));
+    await (await view())(place, signal, head, ...match.slice(1).filter(Boolean));
   } catch (error) {
     if (signal.aborted) return;
     place.replaceChildren(h("h1", {}, error instanceof Refused ? "Nothing to show" : "The page failed"),

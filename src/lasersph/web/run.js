@@ -10,7 +10,7 @@ const BESIDE = 2; // charts beside the particles; the others stand below
 
 export async function showRun(place, signal, head, id) {
   const base = `api/run/${id}/`;
-  let run = await getJson(`api/run/${id}`, { signal });
+  const asked = getJson(`api/run/${id}`, { signal }); // while the particles are on their way
   const history = new History(id);
   const beside = h("div", { class: "charts" }), charts = h("div", { class: "charts row" });
   const drawn = new Map();
@@ -20,12 +20,10 @@ export async function showRun(place, signal, head, id) {
   const log = h("pre", { tabindex: "0", "aria-label": "run.log" });
   const below = h("div", { class: "below" });
   const scene = h("div", { class: "scene" });
-  let viewer = null, sizes = null;
+  const path = h("p", { class: "path" }, h("a", { href: "#/" }, "Runs"));
+  let viewer = null, sizes = null, run = null;
 
-  document.title = `${run.name} – lasersph`;
-  place.replaceChildren(
-    h("p", { class: "path" }, h("a", { href: "#/" }, "Runs"), run.sweep && [" / ", h("a", { href: `#/sweep/${run.sweep}` }, "sweep")], ` / ${run.name}`),
-    top, note, numbers, h("div", { class: "wide" }, scene, beside), charts, below,
+  place.replaceChildren(path, top, note, numbers, h("div", { class: "wide" }, scene, beside), charts, below,
     h("section", {}, h("h2", {}, "Log"), log));
 
   const change = async (event) => {
@@ -84,7 +82,7 @@ export async function showRun(place, signal, head, id) {
     viewer?.destroy();
     const host = h("div", {});
     scene.replaceChildren(host);
-    viewer = mount(host, http(base), { live: run.state === "running" });
+    viewer = mount(host, http(base), { live: run?.state === "running" });
   };
 
   /** What an event says to have changed is fetched; a later event waits for an earlier one. */
@@ -129,9 +127,18 @@ export async function showRun(place, signal, head, id) {
     viewer?.destroy();
     for (const { chart } of drawn.values()) chart.destroy();
   }, { once: true });
+  start();
+  try {
+    run = await asked;
+  } catch (error) {
+    viewer.destroy();
+    throw error;
+  }
+  document.title = `${run.name} – lasersph`;
+  path.append(...(run.sweep ? [" / ", h("a", { href: `#/sweep/${run.sweep}` }, "sweep")] : []), ` / ${run.name}`);
+  viewer.setLive(run.state === "running");
   drawTop();
   drawBelow();
-  start();
   listen(id, (found) => follow(found).catch((error) => {
     if (!signal.aborted) throw error;
   }), signal);

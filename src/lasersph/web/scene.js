@@ -12,6 +12,25 @@ const TURN = 0.008;     // radians per pixel of the mouse
 
 const PROGRAMS = { cells: [CELL, FLAT], spheres: [SPHERE, ROUND], segments: [SEGMENT, PLAIN] };
 
+let spare = null; // a scene that waits for its first particles
+
+// Make a scene before one is needed: without a graphics card that takes half a second.
+export function prepareScene() {
+  try {
+    spare ??= new Scene(document.createElement("canvas"));
+    spare.drawNothing();
+  } catch {
+    spare = null; // the viewer says that there is no WebGL 2
+  }
+}
+
+// The scene that was prepared, or a new one. Throws where there is no WebGL 2.
+export function readyScene() {
+  const found = spare?.gl.isContextLost() ? null : spare;
+  spare = null;
+  return found ?? new Scene(document.createElement("canvas"));
+}
+
 export class Scene {
   constructor(canvas) {
     this.canvas = canvas;
@@ -182,12 +201,25 @@ export class Scene {
     });
   }
 
+  // Draw a cell that nobody sees: what the card prepares for a first picture is then there.
+  drawNothing() {
+    const none = new Float32Array(3);
+    this.load({ position: none, width: none, value: new Float32Array(1) },
+      { dimensions: 2, bounds: Array(3).fill([0, 1]) }, { low: 0, high: 1, colors: "heat" });
+    this.filter([-3e38, 3e38], -1, 0);
+    this.column = 0;
+    this.draw();
+    this.frame = null;
+  }
+
   // Draw `count` particles of the frame; returns the time that it took [ms].
   draw(count = this.count) {
     const gl = this.gl, canvas = this.canvas, { dimensions, mirrored } = this.index;
     const dense = Math.min(devicePixelRatio || 1, 2), began = performance.now();
-    canvas.width = Math.max(1, Math.round(canvas.clientWidth * dense));
-    canvas.height = Math.max(1, Math.round(canvas.clientHeight * dense));
+    for (const [side, size] of [["width", canvas.clientWidth], ["height", canvas.clientHeight]]) {
+      const pixels = Math.max(1, Math.round(size * dense));
+      if (canvas[side] !== pixels) canvas[side] = pixels; // which takes new memory of the card
+    }
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);

@@ -6,7 +6,9 @@ strips one. Functions that read files are no coroutines: Starlette runs them in 
 
 from __future__ import annotations
 
+import importlib
 import socket
+import threading
 from collections.abc import Callable, Iterable
 from importlib.resources import files
 from pathlib import Path
@@ -36,8 +38,11 @@ CONTENT = {
     ".txt": "text/plain; charset=utf-8",
 }
 STATIC = {
-    file.name: file for file in files("lasersph.web").iterdir() if Path(file.name).suffix in CONTENT
+    file.name: file.read_bytes()
+    for file in files("lasersph.web").iterdir()
+    if Path(file.name).suffix in CONTENT
 }
+"""The files of the page by name."""
 REPORT_POLICY = (
     "sandbox allow-scripts; default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; "
     "script-src 'unsafe-inline'"
@@ -84,27 +89,34 @@ class Pages:
             Route("/api/run/{id}/block/{name:path}", self.block),
         ]
 
-    def index(self, request: Request) -> Response:
+    async def index(self, request: Request) -> Response:
         """The page."""
         return _static("index.html")
 
-    def static(self, request: Request) -> Response:
+    async def static(self, request: Request) -> Response:
         """A file of the page."""
         return _static(request.path_params["name"])
 
+    def read_ahead(self) -> None:
+        """Read what the first visitor asks for: the list, and the library that reads particles."""
+        self.list_runs()
+        importlib.import_module("lasersph.output.frame_blocks")
+
     def runs(self, request: Request) -> Response:
         """All runs and sweeps of the folder."""
+        return JSONResponse(self.list_runs())
+
+    def list_runs(self) -> dict[str, Any]:
+        """What the start page shows."""
         entries = self.folders.entries()
         shown = [one for one in entries if one.kind == "run" and not one.sweep]
-        return JSONResponse(
-            {
-                "folder": str(self.folders.root),
-                "version": __version__,
-                "may_run": self.may_run,
-                "runs": [self._cards.card(one) for one in shown],
-                "sweeps": [self._sweeps.card(one) for one in entries if one.kind == "sweep"],
-            }
-        )
+        return {
+            "folder": str(self.folders.root),
+            "version": __version__,
+            "may_run": self.may_run,
+            "runs": [self._cards.card(one) for one in shown],
+            "sweeps": [self._sweeps.card(one) for one in entries if one.kind == "sweep"],
+        }
 
     def run(self, request: Request) -> Response:
         """One run."""
@@ -185,9 +197,8 @@ class Pages:
 
 
 def _static(name: str) -> Response:
-    file = STATIC[name]
     return Response(
-        file.read_bytes(),
+        STATIC[name],
         media_type=CONTENT[Path(name).suffix],
         headers={"cache-control": "no-cache"},
     )
@@ -250,8 +261,10 @@ def serve(
         server_header=False,
         timeout_graceful_shutdown=SHUTDOWN,
     )
+    config.load()  # before the address is told
     server = uvicorn.Server(config)
     pages.is_stopping = lambda: server.should_exit
     listening.listen()
+    threading.Thread(target=pages.read_ahead, daemon=True).start()
     started()
     server.run(sockets=[listening])

@@ -7,7 +7,7 @@
 // gives, and `block(name)`, which resolves to an ArrayBuffer of little-endian float32: sources.js.
 // Options: frame (number), field (name), live (true), ranges ({field: [low, high]}, so that two
 // viewers have the same scale), onFrame(number, time) after a frame was drawn.
-import { Scene } from "./scene.js";
+import { readyScene } from "./scene.js";
 import { kernel } from "./sources.js";
 import { CSS, HTML } from "./viewer_look.js";
 
@@ -26,19 +26,24 @@ export function mount(element, source, options = {}) {
   root.adoptedStyleSheets = [sheet];
   root.innerHTML = HTML;
   const part = (name) => root.querySelector(name);
-  const canvas = part("canvas"), slider = part(".time input"), message = part(".message");
+  const slider = part(".time input"), message = part(".message");
   const say = (text) => { if (message.textContent !== text) message.textContent = text; };
   let begun = source.index();  // on its way while the card is made ready
   begun.catch(() => {});       // it is asked for again
   let scene;
   try {
-    scene = new Scene(canvas);
+    scene = readyScene();
   } catch (error) {
     part(".controls").hidden = true;
     say("Particles cannot be drawn: this browser offers no WebGL 2.");
     const nothing = () => {};
     return { works: false, setFrame: nothing, setField: nothing, setLive: nothing, destroy: nothing };
   }
+
+  const canvas = scene.canvas;
+  for (const [name, value] of [["tabindex", "0"], ["role", "img"], ["aria-label", "Particles"]])
+    canvas.setAttribute(name, value);
+  part(".stage").prepend(canvas);
 
   let index = null, frame = 0, field = options.field, loaded = null;
   let gate = null;  // what is shown: {field, low, high}; null shows all

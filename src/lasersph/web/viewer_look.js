@@ -49,7 +49,6 @@ button:disabled { opacity: .55; cursor: default; }
 export const HTML = `
 <section class="viewer" aria-label="Particle viewer">
   <div class="stage">
-    <canvas tabindex="0" role="img" aria-label="Particles"></canvas>
     <div class="title"></div>
     <div class="legend" hidden><b></b><div class="bar"></div></div>
     <div class="scale" hidden><span></span><i></i></div>

@@ -346,7 +346,7 @@ def test_only_reading(browser):
 
 def test_page_names_no_other_server_and_no_absolute_address():
     """All of it works behind a proxy that strips a prefix, and without a network."""
-    own = {name: file.read_text("utf-8") for name, file in STATIC.items()}
+    own = {name: data.decode() for name, data in STATIC.items()}
     assert {"index.html", "page.js", "page.css", "viewer.js", "uplot.js"} <= set(own)
     # all scripts come at once, not one round of requests after the other
     preloaded = set(re.findall(r'modulepreload" href="static/([^"]+)', own["index.html"]))
