@@ -120,6 +120,7 @@ def box_view(time=0.0, step=0, *, count=40, size=1e-3, speed=1.0, wall=(310.0, 2
         conducting_sides=("left", "right"),
         wall_heat={"left": 40.0 * time, "right": -40.0 * time, "bottom": 0.0, "surface": 0.0},
         wall_impulse={"left": -3.0 * time, "right": 3.0 * time, "bottom": time, "surface": -time},
+        wall_pressing={"left": 5.0 * time, "right": 2.0 * time, "bottom": time, "surface": -time},
     )
     return View(
         time=time,

@@ -40,9 +40,10 @@ class FlowView:
             left, right, bottom, surface.
         conducting_sides: names of the sides of a box that heat crosses: those with a given
             temperature or flux.
-        wall_heat, wall_impulse: of each side of a box, since the start: heat that has entered [J/m]
-            and momentum that it has given to the liquid along itself [N s/m], as the steps
-            exchanged them.
+        wall_heat, wall_impulse, wall_pressing: of each side of a box, since the start: heat that
+            has entered [J/m], momentum that it has given to the liquid along itself, and that with
+            which the liquid has pressed on it [N s/m], as the steps exchanged them; nothing presses
+            where the surface moves.
         full_step: step before it was cut to end at a given time [s].
     """
 
@@ -67,4 +68,5 @@ class FlowView:
     conducting_sides: tuple[str, ...] = ()
     wall_heat: Mapping[str, float] = field(default_factory=dict)
     wall_impulse: Mapping[str, float] = field(default_factory=dict)
+    wall_pressing: Mapping[str, float] = field(default_factory=dict)
     full_step: float = 0.0

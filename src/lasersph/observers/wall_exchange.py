@@ -12,7 +12,9 @@ the warm side to the cold one, n their direction,
 
 At a steady state all three are equal. The sides that drive the flow are those that both have a
 given temperature, else those that heat crosses both; of two such pairs, those that differ most.
-Without such sides there is no Nusselt number. The history has the means of each step, the summary
+Without such sides there is no Nusselt number. The force with which the liquid presses on a wall is
+that of the dynamic pressure, whose mean in a closed box is 0, and of the viscous stress across the
+wall. The history has the means of each step, the summary
 those of the last quarter of the time, so that no single particle moves them.
 """
 
@@ -38,10 +40,14 @@ SMALLEST_DIFFERENCE = 1e-9
 LAST = 0.25
 """Share of the time over which the summary takes means."""
 MEAN = "mean"
+FORCES = {
+    "drag": "drag of the wall on the liquid",
+    "pressing": "force of the liquid onto the wall",
+}
 
 
 class WallExchange(Observer):
-    """Observes heat through the walls of a box, its Nusselt numbers, and the drag of the walls."""
+    """Observes heat through the walls of a box, its Nusselt numbers, and forces at the walls."""
 
     title = "walls of the box, mean over the last quarter of the time"
     note = (
@@ -53,7 +59,8 @@ class WallExchange(Observer):
         *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in PLANE),
         Quantity(f"box_nusselt_{MEAN}", "", "domain-averaged Nusselt number"),
         *(
-            Quantity(f"box_drag_{side}_N_m", "N/m", f"drag of the wall on the liquid, {side}")
+            Quantity(f"box_{force}_{side}_N_m", "N/m", f"{words}, {side}")
+            for force, words in FORCES.items()
             for side in PLANE
         ),
     )
@@ -67,8 +74,9 @@ class WallExchange(Observer):
                     f"box.heat.flux_{side}_W_m2", "W/m^2", f"mean heat flux into the box, {side}"
                 ),
                 Quantity(f"box.heat.nusselt_{side}", "", f"Nusselt number, {side}"),
-                Quantity(
-                    f"box.walls.drag_{side}_N_m", "N/m", f"drag of the wall on the liquid, {side}"
+                *(
+                    Quantity(f"box.walls.{force}_{side}_N_m", "N/m", f"{words}, {side}")
+                    for force, words in FORCES.items()
                 ),
             )
         ),
@@ -86,12 +94,12 @@ class WallExchange(Observer):
         self.temperature: dict[str, float] = {}
         self.between: list[str] = []
         self.sums = {"time": 0.0, MEAN: 0.0} | {
-            f"{kind}_{side}": 0.0 for kind in ("heat", "drag") for side in PLANE
+            f"{kind}_{side}": 0.0 for kind in ("heat", *FORCES) for side in PLANE
         }
         self.marks: list[dict[str, float]] = []
 
     def observe(self, view: View) -> Row:
-        """Heat [J], Nusselt numbers and drag [N/m] of the step; 0 where there are none."""
+        """Heat [J], Nusselt numbers and forces [N/m] of the step; 0 where there are none."""
         flow, before = flow_of(view), self.sums
         if view.step % EVERY == 0:
             self._look_at_sides(view)
@@ -99,6 +107,7 @@ class WallExchange(Observer):
         self.sums = {"time": view.time, MEAN: before[MEAN] + view.time_step * mean}
         self.sums |= {f"heat_{side}": flow.wall_heat.get(side, 0.0) for side in PLANE}
         self.sums |= {f"drag_{side}": flow.wall_impulse.get(side, 0.0) for side in PLANE}
+        self.sums |= {f"pressing_{side}": flow.wall_pressing.get(side, 0.0) for side in PLANE}
         if view.step % EVERY == 0:
             self.marks.append(self.sums)
         rate = rates(before, self.sums)
@@ -107,7 +116,7 @@ class WallExchange(Observer):
             *(self.sums[f"heat_{side}"] for side in PLANE),
             *(numbers.get(side, 0.0) for side in PLANE),
             mean,
-            *(rate[f"drag_{side}"] for side in PLANE),
+            *(rate[f"{force}_{side}"] for force in FORCES for side in PLANE),
         )
         return self.record(view.time, values)
 
@@ -120,7 +129,8 @@ class WallExchange(Observer):
         )
         rate = rates(start, self.sums)
         found: dict[str, object] = {"box.walls.from_s": start["time"]}
-        found |= {f"box.walls.drag_{side}_N_m": rate[f"drag_{side}"] for side in PLANE}
+        for force in (f"{force}_{side}" for force in FORCES for side in PLANE):
+            found[f"box.walls.{force}_N_m"] = rate[force]
         for side, temperature in self.temperature.items():
             found[f"box.heat.temperature_{side}_K"] = temperature
             found[f"box.heat.flux_{side}_W_m2"] = rate[f"heat_{side}"] / self._area(side)

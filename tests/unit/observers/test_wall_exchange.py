@@ -21,6 +21,7 @@ def observe(view, times):
         seen = box_view(time=time, step=k * EVERY)
         flow = replace(view.flow, wall_heat=seen.flow.wall_heat)
         flow = replace(flow, wall_impulse=seen.flow.wall_impulse)
+        flow = replace(flow, wall_pressing=seen.flow.wall_pressing)
         row = observer.observe(replace(seen, time_step=1e-5 if k else 0.0, flow=flow))
     return observer, row
 
@@ -67,6 +68,8 @@ def test_means_over_the_last_quarter():
     assert found["heat"]["nusselt_right"] == pytest.approx(1.0)
     assert found["walls"]["drag_left_N_m"] == pytest.approx(-3.0)
     assert found["walls"]["drag_bottom_N_m"] == pytest.approx(1.0)
+    assert found["walls"]["pressing_left_N_m"] == pytest.approx(5.0)
+    assert found["walls"]["pressing_surface_N_m"] == pytest.approx(-1.0)
 
 
 def test_nusselt_number_only_where_heat_crosses():

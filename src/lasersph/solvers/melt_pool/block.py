@@ -101,8 +101,9 @@ class Block(GhostExtension):
         potential, enthalpy: heat potential [W/m] and enthalpy [J/kg] of a wall's temperature [K].
 
     Attributes:
-        rules: (M,) what faces mean to heat, by the names of `ghost_walls`. heat_face, wall: tables
-            of these by type, see `GhostRules`. across: (M,) 1 beyond a surface that is no plane.
+        rules: (M,) what faces mean to heat, by the names of `ghost_walls`. heat_face, wall_x,
+            wall_z: tables of these by type, see `GhostRules`. across: (M,) 1 beyond a
+            surface that is no plane.
         pairs: NeighborList with the rows of the block, among all M.
         weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
             there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1].
@@ -168,7 +169,8 @@ class Block(GhostExtension):
         for name, values in self._wall_state(rules.wall_temperature).items():
             self._walls[name] = ghosts.table(is_ghost * values)
         self._varies = ghosts.table(rules.varies) if rules.varies.any() else None
-        self.heat_face, self.wall = ghosts.table(rules.heat_face), ghosts.table(rules.wall)
+        self.heat_face = ghosts.table(rules.heat_face)
+        self.wall_x, self.wall_z = (ghosts.table(faces) for faces in rules.walls)
 
     def _wall_state(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
         """Temperature, heat potential and enthalpy of walls."""

@@ -55,9 +55,9 @@ class GhostRules:
             tangential velocity, -1, 0 or 1.
         dirichlet: (w,) 1 beyond a Dirichlet face. wall_temperature: (w,) [K], its mean where it
             varies along the face, as `varies` (w,) says. flux: (w,) into the body [W/m^2]. normal:
-            (2, w) outward, plane: (w,) place of the face along it [m]. heat_face, wall: (w,) number
-            of the face, from 1 in the order of `PLANE`, whose heat condition holds, and of the one
-            face that lies between for the flow; else 0.
+            (2, w) outward, plane: (w,) place of the face along it [m]. heat_face: (w,) number
+            of the face, from 1 in the order of `PLANE`, whose heat condition holds. walls: (2, w)
+            those across x and across z that lie between for the flow. Else 0.
     """
 
     factor: Array
@@ -70,7 +70,12 @@ class GhostRules:
     normal: Array
     plane: Array
     heat_face: Array
-    wall: Array
+    walls: Array
+
+    @property
+    def wall(self) -> Array:
+        """(w,) number of the one face that lies between for the flow; 0 of none and of two."""
+        return np.where((self.walls > 0.0).all(axis=0), 0.0, self.walls.max(axis=0))
 
 
 class FaceConditions:
@@ -131,10 +136,10 @@ class FaceConditions:
         count = ghost_types.count
         slope, dirichlet, temperature = np.zeros(count), np.zeros(count), np.zeros(count)
         flux, normal, plane = np.zeros(count), np.zeros((2, count)), np.zeros(count)
-        heat_face, wall, varies = np.zeros(count), np.zeros(count), np.zeros(count, bool)
+        heat_face, walls, varies = np.zeros(count), np.zeros((2, count)), np.zeros(count, bool)
         for axis, face, chosen, at, outward in self._crossings(ghost_types):
             kind = self.boundaries.kind_of(face)
-            wall[chosen] = np.where(wall[chosen] == 0.0, 1.0 + PLANE.index(face), np.nan)
+            walls[axis, chosen] = 1.0 + PLANE.index(face)
             # the first Dirichlet face in a corner, else the first Neumann face
             mine = chosen & (heat_face == 0.0)
             if surface is not None and self.flow_kind(face) in FREE:
@@ -154,7 +159,6 @@ class FaceConditions:
             normal[:, mine] = 0.0
             normal[axis, mine], plane[mine] = outward, outward * at
             heat_face[mine] = 1.0 + PLANE.index(face)
-        wall = np.nan_to_num(wall)
         factor, added = self._velocities(ghost_types, surface)
         return GhostRules(
             factor,
@@ -167,7 +171,7 @@ class FaceConditions:
             normal,
             plane,
             heat_face,
-            wall,
+            walls,
         )
 
     def varying_temperature(self, x: Array) -> Array:

@@ -6,11 +6,20 @@ face that balance the enthalpies of the particles beside it,
     Q = dt sum_i sum_k [ g_ik c_ik (P_w - P_i) + 2 g_ik q n_k ]
 
 (`block.wall_terms`). Where no heat crosses, a ghost gives its source what that gives back, and
-nothing is booked. Momentum is that of the viscous step along the face, t its tangent,
+nothing is booked. Momentum along the face is that of the viscous step, t its tangent,
 
     I = dt rho nu sum_i sum_k g_ik (v_k - v_i) . t
 
-with the velocities from which the step takes its forces. Along a face pressure exerts none.
+with the velocities from which the step takes its forces; pressure exerts none. Across the face, n
+outward, it is that of the pressure and of the same viscous step,
+
+    J = dt sum_i sum_k [ V_i (p_i C_i + p_k C_k) G_ik - rho nu g_ik (v_k - v_i) ] . n + dt p_0 l
+
+Steps take p over the lowest one p_0; what that constant presses on a face of length l is taken off,
+so that J is the impulse of the pressure that particles store, whose mean in a closed box is 0.
+Below a surface that moves the gradient is one of differences: its sum over ghosts is not what
+presses on a wall, since the forces of two particles on each other are not opposite. J is not
+booked there.
 """
 
 from __future__ import annotations
@@ -22,6 +31,7 @@ from lasersph.compute.backend import Backend
 from lasersph.particles.faces import PLANE
 from lasersph.solvers.melt_pool.block import Block, wall_terms
 from lasersph.solvers.melt_pool.flow import Flow
+from lasersph.sph.correction import corrected_symmetric_term
 
 
 def of_face(q, face):
@@ -46,7 +56,7 @@ def heat_terms(
     return a_0, a_1, a_2, a_3, b_0, b_1, b_2, b_3
 
 
-def heat_sums(total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7):
+def sums_of_row(total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7):
     """Sums of a row."""
     return total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7
 
@@ -56,15 +66,32 @@ def heat_of_row(P, a_0, a_1, a_2, a_3, b_0, b_1, b_2, b_3):
     return b_0 - a_0 * P, b_1 - a_1 * P, b_2 - a_2 * P, b_3 - a_3 * P
 
 
-def drag_terms(g_ij, v_i, v_j, wall_j):
-    """Viscous force on i along each face, over eta [m/s]: along x at bottom and surface, else z."""
-    force = g_ij * (v_j - v_i)
-    return of_face(force[0] if wall_j > 2.0 else force[1], wall_j)
+def along_and_across(force, wall_x, wall_z):
+    """Components of a force along each face and then across it.
+
+    In a corner both are across: each component is that of one face.
+    """
+    a_0, a_1, _, _ = of_face(force[1], wall_x if wall_z == 0.0 else 0.0)
+    _, _, a_2, a_3 = of_face(force[0], wall_z if wall_x == 0.0 else 0.0)
+    c_0, c_1, _, _ = of_face(force[0], wall_x)
+    _, _, c_2, c_3 = of_face(force[1], wall_z)
+    return a_0, a_1, a_2, a_3, c_0, c_1, c_2, c_3
 
 
-def of_row(total_0, total_1, total_2, total_3):
-    """Sums of a row."""
-    return total_0, total_1, total_2, total_3
+def viscous_terms(g_ij, v_i, v_j, wall_x_j, wall_z_j):
+    """Viscous force on i over eta, along and across each face [m/s]."""
+    return along_and_across(g_ij * (v_j - v_i), wall_x_j, wall_z_j)
+
+
+def pressure_terms(p_i, p_j, C_i, C_j, G_ij, wall_x_j, wall_z_j):
+    """Share of a pair in grad p, along and across each face [Pa/m]."""
+    grad = corrected_symmetric_term(p_i, p_j, C_i, C_j, G_ij)
+    return along_and_across(grad, wall_x_j, wall_z_j)
+
+
+def force_across(total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7, V):
+    """V grad p of a row across each face [N/m]."""
+    return V * total_4, V * total_5, V * total_6, V * total_7
 
 
 class FaceExchange:
@@ -76,13 +103,15 @@ class FaceExchange:
 
     Attributes:
         heat: into the box by face [J/m]. impulse: of the face on the liquid, along x at bottom and
-            surface, along z at left and right [N s/m].
+            surface, along z at left and right [N s/m]. pressing: of the liquid on the face, outward
+            [N s/m].
     """
 
     def __init__(self, backend: Backend, count: int, potential: Array | None) -> None:
         self.backend, self.potential = backend, potential
         self.heat: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         self.impulse: dict[str, float] = dict.fromkeys(PLANE, 0.0)
+        self.pressing: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         names = [f"{name}_{k}" for name in "ab" for k in range(len(PLANE))]
         self._sums = {name: backend.zeros(count) for name in names}
 
@@ -95,7 +124,7 @@ class FaceExchange:
                 block.pairs,
                 fields | block.rules,
                 tuple(self._sums.values()),
-                finish=heat_sums,
+                finish=sums_of_row,
                 rows=block.rows_near_faces,
                 closest=block.closest,
             )
@@ -112,31 +141,65 @@ class FaceExchange:
             )
             add_to(self.heat, found, step)
 
-    def book_drag(self, block: Block, flow: Flow, step: float) -> None:
+    def book_viscous_forces(self, block: Block, flow: Flow, step: float) -> None:
         """Add the momentum of a viscous step that has just been taken."""
         if self.potential is None:
             return
         fields = {"v": flow.extend_velocity(flow.viscous.velocity), "g_ij": block.weights}
         found = self.backend.pair_sum(
-            drag_terms,
+            viscous_terms,
             block.pairs,
-            fields | {"wall": block.of_type(block.wall)},
+            fields | walls_of(block),
+            (None,) * (2 * len(PLANE)),
+            finish=sums_of_row,
+            rows=block.rows_near_faces,
+            reduce=("sum",) * (2 * len(PLANE)),
+        )
+        factor = step * flow.liquid.density * flow.liquid.viscosity
+        add_to(self.impulse, found[: len(PLANE)], factor)
+        if not flow.has_tangents:
+            add_to(self.pressing, outward(found[len(PLANE) :]), -factor)
+
+    def book_pressure(self, block: Block, flow: Flow, step: float) -> None:
+        """Add the momentum of the pressure that has just corrected the velocity."""
+        if self.potential is None or flow.pressure_seen is None:
+            return
+        fields, lowest = flow.pressure_seen
+        found = self.backend.pair_sum(
+            pressure_terms,
+            block.pairs,
+            fields | walls_of(block) | {"V": block.volume},
             (None,) * len(PLANE),
-            finish=of_row,
+            finish=force_across,
             rows=block.rows_near_faces,
             reduce=("sum",) * len(PLANE),
         )
-        add_to(self.impulse, found, step * flow.liquid.density * flow.liquid.viscosity)
+        add_to(self.pressing, outward(found), step)
+        (x_0, x_1), (z_0, z_1) = block.conditions.box
+        width, height = x_1 - x_0, z_1 - z_0
+        add_to(self.pressing, (height, height, width, width), step * lowest)
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step."""
-        parts = {"heat": self.heat, "impulse": self.impulse}
+        parts = {"heat": self.heat, "impulse": self.impulse, "pressing": self.pressing}
         return {f"{part}.{face}": x for part, sums in parts.items() for face, x in sums.items()}
 
     def restore(self, numbers: Mapping[str, float]) -> None:
         """Continue from the numbers of `checkpoint_scalars`."""
         self.heat = {face: numbers[f"heat.{face}"] for face in PLANE}
         self.impulse = {face: numbers[f"impulse.{face}"] for face in PLANE}
+        self.pressing = {face: numbers[f"pressing.{face}"] for face in PLANE}
+
+
+def outward(components: tuple[float, ...]) -> tuple[float, ...]:
+    """Components along x, x, z, z at each face, as components out of the box."""
+    left, right, bottom, surface = components
+    return -left, right, -bottom, surface
+
+
+def walls_of(block: Block) -> dict[str, Array]:
+    """(M,) numbers of the faces across x and across z beyond which a ghost lies, else 0."""
+    return {name: block.of_type(getattr(block, name)) for name in ("wall_x", "wall_z")}
 
 
 def add_to(sums: dict[str, float], found: tuple[float, ...], factor: float) -> None:

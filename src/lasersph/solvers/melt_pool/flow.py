@@ -74,6 +74,8 @@ class Flow:
         velocity: (2, n) [m/s]. pressure: (n,) [Pa]. largest_speed [m/s].
             largest_acceleration by all forces [m/s^2]. iterations: of the last step. divergence:
             rms and largest D after the projection [1/s].
+        pressure_seen: fields of the symmetric gradient of the last step, p [Pa] over the lowest
+            one, and that one [Pa]; None below a surface that moves.
     """
 
     def __init__(
@@ -94,6 +96,7 @@ class Flow:
         self.largest_speed = self.largest_acceleration = 0.0
         self.iterations = {"pressure": 0, "viscosity": 0}
         self.divergence = (0.0, 0.0)
+        self.pressure_seen: tuple[dict[str, Array], float] | None = None
         self.viscous = ViscousStep(
             backend, particles["volume"], liquid.viscosity, settings.viscosity
         )
@@ -156,7 +159,7 @@ class Flow:
         So the jump follows within the time l^2 / nu in which momentum crosses a support. Under a
         given pressure at the surface nothing of this is to be undone, and it is seen at once.
         """
-        if self._has_tangents:
+        if self.has_tangents:
             return
         time = self.block.moving_support**2 / self.liquid.viscosity
         fields = {"settled": self.particles["settled_jump"], "jump": self.ghost_velocity_jump()}
@@ -183,13 +186,13 @@ class Flow:
             up=upward(2),
         )
         # viscosity at the end of the step; of second order, in its middle, below a moving surface
-        ahead = 0.5 * step if self._has_tangents else step
+        ahead = 0.5 * step if self.has_tangents else step
         self.wall_pressure.find(block, self.pressure, self._C, ahead)
         extended = self.extend_velocity(self.velocity)
         self.iterations["viscosity"] = self.viscous.advance(
             block, self.velocity, self.body_force, extended, kinds, ahead
         )
-        if self._has_tangents:
+        if self.has_tangents:
             fields = {"v": self.velocity, "v_old": self.before}
             backend.pointwise(terms.continue_from_middle, fields, self.velocity)
         self.stop(kinds)
@@ -252,6 +255,7 @@ class Flow:
         backend, block = self.backend, self.block
         C = block.extend_tensor(self._C)
         gradient, p = corrected_difference_term, block.pressure_across(self.pressure)
+        self.pressure_seen = None
         if p is None:
             gradient = corrected_symmetric_term
             (lowest,) = backend.pointwise(
@@ -263,6 +267,7 @@ class Flow:
             )
             p, ghosts = backend.zeros(block.total), {"source": block.source}
             backend.pointwise(terms.pressure_over_lowest, ghosts, p, p=self.pressure, lowest=lowest)
+            self.pressure_seen = {"p": p, "G_ij": block.gradient, "C": C}, lowest
         (square,) = backend.pair_sum(
             gradient,
             block.pairs,
@@ -313,12 +318,12 @@ class Flow:
     def _divergence_fields(self) -> dict[str, Array]:
         block = self.block
         settled = self.particles["settled_jump"]
-        jump = self.ghost_velocity_jump() if self._has_tangents else settled
+        jump = self.ghost_velocity_jump() if self.has_tangents else settled
         v = block.mirror_velocity(self.velocity, jump)
         return {"v": v, "C": self._C, "G_ij": block.gradient}
 
     @property
-    def _has_tangents(self) -> bool:
+    def has_tangents(self) -> bool:
         """Whether the surface is no plane."""
         return self.surface is not None and self.surface.ghosts is not None
 

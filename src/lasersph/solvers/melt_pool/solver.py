@@ -214,9 +214,10 @@ class MeltPool:
         self.flow.stop(self.kinds)  # what has frozen since the last step
         self.advect(step)
         self.flow.predict(self.particles["temperature"], self.kinds, step)
-        self.exchange.book_drag(self.flow.block, self.flow, step)
+        self.exchange.book_viscous_forces(self.flow.block, self.flow, step)
         self.flow.project(self.kinds, step)
         self.flow.correct(self.kinds, step)
+        self.exchange.book_pressure(self.flow.block, self.flow, step)
         self.update_positions(step)
         self.illuminate(step)
         self.heat.conduct(step, unclipped_step)

@@ -6,10 +6,13 @@ from flow_boxes import block_of, box, go, jittered, start_from
 
 from lasersph.solvers.melt_pool.face_exchange import (
     FaceExchange,
-    drag_terms,
+    force_across,
     heat_of_row,
     heat_terms,
     of_face,
+    outward,
+    pressure_terms,
+    viscous_terms,
 )
 
 E_X = np.array([1.0, 0.0])
@@ -49,12 +52,27 @@ def test_heat_of_three_particles_by_hand():
         assert heat_of_row(3.0, *sums) == (0.0, expected, 0.0, 0.0)
 
 
-def test_drag_by_hand():
-    """g (v_j - v_i) along z at a side, along x at bottom and surface."""
+def test_viscous_force_by_hand():
+    """g (v_j - v_i): along z and across x at a side, the other way around at the surface; in a
+    corner across both."""
     v = {"g_ij": 0.5, "v_i": np.array([1.0, 2.0]), "v_j": np.array([5.0, 8.0])}
-    assert drag_terms(**v, wall_j=1.0) == (3.0, 0.0, 0.0, 0.0)
-    assert drag_terms(**v, wall_j=4.0) == (0.0, 0.0, 0.0, 2.0)
-    assert drag_terms(**v, wall_j=0.0) == (0.0, 0.0, 0.0, 0.0)
+    for walls, expected in (
+        ((1.0, 0.0), (3.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0)),
+        ((0.0, 4.0), (0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0)),
+        ((2.0, 3.0), (0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 3.0, 0.0)),
+        ((0.0, 0.0), (0.0,) * 8),
+    ):
+        assert viscous_terms(**v, wall_x_j=walls[0], wall_z_j=walls[1]) == expected
+
+
+def test_pressure_by_hand():
+    """V (p_i + p_j) G_ij across the face of a ghost with C = 1; out of the box it presses."""
+    one, G = np.eye(2), np.array([-0.5, 7.0])  # of a particle before its ghost on the left
+    pair = {"p_i": 3.0, "p_j": 3.0, "C_i": one, "C_j": one, "G_ij": G}
+    shares = pressure_terms(**pair, wall_x_j=1.0, wall_z_j=0.0)
+    assert shares == (42.0, 0.0, 0.0, 0.0, -3.0, 0.0, 0.0, 0.0)
+    assert outward(force_across(*shares, V=2.0)) == (6.0, 0.0, 0.0, 0.0)
+    assert outward((-1.0, 1.0, -2.0, 2.0)) == (1.0, 1.0, 2.0, 2.0)
 
 
 def exchange_of(solver):
@@ -106,7 +124,7 @@ def test_shear_between_two_walls():
     v = np.array([1.0 + place[1], 0.0 * place[1]])
     solver.backend.copy(solver.backend.asarray(v), solver.flow.viscous.velocity)
     exchange = exchange_of(solver)
-    exchange.book_drag(block, solver.flow, 2.0)
+    exchange.book_viscous_forces(block, solver.flow, 2.0)
     expected = 2.0 * 0.01
     assert exchange.impulse["surface"] == pytest.approx(expected)
     assert exchange.impulse["bottom"] == pytest.approx(-expected)
@@ -129,3 +147,40 @@ def test_booked_heat_is_what_the_body_gains():
     solver.exchange.restore(dict.fromkeys(numbers, 0.0))
     solver.exchange.restore(numbers)
     assert solver.exchange.heat == heat
+
+
+def test_walls_give_the_liquid_its_momentum():
+    """Of all steps the forces of the four walls sum up to the momentum of the liquid.
+
+    Below a lid that has just begun to move drag and pressure are of one size. Without shifting and
+    gravity nothing else changes the momentum, but for the residual of the viscous step.
+    """
+    solver = box(cells=12, shifting=0.0, viscosity="explicit")
+    go(solver, 20)
+    volume = solver.backend.to_host(solver.particles["volume"])
+    momentum = solver.backend.to_host(solver.flow.velocity) @ volume  # the density is 1
+    drag, pressing = solver.exchange.impulse, solver.exchange.pressing
+    along = drag["bottom"] + drag["surface"] + pressing["left"] - pressing["right"]
+    across = drag["left"] + drag["right"] + pressing["bottom"] - pressing["surface"]
+    scale = drag["surface"]
+    assert pressing["right"] - pressing["left"] > 0.05 * scale
+    np.testing.assert_allclose((along, across), momentum, atol=1e-9 * scale)
+    # where one wall is left out, they do not
+    assert along + pressing["right"] != pytest.approx(momentum[0], abs=0.01 * scale)
+    numbers = solver.checkpoint_scalars()
+    solver.exchange.restore(dict.fromkeys(numbers, 0.0))
+    solver.exchange.restore(numbers)
+    assert solver.exchange.pressing == pressing
+
+
+def test_an_even_pressure_presses_evenly():
+    """p times the length of each wall on a lattice; nothing once p_0 is taken off."""
+    solver = box(flow={})
+    block, exchange = block_of(solver), exchange_of(solver)
+    p = solver.backend.asarray(np.full(block.total, 7.0))
+    C = block.extend_tensor(solver.flow.correction)
+    for lowest, expected in ((0.0, 14.0), (-7.0, 0.0)):
+        exchange.pressing = dict.fromkeys(exchange.pressing, 0.0)
+        solver.flow.pressure_seen = {"p": p, "G_ij": block.gradient, "C": C}, lowest
+        exchange.book_pressure(block, solver.flow, 2.0)
+        assert list(exchange.pressing.values()) == pytest.approx([expected] * 4, abs=1e-9)

@@ -73,6 +73,7 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Array], np.ndarray])
         ),
         wall_heat=dict(solver.exchange.heat),
         wall_impulse=dict(solver.exchange.impulse),
+        wall_pressing={} if flow.has_tangents else dict(solver.exchange.pressing),
         full_step=solver.state.unclipped_step,
     )
 
