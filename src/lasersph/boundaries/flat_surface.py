@@ -138,6 +138,10 @@ class FlatSurface:
         out = (self.at_surface, self.near_surface, self.depth)
         self.backend.pointwise(mark_surface, {"x": position}, out, **self._place)
 
+    def stretch(self) -> Array | None:
+        """A plane is seen at its true length."""
+        return None
+
     def find_depth(self, position: Array, out: Array) -> None:
         """Depth below the surface along the beam [m] of particles at `position` [m]."""
         place = {"n": self.normal, "plane": self._place["plane"]}
@@ -185,8 +189,9 @@ class FlatSurface:
     def carry(self, now: SurfaceStep) -> None:
         """It stays where it is."""
 
-    def move(self, now: SurfaceStep) -> None:
-        """It stays where it is."""
+    def move(self, now: SurfaceStep) -> float:
+        """It stays where it is, and keeps its mass."""
+        return 0.0
 
     def confine(self, position: Array, flows: Array) -> None:
         """The domain's face does that."""

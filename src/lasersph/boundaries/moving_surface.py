@@ -44,7 +44,7 @@ from lasersph.boundaries.surface_conditions import find_conditions
 from lasersph.boundaries.surface_drives import Drives
 from lasersph.boundaries.surface_flux import flux_through, volume_flux
 from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
-from lasersph.boundaries.surface_mass import take_volume
+from lasersph.boundaries.surface_mass import take_mass
 from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
 from lasersph.boundaries.surface_trouble import trouble_of
 from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
@@ -159,6 +159,11 @@ class MovingSurface:
         self.backend.pointwise(
             loops.surface_geometry, {"x": position}, out, **self._tables, **self._marks
         )
+
+    def stretch(self) -> Array:
+        """(columns,) sqrt(1 + eta_x^2), with the slope at which the particles see the surface."""
+        line = self.line
+        return self.backend.asarray(np.sqrt(1.0 + line.derivative(line.height) ** 2))
 
     def find_depth(self, position: Array, out: Array) -> None:
         """Depth below the local surface along z [m] of particles at `position` [m]."""
@@ -275,7 +280,7 @@ class MovingSurface:
         self.line.height = height
         self._renew()
 
-    def move(self, now: SurfaceStep) -> None:
+    def move(self, now: SurfaceStep) -> float:
         """Move the line through the second half of a step, with the velocity at its end; then take
         what leaves in the step, damp short waves, and find the particles again."""
         self.carry(now)
@@ -291,9 +296,11 @@ class MovingSurface:
         line.height = moved
         self._renew()
         self.find(now.position)
-        if lost.any():
-            gone = self._followed / self.liquid.density
-            take_volume(self.backend, now, self.depth, line, lost, gone, self.spacing)
+        if not lost.any():
+            return 0.0
+        density = self.liquid.density
+        gone, spacing = self._followed / density, self.spacing
+        return take_mass(self.backend, now, self.depth, line, lost, gone, spacing, density)
 
     def _volume_flux(self, now: SurfaceStep) -> HostArray:
         """Q through the sides of all columns, toward larger x (count + 1,) [m^2/s]."""

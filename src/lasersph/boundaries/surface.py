@@ -55,13 +55,16 @@ class SurfaceGhosts(NamedTuple):
 
 class SurfaceStep(NamedTuple):
     """The particles below a surface in a step: temperature [K], position [m], velocity [m/s],
-    volume [m^2], 1 where they flow, all (..., n); begin and end of the step [s]; what has
-    evaporated since the start [kg/m^2], in the first entries by column."""
+    volume [m^2], mass [kg/m], enthalpy [J/kg], 1 where they flow, all (..., n); begin and end of
+    the step [s]; what has evaporated since the start per area seen from above [kg/m^2], in the
+    first entries by column."""
 
     T: Array
     position: Array
     velocity: Array
     volume: Array
+    mass: Array
+    enthalpy: Array
     flows: Array
     interval: tuple[float, float]
     evaporated: Array
@@ -136,6 +139,10 @@ class Surface(Protocol):
         """Set marks and depths of the particles at `position`, shape (dim, n) [m]."""
         ...
 
+    def stretch(self) -> Array | None:
+        """(columns,) true length of the surface over that seen from above; None for a plane."""
+        ...
+
     def find_depth(self, position: Array, out: Array) -> None:
         """Depth below the surface along the beam [m] of particles at `position` [m]."""
         ...
@@ -156,8 +163,9 @@ class Surface(Protocol):
         """
         ...
 
-    def move(self, now: SurfaceStep) -> None:
-        """Follow the melt through the second half; `now` is from the end of the step."""
+    def move(self, now: SurfaceStep) -> float:
+        """Follow the melt through the second half; `now` is from the end of the step. Mass that
+        leaves is taken from its particles; returns the heat that leaves with it [J/m]."""
         ...
 
     def confine(self, position: Array, flows: Array) -> None:

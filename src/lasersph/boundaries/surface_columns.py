@@ -1,8 +1,10 @@
-"""`SurfaceColumns`: which part of a flat surface each particle at it stands for now (2-D).
+"""`SurfaceColumns`: which part of the surface each particle at it stands for now (2-D).
 
 The surface is cut into columns of one spacing. A particle at it covers up to two of them, by the
 shares c_ic of its width; of a column it stands for c_ic / sum_j c_jc. So the particles at the
 surface share its whole area, however many there are, and a column has the mean of their values.
+What is lost leaves through the true length of an inclined surface, sqrt(1 + eta_x^2) times that of
+its column; light meets the length that is seen from above.
 """
 
 from __future__ import annotations
@@ -44,23 +46,30 @@ def mean_of_ends(cover, weighted, cover_right, weighted_right):
     return (weighted + weighted_right) / max(whole, 1.0e-300), whole
 
 
-def shared_area(left, cover_left, right, cover_right, covers, width):
+def shared_area(left, cover_left, right, cover_right, covers, stretch, width):
     """Area that a particle stands for [m]: its shares of two columns.
 
     Args:
         left, right: numbers of the columns. covers: table of the sums over their particles.
+            stretch: table of their true lengths over the width.
     """
     return width * (
-        cover_left / max(covers[left], 1.0e-300) + cover_right / max(covers[right], 1.0e-300)
+        cover_left / max(covers[left], 1.0e-300) * stretch[left]
+        + cover_right / max(covers[right], 1.0e-300) * stretch[right]
     )
+
+
+def product(a, b):
+    """Product of two numbers."""
+    return a * b
 
 
 class SurfaceColumns:
     """Columns below a surface from `low` on [m], of one width [m].
 
     Attributes:
-        rows: numbers of the particles at the surface. area: (n,) of the surface that each of them
-            stands for [m], 0 of all others.
+        rows: numbers of the particles at the surface. area: (n,) true one of the surface that each
+            of them stands for [m], 0 of all others.
     """
 
     def __init__(
@@ -71,12 +80,18 @@ class SurfaceColumns:
         self.area = backend.zeros(count)
         self._grid: dict[str, Any] = {"low": low, "inverse": 1.0 / width, "columns": float(columns)}
         self._mean, self._covers = backend.zeros(columns), backend.zeros(columns)
+        self._flat = self._stretch = backend.asarray(np.ones(columns))
         self._sums = {side: tuple(backend.zeros(columns) for _ in "12") for side in ("", "_right")}
         self._ends: list[tuple[Array, Array, NeighborList]] = []
 
-    def find(self, position: Array, rows: Rows) -> None:
-        """Let the particles `rows` at their positions (2, n) [m] share the surface."""
+    def find(self, position: Array, rows: Rows, stretch: Array | None = None) -> None:
+        """Let the particles `rows` at their positions (2, n) [m] share the surface.
+
+        Args:
+            stretch: (columns,) its true length over that seen from above; None for a plane.
+        """
         backend, size = self.backend, rows.shape[0]
+        self._stretch = self._flat if stretch is None else stretch
         backend.scatter(backend.zeros(self.rows.shape[0]), self.rows, self.area)
         self.rows = rows
         # loops over columns ask for fields at least as long
@@ -96,7 +111,8 @@ class SurfaceColumns:
             fields |= {side: backend.head(column, size)}
             fields |= {f"cover_{side}": backend.head(cover, size)}
         area = backend.zeros(size)
-        backend.pointwise(shared_area, fields, area, covers=self._covers, width=self._width)
+        tables = {"covers": self._covers, "stretch": self._stretch}
+        backend.pointwise(shared_area, fields, area, **tables, width=self._width)
         backend.scatter(area, rows, self.area)
 
     def mean(self, values: Array) -> Array:
@@ -104,6 +120,12 @@ class SurfaceColumns:
         inner = self.backend.head(self._values, self.rows.shape[0])
         self.backend.gather(values, self.rows, inner)
         self._average()
+        return self._mean
+
+    def mean_from_above(self, flux: Array) -> Array:
+        """(columns,) mean of a flux (n,) through the surface, per area that is seen from above."""
+        fields = {"a": self.mean(flux), "b": self._stretch}
+        self.backend.pointwise(product, fields, self._mean)
         return self._mean
 
     def _average(self) -> None:

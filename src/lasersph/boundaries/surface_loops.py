@@ -194,12 +194,6 @@ def at_column(x, depth, flows, start, inverse, columns, reach):
     return column
 
 
-def thinner(x, V, depth, flows, start, inverse, columns, reach, kept):
-    """Volume of a particle [m^2] after its column has lost mass: that of all within its reach."""
-    column = at_column(x, depth, flows, start, inverse, columns, reach)
-    return V * kept[column] if column < columns else 1.0 * V
-
-
 def hold_column(x, flows, start, inverse, columns, is_molten):
     """1 where a particle flows in a column that moves."""
     return flows * is_molten[int(min(max(floor((x[0] - start) * inverse), 0.0), columns - 1.0))]

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from lasersph.boundaries.surface_line import SurfaceLine
 from lasersph.input import format_quantity
 
+if TYPE_CHECKING:
+    from lasersph.boundaries.surface_line import SurfaceLine
+
 STEEPEST = 1.0
-"""Slope up to which the surface is computed."""
-FEWEST_ROWS = 3.0
-"""Thickness of the liquid over the spacing, down to which it is."""
+"""Slope up to which the surface is computed: ghosts across steeper tangents meet."""
+FEWEST_ROWS = 3
+"""Thickness of the liquid over the spacing, down to which it is: flow in fewer rows is not seen."""
 
 
 def trouble_of(line: SurfaceLine, bottom: float, spacing: float) -> str:
@@ -26,7 +30,7 @@ def trouble_of(line: SurfaceLine, bottom: float, spacing: float) -> str:
     if thickness[thin] < FEWEST_ROWS * spacing:
         return (
             f"the liquid is {format_quantity(thickness[thin], 'm', 3)} thick at x = "
-            f"{format_quantity(line.x[thin], 'm', 3)}, less than {FEWEST_ROWS:.0f} spacings of "
+            f"{format_quantity(line.x[thin], 'm', 3)}, less than {FEWEST_ROWS} spacings of "
             "particles; take a finer spacing, a weaker drive or an earlier end"
         )
     return ""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_surface import InitialSurface
+from lasersph.boundaries.surface_trouble import FEWEST_ROWS, STEEPEST
 from lasersph.case.solver_choice import computes_flow
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
@@ -13,14 +14,10 @@ from lasersph.materials import available_materials
 if TYPE_CHECKING:
     from lasersph.case.contents import CaseContents
 
-FEWEST_ROWS = 3
-"""Spacings in the depth of a liquid whose surface moves; flow in fewer is not seen."""
 FEWEST_COLUMNS = 12
 """Columns of a line whose differences of fifth order see both of its ends."""
 SLOPE_COLUMNS = 6.0
 """Columns over which the slope of a relief from a file counts; single ones have noise."""
-STEEPEST = 1.0
-"""Slope of a surface that is a function of x, as its particles see it."""
 DRIVES = ("surface_pressure_wave", "surface_mass_flux_wave")
 
 

@@ -99,7 +99,7 @@ class SurfaceExchange:
         particle at its top on the lattice, since particles move on and the surface stays."""
         flux = self.mass_flux
         if self._columns is not None:
-            flux = self._columns.mean(self.mass_flux)
+            flux = self._columns.mean_from_above(self.mass_flux)
             evaporated = self.body.backend.head(evaporated, flux.shape[0])
         fields = {"evaporated": evaporated, "mass_flux": flux}
         self.body.backend.pointwise(accumulate_evaporated_mass, fields, evaporated, step=step)

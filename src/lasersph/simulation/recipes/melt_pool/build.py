@@ -93,7 +93,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     is_rearranged = case.flow is None and (case.initial_surface or case.pause != "compute")
     if is_rearranged or (case.surface_moves and loses_mass):
         volume = replace(volume, is_kept=True)
-    if is_rearranged:
+    if volume.is_kept:
         body.particles.keep("mass")
     body.particles.add(volume)
     body.particles.set("volume", static.volume)
