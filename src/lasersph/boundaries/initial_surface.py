@@ -14,6 +14,10 @@ from lasersph.input import Length, Model, refusal
 
 Array = NDArray[np.float64]
 COLUMNS = ("x_m", "height_m")
+STEEPEST = 1.0
+"""Slope up to which the surface is computed: ghosts across steeper tangents meet."""
+FEWEST_ROWS = 3
+"""Thickness of the liquid over the spacing, down to which it is: flow in fewer rows is not seen."""
 BEYOND = 1.0
 """Widths of its columns by which a relief may end before the surface does: columns have heights in
 their middle, and those of another run may be wider."""

@@ -6,15 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lasersph.boundaries.initial_surface import FEWEST_ROWS, STEEPEST
 from lasersph.input import format_quantity
 
 if TYPE_CHECKING:
     from lasersph.boundaries.surface_line import SurfaceLine
-
-STEEPEST = 1.0
-"""Slope up to which the surface is computed: ghosts across steeper tangents meet."""
-FEWEST_ROWS = 3
-"""Thickness of the liquid over the spacing, down to which it is: flow in fewer rows is not seen."""
 
 
 def trouble_of(line: SurfaceLine, bottom: float, spacing: float) -> str:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.boundaries.initial_surface import InitialSurface
-from lasersph.boundaries.surface_trouble import FEWEST_ROWS, STEEPEST
+from lasersph.boundaries.initial_surface import FEWEST_ROWS, STEEPEST, InitialSurface
 from lasersph.case.solver_choice import computes_flow
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
