@@ -182,14 +182,8 @@ class MovingSurface:
         tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
         tables |= {"x": x, "T": now.T}
         tables |= {"depth": self.depth, "u": u, "w": w, "jump_x": jump_x, "jump_z": jump_z}
-        backend.pointwise(
-            loops.surface_velocity,
-            self._columns,
-            found,
-            **tables,
-            **self._ends,
-            spacing=self.spacing,
-        )
+        tables |= self._ends | {"spacing": self.spacing}
+        backend.pointwise(loops.surface_velocity, self._columns, found, **tables)
         u_s, w_s, T_s, weight = (backend.to_host(values) for values in found)
         full = weight > 0.0
         if full.any() and not full.all():  # columns without melt near the surface
@@ -326,13 +320,8 @@ class MovingSurface:
 
     def confine(self, position: Array, flows: Array) -> None:
         """Keep particles that flow below the surface."""
-        self.backend.pointwise(
-            loops.below_surface,
-            {"x": position, "flows": flows},
-            position,
-            **self._tables,
-            gap=GAP * self.spacing,
-        )
+        fields, gap = {"x": position, "flows": flows}, GAP * self.spacing
+        self.backend.pointwise(loops.below_surface, fields, position, **self._tables, gap=gap)
 
     def trouble(self) -> str:
         """Slope above 1, or too little liquid below; see `Surface`."""

@@ -54,20 +54,20 @@ class SurfaceGhosts(NamedTuple):
 
 
 class SurfaceStep(NamedTuple):
-    """The particles below a surface in a step: temperature [K], position [m], velocity [m/s],
-    volume [m^2], mass [kg/m], enthalpy [J/kg], 1 where they flow, all (..., n); begin and end of
-    the step [s]; what has evaporated since the start per area seen from above [kg/m^2], in the
-    first entries by column."""
+    """The particles below a surface in a step: temperature [K], volume [m^2], mass [kg/m], enthalpy
+    [J/kg]; what has evaporated since the start per area seen from above [kg/m^2], in the first
+    entries by column; position [m], velocity [m/s], 1 where they flow, all (..., n); begin and end
+    of the step [s]."""
 
     T: Array
-    position: Array
-    velocity: Array
     volume: Array
     mass: Array
     enthalpy: Array
+    evaporated: Array
+    position: Array
+    velocity: Array
     flows: Array
     interval: tuple[float, float]
-    evaporated: Array
 
 
 class SurfaceNeighbors(Protocol):

@@ -257,8 +257,8 @@ class MeltPool:
         fields = {"x": self.position, "v_old": self.flow.before, "v": self.flow.velocity}
         self.backend.pointwise(move, fields, self.position, step=step)
         if self.domain.surface is not None:
-            now = self._surface_step(self.position, step)
-            self.state.energy["removed"] += self.domain.surface.move(now)
+            left = self.domain.surface.move(self._surface_step(self.position, step))
+            self.state.energy["removed"] += left
         block.move(self.position)
         self.flow.correct_kernel(self.kinds.fluid_rows)
         self.exchange.find_walls(block)
@@ -278,26 +278,17 @@ class MeltPool:
         mark, columns = backend.zeros(self.body.count), self.surface_columns
         fields = {"depth": self._depth}
         backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
-        surface = self.domain.surface
-        stretch = None if surface is None else surface.stretch()
+        stretch = self.domain.surface.stretch() if self.domain.surface else None
         columns.find(self.position, backend.rows_where(mark, 1.0), stretch)
         exchange.follow(columns)
         light.follow(self.position, self._depth, columns)
 
     def _surface_step(self, position: Array, step: float) -> SurfaceStep:
         """What the surface reads of the particles in a step [s]."""
-        time, take = self.state.time, self.particles.__getitem__
-        return SurfaceStep(
-            T=take("temperature"),
-            position=position,
-            velocity=self.flow.velocity,
-            volume=take("volume"),
-            mass=take("mass"),
-            enthalpy=take("enthalpy"),
-            flows=self.kinds.fluid,
-            interval=(time, time + step),
-            evaporated=take("evaporated_mass"),
-        )
+        names = ("temperature", "volume", "mass", "enthalpy", "evaporated_mass")
+        times = (self.state.time, self.state.time + step)
+        fields = (self.particles[name] for name in names)
+        return SurfaceStep(*fields, position, self.flow.velocity, self.kinds.fluid, times)
 
     def shift(self, step: float) -> None:
         """Displacements that keep the density of particles even (73)."""
