@@ -19,6 +19,11 @@ PATIENCE = 60_000
 """How long a page may take for anything [ms], on a machine ten times slower than today's."""
 SCREENSHOTS = Path(__file__).resolve().parents[2] / "screenshots"
 TOKEN = "token-of-the-browser-tests"
+EVERY_PICTURE = """Promise.all([...document.images].map((one) => {
+  one.loading = "eager";
+  return one.decode().catch(() => {});
+}))"""
+"""Waits for the pictures that are only fetched when they are looked at."""
 QUIET = ("--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync")
 
 
@@ -119,6 +124,7 @@ class Watched:
     def keep(self, name):
         """Keep a picture of the whole page."""
         SCREENSHOTS.mkdir(exist_ok=True)
+        self.page.evaluate(EVERY_PICTURE)
         self.page.evaluate("scrollTo(0, 0)")
         self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
 

@@ -45,7 +45,7 @@ WALLS = ("no-slip", "moving-wall")
 class FlowCondition(Model):
     """What holds for the flow at one face: a word, or a table with the velocity of the wall."""
 
-    kind: FlowKind = "no-slip"
+    kind: FlowKind = Field(default="no-slip", description="how the fluid meets the face")
     velocity: Velocity = Field(
         default=0.0,
         description="of a moving wall, along it: x at surface and bottom, z at left and right",
@@ -97,7 +97,7 @@ class FlowConditions(Model):
 
     left: Condition = Field(default=AT_REST, description="at the smaller x")
     right: Condition = Field(default=AT_REST, description="at the larger x")
-    bottom: Condition = AT_REST
+    bottom: Condition = Field(default=AT_REST, description="at the smallest z")
     surface: Condition = Field(default=AT_REST, description="at z = 0")
     initial: InitialFlow = Field(default=RestingFlow(), description="velocity at the start")
     initial_surface: InitialSurface | None = Field(

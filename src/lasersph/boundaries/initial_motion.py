@@ -31,9 +31,9 @@ class Uniform(Model):
     """The block moves as a whole."""
 
     kind: Literal["uniform"] = "uniform"
-    x: Velocity = 0.0
-    y: Velocity = 0.0
-    z: Velocity = 0.0
+    x: Velocity = Field(default=0.0, description="velocity along x")
+    y: Velocity = Field(default=0.0, description="velocity along y")
+    z: Velocity = Field(default=0.0, description="velocity along z, upward")
 
     def velocity(self, dimension: int) -> Array:
         """(dim,) [m/s], z last."""

@@ -52,8 +52,8 @@ class SurfaceWave(Model):
     """What acts on the surface as amplitude cos(2 pi x / period), from `start` to `end`."""
 
     amplitude: float = Field(description="at x = 0")
-    period: Annotated[Length, Field(gt=0)]
-    start: Annotated[Time, Field(ge=0)] = 0.0
+    period: Annotated[Length, Field(gt=0)] = Field(description="wavelength along x")
+    start: Annotated[Time, Field(ge=0)] = Field(default=0.0, description="when it sets in")
     end: Annotated[Time, Field(gt=0)] | None = Field(default=None, description="default: never")
 
     @model_validator(mode="after")
@@ -102,7 +102,9 @@ class Boundaries(Model):
     surface: Face = Field(
         default="adiabatic", description="at z = 0; the laser heats it in any case"
     )
-    surface_temperature: Temperature | None = None
+    surface_temperature: Temperature | None = Field(
+        default=None, description="of a surface of fixed temperature, which needs it"
+    )
     surface_temperature_wave: TemperatureWave | None = Field(
         default=None, description="added to surface_temperature"
     )
@@ -114,7 +116,7 @@ class Boundaries(Model):
         description="mass that leaves a surface that moves, per its true area",
     )
     surface_flux: HeatFlux | None = Field(default=None, description="into the body")
-    bottom: Face = "adiabatic"
+    bottom: Face = Field(default="adiabatic", description="at the smallest z")
     bottom_temperature: Temperature | None = Field(
         default=None, description="default: the initial temperature"
     )

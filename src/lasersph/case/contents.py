@@ -41,7 +41,9 @@ class CaseContents(Model):
     laser: Laser | None = None
     solver: SolverChoice = ConductionSettings.model_validate({})
     time: TimeSettings
-    probes: tuple[Probe, ...] = ()
+    probes: tuple[Probe, ...] = Field(
+        default=(), description="places whose temperature is recorded"
+    )
     traces: tuple[Trace, ...] = Field(
         default=(), description="only where matter moves (ablation): particles that are followed"
     )

@@ -147,7 +147,7 @@ class _MaterialSchema:
     def __get_pydantic_json_schema__(
         self, _schema: CoreSchema, _handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
-        """Quantities may be text or a table with their law, so that they have examples only."""
+        """Quantities may be text or a table with their law, so that they have no type."""
         whole = Material.model_json_schema()
         keys: dict[str, Any] = {"base": {"type": "string", "examples": ["steel-304"]}}
         for name, part in whole["properties"].items():
@@ -155,10 +155,10 @@ class _MaterialSchema:
             below = leaf.get("properties", {})
             if name in SECTIONS:
                 needed = [key for key in leaf.get("required", ()) if key != "source"]
-                found = {key: _example(below[key], whole["$defs"]) for key in below}
+                found = {key: _told(below[key], below[key], whole["$defs"]) for key in below}
                 keys[name] = {"type": "object", "properties": found, "required": needed}
             else:
-                keys[name] = _example(below.get("value", leaf), whole["$defs"])
+                keys[name] = _told(part, below.get("value", leaf), whole["$defs"])
         return {
             "anyOf": [
                 {"type": "string", "examples": ["steel-304", "my-alloy.toml"]},
@@ -173,10 +173,13 @@ def _resolved(part: dict[str, Any], definitions: dict[str, Any]) -> dict[str, An
     return definitions[part["$ref"].rpartition("/")[2]] if "$ref" in part else part
 
 
-def _example(part: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
-    """What may stand at a key, of any type."""
-    examples = _resolved(part, definitions).get("examples")
-    return {"examples": examples} if examples else {}
+def _told(
+    part: dict[str, Any], value: dict[str, Any], definitions: dict[str, Any]
+) -> dict[str, Any]:
+    """What a key means, and the unit and an example of the value that may stand there."""
+    leaf = _resolved(value, definitions)
+    found = {key: leaf[key] for key in ("x-unit", "examples") if leaf.get(key)}
+    return found | {key: part[key] for key in ("description",) if part.get(key)}
 
 
 MaterialChoice = Annotated[Material, BeforeValidator(_choose), _MaterialSchema()]

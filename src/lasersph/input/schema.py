@@ -51,6 +51,8 @@ class Schema:
         parts, around = self.parts(path, data), self.parts(path[:-1], data)
         told = [described(part)[1].get(str(path[-1]), "") for part in around]
         told += [described(part)[0] for part in parts]
+        if path[-1] == "kind" and len(around) == 1:  # the kind that stands there
+            told.append(described(around[0])[0])
         return next(filter(None, told), "")
 
     def needs(self, path: Path, data: Any) -> bool:

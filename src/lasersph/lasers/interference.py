@@ -68,7 +68,7 @@ class Wave(Model):
     )
     azimuth: Angle = Field(default=0.0, description="direction along the surface, from x towards y")
     amplitude: float = Field(default=1.0, gt=0, description="of the electric field, relative")
-    phase: Angle = 0.0
+    phase: Angle = Field(default=0.0, description="at the origin")
     polarization: Polarization | None = Field(
         default=None, description="azimuth of the electric field, or to the plane of incidence"
     )
@@ -102,11 +102,13 @@ class InterferenceBeam(Model):
     period: PositiveLength | None = Field(
         default=None, description="of two beams along x; of three and four from dot to dot"
     )
-    wavelength: PositiveLength | None = None
+    wavelength: PositiveLength | None = Field(default=None, description="of the light")
     angle: Annotated[Angle, Field(gt=0, lt=np.pi)] | None = Field(
         default=None, description="full angle between two waves; twice that to the normal"
     )
-    waves: tuple[Wave, ...] = Field(default=(), max_length=64)
+    waves: tuple[Wave, ...] = Field(
+        default=(), max_length=64, description="each wave by its angles, amplitude and phase"
+    )
     beams: Literal[2, 3, 4] | None = Field(
         default=None,
         exclude_if=lambda given: given is None,

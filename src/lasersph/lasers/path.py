@@ -28,7 +28,7 @@ class LinearPath(Model):
     """A straight path at constant speed, from `laser.position` at t = 0."""
 
     kind: Literal["linear"] = "linear"
-    speed: Annotated[Velocity, Field(gt=0)]
+    speed: Annotated[Velocity, Field(gt=0)] = Field(description="of the beam over the surface")
     direction: Angle = Field(default=0.0, description="azimuth in the surface, from x towards y")
 
     def at(self, time: ArrayLike) -> Array:

@@ -142,8 +142,8 @@ class SquarePulse(PulseTrain):
     """Constant power for a duration."""
 
     kind: Literal["square"] = "square"
-    duration: PositiveTime
-    start: Annotated[Time, Field(ge=0)] = 0.0
+    duration: PositiveTime = Field(description="while the power is on")
+    start: Annotated[Time, Field(ge=0)] = Field(default=0.0, description="of the (first) pulse")
 
     @model_validator(mode="after")
     def _check_overlap(self) -> SquarePulse:

@@ -59,7 +59,9 @@ class Spot(Model):
     Give `diameter` and `definition`, or `image` and `pixel_size`.
     """
 
-    diameter: PositiveLength | None = Field(default=None, examples=["50 um"])
+    diameter: PositiveLength | None = Field(
+        default=None, description="of the spot, where `definition` says", examples=["50 um"]
+    )
     definition: Literal["1/e^2", "fwhm", "top-hat"] | None = Field(
         default=None,
         description="what diameter is: of a Gaussian spot where 1/e^2 or half of the peak is left, "

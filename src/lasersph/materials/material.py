@@ -59,23 +59,33 @@ class Material(Model):
 
     name: str = Field(min_length=1, description="how cases refer to the material")
     title: str = Field(default="", description="what the metal is, in words")
-    composition: str = ""
-    note: str = ""
+    composition: str = Field(default="", description="elements and their shares, in words")
+    note: str = Field(default="", description="what a reader should know about the numbers")
     reference_temperature: Temperature = Field(
         default=298.15, gt=0, description="where the density of fixed particles is taken"
     )
     sulfur: Fraction = Field(
         default=0.0, ge=0, lt=0.01, description="mass fraction, which lowers the surface tension"
     )
-    density: Property[Density]
-    heat_capacity: Property[SpecificHeat]
-    conductivity: Property[Conductivity]
-    conductivity_printed: Property[Conductivity] | None = None
-    diffusivity: Property[Diffusivity] | None = None
-    viscosity: Property[Viscosity] | None = None
-    kinematic_viscosity: Property[KinematicViscosity] | None = None
-    surface_tension: SurfaceTensionLaw | None = None
-    surface_tension_slope: Property[SurfaceTensionSlope] | None = None
+    density: Property[Density] = Field(description="mass per volume")
+    heat_capacity: Property[SpecificHeat] = Field(description="per mass, at constant pressure")
+    conductivity: Property[Conductivity] = Field(description="of heat")
+    conductivity_printed: Property[Conductivity] | None = Field(
+        default=None, description="what a paper prints: compared, not computed with"
+    )
+    diffusivity: Property[Diffusivity] | None = Field(
+        default=None, description="of heat, as printed: compared, not computed with"
+    )
+    viscosity: Property[Viscosity] | None = Field(
+        default=None, description="dynamic, of the liquid"
+    )
+    kinematic_viscosity: Property[KinematicViscosity] | None = Field(
+        default=None, description="viscosity over density, where a source gives this one"
+    )
+    surface_tension: SurfaceTensionLaw | None = Field(default=None, description="of the liquid")
+    surface_tension_slope: Property[SurfaceTensionSlope] | None = Field(
+        default=None, description="change of the surface tension with temperature"
+    )
     expansion: Property[Expansion] | None = Field(
         default=None, description="volumetric, of the liquid"
     )

@@ -27,7 +27,10 @@ class Lattice(Model):
         description="of the finest particles; rounded so that they fill the box",
         examples=["100 nm"],
     )
-    arrangement: Literal["uniform", "graded"] = "uniform"
+    arrangement: Literal["uniform", "graded"] = Field(
+        default="uniform",
+        description="one spacing everywhere, or layers that grow thicker with depth",
+    )
     fine_depth: Size | None = Field(
         default=None,
         description="depth of the layers of finest spacing (graded); default: the larger of the "
@@ -40,7 +43,9 @@ class Lattice(Model):
         default=7.0 / 9.0,
         description="of the thickness of a layer to that of the one below (graded)",
     )
-    kernel: KernelName = "quintic-spline"
+    kernel: KernelName = Field(
+        default="quintic-spline", description="by which neighbors are weighted"
+    )
     support_ratio: Annotated[float, Field(ge=1.5, le=6.0)] | None = Field(
         default=None, description="support radius over spacing; default 3.75 (quintic), 3 (others)"
     )

@@ -17,7 +17,9 @@ class HeatSettings(SolverSettings):
     """Index and weight, and their copies while the list is assembled."""
 
     kind: str
-    dimensions: Literal[1, 2, 3] = 2
+    dimensions: Literal[1, 2, 3] = Field(
+        default=2, description="of space: z alone, x and z, or x, y and z"
+    )
     plateau: Literal["hold", "clip", "evaporate"] = Field(
         default="hold",
         description="at the vaporization temperature: hold it for any enthalpy; clip the enthalpy "

@@ -43,10 +43,17 @@ export async function showComparison(place, signal, head, ...ids) {
   }
   let leading = 0; // the viewer that the reader moves; the other shows the frame of the closest time
   const shown = [null, null];
+  let isAlike = indices[0].dimensions !== indices[1].dimensions; // else both show the same part of the metal
   const viewers = sources.map((source, k) => mount(hosts[k], source, {
     ranges,
     onFrame: async (frame, time) => {
       shown[k] = frame;
+      const boxes = viewers.map((viewer) => viewer.box());
+      if (!isAlike && boxes.every(Boolean)) {
+        isAlike = true;
+        const both = boxes[0].map(([low, high], axis) => [Math.min(low, boxes[1][axis][0]), Math.max(high, boxes[1][axis][1])]);
+        for (const viewer of viewers) viewer.setBox(both);
+      }
       if (leading !== k) return;
       const other = 1 - k;
       if (!indices[other].is_complete) indices[other] = await sources[other].index();

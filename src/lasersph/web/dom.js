@@ -82,7 +82,7 @@ export function ticksOf({ low, high, isLogarithmic }, unit) {
     }
     return [found, name];
   }
-  const rough = (high - low) / size / 5 || 1, ten = 10 ** Math.floor(Math.log10(rough));
+  const rough = (high - low) / size / 6 || 1, ten = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].find((one) => one * ten >= rough) * ten;
   for (let k = Math.ceil(low / size / step - 1e-9); k * step <= (high / size) * (1 + 1e-9); k += 1) found.push([k * step * size, number(k * step)]);
   return [found, name];
@@ -115,11 +115,11 @@ export function chip(state) {
   return h("span", { class: `chip ${state}` }, STATES[state] ?? state);
 }
 
-/** A curve without axes, for a card. */
+/** A curve without axes, for a card; above it is room for a word. */
 export function sparkline(values) {
   const low = Math.min(...values), high = Math.max(...values), count = Math.max(values.length - 1, 1);
   const points = values.map((value, k) =>
-    `${((100 * k) / count).toFixed(2)},${(46 - (40 * (value - low)) / (high - low || 1)).toFixed(2)}`);
+    `${((100 * k) / count).toFixed(2)},${(46 - (32 * (value - low)) / (high - low || 1)).toFixed(2)}`);
   return svg("svg", { viewBox: "0 0 100 50", preserveAspectRatio: "none", class: "curve", "aria-hidden": "true" },
     svg("polygon", { points: `0,50 ${points.join(" ")} 100,50` }),
     svg("polyline", { points: points.join(" ") }));

@@ -34,7 +34,9 @@ export async function showForm(place, signal, head, name = "dlip-steel") {
       const [, inside, place, column] = key.match(/^(.*?)(?:\[(\d+)\](?:\.(\w+)|\[\d+\])?)?$/), row = rows.get(key) ?? rows.get(inside);
       if (!row) others.push(h("p", { class: "error" }, `${key ? `${key}: ` : ""}${text}`));
       else {
-        for (const field of row.fields(place, column)) field.setAttribute("aria-invalid", "true");
+        const wrong = row.fields(place, column);
+        for (const field of wrong) field.setAttribute("aria-invalid", "true");
+        others.push(h("p", {}, h("button", { type: "button", onclick: () => wrong[0]?.focus() }, key)));
         row.said.textContent = [row.said.textContent, key === inside ? text : `${key}: ${text}`].filter(Boolean).join("; ");
       }
     }
@@ -73,7 +75,7 @@ export async function showForm(place, signal, head, name = "dlip-steel") {
     if (!shipped.has(key)) shipped.set(key, form.isAnother ? "" : value);
     rows.set(key, { fields: () => [field], text: () => field.value.trim(), before: shipped.get(key), said });
     return h("div", { class: "key" }, h("label", { for: id }, key, unit && h("small", {}, inUnit(unit))), field,
-      h("p", { class: "quiet", id: `${id}-help` }, help), said);
+      h("p", { class: "quiet", id: `${id}-help` }, help.replaceAll("`", "")), said);
   };
   const sectionsOf = () => {
     rows.clear();

@@ -9,6 +9,8 @@ import { COLORS, ramp, CELL, FLAT, PLAIN, ROUND, SEGMENT, SPHERE, VIEW } from ".
 const MOVING = 100000;  // particles drawn while a cloud moves that takes longer than SLOW to draw
 const SLOW = 60;        // [ms]
 const TURN = 0.008;     // radians per pixel of the mouse
+const EDGE = 16;        // pixels left free beside the body
+const NARROW = 520;     // pixels of a window whose color bar is small, as in viewer_look.js
 
 const PROGRAMS = { cells: [CELL, FLAT], spheres: [SPHERE, ROUND], segments: [SEGMENT, PLAIN] };
 
@@ -145,8 +147,9 @@ export class Scene {
     const { clientWidth: wide, clientHeight: high } = this.canvas;
     const across = space ? 1.25 * Math.max(x[1] - x[0], y[1] - y[0]) : x[1] - x[0];
     const up = space ? 0.88 * (z[1] - z[0]) + 0.66 * (y[1] - y[0]) : z[1] - z[0];
-    const room = Math.min(300, 0.35 * wide);  // for the color bar
-    this.metersPerPixel = Math.max(across / (wide - room), up / (high - 70), 1e-15);
+    const bar = wide > NARROW ? 160 : 112;  // pixels of the color bar, at the right
+    this.metersPerPixel = Math.max(across / (wide - bar - 2 * EDGE), up / (high - 70), 1e-15);
+    this.shift(0.5 * bar, 0);
     this.isTurned = false;  // by the user: until then it fits whatever the size of the window
     this.request();
   }

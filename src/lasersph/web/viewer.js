@@ -1,8 +1,10 @@
 // The viewer of particles: 2-D cells as rectangles, 3-D particles as shaded spheres, with WebGL 2.
 //
-//   const viewer = mount(element, source, options)   ->   { works, setFrame, setField, setLive, destroy }
+//   const viewer = mount(element, source, options)   ->
+//     { works, setFrame, setField, setLive, box, setBox, destroy }
 //
-// `works` is false where there is no WebGL 2, which the viewer then says itself.
+// `works` is false where there is no WebGL 2, which the viewer then says itself. `box` gives what
+// the whole view shows, [low, high] of x, y and z [m], once a frame was drawn.
 // A source has `index()`, which resolves to what `lasersph.output.frame_blocks.particle_index`
 // gives, and `block(name)`, which resolves to an ArrayBuffer of little-endian float32: sources.js.
 // Options: frame (number), field (name), live (true), ranges ({field: [low, high]}, so that two
@@ -37,7 +39,7 @@ export function mount(element, source, options = {}) {
     part(".controls").hidden = true;
     say("Particles cannot be drawn: this browser offers no WebGL 2.");
     const nothing = () => {};
-    return { works: false, setFrame: nothing, setField: nothing, setLive: nothing, destroy: nothing };
+    return { works: false, setFrame: nothing, setField: nothing, setLive: nothing, box: nothing, destroy: nothing };
   }
 
   const canvas = scene.canvas;
@@ -311,7 +313,11 @@ export function mount(element, source, options = {}) {
     scene.destroy();
     root.replaceChildren();
   }
-  return { works: true, setFrame, setField, setLive, destroy };
+  function setBox(box) {
+    scene.box = box;
+    scene.goHome();
+  }
+  return { works: true, setFrame, setField, setLive, box: () => scene.box, setBox, destroy };
 }
 
 // What can be shown of a run: all, phases where it melts, what is hotter than its levels, any limits.

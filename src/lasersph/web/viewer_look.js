@@ -2,7 +2,7 @@
 export const CSS = `
 :host { display: block; font: 13px/1.4 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
 * { box-sizing: border-box; }
-.viewer { background: #161d29; color: #e8ecf2; border-radius: 10px; overflow: hidden; }
+.viewer { container-type: inline-size; background: #161d29; color: #e8ecf2; border-radius: 10px; overflow: hidden; }
 .stage { position: relative; aspect-ratio: 16 / 9; min-height: 220px; max-height: 72vh; width: 100%;
   background: radial-gradient(ellipse at 50% 35%, #2b3648 0%, #161d29 75%); }
 canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block;
@@ -43,7 +43,7 @@ button[aria-pressed=true] { background: #b3261e; border-color: #e5574f; }
 button:disabled { opacity: .55; cursor: default; }
 :focus-visible { outline: 2px solid #ffc46b; outline-offset: 1px; }
 [hidden] { display: none !important; }
-@media (max-width: 520px) { .stage { aspect-ratio: 4 / 3; } .title { font-size: 12px; }
+@container (max-width: 520px) { .stage { aspect-ratio: 4 / 3; } .title { font-size: 12px; }
   .legend { font-size: 11px; right: 4px; top: 30px; width: 104px; } }
 `;
 export const HTML = `

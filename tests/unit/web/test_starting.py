@@ -1,13 +1,17 @@
 """Runs that the page checks, starts, stops and resumes, and what it refuses."""
 
 import os
+import re
 
 import pytest
 from starlette.testclient import TestClient
 from synthetic_run import make_run
 
+from lasersph.case import Case, available_cases
+from lasersph.input.schema import described
 from lasersph.output.folder_lock import FolderLock
 from lasersph.web.folder_list import id_of
+from lasersph.web.form import form_of
 from lasersph.web.server import Pages, make_app
 from lasersph.web.starting import StartingPages
 
@@ -65,9 +69,29 @@ def test_form_has_units_help_and_choices(browser):
     shapes = {key: one["list"]["shape"] for key, one in fields.items() if "list" in one}
     assert shapes["laser.position"] == "row" and shapes["output.snapshots.times"] == "values"
     assert not fields["output.snapshots.times"]["list"]["rows"]
-    # what a key means: of the key, of the table around it, of what stands in the list
-    for key in ("solver.plateau", "laser.fluence", "probes"):
-        assert fields[key]["help"], key
+    # what a kind means is what its table says
+    assert fields["laser.beam.kind"]["help"].startswith("n-wave interference")
+    assert "2 r^2/w^2" in others["laser.beam.kind"]["help"]
+
+
+def test_every_key_of_a_case_has_its_help_and_its_unit():
+    """Of all kinds of its tables; what a shipped case writes with a unit is shown with one."""
+    schema = Case.model_json_schema()
+    definitions = schema["$defs"]
+    for name, part in [("Case", schema), *definitions.items()]:
+        about, meanings = described(part)
+        for key, value in part.get("properties", {}).items():
+            is_told = meanings.get(key) or value.get("description")
+            tables = re.findall(r"#/\$defs/(\w+)", str(value))
+            is_told = is_told or any(described(definitions[one])[0] for one in tables)
+            assert is_told or ("const" in value and about) or key == "schema_version", (name, key)
+    for case in available_cases():
+        for field in form_of(case)["fields"]:
+            assert field["help"], (case, field["key"])
+            has_unit = re.fullmatch(r"[-+]?[\d.]+(e[-+]?\d+)? +[a-zA-Z%].*", field["value"])
+            assert not has_unit or field["unit"], (case, field["key"])
+            for column in field.get("list", {}).get("columns", ()):
+                assert column["help"] or not column["name"], (case, field["key"], column["name"])
 
 
 def test_check_names_the_key_and_what_is_right(browser):

@@ -21,7 +21,9 @@ class AblationSettings(SolverSettings):
     """Nothing is assembled."""
 
     kind: Literal["ablation"] = "ablation"
-    dimensions: Literal[1, 2, 3] = 3
+    dimensions: Literal[1, 2, 3] = Field(
+        default=3, description="of space: z alone, x and z, or x, y and z"
+    )
     sound_speed: Annotated[Velocity, Field(gt=0)] = Field(
         description="c_0 of the equation of state [Alshaer2017, eq. (26)]; far above all speeds of "
         "condensed matter, and the time step falls with it",

@@ -18,7 +18,7 @@ class MeltPoolSettings(HeatSettings):
     """Weights of heat, viscosity and pressure."""
 
     kind: Literal["melt-pool"] = "melt-pool"
-    dimensions: Literal[2] = 2
+    dimensions: Literal[2] = Field(default=2, description="of space: x and z")
     marangoni: bool = Field(
         default=True, description="whether the gradient of surface tension drives the surface"
     )
