@@ -2,6 +2,7 @@
 
     normal velocity       v . n = 0, which also the ghosts beyond it show
     tangential stress     eta d(v . t)/dn = t . grad_s gamma(T)         [Demuth2020, eq. (15)]
+                          with the eta of the particle whose ghost continues the profile
     pressure              dp/dn = 0
     heat                  none crosses, unless the case holds the face's temperature or its flux
 
@@ -88,9 +89,13 @@ def component(g, along):
     return dot(g, along)
 
 
-def velocity_jump(tau, depth, eta):
-    """2 d tau / eta [m/s]: by how much a ghost beyond the surface is faster than its source."""
-    return 2.0 * depth * tau / eta
+def velocity_jump(tau, depth, fluidity, eta):
+    """2 d tau fluidity / eta [m/s]: by how much a ghost beyond is faster than its source.
+
+    Args:
+        fluidity: eta, the viscosity at the liquidus [Pa s], over that of the particle.
+    """
+    return 2.0 * depth * tau / eta * fluidity
 
 
 class FlatSurface:
@@ -98,8 +103,8 @@ class FlatSurface:
 
     Args:
         count: particles of the whole body. spacing, support: of the particles at it [m].
-        material: gamma(T) or its slope. viscosity: eta [Pa s]. has_stress: whether gamma drives
-            the flow. given: the surface's own temperature, where the case gives it.
+        material: gamma(T) or its slope. viscosity: eta at the liquidus [Pa s]. has_stress: whether
+            gamma drives the flow. given: the surface's own temperature, where the case gives it.
     """
 
     def __init__(
@@ -178,7 +183,7 @@ class FlatSurface:
         terms, finish = extension_terms, extend_from_surface
         backend.pair_sum(terms, neighbors.pairs, fields, found, rows=near, finish=finish)
         backend.copy(found, self.stress)
-        fields = {"tau": self.stress, "depth": self.depth}
+        fields = {"tau": self.stress, "depth": self.depth, "fluidity": now.fluidity}
         backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:

@@ -56,14 +56,15 @@ class SurfaceGhosts(NamedTuple):
 class SurfaceStep(NamedTuple):
     """The particles below a surface in a step: temperature [K], volume [m^2], mass [kg/m], enthalpy
     [J/kg]; what has evaporated since the start per area seen from above [kg/m^2], in the first
-    entries by column; position [m], velocity [m/s], 1 where they flow, all (..., n); begin and end
-    of the step [s]."""
+    entries by column; viscosity at the liquidus over theirs, position [m], velocity [m/s], 1 where
+    they flow, all (..., n); begin and end of the step [s]."""
 
     T: Array
     volume: Array
     mass: Array
     enthalpy: Array
     evaporated: Array
+    fluidity: Array
     position: Array
     velocity: Array
     flows: Array
@@ -74,12 +75,14 @@ class SurfaceNeighbors(Protocol):
     """The particles below a surface with their ghosts and pairs.
 
     Attributes:
-        V: (M,) [m^2]. weights: (pairs,) g_ij. across: (M,) 1 for ghosts beyond the surface.
+        V: (M,) [m^2]. weights: (pairs,) g_ij; viscous_weights: those with which viscosity counts.
+            across: (M,) 1 for ghosts beyond the surface.
     """
 
     pairs: NeighborList
     V: Array
     weights: Array
+    viscous_weights: Array
     across: Array
 
     def gather(self, field: Array) -> Array:

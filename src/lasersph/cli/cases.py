@@ -102,6 +102,7 @@ def check(
 def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tuple[str, str]]:
     from lasersph.case.size import in_words, memories
     from lasersph.input import format_duration, format_quantity
+    from lasersph.materials.viscosity import viscosity_text
 
     there = [words.format(in_words(most)) for words, most in memories(backend) if isfinite(most)]
     time = f"roughly {format_duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}"
@@ -127,6 +128,7 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
     rows.append(("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"))
     rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
     if expected.flow is not None:
+        rows.append(("viscosity of the melt", viscosity_text(case.material)))
         rows.append(("expected speed", f"about {expected.flow.speed:.2g} m/s"))
     for name, length in (
         ("moving layer", expected.flow.layer if expected.flow else None),

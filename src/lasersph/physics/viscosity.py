@@ -2,7 +2,14 @@
 
     V_i dv_i/dt = nu sum_j g_ij (v_j - v_i)                       [Demuth2020, eqs. (51), (68)]
 
-with the weights g_ij of conduction, which discretize V_i times the Laplacian. Implicit:
+with the weights g_ij of conduction, which discretize V_i times the Laplacian. Where the viscosity
+varies, nu = nu_l m(T) with nu_l at the liquidus, g_ij counts times the harmonic mean of m_i and m_j
+[Cleary1999], which gives what one particle gains to the other and does not change m = 1 by a bit.
+That is div(nu grad v); the stress is 2 rho nu D, so that the transposed gradient adds
+
+    div(nu (grad v)^T) = (grad v)^T grad nu
+
+where div v = 0. Without it a melt that turns as a whole would feel its viscosity. Implicit:
 
     (V_i + nu dt sum_j g_ij) v_i - nu dt sum_j g_ij v_j = V_i v*_i
 
@@ -12,7 +19,29 @@ The published scheme is explicit.
 
 from __future__ import annotations
 
-from lasersph.compute.vectors import dot
+from lasersph.compute.vectors import dot, interpolate, matmul, matvec, outer, transpose
+
+
+def relative_viscosity(T, T_nodes, m_nodes):
+    """Viscosity of the melt at T over that at the liquidus [1], and its inverse."""
+    m = interpolate(T, T_nodes, m_nodes)
+    return m, 1.0 / m
+
+
+def viscous_weight(g_ij, m_i, m_j):
+    """g_ij [m^(d-2)] times the harmonic mean of the relative viscosities m."""
+    return g_ij * (2.0 * m_i * m_j / (m_i + m_j))
+
+
+def transposed_terms(v_i, v_j, m_i, m_j, G_ij):
+    """Terms of the gradients of v [1/s], (grad v)_ab = d v_a/d x_b, and of m [1/m], uncorrected."""
+    return outer(v_j - v_i, G_ij), (m_j - m_i) * G_ij
+
+
+def transposed_force(total_0, total_1, C, b, nu):
+    """Body force b [m/s^2] with (grad v)^T grad nu; C corrects both gradients."""
+    gradient = matmul(total_0, transpose(C))
+    return b + nu * matvec(transpose(gradient), matvec(C, total_1))
 
 
 def momentum(g_ij, v_i, v_j):

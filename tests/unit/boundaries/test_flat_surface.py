@@ -112,8 +112,9 @@ def test_imposed_wave():
 
 
 def test_velocity_jump():
-    """2 d tau / eta: 2 * 3 * 5 / 10."""
-    assert velocity_jump(5.0, 3.0, 10.0) == 3.0
+    """2 d tau / eta: 2 * 3 * 5 / 10, and four times that in melt four times as fluid."""
+    assert velocity_jump(5.0, 3.0, 1.0, 10.0) == 3.0
+    assert velocity_jump(5.0, 3.0, 4.0, 10.0) == 12.0
 
 
 def test_what_a_flat_surface_gives():

@@ -27,6 +27,7 @@ from lasersph.particles.faces import LEFT, PLANE, SURFACE
 from lasersph.particles.ghosts import LOWER, SLANTED, UPPER, GhostParticles, ghost_types_of
 from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
 from lasersph.particles.support import common
+from lasersph.physics.viscosity import viscous_weight
 from lasersph.solvers.conduction.body import Weighing
 from lasersph.solvers.melt_pool import ghost_fields
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
@@ -106,7 +107,8 @@ class Block(GhostExtension):
             surface that is no plane.
         pairs: NeighborList with the rows of the block, among all M.
         weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
-            there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1].
+            there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1]. viscous_weights:
+            (pairs,) g_ij there times the mean of the relative viscosities of both particles [1].
         moving_support: of the particles that move, the finest [m]. search_radius: largest of
             the block [m].
         rows: numbers of the particles whose pairs were found, None for
@@ -249,6 +251,7 @@ class Block(GhostExtension):
         geometry.find(self.pairs, self._layers, has_kernel=has_kernel)
         self.weights, self.gradient, self.kernel = geometry.arrays
         self._average_weights(position)
+        self.viscous_weights = self.weights
         self._folded = backend.zeros(neighbor.shape[0], "index")
         backend.pointwise(element, {"place": neighbor}, self._folded, table=self.source)
 
@@ -272,6 +275,13 @@ class Block(GhostExtension):
         self._geometry.find_weights(pairs, self._layers, swapped, rows)
         fields = {"g_ij": self.weights, "swapped_ij": swapped, "across": self.across}
         backend.pair_values(mean_weight, self.pairs, fields, self.weights, rows=rows)
+
+    def weigh_viscosity(self, relative: Array) -> None:
+        """Set `viscous_weights` from viscosities (n,) of particles over that at the liquidus."""
+        found = self.backend.zeros(self.weights.shape[0])
+        fields = {"g_ij": self.weights, "m": self.gather(relative)}
+        self.backend.pair_values(viscous_weight, self.pairs, fields, found, rows=self.rows)
+        self.viscous_weights = found
 
     def weights_within(self) -> Array:
         """(pairs,) weights that are 0 toward ghosts across the surface."""

@@ -10,8 +10,9 @@ nothing is booked. Momentum along the face is that of the viscous step, t its ta
 
     I = dt rho nu sum_i sum_k g_ik (v_k - v_i) . t
 
-with the velocities from which the step takes its forces; pressure exerts none. Across the face, n
-outward, it is that of the pressure and of the same viscous step,
+with nu at the liquidus, and the weights and velocities from which the step takes its forces
+(`physics.viscosity`; its transposed gradient is a force on the particles, none of a face); pressure
+exerts none. Across the face, n outward, it is that of the pressure and of the same viscous step,
 
     J = dt sum_i sum_k [ V_i (p_i C_i + p_k C_k) G_ik - rho nu g_ik (v_k - v_i) ] . n + dt p_0 l
 
@@ -145,7 +146,7 @@ class FaceExchange:
         """Add the momentum of a viscous step that has just been taken."""
         if self.potential is None:
             return
-        fields = {"v": flow.extend_velocity(flow.viscous.velocity), "g_ij": block.weights}
+        fields = {"v": flow.extend_velocity(flow.viscous.velocity), "g_ij": block.viscous_weights}
         found = self.backend.pair_sum(
             viscous_terms,
             block.pairs,

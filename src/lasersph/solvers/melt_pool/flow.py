@@ -20,13 +20,16 @@ alone keeps the particles even. Viscosity acts on the velocity in the middle of 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import exp, isfinite
 
 import numpy as np
 
 from lasersph.boundaries.surface import Surface, upward
 from lasersph.compute.array_types import Array, Rows
+from lasersph.materials.viscosity import ViscosityTable
 from lasersph.particles.particles import Particles
+from lasersph.physics import viscosity
 from lasersph.physics.buoyancy import buoyancy
 from lasersph.solvers.melt_pool import flow_terms as terms
 from lasersph.solvers.melt_pool.block import Block
@@ -54,16 +57,23 @@ DRIFT_RATE = 0.1
 
 @dataclass(frozen=True)
 class Liquid:
-    """Numbers of the melt: nu [m^2/s], rho [kg/m^3], beta [1/K], T_l [K], g [m/s^2], thermal
-    diffusivity [m^2/s], surface tension [N/m] (0 where it is not known)."""
+    """Numbers of the melt: nu at the liquidus [m^2/s], temperatures [K] and nu there over that,
+    rho [kg/m^3], beta [1/K], T_l [K], g [m/s^2], thermal diffusivity [m^2/s], surface tension [N/m]
+    (0 where it is not known)."""
 
     viscosity: float
+    relative_viscosity: ViscosityTable
     density: float
     expansion: float
     reference_temperature: float
     gravity: float
     diffusivity: float
     surface_tension: float
+
+    @property
+    def largest_viscosity(self) -> float:
+        """nu of the melt where it is most viscous [m^2/s]."""
+        return self.viscosity * float(np.max(self.relative_viscosity[1]))
 
 
 class Flow:
@@ -73,7 +83,8 @@ class Flow:
         spacing: of the particles that move [m].
         velocity: (2, n) [m/s]. pressure: (n,) [Pa]. largest_speed [m/s].
             largest_acceleration by all forces [m/s^2]. iterations: of the last step. divergence:
-            rms and largest D after the projection [1/s].
+            rms and largest D after the projection [1/s]. relative_viscosity: (n,) of the particles
+            over that at the liquidus; fluidity: its inverse.
         pressure_seen: fields of the symmetric gradient of the last step, p [Pa] over the lowest
             one, and that one [Pa]; None below a surface that moves.
     """
@@ -100,7 +111,12 @@ class Flow:
         self.viscous = ViscousStep(
             backend, particles["volume"], liquid.viscosity, settings.viscosity
         )
-        self.wall_pressure = WallPressure(backend, count, liquid.density, liquid.viscosity)
+        T, m = (backend.asarray(values) for values in liquid.relative_viscosity)
+        self._viscosity_nodes = {"T_nodes": T, "m_nodes": m}
+        self.relative_viscosity, self.fluidity = (backend.asarray(np.ones(count)) for _ in "mf")
+        self.wall_pressure = WallPressure(
+            backend, liquid.density, liquid.viscosity, self.relative_viscosity
+        )
         self._block: Block | None = None
 
     def begin(self, velocity: np.ndarray) -> None:
@@ -156,15 +172,47 @@ class Flow:
         Ghosts beyond a stressed surface continue the profile of u, and where they do so unevenly
         their divergence is that of the profile. A stress that changes at once has no profile yet:
         its divergence would have to be undone within the step, by a pressure that grows as 1 / dt.
-        So the jump follows within the time l^2 / nu in which momentum crosses a support. Under a
-        given pressure at the surface nothing of this is to be undone, and it is seen at once.
+        So the jump follows within the time l^2 / nu in which momentum crosses a support, nu of the
+        particle. Under a given pressure at the surface nothing is to be undone: it is seen at once.
         """
         if self.has_tangents:
             return
         time = self.block.moving_support**2 / self.liquid.viscosity
         fields = {"settled": self.particles["settled_jump"], "jump": self.ghost_velocity_jump()}
-        share = 1.0 - exp(-step / time)
-        self.backend.pointwise(terms.settle, fields, fields["settled"], share=share)
+        fields["m"], rest = self.relative_viscosity, exp(-step / time)
+        self.backend.pointwise(terms.settle, fields, fields["settled"], rest=rest)
+
+    @cached_property
+    def _viscosity_varies(self) -> bool:
+        """Whether the viscosity of the melt depends on its temperature."""
+        return bool(np.ptp(self.liquid.relative_viscosity[1]) > 0.0)
+
+    def update_viscosity(self, T: Array) -> None:
+        """Viscosity of the particles at their temperatures (n,) [K], and of their pairs."""
+        if self._viscosity_varies:
+            out, nodes = (self.relative_viscosity, self.fluidity), self._viscosity_nodes
+            self.backend.pointwise(viscosity.relative_viscosity, {"T": T}, out, **nodes)
+            self.block.weigh_viscosity(self.relative_viscosity)
+
+    def _add_transposed_stress(self, extended: Array, kinds: ParticleKinds) -> None:
+        """Add div(nu (grad v)^T) to the body force, 0 where the viscosity is the same everywhere.
+
+        Args:
+            extended: (2, M) velocities with those of ghosts [m/s].
+        """
+        if not self._viscosity_varies:
+            return
+        block = self.block
+        fields = {"v": extended, "m": block.gather(self.relative_viscosity), "C": self._C}
+        self.backend.pair_sum(
+            viscosity.transposed_terms,
+            block.pairs,
+            fields | {"G_ij": block.gradient, "b": self.body_force},
+            self.body_force,
+            finish=viscosity.transposed_force,
+            rows=kinds.fluid_rows,
+            nu=self.liquid.viscosity,
+        )
 
     def correct_kernel(self, rows: Rows) -> None:
         """Correction matrices of some rows at the present positions."""
@@ -189,6 +237,7 @@ class Flow:
         ahead = 0.5 * step if self.has_tangents else step
         self.wall_pressure.find(block, self.pressure, self._C, ahead)
         extended = self.extend_velocity(self.velocity)
+        self._add_transposed_stress(extended, kinds)
         self.iterations["viscosity"] = self.viscous.advance(
             block, self.velocity, self.body_force, extended, kinds, ahead
         )

@@ -28,11 +28,15 @@ def stop_solid(v, fluid):
     return flowing, dot(flowing, flowing)
 
 
-def settle(settled, jump, share):
-    """Jump that the divergence sees [m/s]; at once the present one where there was none."""
+def settle(settled, jump, m, rest):
+    """Jump that the divergence sees [m/s]; at once the present one where there was none.
+
+    Args:
+        m: relative viscosity. rest: of the difference after the step, where m is 1.
+    """
     if settled == 0.0:
         return 1.0 * jump
-    return settled + share * (jump - settled)
+    return settled + (1.0 - rest**m) * (jump - settled)
 
 
 def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):

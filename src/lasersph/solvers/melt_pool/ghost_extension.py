@@ -89,17 +89,18 @@ class GhostExtension:
         """
         return self._extended_velocity(v, jump, self._velocity)
 
-    def add_at_walls(self, v: Array, a: Array, step: float, nu: float) -> None:
+    def add_at_walls(self, v: Array, a: Array, relative: Array, step: float, nu: float) -> None:
         """Add to velocities (2, M) what `ghost_fields.velocity_at_wall` says.
 
         Args:
-            a: (2, n) grad p/rho [m/s^2]. step: [s]. nu: [m^2/s].
+            a: (2, n) grad p/rho [m/s^2]. relative: (n,) viscosity over that at the liquidus.
+                step: [s]. nu: at the liquidus [m^2/s].
         """
         a_x, a_z = (self.backend.component(a, k) for k in (0, 1))
-        tables: Constants = {"a_x": a_x, "a_z": a_z, **self._walls_along}
+        tables: Constants = {"m": relative, "a_x": a_x, "a_z": a_z, **self._walls_along}
         fields = {**self.sources, "v": v, "x": self.pairs.position}
         function = ghost_fields.velocity_at_wall
-        self.backend.pointwise(function, fields, v, **tables, step=step, viscosity=nu)
+        self.backend.pointwise(function, fields, v, **tables, step=step, nu=nu)
 
     def mirror_velocity(self, v: Array, jump: Array) -> Array:
         """Velocities (2, n) on the block with ghosts as mirrors at the walls show them [m/s].

@@ -105,13 +105,15 @@ def velocity_across(
     )
 
 
-def velocity_at_wall(source, ghost_type, v, x, a_x, a_z, along_x, along_z, plane, step, viscosity):
+def velocity_at_wall(source, ghost_type, v, x, m, a_x, a_z, along_x, along_z, plane, step, nu):
     """Velocity of a ghost [m/s], with what the pressure does along a wall (`wall_pressure`).
 
     Args:
-        x: place of the ghost [m]. a_x, a_z: grad p/rho [m/s^2]. along_x, along_z: 1 beyond a wall
-            along that axis. plane: its place [m]. step: [s]. viscosity: nu [m^2/s].
+        x: place of the ghost [m]. m: relative viscosity of the source [1], nu: what that counts
+            from [m^2/s]. a_x, a_z: grad p/rho [m/s^2]. along_x, along_z: 1 beyond a wall along that
+            axis. plane: its place [m]. step: [s].
     """
+    viscosity = nu * m[source]
     d_x, d_z = x[0] - plane[ghost_type], x[1] - plane[ghost_type]
     return vector(
         v[0] + along_x[ghost_type] * (2.0 * step + d_z * d_z / viscosity) * a_x[source],

@@ -170,7 +170,7 @@ class MeltPool:
             support=self.domain.support,
             speed=max(flow.largest_speed, self.domain.conditions.largest_wall_speed()),
             acceleration=flow.largest_acceleration,
-            viscosity=liquid.viscosity,
+            viscosity=liquid.largest_viscosity,
             diffusivity=liquid.diffusivity,
             density=liquid.density,
             surface_tension=liquid.surface_tension,
@@ -240,12 +240,12 @@ class MeltPool:
         block = domain.block_for(self.position, self.kinds)
         if block is not flow.current_block:
             flow.enter(block, domain.periods)
-        has_row = self._rows_to_find(block, self._advected)
         if domain.surface is not None:
             domain.surface.carry(self._surface_step(self.position, step))
             domain.surface.find(self._advected)
-        block.find_pairs(self._advected, has_row, has_kernel=True)
+        block.find_pairs(self._advected, self._rows_to_find(block, self._advected), has_kernel=True)
         self.kinds.find_walls(block)
+        flow.update_viscosity(self.particles["temperature"])
         if domain.surface is not None:
             now = self._surface_step(self._advected, step)
             domain.surface.update_stress(now, block, self.kinds.active)
@@ -286,9 +286,9 @@ class MeltPool:
     def _surface_step(self, position: Array, step: float) -> SurfaceStep:
         """What the surface reads of the particles in a step [s]."""
         names = ("temperature", "volume", "mass", "enthalpy", "evaporated_mass")
+        fields, flow = (self.particles[name] for name in names), self.flow
         times = (self.state.time, self.state.time + step)
-        fields = (self.particles[name] for name in names)
-        return SurfaceStep(*fields, position, self.flow.velocity, self.kinds.fluid, times)
+        return SurfaceStep(*fields, flow.fluidity, position, flow.velocity, self.kinds.fluid, times)
 
     def shift(self, step: float) -> None:
         """Displacements that keep the density of particles even (73)."""

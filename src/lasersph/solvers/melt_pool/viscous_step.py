@@ -35,7 +35,8 @@ class ViscousStep:
     """The prediction of velocities with its work vectors.
 
     Args:
-        volume: (n,) V [m^2]. viscosity: nu [m^2/s]. kind: "implicit" or "explicit".
+        volume: (n,) V [m^2]. viscosity: nu at the liquidus [m^2/s]; at other temperatures the
+            weights of the pairs differ. kind: "implicit" or "explicit".
 
     Attributes:
         velocity: (2, n) from which the forces of the last step follow [m/s].
@@ -61,7 +62,7 @@ class ViscousStep:
         rows = kinds.fluid_rows
         if rows.shape[0] == 0:
             return 0
-        fields = {"v": extended, "g_ij": block.weights, "V": block.V, "b": b}
+        fields = {"v": extended, "g_ij": block.viscous_weights, "V": block.V, "b": b}
         if not self.is_implicit:
             pairs, star, nu = block.pairs, self._star, self.nu
             backend.copy(v, self.velocity)
@@ -87,7 +88,7 @@ class ViscousStep:
         ghosts = block.prepare_velocity_change(d, changes, again=ghosts)
         multiplied = backend.prepare(
             momentum,
-            {"v": changes, "d": d, "g_ij": block.weights, "V": block.V},
+            {"v": changes, "d": d, "g_ij": block.viscous_weights, "V": block.V},
             (q, None),
             neighbors=block.pairs,
             rows=rows,

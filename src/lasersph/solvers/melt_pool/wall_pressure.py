@@ -34,11 +34,13 @@ class WallPressure:
     """grad p/rho of the particles near faces, found once a step.
 
     Args:
-        count: particles of the body. density: [kg/m^3]. viscosity: nu [m^2/s].
+        density: [kg/m^3]. viscosity: nu at the liquidus [m^2/s]. relative: (n,) viscosity of the
+            particles over that.
     """
 
-    def __init__(self, backend: Backend, count: int, density: float, viscosity: float) -> None:
+    def __init__(self, backend: Backend, density: float, viscosity: float, relative: Array) -> None:
         self.backend, self.density, self.viscosity = backend, density, viscosity
+        self._relative, count = relative, relative.shape[0]
         self._a, self._step = backend.zeros((2, count)), 0.0
 
     def find(self, block: Block, pressure: Array, C: Array, step: float) -> None:
@@ -64,5 +66,5 @@ class WallPressure:
     def add_to(self, v: Array, block: Block) -> Array:
         """Velocities (2, M) with those of ghosts beyond walls as above [m/s]."""
         if block.has_still_walls:
-            block.add_at_walls(v, self._a, self._step, self.viscosity)
+            block.add_at_walls(v, self._a, self._relative, self._step, self.viscosity)
         return v

@@ -261,8 +261,9 @@ def test_pressure_of_a_changed_stress_does_not_grow_as_the_step_shrinks():
     (before, after), (_, short) = stirred_layer(2e-9, 1.5), stirred_layer(2.5e-10, 1.5)
     assert before < after
     assert short < 1.5 * after
-    assert settle(4.0, 8.0, 0.25) == 5.0
-    assert settle(0.0, 8.0, 0.25) == 8.0
+    assert settle(4.0, 8.0, 1.0, 0.75) == 5.0
+    assert settle(4.0, 8.0, 2.0, 0.5) == 7.0  # twice as viscous, twice as fast
+    assert settle(0.0, 8.0, 1.0, 0.75) == 8.0
 
 
 def test_iterations_and_checkpoint_scalars():

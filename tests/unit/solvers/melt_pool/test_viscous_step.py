@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from flow_boxes import PERIODIC, PERIODIC_HEAT, block_of, box, jittered, matrix_of, place_of, pool
 
+from lasersph.solvers.melt_pool import block as block_module
 from lasersph.solvers.melt_pool.ghost_fields import velocity_change
 from lasersph.solvers.melt_pool.viscous_step import ViscousStep
 
@@ -74,6 +75,65 @@ def test_momentum_stays(kind):
     found, _ = advanced(solver, block, v, 0.02, kind)
     assert found.sum(axis=1) == pytest.approx(v.sum(axis=1), abs=1e-6)
     assert np.sum(found**2) < np.sum(v**2)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2])
+def test_momentum_stays_where_the_viscosity_varies(share):
+    """Pairs take a mean that both share; and viscosity only slows."""
+    solver = box(flow=PERIODIC, heat=PERIODIC_HEAT)
+    block, random = block_of(solver, jittered(solver, share)), np.random.default_rng(5)
+    block.weigh_viscosity(solver.backend.asarray(random.uniform(0.1, 1.0, solver.body.count)))
+    v = random.normal(size=(2, solver.body.count))
+    found, _ = advanced(solver, block, v, 0.02, "implicit")
+    assert found.sum(axis=1) == pytest.approx(v.sum(axis=1), abs=1e-6)
+    assert np.sum(found**2) < np.sum(v**2)
+
+
+def arithmetic_weight(g_ij, m_i, m_j):
+    """g_ij times the arithmetic mean."""
+    return g_ij * (0.5 * (m_i + m_j))
+
+
+def error_of_layers(cells):
+    """Largest error of a sheared film whose upper half has a quarter of the viscosity.
+
+    The stress is the same in both: u = 1.6 (z + 1) / 4 below, four times as steep above.
+    """
+    solver = box(flow=COUETTE, heat=SIDES, cells=cells, width=0.5)
+    block, height = block_of(solver), place_of(solver)[1] + 1.0
+    relative = np.where(height > 0.5, 0.25, 1.0)
+    block.weigh_viscosity(solver.backend.asarray(relative))
+    v, _ = advanced(solver, block, np.zeros((2, height.size)), 500.0, "implicit", steps=8)
+    return np.abs(v[0] - np.interp(height, [0.0, 0.5, 1.0], [0.0, 0.2, 1.0])).max()
+
+
+def test_layers_of_different_viscosity(monkeypatch):
+    """Halved cells, half the error. The arithmetic mean errs more than three times as much."""
+    errors = [error_of_layers(cells) for cells in (10, 20)]
+    assert errors[0] < 0.006
+    assert errors[1] < 0.55 * errors[0]
+    monkeypatch.setattr(block_module, "viscous_weight", arithmetic_weight)
+    assert error_of_layers(20) > 3.0 * errors[1]
+
+
+def test_turning_melt_feels_no_viscosity():
+    """v = (-z, x) has no strain, whatever the viscosity: the transposed gradient takes away what
+    pairs do, to 2 % of it in the inner third of a box of twenty cells."""
+    solver = box(flow=PERIODIC, heat=PERIODIC_HEAT, cells=20)
+    block, flow, backend = block_of(solver), solver.flow, solver.backend
+    x, z = place_of(solver)
+    inner = (np.abs(x) < 0.17) & (np.abs(z + 0.5) < 0.17)
+    relative = 1.0 + 0.5 * x + 0.3 * (z + 0.5) ** 2
+    flow.relative_viscosity = backend.asarray(relative)
+    block.weigh_viscosity(flow.relative_viscosity)
+    v = np.array([-z - 0.5, x])
+    pairs = advanced(solver, block, v, 1e-4, "explicit")[0] - v
+    flow._viscosity_varies = True
+    extended = block.extend_velocity(backend.asarray(v), backend.zeros(solver.body.count))
+    flow._add_transposed_stress(extended, solver.kinds)
+    rest = pairs + 1e-4 * backend.to_host(flow.body_force)
+    assert np.abs(pairs[:, inner]).max() > 0.3e-4 * NU
+    assert np.abs(rest[:, inner]).max() < 0.02 * np.abs(pairs[:, inner]).max()
 
 
 def test_implicit_solves_its_equation():

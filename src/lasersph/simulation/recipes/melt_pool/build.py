@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 
 from lasersph.boundaries.flat_surface import FlatSurface, ImposedTemperature
 from lasersph.boundaries.flow_conditions import FREE
-from lasersph.boundaries.moving_surface import MovingSurface, SurfaceLiquid
+from lasersph.boundaries.moving_surface import MovingSurface
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.boundaries.surface import Surface
+from lasersph.boundaries.surface_conditions import SurfaceLiquid
 from lasersph.boundaries.surface_drives import Drives
 from lasersph.boundaries.surface_line import End, SurfaceLine, cutoff_of
 from lasersph.case import Case
+from lasersph.materials.viscosity import relative_viscosity_table
 from lasersph.particles.fields import FIELDS
 from lasersph.particles.layers import Layers
 from lasersph.physics.evaporation import saturation_pressure, vapor_constants
@@ -67,7 +69,12 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             bottom=-layers.fine_depth,
             spacing=layers.spacing,
             support=support,
-            liquid=SurfaceLiquid(liquid.density, liquid.viscosity * liquid.density, case.material),
+            liquid=SurfaceLiquid(
+                liquid.density,
+                liquid.viscosity * liquid.density,
+                liquid.relative_viscosity,
+                case.material,
+            ),
             has_stress=settings.marangoni,
             drives=Drives(
                 _given_temperature(case),
@@ -149,7 +156,7 @@ def _raise_particles(case: Case, body: Body, static: StaticParticleData, line: S
 
 
 def liquid_of(case: Case, settings: MeltPoolSettings) -> Liquid:
-    """Numbers of the melt at its liquidus; of a box at its initial temperature."""
+    """Numbers of the melt at its liquidus, and how viscous it is elsewhere."""
     material = case.material
     T = material.flow_temperature
     gamma = 0.0
@@ -157,6 +164,7 @@ def liquid_of(case: Case, settings: MeltPoolSettings) -> Liquid:
         gamma = float(material.surface_tension_at(T))
     return Liquid(
         viscosity=float(material.kinematic_viscosity_at(T)),
+        relative_viscosity=relative_viscosity_table(material),
         density=material.density_liquid,
         expansion=float(material.expansion_at(T)),
         reference_temperature=T if case.flow is None else case.initial_temperature,
