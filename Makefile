@@ -20,13 +20,13 @@ run: $(VENV)/.run
 test: $(VENV)/.test
 	@command -v chromium chromium-browser google-chrome google-chrome-stable >/dev/null || echo \
 	  "No Chromium: the tests of the page are skipped. On Debian: apt-get install chromium" >&2
-	$(VENV)/bin/python -m pytest $(PYTEST_ARGS)
+	$(VENV)/bin/python -m pytest $(WORKERS) $(PYTEST_ARGS)
 
 check: $(VENV)/.check
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/pyright
-	$(VENV)/bin/python -m pytest $(PYTEST_ARGS)
+	$(VENV)/bin/python -m pytest $(WORKERS) $(PYTEST_ARGS)
 
 docs: $(VENV)/.docs
 	$(VENV)/bin/python docs/draw_architecture.py
@@ -61,6 +61,8 @@ $(VENV)/.%: pyproject.toml | $(VENV)/bin/python
 	$(PIP) install --quiet --editable '.[$(subst check,check$(comma)test,$*)$(if $(filter test check,$*),$(GPU))]'
 	@touch $@
 
+# Tests run in as many processes as there are cores; in four at most, since each imports everything.
+WORKERS := -n logical --maxprocesses 4 --dist worksteal
 comma := ,
 # Tests of the CUDA backend need no graphics card, but its compiler, which there is for Linux.
 GPU := $(if $(filter Linux,$(shell uname -s)),$(comma)gpu)

@@ -1,12 +1,17 @@
 """Fixtures for all tests."""
 
 import os
+import shutil
 import tempfile
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
-SIMULATOR, SHORT = pytest.StashKey(), pytest.StashKey()
+FOLDER, STARTED = pytest.StashKey(), pytest.StashKey()
+SIMULATED = "tests/unit/compute/test_cuda_simulated.py::"
+SHORT_FORM = "tests/validation/test_runs.py::test_short_form["
+"""Tests that wait for a side process."""
 ONLY_ASKED = ("validate",)
 """Marks of tests that run only where -m names the mark: `pytest -m validate`."""
 
@@ -21,50 +26,81 @@ settings.register_profile(
 settings.load_profile("any-machine")
 
 
+def pytest_configure(config):
+    """Agree on a folder for what runs beside the tests, in whatever processes these run."""
+    shared = getattr(config, "workerinput", {}).get("folder")  # of a process of pytest-xdist
+    config.stash[FOLDER] = Path(shared or tempfile.mkdtemp(prefix="lasersph-tests-"))
+    config.stash[STARTED] = []
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node):
+    """Tell a process of pytest-xdist the folder."""
+    node.workerinput["folder"] = str(node.config.stash[FOLDER])
+
+
 def pytest_collection_modifyitems(config, items):
-    """Deselect tests that nobody asked for."""
+    """Deselect tests that nobody asked for; those that wait for side processes come last."""
     marks = [mark for mark in ONLY_ASKED if mark not in config.getoption("-m")]
     unasked = [item for item in items if any(map(item.get_closest_marker, marks))]
     config.hook.pytest_deselected(items=unasked)
-    items[:] = [item for item in items if item not in unasked]
+    kept = [item for item in items if item not in unasked]
+    items[:] = sorted(kept, key=lambda item: item.nodeid.startswith((SIMULATED, SHORT_FORM)))
 
 
 def pytest_collection_finish(session):
-    """Start what runs beside the tests, where they ask for it."""
+    """Start what runs beside the tests, where they run in this process."""
+    config = session.config
+    if not config.option.collectonly and not hasattr(config, "workerinput"):
+        start_beside(config, [item.nodeid for item in session.items])
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_node_collection_finished(node, ids):
+    """Start what runs beside the tests, where they run in processes of pytest-xdist."""
+    if not node.config.stash[STARTED]:
+        start_beside(node.config, ids)
+
+
+def start_beside(config, ids):
+    """Start the side processes that tests of these ids ask for."""
     import short_validations
     import simulator_process
 
-    if session.config.option.collectonly:
-        return
-    stash = session.config.stash
-    asked = {name for item in session.items for name in getattr(item, "fixturenames", ())}
-    if "simulated" in asked and simulator_process.is_possible():
-        stash[SIMULATOR] = simulator_process.SimulatorProcess()
-    if "short_validations" in asked:
-        items = [item for item in session.items if "short_validations" in item.fixturenames]
-        names = [item.callspec.params["name"] for item in items]
-        stash[SHORT] = short_validations.ShortValidations(names)
+    folder, started = config.stash[FOLDER], config.stash[STARTED]
+    if any(one.startswith(SIMULATED) for one in ids) and simulator_process.is_possible():
+        started.append(simulator_process.SimulatorProcess(folder))
+        started[-1].start_tests()
+    names = [one[len(SHORT_FORM) : -1] for one in ids if one.startswith(SHORT_FORM)]
+    if names:
+        started.append(short_validations.ShortValidations(folder))
+        started[-1].start_validations(names)
 
 
 def pytest_unconfigure(config):
-    """Leave no process behind."""
-    for key in (SIMULATOR, SHORT):
-        if key in config.stash:
-            config.stash[key].end()
+    """Leave no process and no file behind."""
+    for process in config.stash[STARTED]:
+        process.end()
+    if not hasattr(config, "workerinput"):
+        shutil.rmtree(config.stash[FOLDER], ignore_errors=True)
 
 
 @pytest.fixture(scope="session")
 def simulated(pytestconfig):
     """The tests in Numba's CUDA simulator, which run beside the others."""
-    if SIMULATOR not in pytestconfig.stash:
+    import simulator_process
+
+    if not simulator_process.is_possible():
         pytest.skip("needs numba-cuda (extra gpu), and not to be the simulator already")
-    return pytestconfig.stash[SIMULATOR]
+    return simulator_process.SimulatorProcess(pytestconfig.stash[FOLDER])
 
 
 @pytest.fixture(scope="session")
 def short_validations(pytestconfig):
     """The shortened validations, which run beside the others."""
-    return pytestconfig.stash[SHORT]
+    import short_validations
+
+    return short_validations.ShortValidations(pytestconfig.stash[FOLDER])
 
 
 def backends():

@@ -1,22 +1,22 @@
 """The shortened form of validations, computed by a process of its own beside the other tests."""
 
 import json
-import os
 import sys
 
 from side_process import SideProcess
 
 
 class ShortValidations(SideProcess):
-    """`lasersph validate NAMES --quick`, behind what the tests compute themselves."""
+    """`lasersph validate NAMES --quick`."""
 
-    def __init__(self, names):
-        super().__init__()
+    def __init__(self, folder):
+        super().__init__(folder / "validations")
         self._json = self.folder / "reports.json"
+
+    def start_validations(self, names):
+        """Start those of these names."""
         lasersph = [sys.executable, "-m", "lasersph", "validate", "--quick", "--threads", "1"]
-        files = ["--out", str(self.folder), "--json", str(self._json)]
-        niceness = ["nice", "-n", "10"] if os.name == "posix" else []
-        self.start([*niceness, *lasersph, *files, *names])
+        self.start([*lasersph, "--out", str(self.folder), "--json", str(self._json), *names])
 
     def report(self, name):
         """What it says of a validation; None where it broke off before."""

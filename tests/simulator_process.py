@@ -1,6 +1,6 @@
 """Tests in Numba's CUDA simulator, and machine code for a card of every kernel that ran there.
 
-They take several minutes of one processor, and run beside the other tests, which seldom use two.
+They take several minutes of one processor, and run beside the other tests.
 """
 
 import importlib.util
@@ -35,8 +35,11 @@ def is_possible():
 class SimulatorProcess(SideProcess):
     """The tests in the simulator, and the kernels that ran there."""
 
-    def __init__(self):
-        super().__init__()
+    def __init__(self, folder):
+        super().__init__(folder / "simulator")
+
+    def start_tests(self):
+        """Start them."""
         path = os.pathsep.join(sys.path)
         self.start([sys.executable, __file__, str(self.folder)], {"PYTHONPATH": path})
 
