@@ -114,21 +114,6 @@ def mass_flux(T, p, R_s):
     return NET_EVAPORATION * p / sqrt(2.0 * PI * R_s * T)
 
 
-def mass_flux_slope(T, p, p_slope, R_s):
-    """dm/dT of ``mass_flux`` [kg/(m^2 s K)], p_slope = dp/dT [Pa/K]."""
-    return NET_EVAPORATION * (p_slope - 0.5 * p / T) / sqrt(2.0 * PI * R_s * T)
-
-
-def evaporative_heat_flux(T, p, L_v, R_s):
-    """Heat that evaporation takes from the surface [W/m^2]: L_v m."""
-    return L_v * mass_flux(T, p, R_s)
-
-
-def evaporative_heat_flux_slope(T, p, p_slope, L_v, L_slope, R_s):
-    """d(L_v m)/dT of ``evaporative_heat_flux`` [W/(m^2 K)], L_slope = dL_v/dT [J/(kg K)]."""
-    return L_slope * mass_flux(T, p, R_s) + L_v * mass_flux_slope(T, p, p_slope, R_s)
-
-
 def recoil_pressure(p):
     """Pressure of the leaving vapor on the surface [Pa]: 0.54 p [Anisimov1968]."""
     return RECOIL_FACTOR * p
