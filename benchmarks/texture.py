@@ -4,7 +4,8 @@ python benchmarks/texture.py spot DIR       a spot of 50 um, 5 um period, 24 cel
                                             workers; the same command again goes on
 python benchmarks/texture.py direct DIR     a spot of 60 um at 1/e^2, 12 periods, in one run and
                                             from 24 cells, both at 16 nm: how depths differ, what
-                                            each costs; --share DIR/cells takes those of a spot
+                                            each costs; --share DIR/cells takes those of a spot;
+                                            DIR 8 24: of 8 periods, with particles of 24 nm
 python benchmarks/texture.py recover [DIR]  20 profiles with hidden factors on the fluence, tilts,
                                             5 nm of noise, 1 % in lateral scale, from the cells of
                                             a texture or of a formula: of a spot for compare, of
@@ -42,7 +43,6 @@ STEEL = (
     "solver.flow.surface=moving",
     "material.base=steel-304-demuth",
     "material.surface_tension=1.6 N/m",
-    "particles.spacing=16 nm",
 )
 PERIOD_UM = 5
 SPOT = 'laser.spot={diameter="%g um", definition="1/e^2", extent="%s"}'
@@ -83,9 +83,10 @@ def timed(command: list[str]) -> tuple[int, float, float]:
     return code, (time.monotonic() - start) / 60.0, busy() - before
 
 
-def spot_texture(folder: Path, diameter: float, more: Sequence[str]) -> int:
-    """Compute the texture of a spot [um] and say what it cost."""
-    command = ["texture", *words(SPOT % (diameter, "cell")), "--cells", "24", "--workers", "2"]
+def spot_texture(folder: Path, diameter: float, more: Sequence[str], spacing: str = "16") -> int:
+    """Compute the texture of a spot [um] from particles [nm] and say what it cost."""
+    settings = words(SPOT % (diameter, "cell"), f"particles.spacing={spacing} nm")
+    command = ["texture", *settings, "--cells", "24", "--workers", "2"]
     code, clock, busy = timed([*command, "--threads", "1", "--out", str(folder), *more])
     print(f"{clock:.1f} minutes, {busy:.1f} minutes of processors")
     return code
@@ -93,11 +94,15 @@ def spot_texture(folder: Path, diameter: float, more: Sequence[str]) -> int:
 
 def direct(folder: Path, more: Sequence[str]) -> int:
     """Compare a spot that is assembled from cells with one run that holds all of it."""
-    if code := spot_texture(folder / "assembled", 12 * PERIOD_UM, more):
+    is_given = bool(more) and more[0].isdigit()
+    (periods, spacing), more = (more[:2], more[2:]) if is_given else (("12", "16"), more)
+    wide = int(periods) * PERIOD_UM
+    if code := spot_texture(folder / "assembled", wide, more, spacing):
         return code
     settings = words(
-        SPOT % (12 * PERIOD_UM, "whole"),
-        f"domain.width={12 * PERIOD_UM} um",
+        SPOT % (wide, "whole"),
+        f"particles.spacing={spacing} nm",
+        f"domain.width={wide} um",
         "particles.fine_depth=400 nm",  # the melt is 290 nm deep in the middle
     )
     out = folder / "direct"
@@ -107,16 +112,20 @@ def direct(folder: Path, more: Sequence[str]) -> int:
     if code:
         return code
     print(f"direct: {clock:.1f} minutes, {busy:.1f} minutes of processors")
-    whole = read_cell(open_run(out), 12e-6 * PERIOD_UM)
+    whole = read_cell(open_run(out), 1e-6 * wide)
     cells = read_table(folder / "assembled" / "cells", 1e-6 * PERIOD_UM)
-    half = whole.x < 6e-6 * PERIOD_UM
+    half = whole.x < 0.5e-6 * wide
     x = whole.x[half]
-    local = spot(12e-6 * PERIOD_UM, float(cells.fluence[-1])).at(x, 0.0 * x)
+    local = spot(1e-6 * wide, float(cells.fluence[-1])).at
+    ours = {
+        "height": cells.lines.across(local, x, 0.0),
+        "melt_depth": cells.at("melt_depth", local(x, 0.0), x),
+    }
     figure, panels = style.new_figure(2, height=5.0, share_x=True)
     for axes, name in zip(panels, ("height", "melt_depth"), strict=True):
-        ours, theirs = cells.at(name, local, x), whole.values[name][half]
+        theirs = whole.values[name][half]
         deepest = float(np.max(-theirs if name == "height" else theirs))
-        off = np.abs(ours - theirs)
+        off = np.abs(ours[name] - theirs)
         worst = int(np.argmax(off))
         print(
             f"{name}: deepest {1e9 * deepest:.1f} nm; differs by {1e9 * off[worst]:.2f} nm "
@@ -124,7 +133,7 @@ def direct(folder: Path, more: Sequence[str]) -> int:
             f"{1e9 * float(np.sqrt(np.mean(off**2))):.2f} nm rms"
         )
         axes.plot(1e6 * x, 1e9 * theirs, color=style.COLORS[1], lw=2.5, label="one run of all")
-        axes.plot(1e6 * x, 1e9 * ours, color=style.COLORS[0], lw=1.0, label="from cells")
+        axes.plot(1e6 * x, 1e9 * ours[name], color=style.COLORS[0], lw=1.0, label="from cells")
         style.label(axes, "", f"{name.replace('_', ' ')} [nm]")
     style.legend_above(figure, panels[0], columns=2)
     style.label(panels[1], "x [um]", "melt depth [nm]")

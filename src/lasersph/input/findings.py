@@ -129,7 +129,9 @@ def _say(
     if kind in ("value_error", "assertion_error"):
         text, _, hint = str(context.get("error", error["msg"])).partition("; ")
         return [Finding(path, text, hint)]
-    return [Finding(path, _problem_with_value(kind, context, error["msg"], given))]
+    is_one = kind in ("list_type", "tuple_type") and given == "a table" and len(path) == 1
+    hint = f"write [[{path[0]}]]" if is_one else ""
+    return [Finding(path, _problem_with_value(kind, context, error["msg"], given), hint)]
 
 
 def _problem_with_value(kind: str, context: dict[str, Any], message: str, given: str) -> str:

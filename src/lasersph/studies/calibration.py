@@ -11,7 +11,7 @@ killed and repeated finds its runs and gives the same numbers bit for bit.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -128,8 +128,22 @@ class Calibration:
             )
         failed = sum(one is None for one in self.numbers)
         if failed:
-            found.append(f"{failed} of {len(self.numbers)} runs failed and were left out")
+            text = f"{failed} of {len(self.numbers)} runs failed and were left out"
+            found.append("; ".join([text, *self._extrapolated()]))
         return found
+
+    def _extrapolated(self) -> Iterator[str]:
+        """Beyond which keys of the case failed runs lie, and complete ones do not."""
+        pairs = list(zip(self.settings, self.numbers, strict=True))
+        for key, unit in self.plan.units.items():
+            known = [one[key] for one, numbers in pairs if numbers is not None]
+            wanted = [one[key] for one, _ in pairs]
+            for word, end, farthest in (
+                ("below", min(known), min(wanted)),
+                ("above", max(known), max(wanted)),
+            ):
+                if farthest != end:
+                    yield f"{word} {key} = {end:.4g} {unit}".rstrip() + " the answer extrapolates"
 
 
 def calibrate_with(

@@ -282,6 +282,8 @@ class _Reader:
         for column, text in self.entry.measured[number].values.items():
             try:
                 values[column] = read_measured(text, kind_of_number(column))
+                if column.startswith("melt.") and values[column].value < 0.0:
+                    raise QuantityError(f'"{text}" is below zero, which nothing of a melt is')
             except QuantityError as error:
                 self.mistakes.add(("measured", number, "values", column), str(error))
         profile, target = self.entry.measured[number].profile, None

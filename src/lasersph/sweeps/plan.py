@@ -129,7 +129,13 @@ class SweepPlan:
         return [self.template.point(values) for values in found]
 
     def notes(self) -> Iterator[str]:
-        """What a user should know of the sampling, in lines."""
+        """What a user should know of sampling and table before any run, in lines."""
+        from lasersph.observers.observer_list import RESULTS
+
+        for name in self.columns:
+            near = "" if name in RESULTS else did_you_mean(name, RESULTS)
+            if near and not name.endswith(("_at_s", "_x_m")):  # of a number: when and where
+                yield f'no run may have a number "{name}" of [table]{near}'
         runs = self.sampling.runs or 0
         if self.sampling.kind == "sobol" and runs & (runs - 1):
             low = 1 << (runs.bit_length() - 1)

@@ -1,6 +1,7 @@
 """Calibration with runs that a formula gives: known answers, honest bands, what is not known."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -171,6 +172,10 @@ def test_failed_runs_leave_out_their_point(tmp_path):
     found = calibrate_with(plan, with_gaps)
     assert any("2 of " in text and "runs failed" in text for text in found.warnings())
     assert answer(found)["unknowns"]["factor"]["mean"] == pytest.approx(HIDDEN, rel=0.05)
+    highest = int(np.argmax([one["laser.fluence"] for one in found.settings]))
+    numbers = [None if n == highest else found.numbers[0] for n in range(len(found.numbers))]
+    said = replace(found, numbers=tuple(numbers)).warnings()[-1]
+    assert "1 of " in said and "; above laser.fluence = " in said and "extrapolates" in said
     with pytest.raises(NoCalibration, match="only 2 of 5 runs"):
         calibrate_with(plan, lambda points: [None] * 3 + runs_of(points[3:]))
 

@@ -119,6 +119,13 @@ WRONG = {
     "no such number": ('"melt.width_half_max_m"', '"melt.width_hlf_max_m"', 9, "width_half"),
     "measured without error": ("3.2 +- 0.1 um", "3.2 um", 9, "standard error"),
     "measured in another unit": ("3.2 +- 0.1 um", "3.2 +- 0.1 ns", 9, "length"),
+    "width below zero": ("3.2 +- 0.1 um", "-3.2 +- 0.1 um", 9, "below zero"),
+    "one table for a list": (
+        GOOD[GOOD.index("[[measured]]") : GOOD.index("[runs]")],
+        '[measured]\nvalues = { "melt.depth_max_m" = "150 nm +- 10 %" }\n',
+        7,
+        "write [[measured]]",
+    ),
     "unknown case": ("dlip-steel", "dlip-steal", 1, 'do you mean "dlip-steel"'),
     "factor on an unknown key": (
         'scales = "laser.fluence"',

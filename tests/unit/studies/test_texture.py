@@ -6,7 +6,19 @@ import numpy as np
 import pytest
 import synthetic_flow
 import synthetic_run
-from texture_cells import AMBIENT, COARSE, HIGHEST, LEAST, PERIOD, relief, spot, table
+from scipy.optimize import brentq
+from texture_cells import (
+    AMBIENT,
+    COARSE,
+    HIGHEST,
+    LEAST,
+    PERIOD,
+    half_width,
+    pools,
+    relief,
+    spot,
+    table,
+)
 
 from lasersph.cli import main
 from lasersph.output import OutputError, open_run
@@ -48,6 +60,39 @@ def test_cells_left_out():
     true = np.abs(table(8).profiles("height", fluence[:, 0]) - relief(fluence, x)).max()
     assert true < few
     assert many < 0.3 * few
+
+
+def test_edges_of_lines():
+    """Eight cells tell heights to 1 % of the largest where edges move by columns from one to the
+    next; at each place of the period alone they err by 8 %."""
+    from scipy.interpolate import PchipInterpolator
+
+    cells = table(8, relief=pools)
+    fluence = np.linspace(LEAST, HIGHEST, 301)
+    true = pools(fluence[:, None], cells.x[None, :])
+    by_place = PchipInterpolator(cells.fluence, cells.values["height"])(fluence)
+    assert np.abs(cells.profiles("height", fluence) - true).max() < 0.01 * 40e-9
+    assert np.abs(by_place - true).max() > 0.08 * 40e-9
+
+
+def test_lines_of_a_spot():
+    """A line is the cell of its own fluence between edges at theirs; its volume stays zero."""
+    local, cells = spot(40e-6), table(24, 400, pools)
+    x = 2.0 * PERIOD + np.linspace(-0.5, 0.5, 4001)[:-1] * PERIOD
+
+    def edge(side):
+        off = brentq(lambda d: half_width(local.at(2.0 * PERIOD + side * d)) - d, 0.0, 2.4e-6)
+        return 2.0 * PERIOD + side * off
+
+    a, b = edge(-1.0), edge(1.0)
+    assert 2.0 * PERIOD - a > 1.1 * (b - 2.0 * PERIOD)  # the fluence falls outward
+    own = local.at(2.0 * PERIOD)
+    inside = (x - 0.5 * (a + b)) * half_width(own) / (0.5 * (b - a))
+    expected = np.where((x > a) & (x < b), pools(own, inside), 0.0)
+    found = cells.lines.across(local.at, x, 0.0)
+    assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
+    assert abs(found.mean()) < 1e-3 * np.abs(expected).mean()
+    assert found.max() - cells.at("height", local.at(x), x).max() < -0.04 * found.max()
 
 
 def test_maps_of_a_spot():

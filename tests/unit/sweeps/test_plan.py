@@ -105,6 +105,13 @@ def test_latin_hypercube():
     assert "no run is found again" in next(plan.notes())
 
 
+def test_columns_that_no_run_has():
+    """A wrong name is said before any run, those of counts and times are not."""
+    columns = ["melt.dept_max_m", "melt.depth_max_m", "melt.depth_max_at_s", "steps"]
+    (note,) = build_plan("dlip-steel", {"laser.fluence": ["1 J/cm^2"]}, columns=columns).notes()
+    assert note.endswith('"melt.dept_max_m" of [table] (do you mean "melt.depth_max_m"?)')
+
+
 def test_a_plan_from_python_reads_the_same(tmp_path):
     """Its text is a plan file with the same points."""
     plan = build_plan("dlip-steel", BOX, sampling={"kind": "sobol", "runs": 4}, columns=["steps"])

@@ -52,10 +52,14 @@ class Relief:
             return np.interp(x, self.table.x, height, period=self.table.period)
         from scipy.ndimage import map_coordinates
 
-        steps = [(side[-1] - side[0]) / (side.size - 1) for side in (self.y, self.x)]
-        places = [(y - self.y[0]) / steps[0], (x - self.x[0]) / steps[1]]
-        local = factor * map_coordinates(self.fluence, places, order=1, mode="constant")
-        return self.table.at("height", np.minimum(local, self.table.fluence[-1]), x)
+        sides = (self.y, self.x)
+        steps = [(side[-1] - side[0]) / (side.size - 1) for side in sides]
+
+        def local(x: Array, y: Array) -> Array:
+            places = [(y - self.y[0]) / steps[0], (x - self.x[0]) / steps[1]]
+            return factor * map_coordinates(self.fluence, places, order=1, mode="constant")
+
+        return self.table.lines.across(local, x, y)
 
 
 def read_relief(folder: Path) -> Relief:

@@ -2,9 +2,10 @@
 
     z(x, y) = Z(F(x, y), x mod period)
 
-F is the local fluence, mean over a period, and Z the table of cells. A cell knows neither the slope
-of F across a period nor the heat that flows along it: in a Gaussian spot of diameter D at 1/e^2 the
-fluence changes by up to 2.4 p/D of that at the center over a period p.
+F is the local fluence, mean over a period, and Z the table of cells; heights of a line lie between
+the edges of its melt, see `lines`. A cell knows neither heat nor melt that the slope of F moves
+across a period: in a Gaussian spot of diameter D at 1/e^2 the fluence changes by up to 2.4 p/D of
+that at the center over a period p.
 
 Pulses that are moved: a pulse finds the relief of those before. Where it melts nothing, that relief
 stays; where nothing has been molten before, it meets a flat surface, as a cell does. Where it
@@ -83,7 +84,8 @@ def texture_maps(
     for number in range(pulses):
         here = x - number * shift
         local = spot.at(here[None, :], y[:, None])
-        found = {name: table.at(name, local, here[None, :]) for name in UNITS}
+        found = {name: table.at(name, local, here[None, :]) for name in UNITS if name != "height"}
+        found["height"] = table.lines.across(spot.at, here[None, :], y[:, None])
         melts = (found["melt_depth"] > 0.0) | (found["height"] != 0.0)
         if np.any(melts & has_melted):
             row, column = (int(n) for n in np.argwhere(melts & has_melted)[0])

@@ -2,7 +2,8 @@
 
 Between fluences each place of the period follows a monotone cubic [Fritsch1980], which does not
 overshoot where melting begins; between places of the period it is linear, as columns are narrow.
-Below the lowest cell the values fall linearly to those of a surface without light.
+Heights are interpolated over places of the melt instead, see `lines`. Below the lowest cell the
+values fall linearly to those of a surface without light.
 
 The error of the interpolation is found by leaving out each cell but the two at the ends, and
 predicting it from the others, which lie twice as far apart there: it is an upper estimate.
@@ -17,13 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lasersph.studies.texture.cells import UNITS, Cell
+from lasersph.studies.texture.lines import LEVELS, LineHeights
 
 Array = NDArray[np.float64]
 ROUNDING = 1e-9
 """By which a fluence may exceed that of the highest cell."""
-LEVELS = 1024
-"""Fluences at which the cubics are tabulated for maps, between which values are linear: with 24
-cells some 40 a cell, where a cubic bends by 1e-3 of a cell's change."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +80,8 @@ class CellTable:
             raise ValueError(
                 f"a fluence of {wanted.max():g} J/m^2 exceeds that of all cells, {highest:g} J/m^2"
             )
+        if name == "height":
+            return self.lines.at(wanted[:, None], self.x[None, :])
         low = float(self.fluence[0])
         found = PchipInterpolator(self.fluence, self.values[name], axis=0)(
             np.clip(wanted, low, highest)
@@ -90,10 +91,16 @@ class CellTable:
         return dark + share * (found - dark)
 
     @cached_property
+    def lines(self) -> LineHeights:
+        """Heights over places of the melt."""
+        return LineHeights.of(self.fluence, self.x, self.period, self.values["height"])
+
+    @cached_property
     def _levels(self) -> tuple[Array, dict[str, Array]]:
         """Fluences (LEVELS,) and values (LEVELS, columns + 1), whose last column is the first."""
         fluence = np.linspace(0.0, self.fluence[-1], LEVELS)
-        values = {name: self.profiles(name, fluence) for name in self.values}
+        names = [name for name in self.values if name != "height"]
+        values = {name: self.profiles(name, fluence) for name in names}
         return fluence, {n: np.column_stack([v, v[:, 0]]) for n, v in values.items()}
 
     def at(self, name: str, fluence: ArrayLike, x: ArrayLike) -> Array:
@@ -105,8 +112,10 @@ class CellTable:
         from scipy.ndimage import map_coordinates
 
         wanted, places = np.broadcast_arrays(np.asarray(fluence, float), np.asarray(x, float))
-        levels, values = self._levels
         self.profiles(name, wanted.max(keepdims=True).ravel())  # refuses what no cell covers
+        if name == "height":
+            return self.lines.at(wanted, places)
+        levels, values = self._levels
         row = np.minimum(wanted / levels[-1], 1.0) * (LEVELS - 1)
         step = self.period / self.x.size
         column = ((places - self.x[0]) % self.period) / step
