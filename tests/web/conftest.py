@@ -104,6 +104,20 @@ def page_without_webgl(browser_without_webgl):
         yield found
 
 
+def keep_picture(page, name):
+    """Keep a picture of a whole page."""
+    SCREENSHOTS.mkdir(exist_ok=True)
+    page.evaluate(EVERY_PICTURE)
+    page.evaluate("scrollTo(0, 0)")
+    page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
+
+
+@pytest.fixture
+def keep():
+    """Keeps a picture of a page under a name."""
+    return keep_picture
+
+
 class Watched:
     """A page whose complaints are noted.
 
@@ -123,10 +137,7 @@ class Watched:
 
     def keep(self, name):
         """Keep a picture of the whole page."""
-        SCREENSHOTS.mkdir(exist_ok=True)
-        self.page.evaluate(EVERY_PICTURE)
-        self.page.evaluate("scrollTo(0, 0)")
-        self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
+        keep_picture(self.page, name)
 
 
 @pytest.fixture

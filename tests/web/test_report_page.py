@@ -26,7 +26,7 @@ def report(tmp_path_factory):
     return path
 
 
-def test_viewer_inside_a_file(page, report, tmp_path):
+def test_viewer_inside_a_file(page, report, tmp_path, keep):
     """The frames of the page itself: drawn, scrubbed, colored; nothing is asked of any network."""
     asked = []
     page.on("request", lambda request: asked.append(request.url))
@@ -40,7 +40,7 @@ def test_viewer_inside_a_file(page, report, tmp_path):
     viewer, still = page.locator("#viewer").bounding_box(), page.locator(".top figure")
     numbers = page.locator(".numbers")
     assert viewer["y"] < numbers.bounding_box()["y"] < still.bounding_box()["y"]
-    page.screenshot(path=tmp_path / "report.png")
+    keep(page, "report")
     assert serious(page) == []
     assert [url for url in asked if not re.match("file:|blob:|data:", url)] == []
     paper = page.pdf(path=tmp_path / "report.pdf", format="A4")
@@ -53,12 +53,14 @@ def test_viewer_inside_a_file(page, report, tmp_path):
     page.emulate_media(media="screen")
     wide = page.evaluate("document.documentElement.scrollWidth")
     assert wide <= 390
+    keep(page, "narrow-report")
 
 
-def test_without_webgl_the_picture_leads(page_without_webgl, report):
+def test_without_webgl_the_picture_leads(page_without_webgl, report, keep):
     """The page says so, and the still picture comes before the numbers."""
     page = page_without_webgl
     page.goto(report.as_uri())
     expect(page.get_by_text("this browser offers no WebGL 2")).to_be_visible()
     still, numbers = page.locator(".top figure"), page.locator(".numbers")
     assert still.bounding_box()["y"] < numbers.bounding_box()["y"]
+    keep(page, "report-without-webgl")

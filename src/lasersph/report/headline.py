@@ -17,12 +17,20 @@ EFFECTS = {
     "melt-pool": "heating, melting and flow",
     "ablation": "heating, melting and ablation",
 }
-FIRST = (
-    *("temperature_max_K", "crater.depth_m", "crater.diameter_m", "ejecta.speed_mean_m_s"),
-    *("topography.peak_to_valley_m", "melt.depth_max_m", "melt.width_max_m"),
-    *("flow.surface_speed_max_m_s", "melt.end_s", "flow.speed_max_m_s", "ejecta.mass_kg"),
-)
-"""Main results that a reader asks for first, in this order."""
+LARGE = {
+    "crater.depth_m": "crater depth",
+    "crater.diameter_m": "crater diameter",
+    "topography.peak_to_valley_m": "relief, peak to valley",
+    "temperature_max_K": "highest temperature",
+    "melt.depth_max_m": "melt depth",
+    "melt.width_max_m": "melt width",
+    "flow.surface_speed_max_m_s": "speed of the surface",
+    "ejecta.speed_mean_m_s": "speed of the ejecta",
+    "flow.speed_max_m_s": "highest speed",
+    "melt.end_s": "melt until",
+    "ejecta.mass_kg": "mass of the ejecta",
+}
+"""Main results that a reader asks for first, the most telling before the others, in short words."""
 MOST_NUMBERS = 5
 UNIT_BEHIND = re.compile(r"(?<=[0-9]) (?=\S)")
 """Blank behind a number, where no line may end."""
@@ -34,7 +42,8 @@ def what_was_computed(run: Run) -> str:
     """One sentence: metal, light, dimensions, particles, time."""
     summary, case = run.summary, run.case
     material = case.get("material") or {}
-    metal = str(material.get("title") or material.get("name") or "a liquid").split(" (")[0]
+    metal = str(material.get("title") or material.get("name") or "a liquid")
+    metal = re.split(r", | \(", metal)[0]
     metal = metal[0].lower() + metal[1:] if metal[1:2].islower() else metal
     effects = EFFECTS.get(case.get("solver", {}).get("kind"), "heating")
     effects = "flow" if "box" in summary or "melt" not in summary else effects
@@ -95,7 +104,7 @@ def large_numbers(run: Run) -> str:
     """Five main results, large, with unit, error and when, and what the errors hold."""
     summary, found = run.summary, run.uncertainty
     results = {one.key: (one, value) for one, value in main_results(summary) if value}
-    order = [key for key in FIRST if key in results]
+    order = [key for key in LARGE if key in results]
     order += [key for key in results if key not in order]
     cards = []
     for key in order[:MOST_NUMBERS]:
@@ -106,7 +115,7 @@ def large_numbers(run: Run) -> str:
             unit = unit_in(one.unit, int(summary.get("dimensions", 3)))
             text = format_with_error(value, error, unit, typographic=True)
         when = place_text(summary, one.at[0]) if one.at else ""
-        words = one.words.split(" (")[0] + (f", at {when}" if when else "")
+        words = LARGE.get(key, one.words.split(" (")[0]) + (f", at {when}" if when else "")
         cards.append(f"<div><dd>{escape(text)}</dd><dt>{escape(words)}</dt></div>")
     if found is not None:
         note = "Errors hold about 95 %: of the spacing and of the inputs, see How sure."

@@ -24,8 +24,8 @@ p.lead { font-size: 1.12rem; margin: .2rem 0 1.1rem; }
 .numbers { display: grid; grid-template-columns: repeat(auto-fit, minmax(9.8rem, 1fr)); gap: .7rem;
   margin: 0 0 .6rem; }
 .numbers div { display: flex; flex-direction: column; border-top: 3px solid #d55e00;
-  background: #f8f9fb; padding: .6rem .8rem .7rem; }
-.numbers dd { margin: 0; font-size: 1.14rem; font-weight: 650; line-height: 1.3;
+  background: #f8f9fb; padding: .6rem .6rem .7rem; }
+.numbers dd { margin: 0; font-size: 1.05rem; font-weight: 650; line-height: 1.3;
   white-space: nowrap; font-variant-numeric: tabular-nums; }
 .numbers dt { color: #44505e; font-size: .86rem; line-height: 1.35; margin-top: .2rem; }
 @media screen { .top.is-drawn figure { order: 2; margin: 1.2rem 0 0; } }
@@ -53,9 +53,10 @@ details.subject { border: 1px solid #e2e7ec; border-radius: 6px; margin: .5rem 0
   padding: .55rem 1rem; }
 details.subject > summary { font-weight: 600; }
 @page { margin: 16mm 15mm; }
-@media print { body { background: #fff; font-size: 10.5pt; } nav, #viewer { display: none; }
+@media print { body { background: #fff; font-size: 10.5pt; } 
+  nav, #viewer, figure:has([src^="data:image/gif"]) { display: none; }
   main { box-shadow: none; padding: 0; max-width: none; }
-  h2 { break-after: avoid; } figure, tr, .numbers, p { break-inside: avoid; }
+  h2, summary, tr:has(th) { break-after: avoid; } figure, tr, .numbers, p { break-inside: avoid; }
   figure img { max-height: 120mm; width: auto; } pre { white-space: pre-wrap; }
   p.warning, p.note, p.result, .numbers div { print-color-adjust: exact; }
   .numbers { grid-template-columns: repeat(5, 1fr); gap: 3mm; } .numbers dd { font-size: 11.5pt; }
@@ -65,6 +66,8 @@ details.subject > summary { font-weight: 600; }
   .numbers dd, td.number, th + th { white-space: normal; }
   table { display: block; overflow-x: auto; } }
 """
+LONGEST_NUMBER = 30
+"""Letters of a cell that stays on one line: a number with its unit, error and place."""
 
 
 def page(title: str, body: Iterable[str]) -> str:
@@ -79,13 +82,15 @@ def page(title: str, body: Iterable[str]) -> str:
 
 
 def table(rows: Sequence[Sequence[str]], head: Sequence[str] = ()) -> str:
-    """A table; the first column names, the others are numbers. Text is escaped."""
+    """A table; the first column names, the others are numbers or sentences. Text is escaped."""
     lines = ["<table>"]
     if head:
         lines.append("<tr>" + "".join(f"<th>{escape(cell)}</th>" for cell in head) + "</tr>")
     for row in rows:
         cells = f"<td>{escape(row[0])}</td>"
-        cells += "".join(f'<td class="number">{escape(cell)}</td>' for cell in row[1:])
+        for cell in row[1:]:
+            kind = ' class="number"' if len(cell) <= LONGEST_NUMBER else ""
+            cells += f"<td{kind}>{escape(cell)}</td>"
         lines.append(f"<tr>{cells}</tr>")
     return "\n".join([*lines, "</table>"])
 

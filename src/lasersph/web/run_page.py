@@ -14,6 +14,7 @@ from lasersph.output import OutputError, Run, open_run
 from lasersph.output.folder_lock import is_computing
 from lasersph.output.growing_table import last_row, some_values
 from lasersph.report import tables
+from lasersph.report.headline import LARGE, MOST_NUMBERS
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
 from lasersph.web.folder_list import Entry, refuse_links
 
@@ -26,20 +27,6 @@ LOG_TAIL = 1 << 16
 SET = "# --set "
 """Begins the lines above the text of case.toml that tell its overrides."""
 TEMPERATURE = "temperature_max_K"
-LARGE = {
-    "crater.depth_m": "crater depth",
-    "crater.diameter_m": "crater diameter",
-    "topography.depth_m": "relief depth",
-    TEMPERATURE: "highest temperature",
-    "melt.depth_max_m": "melt depth",
-    "melt.width_max_m": "melt width",
-    "flow.surface_speed_max_m_s": "speed of the surface",
-    "flow.speed_max_m_s": "highest speed",
-    "ejecta.speed_mean_m_s": "speed of the ejecta",
-    "melt.end_s": "melt until",
-}
-"""Results that stand large at the head of a page, the most telling first, in short words."""
-MOST_LARGE = 5
 
 
 class Cards:
@@ -162,7 +149,7 @@ def main_numbers(run: Run) -> list[dict[str, str]]:
                 "at": tables.place_text(run.summary, one.at[0]) if one.at else "",
             }
         )
-    return found[:MOST_LARGE]
+    return found[:MOST_NUMBERS]
 
 
 def changes(case_text: str) -> list[dict[str, str]]:
