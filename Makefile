@@ -63,6 +63,8 @@ $(VENV)/.%: pyproject.toml | $(VENV)/bin/python
 
 # Tests run in as many processes as there are cores; in four at most, since each imports everything.
 WORKERS := -n logical --maxprocesses 4 --dist worksteal
+# Tests start hundreds of programs, which find what the first of them has translated to bytecode.
+unexport PYTHONDONTWRITEBYTECODE
 comma := ,
 # Tests of the CUDA backend need no graphics card, but its compiler, which there is for Linux.
 GPU := $(if $(filter Linux,$(shell uname -s)),$(comma)gpu)
