@@ -2,7 +2,7 @@
 
     normal velocity       v . n = 0, which also the ghosts beyond it show
     tangential stress     eta d(v . t)/dn = t . grad_s gamma(T)         [Demuth2020, eq. (15)]
-                          with the eta of the particle whose ghost continues the profile
+                          with the mean eta of the pairs across, which pass on all of it
     pressure              dp/dn = 0
     heat                  none crosses, unless the case holds the face's temperature or its flux
 
@@ -93,9 +93,20 @@ def velocity_jump(tau, depth, fluidity, eta):
     """2 d tau fluidity / eta [m/s]: by how much a ghost beyond is faster than its source.
 
     Args:
-        fluidity: eta, the viscosity at the liquidus [Pa s], over that of the particle.
+        fluidity: eta, the viscosity at the liquidus [Pa s], over that of the pairs across.
     """
     return 2.0 * depth * tau / eta * fluidity
+
+
+def across_terms(g_ij, w_ij, x_j, n, plane):
+    """Weight g of a pair with a ghost beyond the surface, and w, with which viscosity counts."""
+    across = 1.0 if dot(x_j, n) > plane else 0.0
+    return across * g_ij, across * w_ij
+
+
+def fluidity_across(total_0, total_1):
+    """Viscosity at the liquidus over the mean of a particle's pairs across the surface."""
+    return total_0 / total_1 if total_1 > 0.0 else 1.0 + total_1
 
 
 class FlatSurface:
@@ -130,7 +141,7 @@ class FlatSurface:
         self.at_surface, self.near_surface, self.depth = (backend.zeros(count) for _ in range(3))
         self.temperature, self.gradient, self.stress = (backend.zeros(count) for _ in range(3))
         self.ghost_velocity_jump, self._gamma = backend.zeros(count), backend.zeros(count)
-        self._slope = backend.zeros((2, count))
+        self._slope, self._fluidity = backend.zeros((2, count)), backend.asarray(np.ones(count))
         if has_stress:
             T, gamma = surface_tension_table(material)
             self.table = {"T_nodes": backend.asarray(T), "gamma_nodes": backend.asarray(gamma)}
@@ -183,7 +194,19 @@ class FlatSurface:
         terms, finish = extension_terms, extend_from_surface
         backend.pair_sum(terms, neighbors.pairs, fields, found, rows=near, finish=finish)
         backend.copy(found, self.stress)
-        fields = {"tau": self.stress, "depth": self.depth, "fluidity": now.fluidity}
+        if neighbors.viscous_weights is not neighbors.weights:
+            fields = {"g_ij": neighbors.weights, "w_ij": neighbors.viscous_weights}
+            place, finish = {name: self._place[name] for name in ("n", "plane")}, fluidity_across
+            backend.pair_sum(
+                across_terms,
+                neighbors.pairs,
+                fields,
+                self._fluidity,
+                rows=near,
+                finish=finish,
+                **place,
+            )
+        fields = {"tau": self.stress, "depth": self.depth, "fluidity": self._fluidity}
         backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:

@@ -56,15 +56,14 @@ class SurfaceGhosts(NamedTuple):
 class SurfaceStep(NamedTuple):
     """The particles below a surface in a step: temperature [K], volume [m^2], mass [kg/m], enthalpy
     [J/kg]; what has evaporated since the start per area seen from above [kg/m^2], in the first
-    entries by column; viscosity at the liquidus over theirs, position [m], velocity [m/s], 1 where
-    they flow, all (..., n); begin and end of the step [s]."""
+    entries by column; position [m], velocity [m/s], 1 where they flow, all (..., n); begin and end
+    of the step [s]."""
 
     T: Array
     volume: Array
     mass: Array
     enthalpy: Array
     evaporated: Array
-    fluidity: Array
     position: Array
     velocity: Array
     flows: Array

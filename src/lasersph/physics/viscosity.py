@@ -23,9 +23,8 @@ from lasersph.compute.vectors import dot, interpolate, matmul, matvec, outer, tr
 
 
 def relative_viscosity(T, T_nodes, m_nodes):
-    """Viscosity of the melt at T over that at the liquidus [1], and its inverse."""
-    m = interpolate(T, T_nodes, m_nodes)
-    return m, 1.0 / m
+    """Viscosity of the melt at T over that at the liquidus [1]."""
+    return interpolate(T, T_nodes, m_nodes)
 
 
 def viscous_weight(g_ij, m_i, m_j):

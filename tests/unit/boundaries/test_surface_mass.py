@@ -28,7 +28,6 @@ def melt():
         "enthalpy": 2e6 - 5e4 * row,
         "flows": np.ones(x.size),
         "evaporated": volume,
-        "fluidity": volume,
     }
     arrays = {name: backend.asarray(values) for name, values in fields.items()}
     return backend, SurfaceStep(**arrays, interval=(0.0, 1.0))

@@ -84,7 +84,7 @@ class Flow:
         velocity: (2, n) [m/s]. pressure: (n,) [Pa]. largest_speed [m/s].
             largest_acceleration by all forces [m/s^2]. iterations: of the last step. divergence:
             rms and largest D after the projection [1/s]. relative_viscosity: (n,) of the particles
-            over that at the liquidus; fluidity: its inverse.
+            over that at the liquidus.
         pressure_seen: fields of the symmetric gradient of the last step, p [Pa] over the lowest
             one, and that one [Pa]; None below a surface that moves.
     """
@@ -113,7 +113,7 @@ class Flow:
         )
         T, m = (backend.asarray(values) for values in liquid.relative_viscosity)
         self._viscosity_nodes = {"T_nodes": T, "m_nodes": m}
-        self.relative_viscosity, self.fluidity = (backend.asarray(np.ones(count)) for _ in "mf")
+        self.relative_viscosity = backend.asarray(np.ones(count))
         self.wall_pressure = WallPressure(
             backend, liquid.density, liquid.viscosity, self.relative_viscosity
         )
@@ -190,9 +190,9 @@ class Flow:
     def update_viscosity(self, T: Array) -> None:
         """Viscosity of the particles at their temperatures (n,) [K], and of their pairs."""
         if self._viscosity_varies:
-            out, nodes = (self.relative_viscosity, self.fluidity), self._viscosity_nodes
-            self.backend.pointwise(viscosity.relative_viscosity, {"T": T}, out, **nodes)
-            self.block.weigh_viscosity(self.relative_viscosity)
+            relative, nodes = self.relative_viscosity, self._viscosity_nodes
+            self.backend.pointwise(viscosity.relative_viscosity, {"T": T}, relative, **nodes)
+            self.block.weigh_viscosity(relative)
 
     def _add_transposed_stress(self, extended: Array, kinds: ParticleKinds) -> None:
         """Add div(nu (grad v)^T) to the body force, 0 where the viscosity is the same everywhere.

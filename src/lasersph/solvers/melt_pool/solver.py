@@ -286,9 +286,9 @@ class MeltPool:
     def _surface_step(self, position: Array, step: float) -> SurfaceStep:
         """What the surface reads of the particles in a step [s]."""
         names = ("temperature", "volume", "mass", "enthalpy", "evaporated_mass")
-        fields, flow = (self.particles[name] for name in names), self.flow
         times = (self.state.time, self.state.time + step)
-        return SurfaceStep(*fields, flow.fluidity, position, flow.velocity, self.kinds.fluid, times)
+        fields = (self.particles[name] for name in names)
+        return SurfaceStep(*fields, position, self.flow.velocity, self.kinds.fluid, times)
 
     def shift(self, step: float) -> None:
         """Displacements that keep the density of particles even (73)."""
