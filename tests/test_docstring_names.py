@@ -11,6 +11,7 @@ import importlib
 import io
 import re
 import tokenize
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -25,6 +26,7 @@ EXTERNAL = {"PyArrayObject_fields"}
 """Names of other programs, which no code here writes."""
 
 
+@cache
 def prose_and_words(text):
     """Docstrings and comments of a source text, and every word of its code."""
     doc_lines = set()
@@ -46,6 +48,7 @@ def prose_and_words(text):
     return prose, words
 
 
+@cache
 def known_words():
     """Words of the code, of case files and of materials."""
     words = set()
@@ -57,13 +60,15 @@ def known_words():
     return words
 
 
-WORDS = known_words()
-PATHS = {str(path.relative_to(ROOT)) for path in ROOT.rglob("*.*") if ".venv" not in path.parts}
+@cache
+def paths():
+    """Files of the repository."""
+    return {str(path.relative_to(ROOT)) for path in ROOT.rglob("*.*") if ".venv" not in path.parts}
 
 
 def is_file(name):
     """Whether a path names a file of the repository, in full or from a folder on."""
-    return any(path == name or path.endswith(f"/{name}") for path in PATHS)
+    return any(path == name or path.endswith(f"/{name}") for path in paths())
 
 
 def resolves(name):
@@ -95,9 +100,9 @@ def is_stale(name):
     if re.fullmatch(r"[\w./-]+\.(md|toml)", name) and "/" in name and first in ROOMS:
         return not is_file(name)
     if re.fullmatch(r"\w+(\.\w+)+", name) and first in {"lasersph", *ROOMS}:
-        return not resolves(name) and not set(name.split(".")) <= WORDS
+        return not resolves(name) and not set(name.split(".")) <= known_words()
     if re.fullmatch(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*", name, re.ASCII):
-        return not set(name.split(".")) <= WORDS
+        return not set(name.split(".")) <= known_words()
     return False
 
 

@@ -68,7 +68,7 @@ def test_old_words_are_gone(word):
     found = [
         f'{name}:{number}: write "{term}": {line.strip()}'
         for name, text in TEXTS.items()
-        if not (allowed and re.match(allowed, name))
+        if not (allowed and re.match(allowed, name)) and re.search(word, text, re.IGNORECASE)
         for number, line in enumerate(text.splitlines(), start=1)
         if re.search(word, line, re.IGNORECASE)
     ]
