@@ -319,7 +319,7 @@ class MovingSurface:
 
     def trouble(self) -> str:
         """Slope above 1, or too little liquid below; see `Surface`."""
-        return trouble_of(self.line, self.bottom, self.spacing)
+        return trouble_of(self.segments, self.bottom, self.spacing)
 
     def time_step_limits(self) -> dict[str, float]:
         """Capillary waves, and the viscous stress on the shortest of them [s]."""

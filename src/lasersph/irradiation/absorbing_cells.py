@@ -1,8 +1,9 @@
 """Beer and Lambert through particles that have moved, as pure functions of a grid of cells.
 
-Columns and rows of cells of one spacing lie below a flat surface. A particle is as large as a cell
-and covers up to four of them, by the shares c_ik of its area (sum over k: 1). A cell is as opaque
-as what lies in it, and takes of the light that enters its column
+Columns and rows of cells of one spacing lie below the surface. A particle is as wide as a cell and
+as high as its volume says, that of a cell where nothing has evaporated; it covers up to four of
+them, by parts c_ik of their area, which sum up to its volume over that of a cell. A cell is as
+opaque as what lies in it, and takes of the light that enters its column
 
     tau_k = alpha w sum_i c_ik,    s_k = exp(-sum of tau above) (1 - exp(-tau_k))
 
@@ -19,22 +20,25 @@ THIN = 1e-6
 """Optical thickness below which 1 - exp(-tau) is taken as tau - tau^2 / 2, exact to 1e-12."""
 
 
-def cell_at_corner(x, depth, low, inverse_x, inverse_z, right, lower, columns, levels):
-    """Cell at a corner of a particle's square, its column, and the share c of the square in it.
+def cell_at_corner(x, depth, size, low, inverse_x, inverse_z, right, lower, columns, levels):
+    """Cell at a corner of a particle's area, its column, and the part c of a cell that lies in it.
 
-    Squares that reach beyond an end or the surface count for the cells next to it. The number
-    behind the last one stands for what lies below all rows.
+    What reaches beyond an end or the surface counts for the cells next to it. The number behind
+    the last one stands for what lies below all rows.
 
     Args:
-        x: position [m]. depth: below the surface [m]. low: left end [m]. inverse_x, inverse_z:
+        x: position [m]. depth: below the surface [m]. size: volume over that of a cell, 1 for a
+            square. low: left end [m]. inverse_x, inverse_z:
             1 / width and 1 / height of a cell [1/m]. right, lower: 1 for the right column, the
             lower row. columns, levels: numbers of columns and rows.
     """
-    place, level = (x[0] - low) * inverse_x - 0.5, depth * inverse_z - 0.5
+    place, level = (x[0] - low) * inverse_x - 0.5, depth * inverse_z - 0.5 * size
     column, row = floor(place), floor(level)
     beyond_x, beyond_z = place - column, level - row
     share_x = beyond_x if right > 0.0 else 1.0 - beyond_x
-    share_z = beyond_z if lower > 0.0 else 1.0 - beyond_z
+    share_z = min(1.0 - beyond_z, size)
+    if lower > 0.0:
+        share_z = max(beyond_z + (size - 1.0), 0.0)
     c = int(min(max(column + right, 0.0), columns - 1.0))
     r = int(min(max(row + lower, 0.0), levels))
     if r >= levels:

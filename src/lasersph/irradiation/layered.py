@@ -55,6 +55,11 @@ def enter_column(F, T_s, area, R_T, R_R, beyond):
     return (1.0 - R) * F, R * F * area, (1.0 - R) * F * area * beyond
 
 
+def scale(V, factor):
+    """A number times a factor."""
+    return factor * V
+
+
 def absorb_light(share, column, columns):
     """Energy absorbed by a particle [J]: A_i s_i times the light that enters its column."""
     return share * columns[column]
@@ -126,6 +131,7 @@ class LayeredLight:
         self._levels, self._cells, self._tau_one = levels, columns * levels, alpha * size_z
         self._size_x = size_x
         self._numbers = backend.asarray(np.arange(self._cells), "index")
+        self._size = backend.asarray(np.ones(self._fine))
 
     def shine(self, start: float, end: float) -> None:
         """Fix the light of the step from `start` to `end` [s]; `incident` is its energy [J]."""
@@ -140,18 +146,30 @@ class LayeredLight:
         """Let the light meet particles on their lattice, as at the start."""
         self._surface = None
 
-    def follow(self, position: Array, depth: Array, surface: SurfaceColumns) -> None:
+    def follow(
+        self,
+        position: Array,
+        depth: Array,
+        surface: SurfaceColumns,
+        volume: Array | None = None,
+    ) -> None:
         """Let the light that `shine` fixed meet particles where they are now (2-D).
 
         Args:
             position: (2, n) [m]. depth: (n,) below the surface [m]. surface: the particles at it.
+            volume: (n,) [m^2], where it changes.
         """
         self._surface = surface
         if self.incident == 0.0 or self.alpha is None:
             return
         backend, fine, cells = self.backend, self._fine, self._cells
         # c_ik: cells of each particle, and how much of it lies in them
+        if volume is not None:
+            area = self._grid["inverse_x"] * self._grid["inverse_z"]
+            fields = {"V": backend.head(volume, fine)}
+            backend.pointwise(scale, fields, self._size, factor=area)
         fields = {"x": backend.head(position, fine), "depth": backend.head(depth, fine)}
+        fields["size"] = self._size
         corners, tau, part = [], backend.zeros(cells + 1), backend.zeros(cells)
         inner = backend.head(tau, cells)
         for right, lower in product((0.0, 1.0), repeat=2):

@@ -95,7 +95,9 @@ def test_what_lies_above_takes_the_light():
         tau = np.zeros(5)
         for depth in depths:
             for lower in (0.0, 1.0):
-                cell, _, cover = cell_at_corner((0.5, 0.0), depth, right=0.0, lower=lower, **grid)
+                cell, _, cover = cell_at_corner(
+                    (0.5, 0.0), depth, 1.0, right=0.0, lower=lower, **grid
+                )
                 tau[cell] += alpha * w * cover
         total, distance = tau[:4].copy(), 1
         while distance < 4:
@@ -114,8 +116,8 @@ def test_corners_by_hand():
     surface the next cell takes the part, and what lies below all cells is none of them."""
     grid = {"low": 0.0, "inverse_x": 1.0, "inverse_z": 1.0, "columns": 3.0, "levels": 2.0}
 
-    def corner(x, depth, right, lower):
-        return cell_at_corner((x, 0.0), depth, right=right, lower=lower, **grid)
+    def corner(x, depth, right, lower, size=1.0):
+        return cell_at_corner((x, 0.0), depth, size, right=right, lower=lower, **grid)
 
     assert corner(0.75, 0.75, 0.0, 0.0) == (0, 0, 0.5625)
     assert corner(0.75, 0.75, 1.0, 0.0) == (2, 1, 0.1875)
@@ -123,6 +125,10 @@ def test_corners_by_hand():
     assert corner(0.25, 0.25, 0.0, 0.0) == (0, 0, 0.0625)
     assert corner(2.75, 0.5, 1.0, 0.0) == (4, 2, 0.25)
     assert corner(0.5, 1.75, 0.0, 1.0) == (6, 0, 0.0)
+    # half as high, wholly in one row, or with a quarter of a cell in each of two
+    assert corner(0.5, 0.25, 0.0, 0.0, size=0.5) == (0, 0, 0.5)
+    assert corner(0.5, 1.0, 0.0, 0.0, size=0.5) == (0, 0, 0.25)
+    assert corner(0.5, 1.0, 0.0, 1.0, size=0.5) == (1, 0, 0.25)
 
 
 def test_reflectivity_follows_what_lies_at_the_surface():

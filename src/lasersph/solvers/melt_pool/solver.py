@@ -1,8 +1,7 @@
 """`MeltPool`: heat, melting and the incompressible flow of what is molten.
 
 `step()` is the algorithm of [Demuth2020, Section 4.3.1]. Predictor, pressure and correction use the
-advected positions (67), enthalpy, shift and adjustment the updated ones (71). Where nothing flows a
-step is that of `Conduction`.
+advected positions (67), enthalpy, shift and adjustment the updated ones (71). At rest it conducts.
 """
 
 from __future__ import annotations
@@ -43,9 +42,9 @@ def larger(a, b):
     return max(a, b)
 
 
-def lies_at_surface(depth, spacing):
-    """1 for a particle of the uppermost row, else 0."""
-    return 1.0 if depth < spacing else 0.0
+def lies_at_surface(depth, V, spacing):
+    """1 for a particle of the uppermost row, which is as high as its particles, else 0."""
+    return 1.0 if depth * spacing < V else 0.0
 
 
 class SurfaceTrouble(StepFailed):
@@ -276,12 +275,13 @@ class MeltPool:
             return
         self.domain.find_depth(self.position, self._depth)
         mark, columns = backend.zeros(self.body.count), self.surface_columns
-        fields = {"depth": self._depth}
+        fields = {"depth": self._depth, "V": self.particles["volume"]}
         backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
         stretch = self.domain.surface.stretch() if self.domain.surface else None
         columns.find(self.position, backend.rows_where(mark, 1.0), stretch)
         exchange.follow(columns)
-        light.follow(self.position, self._depth, columns)
+        volume = fields["V"] if self.domain.surface_moves else None
+        light.follow(self.position, self._depth, columns, volume)
 
     def _surface_step(self, position: Array, step: float) -> SurfaceStep:
         """What the surface reads of the particles in a step [s]."""
