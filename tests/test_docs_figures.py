@@ -1,6 +1,7 @@
 """Stored figures of the documentation: all are there, small and shown; stale ones are known."""
 
 import json
+import re
 import sys
 
 import draw_figures
@@ -26,6 +27,21 @@ def test_figure_is_stored_small_and_shown(name):
     texts = [page.read_text(encoding="utf-8") for page in PAGES]
     in_gallery = not name.startswith("methods-")
     assert in_gallery or any(f"images/{file.name}" in text for text in texts)
+
+
+def test_every_page_of_methods_shows_a_figure_of_our_own():
+    """One that is drawn by `draw_figures` or a benchmark, or recorded with a validation."""
+    docs = draw_figures.DOCS
+    scripts = "".join(file.read_text() for file in (docs.parent / "benchmarks").glob("*.py"))
+    drawn = {figure.path(draw_figures.IMAGES) for figure in REGISTRY.values()}
+    for page in set((docs / "methods").glob("*.md")) - {docs / "methods" / "index.md"}:
+        text = page.read_text(encoding="utf-8")
+        images = re.findall(r"\(([^()\s]+\.(?:png|svg|gif))\)", text)
+        files = [(page.parent / image).resolve() for image in images]
+        recorded = [one for one in files if docs / "validation" in one.parents and one.is_file()]
+        measured = [one for one in files if f"docs/images/{one.name}" in scripts]
+        of_run = re.search(r"`figures/[a-z-]+\.png` of this run", text)  # by a command above
+        assert recorded or measured or of_run or drawn & set(files), page.name
 
 
 def test_change_of_a_source_makes_a_figure_stale(tmp_path, monkeypatch):

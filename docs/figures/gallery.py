@@ -240,7 +240,10 @@ GALLERY = (
         "cavity-flow",
         "A box whose lid moves",
         "Speed and streamlines of a liquid that its lid drags along, at a Reynolds number of 100.",
-        ("lasersph run lid-driven-cavity --quick --out runs/cavity",),
+        (
+            "lasersph run lid-driven-cavity --set particles.spacing=31.25mm "
+            "--set time.end=15s --out runs/cavity",
+        ),
         "runs/cavity/figures/box-flow.png",
         _case("lid-driven-cavity"),
         f"{RECIPES}.melt_pool",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -48,7 +48,10 @@ class PlaneFlow:
         chosen = (x + half[0] > frame.left) & (x - half[0] < frame.right)
         chosen &= (z + half[1] > frame.bottom) & (z - half[1] < frame.top)
         cells = Cells(
-            self.cells.center[:, chosen], self.cells.size[:, chosen], self.cells.number[chosen]
+            self.cells.center[:, chosen],
+            self.cells.size[:, chosen],
+            self.cells.number[chosen],
+            self.cells.walls,
         )
         return PlaneFlow(self.time, self.step, cells, self.velocity[:, chosen])
 
@@ -124,6 +127,9 @@ def plane_flow(run: Run, time: float) -> PlaneFlow:
     step = run.snapshots.nearest(time)
     count = step["position"].shape[1]
     cells = Cells(step["position"], step["width"], np.arange(count))
+    if is_box(run) and not len(run.surface):  # its particles lay on a lattice at first
+        first = run.snapshots[0]
+        cells = replace(cells, walls=Cells(first["position"], first["width"], cells.number).frame)
     velocity = step.get("velocity", np.zeros(step["position"].shape))
     if run.symmetry_factor == 2:
         cells = cells.mirrored()

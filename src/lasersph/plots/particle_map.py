@@ -27,25 +27,31 @@ Snapshot = dict[str, Any]
 class Cells:
     """Cells of a plane section: x and z of their centers and their widths, (2, m) [m] each.
 
-    `number` says which particle each cell is, (m,).
+    `number` says which particle each cell is, (m,). `walls` are the edges of a closed box that the
+    cells fill, as of `frame`: no point inside it lies outside all cells, however they moved.
     """
 
     center: np.ndarray
     size: np.ndarray
     number: np.ndarray
+    walls: tuple[float, float, float, float] | None = None
 
     def mirrored(self) -> Cells:
         """The cells and their mirror images about x = 0."""
         image = self.center * np.array([[-1.0], [1.0]])
+        walls = None if self.walls is None else (-self.walls[1], *self.walls[1:])
         return Cells(
             np.concatenate([image, self.center], axis=1),
             np.tile(self.size, 2),
             np.tile(self.number, 2),
+            walls,
         )
 
     @property
     def frame(self) -> tuple[float, float, float, float]:
         """Left, right, bottom and top edge [m]."""
+        if self.walls is not None:
+            return self.walls
         low = np.min(self.center - 0.5 * self.size, axis=1)
         high = np.max(self.center + 0.5 * self.size, axis=1)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
@@ -77,6 +83,10 @@ class Cells:
 
     def covers(self, points: np.ndarray, cell: np.ndarray) -> np.ndarray:
         """Whether points (2, k) lie within the cells (k,) that are closest to them, (k,)."""
+        if self.walls is not None:
+            left, right, bottom, top = self.walls
+            x, z = points
+            return (x > left) & (x < right) & (z > bottom) & (z < top)
         far = np.abs(points - self.center[:, cell]) > OUTSIDE * self.size[:, cell]
         return ~far.any(axis=0)
 

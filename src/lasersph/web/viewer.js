@@ -37,6 +37,7 @@ export function mount(element, source, options = {}) {
     scene = readyScene();
   } catch (error) {
     part(".controls").hidden = true;
+    part(".stage").classList.add("is-empty");
     say("Particles cannot be drawn: this browser offers no WebGL 2.");
     const nothing = () => {};
     return { works: false, setFrame: nothing, setField: nothing, setLive: nothing, box: nothing, destroy: nothing };

@@ -5,6 +5,7 @@ export const CSS = `
 .viewer { container-type: inline-size; background: #161d29; color: #e8ecf2; border-radius: 10px; overflow: hidden; }
 .stage { position: relative; aspect-ratio: 16 / 9; min-height: 220px; max-height: 72vh; width: 100%;
   background: radial-gradient(ellipse at 50% 35%, #2b3648 0%, #161d29 75%); }
+.stage.is-empty { aspect-ratio: auto; min-height: 64px; }
 canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block;
   touch-action: none; cursor: grab; }
 canvas:active { cursor: grabbing; }

@@ -1,6 +1,7 @@
 """Figures of a flow: drawn from files alone, with units on their axes and the right numbers."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from lasersph.plots import (
 from lasersph.plots.flow_fields import plane_flow, raster
 from lasersph.plots.flow_history import center_line_figure, lines_of
 from lasersph.plots.flow_map import are_beside, box_flow_map, pool_flow_map
+from lasersph.plots.particle_map import Cells
 
 
 @pytest.fixture(scope="module")
@@ -156,6 +158,15 @@ def test_center_lines_of_the_last_snapshot(box):
     lines = lines_of(box, np.linspace(0.0, 1.0, 33))
     assert lines.u == pytest.approx(found["u_m_s"], abs=1e-4)
     assert lines.w == pytest.approx(found["w_m_s"], abs=1e-4)
+
+
+def test_picture_of_a_closed_box_has_no_gap(box):
+    """It ends at the walls, wherever the particles beside them went."""
+    cells, first = plane_flow(box, box.snapshots.times[-1]).cells, box.snapshots[0]
+    assert cells.frame == Cells(first["position"], first["width"], cells.number).frame
+    inward = replace(cells, center=0.8 * cells.center)
+    assert np.all(inward.picture() >= 0)
+    assert np.any(replace(inward, walls=None).picture(cells.frame) < 0)
 
 
 def test_panels_of_boxes(box):
