@@ -1,6 +1,7 @@
 """Every example, run with --quick, gives the numbers that its expected.toml states; the notebook
 of the documentation runs."""
 
+import json
 import re
 import tempfile
 import tomllib
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import matplotlib
 import matplotlib.pyplot
+import numpy as np
 import pytest
 
 import lasersph
@@ -66,15 +68,33 @@ def test_plans_beside_an_experiment(name, capsys):
     assert "refused" not in capsys.readouterr().out
 
 
-def test_texture_of_a_spot(capsys):
-    """The case has the fluence of its page at the center, and its cells are forecast."""
-    folder = ROOT / "examples" / "texture-of-a-spot"
-    assert main(["check", str(folder / "steel.toml")]) == 0
-    assert "0.601 J/cm^2, mean over a period" in capsys.readouterr().out
-    assert main(["texture", str(folder / "steel.toml"), "--cells", "16", "--dry-run"]) == 0
-    assert re.search(r"^runs +16$", capsys.readouterr().out, flags=re.MULTILINE)
-    assert (folder / "figure.png").exists()
-    assert (folder / "README.md").read_text(encoding="utf-8").startswith("# ")
+@pytest.mark.parametrize(("metal", "fluence"), [("steel", "0.601"), ("aluminium", "1.016")])
+def test_texture_of_a_spot(metal, fluence, capsys):
+    """The cases have the fluence of their page at the center, and their cells are forecast."""
+    case = ROOT / "examples" / "texture-of-a-spot" / f"{metal}.toml"
+    assert main(["check", str(case)]) == 0
+    assert f"{fluence} J/cm^2, mean over a period" in capsys.readouterr().out
+    assert main(["texture", str(case), "--cells", "12", "--dry-run"]) == 0
+    assert re.search(r"^runs +12$", capsys.readouterr().out, flags=re.MULTILINE)
+
+
+def test_texture_from_real_cells(tmp_path, capsys):
+    """Six coarse cells make the spot; its own profile has the fluence of the case."""
+    case, out = ROOT / "examples" / "texture-of-a-spot" / "steel.toml", tmp_path / "spot"
+    coarse = ("particles.spacing=120 nm", "time.step=1 ns", "time.end=70 ns")
+    settings = [word for one in coarse for word in ("--set", one)]
+    command = ["texture", str(case), "--cells", "6", "--pixel", "250nm", *settings]
+    assert main([*command, "--threads", "1", "--workers", "2", "--out", str(out)]) == 0
+    content = json.loads((out / "texture.json").read_text())
+    assert content["melt_depth_max_m"] == pytest.approx(266e-9, rel=0.15)  # of a cell at 16 nm
+    assert 5e-9 < content["depth_max_m"] < 60e-9
+    x, z = np.loadtxt(out / "profile.csv", delimiter=",", skiprows=1)[:, :2].T
+    rows = "".join(f"{1e6 * a:.6g},{1e9 * b:.6g}\n" for a, b in zip(x, z, strict=True))
+    (tmp_path / "line.csv").write_text("x [um],z [nm]\n" + rows)
+    assert main(["compare", str(out), str(tmp_path / "line.csv")]) == 0
+    found = json.loads((out / "compare-line" / "comparison.json").read_text())
+    assert found["unknowns"]["fluence_factor"]["value"] == pytest.approx(1.0, abs=0.01)
+    assert "deepest point" in capsys.readouterr().out
 
 
 def test_notebook_runs(tmp_path, monkeypatch):
