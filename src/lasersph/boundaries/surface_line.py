@@ -28,12 +28,14 @@ from copy import copy
 from dataclasses import dataclass
 from itertools import product
 from math import comb, pi, sqrt
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix, identity, vstack
-from scipy.sparse.linalg import SuperLU, splu
+
+if TYPE_CHECKING:  # SciPy's matrices take a tenth of a second to load, and few runs have a line
+    from scipy.sparse import csc_matrix
+    from scipy.sparse.linalg import SuperLU
 
 Array = NDArray[np.float64]
 End = Literal["mirror", "periodic", "pinned"]
@@ -109,6 +111,9 @@ class SurfaceLine:
         self._raised = self.smooth(np.ones(count), EVEN, 0.0)
 
     def _prepare(self, parity: float, passes_pins: bool) -> Smoothing:
+        from scipy.sparse import csc_matrix, identity, vstack
+        from scipy.sparse.linalg import splu
+
         order = PINNED_ORDER if "pinned" in self.ends else ORDER
         strength = (self.cutoff / (2.0 * pi * self.width)) ** order
         D = strength * differences(self.count, order, self.ends, parity)
@@ -233,6 +238,8 @@ def differences(count: int, order: int, ends: tuple[End, End], parity: float) ->
     The sum of their squares is that over the whole line, of which a plane of symmetry leaves half:
     a difference across it counts half.
     """
+    from scipy.sparse import csc_matrix
+
     binomial = [(-1) ** j * comb(order, j) for j in range(order + 1)]
     entries: list[tuple[int, int, float]] = []
     row = 0
