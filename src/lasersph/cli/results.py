@@ -60,15 +60,22 @@ def info(folder: RunFolder) -> None:
     light = [("light", words)] if words else []
     if found.is_complete:
         rows = summary_rows(found.summary, found.uncertainty)
-        print(text_table([rows[0], *light, *rows[1:], *_curves(found)]))
+        _print_tables([rows[0], *light, *rows[1:]], _curves(found))
         print(f"{folder}: complete")
         return
     times = [float(time) for time in found.history.get("time_s", ())]
     end = format_quantity(float(found.case["time"]["end"]), "s")
     now = format_quantity(times[-1] if times else 0.0, "s")
     known = [("case", found.case["title"]), *light, ("history", f"up to {now} of {end}")]
-    print(text_table([*known, *_curves(found)]))
+    _print_tables(known, _curves(found))
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
+
+
+def _print_tables(numbers: list[tuple[str, str]], curves: list[tuple[str, str]]) -> None:
+    """Numbers and curves, whose names are short: a column of their own keeps them on their line."""
+    print(text_table(numbers))
+    if curves:
+        print(text_table(curves))
 
 
 def _curves(run: Run) -> list[tuple[str, str]]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 BLOCKS, PLAIN = "▁▂▃▄▅▆▇█", "_.-:=+*#"
 """Heights of a curve from low to high, and where the output cannot show blocks."""
-CURVE_WIDTH = 48
+CURVE_WIDTH = 40
 """Characters of a curve: with its name and largest value it fits 80 columns."""
 
 

@@ -215,7 +215,10 @@ def test_run_and_what_follows(capsys):
     assert "complete" in text and "energy imbalance" in text
     names = {path.name for path in Path("out").iterdir()}
     assert names >= {"summary.json", "history.csv", "particles.vtkhdf", "report.html", "figures"}
-    assert "complete" in said(capsys, "info", "out")
+    shown = said(capsys, "info", "out")
+    curves = [line for line in shown.splitlines() if "over time" in line]
+    assert "complete" in shown and len(curves) == 2
+    assert max(map(len, curves)) <= 80  # columns of a terminal
     assert "report.html" in said(capsys, "report", "out")
     assert ".svg" in said(capsys, "plot", "out", "--kind", "svg")
     assert main(["plot", "out", "--animate"]) == 1
