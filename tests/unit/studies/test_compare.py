@@ -18,7 +18,7 @@ from lasersph.output.particle_file import ParticleFile
 from lasersph.studies.texture import compare as comparing
 from lasersph.studies.texture import relief
 from lasersph.studies.texture.compare import compare
-from lasersph.studies.texture.measurement import NoComparison
+from lasersph.studies.texture.measurement import NoComparison, refuse_odd
 from lasersph.studies.texture.relief import Relief, read_relief
 
 NM, UM = 1e-9, 1e-6
@@ -98,6 +98,12 @@ def test_refused(ours, surface, message):
     """Each is one line."""
     with pytest.raises(NoComparison, match=message):
         compare(ours, surface)
+
+
+def test_two_hills_a_line():
+    """A profile whose strongest wave is the second or third of a period is of that period."""
+    for wave in (2, 3):
+        refuse_odd(odd(period=PERIOD / wave), PERIOD)
 
 
 def test_command(ours, tmp_path, capsys, monkeypatch):

@@ -10,6 +10,9 @@ from lasersph.output.height_map import HeightMap
 Array = NDArray[np.float64]
 MOST_POINTS = 40_000
 """Of a measured map that are compared; of finer ones every n-th in both directions."""
+PERIOD_LIMIT, SCALE_LIMIT, OVERTONES = 0.2, 0.05, (2, 3)
+"""How far a measured period may be off: of coarse measurements, and by a microscope's lateral scale
+alone, which tells overtones of our period from other ones."""
 FEWEST_POINTS = 8
 """Of a measurement in a period: fewer do not show its shape."""
 
@@ -71,7 +74,10 @@ def refuse_odd(surface: HeightMap, period: float) -> None:
     if not np.nanmax(np.abs(z)) > 0.0:
         raise NoComparison("all measured heights are the same")
     measured = dominant_period(surface)
-    if measured is not None and abs(measured / period - 1.0) > 0.2:
+    waves = 1.0 if measured is None else period / measured
+    # two hills a line make its second or third wave the strongest one
+    is_overtone = round(waves) in OVERTONES and abs(waves / round(waves) - 1.0) < SCALE_LIMIT
+    if abs(1.0 / waves - 1.0) > PERIOD_LIMIT and not is_overtone:
         raise NoComparison(
             f"the measured period of {1e6 * measured:.4g} um does not fit ours of "
             f"{1e6 * period:.4g} um"
