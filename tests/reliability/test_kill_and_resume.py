@@ -130,7 +130,10 @@ def test_second_process_is_refused(tmp_path):
 def test_folder_taken_over(tmp_path):
     """A run whose folder another machine took over while it slept writes nothing more."""
     folder = tmp_path / "run"
-    done = []
+    done, written = [], {}
+
+    def files():
+        return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
     def take_over():
         done.append(1)
@@ -138,13 +141,12 @@ def test_folder_taken_over(tmp_path):
             (folder / ".lock").unlink()
             owner = {"process": 7, "host": "node7", "since": "now", "machine": "another"}
             (folder / ".lock").write_text(json.dumps(owner))
+            written.update(files())
         return False
 
     with pytest.raises(OutputError, match="was taken over by process 7 on node7"):
         run(small_case(), folder, threads=2, should_stop=take_over)
-    assert len(done) == 3
-    assert not (folder / "checkpoint").exists()
-    assert not (folder / "history.csv").exists()
+    assert len(done) == 3 and files() == written
 
 
 def test_no_lock_is_left(reference):
