@@ -85,7 +85,8 @@ def first(folder: Path, runs: int, particles: int) -> None:
             expect(page.locator(".card")).to_have_count(runs, timeout=60_000)
             page.get_by_role("link", name=f"run-{runs // 2:03d}").click()
             expect(page.locator(".scene .scale")).to_be_visible(timeout=60_000)
-            found = page.evaluate("moments")
+            while "drawn" not in (found := page.evaluate("moments")):
+                page.wait_for_timeout(50)  # until the next frame notes it
             listed, drawn = found["listed"], found["drawn"] - found["clicked"]
             print(
                 f"{visit}, {runs} runs: list after {listed / 1e3:.2f} s, particles "
