@@ -43,8 +43,8 @@ def larger(a, b):
 
 
 def lies_at_surface(depth, V, spacing):
-    """1 for a particle of the uppermost row, which is as high as its particles, else 0."""
-    return 1.0 if depth * spacing < V else 0.0
+    """1 for a particle of the uppermost row, as high as it is and at most one spacing, else 0."""
+    return 1.0 if depth * spacing < min(V, spacing * spacing) else 0.0
 
 
 class SurfaceTrouble(StepFailed):

@@ -22,6 +22,7 @@ from lasersph.case import load_case
 from lasersph.compute.search import EscapedParticle
 from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.flow_terms import settle
+from lasersph.solvers.melt_pool.solver import lies_at_surface
 from lasersph.solvers.step_control import RETRIES, NotConverged
 
 LIFE = 45
@@ -54,6 +55,15 @@ def restored(state):
     solver = small_pool()
     solver.restore(*state)
     return solver
+
+
+def test_uppermost_row_by_hand():
+    """Squares of 2 x 2, thinner ones that have evaporated, and coarse ones far below."""
+    assert lies_at_surface(1.0, 4.0, 2.0) == 1.0
+    assert lies_at_surface(3.0, 4.0, 2.0) == 0.0
+    assert lies_at_surface(0.5, 2.0, 2.0) == 1.0
+    assert lies_at_surface(1.5, 2.0, 2.0) == 0.0
+    assert lies_at_surface(30.0, 100.0, 2.0) == 0.0
 
 
 def failing(solver, name, error, times):
