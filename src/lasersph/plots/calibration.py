@@ -66,9 +66,15 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], units: dict[str, str]) ->
     number = data[0]["number"]
     unit = style.fitting_unit(data[0]["unit"], float(np.max(np.abs(value))))
     f, band = unit.factor, np.hypot(emulated, numerical)
-    axes.fill_between(x, f * (mean - band), f * (mean + band), color=style.COLORS[0], alpha=0.25,
-                      linewidth=0.0, label="model and its error")  # fmt: skip
-    axes.plot(x, f * mean, color=style.COLORS[0], linewidth=1.2)
+    words = "model and its error"
+    if len(x) == 1:  # a mark beside the measured one
+        axes.errorbar(x + 0.2, f * mean, f * band, fmt="s", color=style.COLORS[0], markersize=4,
+                      capsize=3, label=words)  # fmt: skip
+        axes.set(xlim=(x[0] - 0.5, x[0] + 0.7), xticks=x)
+    else:
+        axes.fill_between(x, f * (mean - band), f * (mean + band), color=style.COLORS[0],
+                          alpha=0.25, linewidth=0.0, label=words)  # fmt: skip
+        axes.plot(x, f * mean, color=style.COLORS[0], linewidth=1.2)
     axes.errorbar(x, f * value, f * error, fmt="o", color=style.COLORS[1], markersize=4,
                   capsize=3, label="measured")  # fmt: skip
     name = "measurement"

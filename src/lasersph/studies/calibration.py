@@ -67,10 +67,10 @@ class Calibration:
     @property
     def chi_squared(self) -> tuple[float, int, float]:
         """chi^2 of the data at the most probable unknowns, degrees of freedom, and how probable so
-        large a value is (1 where there are no degrees of freedom)."""
+        large a value is: with none left, where only bounds keep it from 0, as if there were one."""
         total = float(np.sum(self.pulls**2))
         freedom = len(self.model.data) - sum(one.known is None for one in self.plan.unknowns)
-        return total, freedom, float(gammaincc(0.5 * freedom, 0.5 * total)) if freedom > 0 else 1.0
+        return total, freedom, float(gammaincc(0.5 * max(freedom, 1), 0.5 * total))
 
     @property
     def pulls(self) -> Array:

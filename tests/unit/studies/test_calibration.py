@@ -155,6 +155,18 @@ def test_data_that_the_model_does_not_describe(tmp_path):
     assert "melt.width_half_max_m of measurement 3" in warning
 
 
+def test_one_number_beyond_the_bounds(tmp_path):
+    """One unknown fits one number, but for its bounds: that they keep it from it is said."""
+    text = plan_of(tmp_path, [FACTOR]).text.split("[[measured]]")[0] + (
+        '[[measured]]\nset = { "laser.fluence" = "0.45 J/cm^2" }\n'
+        'values = { "melt.depth_max_m" = "2000 +- 12 nm" }\n[runs]\nfirst = 5\nmost = 8\n'
+    )
+    (tmp_path / "plan.toml").write_text(text)
+    found = calibrate_with(read_calibration_plan(tmp_path / "plan.toml"), runs_of)
+    assert found.chi_squared[1] == 0
+    assert any("does not describe these data" in one for one in found.warnings())
+
+
 def test_an_answer_at_a_bound_is_said(tmp_path):
     """The hidden factor lies beyond the range."""
     plan = plan_of(tmp_path, [FACTOR.replace("1.6", "1.09")])
