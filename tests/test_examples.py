@@ -59,10 +59,10 @@ def test_plan_of_a_process_map(capsys):
     assert plan.with_name("README.md").read_text(encoding="utf-8").startswith("# ")
 
 
-@pytest.mark.parametrize("name", ["plan", "sensitivity", "sulfur"])
+@pytest.mark.parametrize("name", ["plan", "aluminium", "sensitivity", "viscosity", "sulfur"])
 def test_plans_beside_an_experiment(name, capsys):
-    """Calibration and sweeps of the texture of steel are forecast: every point is a case."""
-    verb = "calibrate" if name == "plan" else "sweep"
+    """Calibrations and sweeps of textures are forecast: every point is a case."""
+    verb = "calibrate" if name in ("plan", "aluminium") else "sweep"
     plan = ROOT / "examples" / "texture-experiment" / f"{name}.toml"
     assert main([verb, str(plan), "--dry-run"]) == 0
     assert "refused" not in capsys.readouterr().out
