@@ -1,5 +1,6 @@
 """The texture of steel beside an experiment, from the runs of the example's calibration."""
 
+import json
 import tomllib
 from pathlib import Path
 
@@ -11,8 +12,6 @@ from lasersph.studies.measured_value import read_measured
 from lasersph.validation.drawing import Panel, draw, line, marks
 
 FOLDER = Path(__file__).parents[2] / "examples" / "texture-experiment"
-FACTOR, LOW, HIGH = 1.397, 1.268, 1.529
-"""The answer of the calibration and its 95 % interval."""
 
 
 def draw_experiment(target: Path) -> None:
@@ -20,6 +19,8 @@ def draw_experiment(target: Path) -> None:
     runs = np.genfromtxt(FOLDER / "runs.csv", delimiter=",", names=True)
     plan = tomllib.loads((FOLDER / "plan.toml").read_text(encoding="utf-8"))
     values = plan["measured"][0]["values"]
+    answer = json.loads((FOLDER / "calibration.json").read_text(encoding="utf-8"))
+    factor = answer["unknowns"]["factor"]
     sizes = (
         ("melt_width_m", "melt.width_half_max_m", "width of the melt [µm]", 1e6),
         ("depth_m", "topography.depth_m", "depth of the relief [nm]", 1e9),
@@ -33,8 +34,9 @@ def draw_experiment(target: Path) -> None:
         measured = read_measured(values[number], "length")
         low, high = (scale * (measured.value + sign * measured.sd) for sign in (-1.0, 1.0))
         axes.axhspan(low, high, color=style.COLORS[1], alpha=0.25, lw=0.0, label="measured")
-        axes.axvspan(LOW, HIGH, color=style.GRAY, alpha=0.2, lw=0.0, label="factor, 95 %")
-        axes.axvline(FACTOR, color=style.GRAY, lw=1.0)
+        interval = factor["low_95"], factor["high_95"]
+        axes.axvspan(*interval, color=style.GRAY, alpha=0.2, lw=0.0, label="factor, 95 %")
+        axes.axvline(factor["mean"], color=style.GRAY, lw=1.0)
     style.legend(figure.axes[1])
     store_figure(figure, target)
 
@@ -44,6 +46,7 @@ EXPERIMENT = StoredFigure(
     draw_experiment,
     (
         "docs/figures/experiment.py",
+        "examples/texture-experiment/calibration.json",
         "examples/texture-experiment/plan.toml",
         "examples/texture-experiment/runs.csv",
     ),

@@ -53,7 +53,7 @@ details.subject { border: 1px solid #e2e7ec; border-radius: 6px; margin: .5rem 0
   padding: .55rem 1rem; }
 details.subject > summary { font-weight: 600; }
 @page { margin: 16mm 15mm; }
-@media print { body { background: #fff; font-size: 10.5pt; } 
+@media print { body { background: #fff; font-size: 10.5pt; }
   nav, #viewer, figure:has([src^="data:image/gif"]) { display: none; }
   main { box-shadow: none; padding: 0; max-width: none; }
   h2, summary, tr:has(th) { break-after: avoid; } figure, tr, .numbers, p { break-inside: avoid; }
