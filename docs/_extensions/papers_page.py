@@ -3,6 +3,7 @@
 import tomllib
 from collections import Counter
 from collections.abc import Mapping
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +14,11 @@ TITLES = {
     "texturing": "Demuth & Lasagni 2020: interference patterning of steel and aluminum",
 }
 HEAD = ("number", "paper", "ours", "verdict")
-REPRODUCED, DIFFERS, NOT_MET, OWN, MISSING = (
+REPRODUCED, DIFFERS, NOT_MET, NOT_GIVEN, OWN, MISSING = (
     "reproduced",
     "differs",
     "**not met**",
+    "not given",
     "own",
     "missing",
 )
@@ -56,13 +58,32 @@ def papers_page(papers: Mapping[str, list[Part]], states: Mapping[str, State]) -
         counts = Counter(
             verdict(entry, states[part["validation"]])[0]
             for part in parts
-            for entry in part.get("rows", ())
+            for entry in entries(part, states)
         )
-        counts["not given"] = sum("missing" in part for part in parts)
+        counts[NOT_GIVEN] += sum("missing" in part for part in parts)
         said = ", ".join(f"{count} {word}" for word, count in counts.items())
         texts += [f"## {title}", f"Numbers: {said}."]
         texts += [text for part in parts for text in section(part, states)]
     return "\n\n".join(texts) + "\n"
+
+
+def entries(part: Part, states: Mapping[str, State]) -> list[dict[str, str]]:
+    """Entries of a part; one with `all` stands for every row whose name has these words.
+
+    Rows that an entry names by itself, and rows that judge nothing for themselves, are left out.
+    """
+    given = part.get("rows", ())
+    state = states[part["validation"]] if given else None
+    rows = state.record["rows"] if state and state.record else []
+    named = [row_named(state, entry["row"]) for entry in given if "row" in entry]
+    found = []
+    for entry in given:
+        if "row" in entry:
+            found.append(entry)
+            continue
+        more = [row for row in rows if entry["all"] in row["quantity"] and not row["own"]]
+        found += [entry | {"row": row["quantity"]} for row in more if row not in named]
+    return found
 
 
 def section(part: Part, states: Mapping[str, State]) -> list[str]:
@@ -76,10 +97,15 @@ def section(part: Part, states: Mapping[str, State]) -> list[str]:
         alt = plain(part["where"])
         texts += [f"![{alt}](validation/{state.name}/{file})" for file in files if file in drawn]
     if part.get("rows"):
-        texts.append(table(HEAD, [cells(entry, state) for entry in part["rows"]]))
+        texts.append(table(HEAD, [cells(entry, state) for entry in entries(part, states)]))
     if part.get("missing"):
-        texts.append(f"*Not given by the paper*: {plain(part['missing'])}.")
+        texts.append(f"*Not given by the paper*: {prose(part['missing'])}.")
     return texts
+
+
+def prose(text: str) -> str:
+    """Plain text, but for code between backticks."""
+    return plain(text).replace("\\`", "`")
 
 
 def cells(entry: Mapping[str, str], state: State | None) -> tuple[str, ...]:
@@ -88,15 +114,17 @@ def cells(entry: Mapping[str, str], state: State | None) -> tuple[str, ...]:
     if row is None:
         return plain(entry["row"]), "", "", words
     unit = f" [{row['unit']}]" if row["unit"] not in ("", "1", "SI") else ""
-    paper = row["reference"] if row["published"] is None else row["published"]
-    return plain(row["quantity"] + unit), number(paper), number(row["computed"]), words
+    paper = plain(entry["paper"]) if "paper" in entry else number(row["published"])
+    return plain(row["quantity"] + unit), paper, number(row["computed"]), words
 
 
 def verdict(entry: Mapping[str, str], state: State | None) -> tuple[str, str]:
     """The verdict on a row, and its reason: its band, or `because` and `by` of docs/papers.toml.
 
+    A number for which the paper prints nothing is not reproduced, however near another reference.
+
     Raises:
-        ValueError: a row that is not judged, without `because`.
+        ValueError: a row that is not judged and does not agree, without `because`.
     """
     row = row_named(state, entry["row"])
     if row is None:
@@ -107,11 +135,24 @@ def verdict(entry: Mapping[str, str], state: State | None) -> tuple[str, str]:
     if "because" in entry and row["verdict"] is not False:
         other = row_named(state, entry["by"]) if "by" in entry else None
         shown = f" ({other['quantity']}: {number(other['computed'])})" if other else ""
-        word = REPRODUCED if row["computed"] == "holds" else DIFFERS
-        return word, plain(entry["because"] + shown)
+        return REPRODUCED if agrees(row) else DIFFERS, prose(entry["because"] + shown)
+    if row["verdict"] is None and agrees(row):
+        return REPRODUCED, "a statement"
     if row["verdict"] is None:
         raise ValueError(f"{row['quantity']!r} is not judged: say why it differs")
     unit = "" if row["unit"] in ("", "1", "SI") else f" {row['unit']}"
     band = "" if row["tolerance"] is None else f"within {row['tolerance']:.3g}{unit}"
     reasons = "; ".join(filter(None, (band, row["reason"], entry.get("because"))))
-    return REPRODUCED if row["verdict"] else NOT_MET, plain(reasons + changed)
+    if row["verdict"] and row["published"] is None and "paper" not in entry:
+        reasons = f"reference {number(row['reference'])} ({row['source']}); {reasons}"
+        return NOT_GIVEN, prose(reasons + changed)
+    return REPRODUCED if row["verdict"] else NOT_MET, prose(reasons + changed)
+
+
+def agrees(row: Row) -> bool:
+    """Whether a statement holds, or a number is the printed one in the digits that are printed."""
+    found, printed = row["computed"], row["published"]
+    if found == "holds" or not isinstance(printed, float):
+        return found == "holds"
+    exponent = Decimal(repr(printed)).as_tuple().exponent
+    return isinstance(exponent, int) and round(found, -exponent) == printed

@@ -14,7 +14,9 @@ DOCS = Path(__file__).resolve().parents[3] / "docs"
 sys.path.insert(0, str(DOCS / "_extensions"))
 from papers_page import (  # noqa: E402  (the folder is no package)
     MISSING,
+    NOT_GIVEN,
     NOT_MET,
+    entries,
     papers_page,
     read_papers,
     row_named,
@@ -39,8 +41,9 @@ def test_every_number_is_recorded(part):
     if "validation" not in part or recorded(part["validation"]).is_out_of_date:
         return
     state = recorded(part["validation"])
-    for entry in part.get("rows", ()):
-        assert entry.keys() <= {"row", "because", "by"}
+    assert all(entry.keys() & {"row", "all"} for entry in part.get("rows", ()))
+    for entry in entries(part, {state.name: state}):
+        assert entry.keys() <= {"row", "all", "because", "by", "paper"}
         for key in ("row", "by"):
             if key in entry:
                 assert row_named(state, entry[key]), entry[key]
@@ -71,7 +74,7 @@ def row(**keys):
     """A judged row that is met."""
     usual = {"quantity": "T", "unit": "K", "published": 3.0, "reference": 3.0, "computed": 3.1}
     more = {"tolerance": 0.5, "verdict": True, "own": False, "reason": "a digit", "changed": ""}
-    return usual | more | keys
+    return usual | more | {"source": "exact"} | keys
 
 
 def state(*rows):
@@ -93,8 +96,31 @@ def test_verdicts():
     explained = entry | {"because": "no heat", "by": "as measured"}
     assert verdict(explained, shown) == ("differs", "no heat (as measured: 5)")
     assert verdict(explained, state(row(verdict=False)))[0] == NOT_MET
+    held = state(row(verdict=None, computed="holds", published="claimed"))
+    assert verdict(entry, held) == ("reproduced", "a statement")
     with pytest.raises(ValueError, match="2 rows begin"):
         verdict({"row": "T"}, state(row(quantity="T1"), row(quantity="T2")))
+
+
+def test_what_the_paper_does_not_print_is_not_reproduced():
+    """Another reference is no number of the paper, whose own may stand in docs/papers.toml."""
+    beside = state(row(published=None))
+    assert verdict({"row": "T"}, beside)[0] == NOT_GIVEN
+    assert verdict({"row": "T"}, state(row(published=None, verdict=False)))[0] == NOT_MET
+    assert verdict({"row": "T", "paper": "Table 1"}, beside)[0] == "reproduced"
+    entry = {"row": "T", "because": "an input"}
+    for computed, word in ((3.04, "reproduced"), (3.06, "differs")):
+        assert verdict(entry, state(row(verdict=None, computed=computed)))[0] == word
+
+
+def test_one_entry_stands_for_many_rows():
+    """Those that have its words, but for those named by themselves and those that judge nothing."""
+    names = ("solidus, Table 3", "liquidus, Table 3", "L, Table 4", "density, Table 3")
+    rows = [row(quantity=name) for name in names]
+    found = state(*rows, row(quantity="fitted, Table 3", own=True))
+    part = {"validation": "stefan", "rows": [{"all": ", Table 3"}, {"row": "density, Table 3"}]}
+    listed = [entry["row"] for entry in entries(part, {"stefan": found})]
+    assert listed == ["solidus, Table 3", "liquidus, Table 3", "density, Table 3"]
 
 
 def test_page():
