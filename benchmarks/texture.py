@@ -27,13 +27,12 @@ from lasersph.cli import main
 from lasersph.output import open_run
 from lasersph.output.height_map import HeightMap
 from lasersph.plots import style
-from lasersph.studies.calibration import MakeRuns, Numbers, Settings, calibrate_with
-from lasersph.studies.calibration_profile import PLACES
+from lasersph.studies.calibration import MakeReliefs, Settings, calibrate_with
 from lasersph.studies.calibration_reading import read_calibration_plan
-from lasersph.studies.texture.cells import read_cell
+from lasersph.studies.texture.cells import Cell, read_cell
 from lasersph.studies.texture.compare import compare
 from lasersph.studies.texture.make import read_table
-from lasersph.studies.texture.relief import Relief, read_relief
+from lasersph.studies.texture.relief import Relief, read_relief, repeating_relief
 from lasersph.studies.texture.table import CellTable
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
@@ -46,7 +45,7 @@ STEEL = (
 )
 PERIOD_UM = 5
 SPOT = 'laser.spot={diameter="%g um", definition="1/e^2", extent="%s"}'
-SEEDS, NOISE = 20, 5e-9
+SEEDS, NOISE, PLACES = 20, 5e-9, 256
 CASE_SHARE = 0.75
 """Fluence of the lines over that of the highest cell: 1.3 times it is inside."""
 PLAN = """case = "dlip-steel"
@@ -163,7 +162,11 @@ def recover(folder: str | None = None) -> int:
             measured(lines, factor, random).write(Path(place) / "line.csv")
             plan = Path(place) / "plan.toml"
             plan.write_text(PLAN.format(fluence=middle, period=1e6 * period))
-            answer = calibrate_with(read_calibration_plan(plan), heights_from(cells))
+            answer = calibrate_with(
+                read_calibration_plan(plan),
+                lambda settings: [{} for _ in settings],
+                reliefs=reliefs_from(cells),
+            )
         low, high = answer.posterior.quantiles(answer.posterior.unknowns[:, 0], (0.025, 0.975))
         found["calibrate"] += low <= factor <= high
         print(f"{words}  calibrate {low:.4f} to {high:.4f}, {len(answer.settings)} runs")
@@ -182,13 +185,16 @@ def measured(ours: Relief, factor: float, random: np.random.Generator) -> Height
     return HeightMap(places - places[0], np.zeros(1), z[None])
 
 
-def heights_from(cells: CellTable) -> MakeRuns:
-    """Makes runs of lines from a table of cells."""
-    places = (np.arange(PLACES) + 0.5) * cells.period / PLACES
+def reliefs_from(cells: CellTable) -> MakeReliefs:
+    """Makes reliefs of lines from a table of cells."""
+    places = cells.period * (np.arange(PLACES) + 0.5) / PLACES
 
-    def make(settings: Sequence[Settings]) -> list[Numbers]:
-        heights = [cells.at("height", one["laser.fluence"], places) for one in settings]
-        return [{f"relief.{k}": float(z) for k, z in enumerate(one)} for one in heights]
+    def make(settings: Sequence[Settings]) -> list[Relief]:
+        found = []
+        for one in settings:
+            height = cells.at("height", one["laser.fluence"], places)
+            found.append(repeating_relief(Cell(places, {"height": height}, True), cells.period))
+        return found
 
     return make
 

@@ -151,16 +151,22 @@ def _stopped(
 def _forecast_calibration(plan: CalibrationPlan, engine: EngineOptions) -> None:
     from lasersph.studies.calibration import first_settings
 
-    points = [plan.template.point(dict(one)) for one in first_settings(plan)]
-    (name, count), times = forecast_rows(points, engine, plan.runs.most)
+    settings, most, spot = first_settings(plan), plan.runs.most, plan.spot
+    points = [plan.template.point(dict(one)) for one in settings]
+    if spot is not None:
+        cells = {point.hash: point for one in settings for point in spot.points(one)}
+        points = list(cells.values())
+        most *= spot.count if len(spot.cell_units) > 1 else 0
+    (name, count), times = forecast_rows(points, engine, most)
     rows = zip(plan.keys, plan.units.values(), *plan.box(), strict=True)
     print(
         text_table(
             [
                 ("unknown", ", ".join(one.name for one in plan.unknowns)),
                 ("measured values", str(sum(len(one.values) for one in plan.conditions))),
+                ("profiles", str(sum(one.profile is not None for one in plan.conditions))),
                 *((key, f"{low:.6g} to {high:.6g} {unit}") for key, unit, low, high in rows),
-                (name, count + ", and two checks" * plan.runs.check),
+                ("cells" if spot else name, count + ", and two checks" * plan.runs.check),
                 *times,
             ]
         )

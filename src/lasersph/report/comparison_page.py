@@ -13,6 +13,7 @@ from lasersph.report.page import figure, heading, page, paragraph, table
 WORDS = {
     "shift_x_m": ("shift along x", "m"),
     "shift_y_m": ("shift along y", "m"),
+    "rotation_rad": ("angle of the measurement to the lines", "rad"),
     "lateral_scale": ("lateral scale of the measurement", ""),
     "fluence_factor": ("factor on the local fluence", ""),
 }

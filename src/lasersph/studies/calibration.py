@@ -23,6 +23,7 @@ from lasersph.studies.calibration_profile import ProfileFit, reduce_profiles
 from lasersph.studies.emulator import Emulator, box_of, fit_emulator
 from lasersph.studies.identifiability import Combination, find_combinations
 from lasersph.studies.posterior import Model, Posterior, find_posterior
+from lasersph.studies.texture.relief import Relief
 from lasersph.sweeps.sampling import DIGITS, Choices, Range, sobol
 
 Array = NDArray[np.float64]
@@ -31,6 +32,8 @@ Numbers = Mapping[str, float]
 MakeRuns = Callable[[Sequence[Settings]], Sequence[Numbers | None]]
 """Makes runs with these settings (SI, by key) exist: the numbers of their summaries, None of those
 that fail. It is called with all runs again each time, the new ones last."""
+MakeReliefs = Callable[[Sequence[Settings]], Sequence[Relief | None]]
+"""The reliefs of the same runs, where profiles are measured; called after `MakeRuns`."""
 GOOD_ENOUGH = 0.3
 """Standard deviation of the emulator over the measured one from which runs add nothing: it widens
 a band by 1 - sqrt(1 + 0.09), 4 %."""
@@ -147,12 +150,16 @@ class Calibration:
 
 
 def calibrate_with(
-    plan: CalibrationPlan, make: MakeRuns, report: Callable[[str], None] = lambda line: None
+    plan: CalibrationPlan,
+    make: MakeRuns,
+    report: Callable[[str], None] = lambda line: None,
+    reliefs: MakeReliefs = lambda settings: [],
 ) -> Calibration:
     """Calibrate with any maker of runs.
 
     Args:
-        make: see `MakeRuns`. report: called with a line after each look at the data.
+        make, reliefs: see `MakeRuns`, `MakeReliefs`. report: called with a line after each look at
+            the data.
 
     Raises:
         NoCalibration: too few runs give the measured numbers. OutputError: scikit-learn, or emcee
@@ -160,7 +167,7 @@ def calibrate_with(
     """
     settings = first_settings(plan)
     while True:
-        reduced, numbers, profiles = reduce_profiles(plan, make(settings))
+        reduced, numbers, profiles = reduce_profiles(plan, make(settings), reliefs(settings))
         model = emulate(reduced, settings, numbers)
         posterior = find_posterior(model, plan.runs.seed)
         ratio, wanted = _next_runs(model, posterior)

@@ -156,7 +156,10 @@ def answer_lines(content: dict[str, Any]) -> list[str]:
         f"{fit['probability']:.2g}), {content['runs']} runs"
     )
     lines += [f"warning: {text}" for text in content["warnings"]]
-    for one in content.get("check", {}).get("numbers", []):
+    check = content.get("check", {"failed": "", "numbers": []})
+    if check["failed"]:
+        lines.append(f"check: the run of {check['failed']} failed")
+    for one in check["numbers"]:
         text = f"check: {one['number']} {one['run']:.5g}, emulated {one['emulated']:.5g}"
         if one["shift_at_half_spacing"] is not None:
             text += f"; half the spacing shifts it by {one['shift_at_half_spacing']:.2g}"

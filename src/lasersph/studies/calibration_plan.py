@@ -13,10 +13,13 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
+from lasersph.studies.calibration_spot import SpotCells
 from lasersph.studies.calibration_target import ProfileTarget
 from lasersph.studies.measured_value import Measured
 from lasersph.studies.run_budget import RunBudget
+from lasersph.studies.texture.make import FEWEST, USUAL
 from lasersph.sweeps import CaseTemplate, Study
 
 Array = NDArray[np.float64]
@@ -29,9 +32,10 @@ class NoCalibration(ValueError):
 
 class CalibrationBudget(RunBudget):
     """How many runs a calibration may take: of the design, and whether the best point is run as
-    well, also at half the spacing."""
+    well, also at half the spacing; of how many cells a spot is assembled."""
 
     check: bool = True
+    cells: int = Field(default=USUAL, ge=FEWEST, strict=True)
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,7 @@ class CalibrationPlan:
     Attributes:
         text: the file as given. template: the case with what all runs have in common.
         units: SI unit of each key that varies from run to run.
+        spot: cells of which the measured spots are assembled; None where none is measured.
     """
 
     text: str
@@ -78,6 +83,7 @@ class CalibrationPlan:
     conditions: tuple[Condition, ...]
     units: Mapping[str, str]
     runs: CalibrationBudget
+    spot: SpotCells | None = None
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -87,6 +93,9 @@ class CalibrationPlan:
     @property
     def study(self) -> Study:
         """What a folder must belong to for this plan to go on in it."""
+        if self.spot is not None:
+            cells = self.spot
+            return Study.of("calibration", cells.cell_template, cells.cell_units, self.text)
         return Study.of("calibration", self.template, self.units, self.text)
 
     @property

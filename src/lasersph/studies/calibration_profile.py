@@ -1,19 +1,21 @@
-"""A measured profile as the target of a calibration: a few numbers that no alignment changes.
+"""A measured profile or map as the target of a calibration: numbers that no alignment changes.
 
-    z = a + b x + c y + h((x - x_0)/s; keys) + noise of standard error sigma
+    z = a + b x + c y + h((x - x_0)/s, (y - y_0)/s; keys) + noise of standard error sigma
 
-h repeats, that of a run of one period. The measurement is aligned with the run that it fits best
-(`texture.compare`). About that place everything is linear: a, b, c, x_0 are taken out of measured
-and computed heights by projection, and so is s as far as it is not known beforehand. Of what is
-left of the computed heights, at the measured points, principal components u_k over the runs
-[Jolliffe2016] give the numbers of a profile,
+h repeats, that of a run of one period, or it is that of a spot, assembled from cells
+(`calibration_spot`). The measurement is aligned with the relief that it fits best, of a spot at any
+factor on the fluence (`texture.compare`). About that place everything is linear: a, b, c, x_0, of
+a map its angle, and y_0 of a spot are taken out of measured and computed heights by projection, and
+so is s as far as it is not known beforehand. Of what is left of the computed heights, at the
+measured points, principal components u_k over the runs [Jolliffe2016] give the numbers,
 
     d_k = u_k z / sqrt n,   m_k = u_k h / sqrt n,   of standard error sigma sqrt(tau / n)
 
 with independent errors, as the u_k are orthonormal: each is emulated and compared as a width or a
 depth is. Components that differ among the runs by less than a tenth of that error tell nothing and
-are left out. tau is the correlation length of what no sum of the runs explains, see `compare`; the
-sum of its squares adds to chi^2, so that a relief that no run has is noticed.
+are left out. tau counts the points that are correlated in what no sum of the runs explains, see
+`texture.measurement`; the sum of its squares adds to chi^2, so that a relief that no run has is
+noticed.
 
 Alignment and components follow from the finished runs in their order, anew with each that is added.
 
@@ -24,53 +26,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import gammaincc
 
-from lasersph.output import Run
-from lasersph.studies.calibration_plan import CalibrationPlan, NoCalibration, ProfileTarget
+from lasersph.studies.calibration_plan import CalibrationPlan, NoCalibration
+from lasersph.studies.calibration_target import ProfileTarget
 from lasersph.studies.measured_value import Measured
-from lasersph.studies.texture.cells import read_cell
-from lasersph.studies.texture.compare import Comparison, compare
-from lasersph.studies.texture.measurement import correlation_length
-from lasersph.studies.texture.relief import repeating_relief
+from lasersph.studies.texture.compare import MOST_POINTS, Comparison, compare
+from lasersph.studies.texture.measurement import NoComparison, correlated_points
+from lasersph.studies.texture.relief import Relief
 
 Array = NDArray[np.float64]
 Numbers = Mapping[str, float]
+Reliefs = Sequence[Relief | None]
 COMPONENT = "profile_"
 """First letters of the names of components."""
-PLACES = 256
-"""Of a period at which runs tell their height: as many as 5 um have particles of 20 nm."""
+STEPS = 256
+"""Of a period, by which a relief is moved for its slope: 5 um have as many particles of 20 nm."""
 TELLING = 0.1
 """Standard deviation of a component among the runs over its standard error, below which it could
 move no unknown by a tenth of its band."""
-
-
-def height_numbers(run: Run, period: float) -> dict[str, float]:
-    """Heights of a complete run over its period as numbers beside those of its summary [m].
-
-    Raises:
-        OutputError: the run is none of one period, or its surface does not move.
-    """
-    cell = read_cell(run, period)
-    heights = np.interp(_places(period), cell.x, cell.values["height"], period=period)
-    return {_name(number): float(value) for number, value in enumerate(heights)}
-
-
-def heights_of(numbers: Numbers | None) -> Array:
-    """Heights of a run at even places of its period (PLACES,) [m]; NaN of a run without."""
-    every = {} if numbers is None else numbers
-    return np.array([every.get(_name(number), np.nan) for number in range(PLACES)])
-
-
-def _name(number: int) -> str:
-    return f"relief.{number}"
-
-
-def _places(period: float) -> Array:
-    return (np.arange(PLACES) + 0.5) * period / PLACES
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,17 +56,16 @@ class ProfileFit:
     """A measured profile reduced to components; n is the number of its points, k of components.
 
     Attributes:
-        number: of the measurement, from 1. period: [m]. comparison: with the run that fits best.
+        number: of the measurement, from 1. comparison: with the relief that fits best.
         middle: (n,) mean of the runs at the measured points [m].
         shapes: (k, n) heights [m] that a component of 1 m adds to it.
         values: (k,) components of the measured profile [m]. standard_error: of each [m].
-        nuisances: (n, 4 or 5) what alignment changes: level, tilts, place, lateral scale.
-        tau: correlation length of what is left over, in points. left_over: its rms [m].
+        nuisances: (n, 4 to 7) what alignment changes: level, tilts, place, angle, lateral scale.
+        tau: correlated points of what is left over. left_over: its rms [m].
         probability: of so large a rest of noise of the stated standard error.
     """
 
     number: int
-    period: float
     comparison: Comparison
     middle: Array
     shapes: Array
@@ -114,10 +91,9 @@ class ProfileFit:
         """Computed heights (n,) [m] of components (k,) [m]."""
         return self.middle + np.asarray(components, float) @ self.shapes
 
-    def at(self, relief: Array) -> Array:
-        """Heights (n,) of a relief over its period (PLACES,) at the measured points [m]."""
-        x = self.comparison.x
-        return np.interp(x, _places(self.period), relief, period=self.period)
+    def at(self, relief: Relief) -> Array:
+        """Heights (n,) of a relief at the measured points [m]."""
+        return relief.at(self.comparison.x, self.comparison.y, 1.0)
 
     def measured_beside(self, computed: Array) -> Array:
         """Measured heights (n,), aligned with computed ones (n,) [m]."""
@@ -131,9 +107,12 @@ class ProfileFit:
 
 
 def reduce_profiles(
-    plan: CalibrationPlan, numbers: Sequence[Numbers | None]
+    plan: CalibrationPlan, numbers: Sequence[Numbers | None], reliefs: Reliefs
 ) -> tuple[CalibrationPlan, list[Numbers | None], list[ProfileFit]]:
     """A plan whose profiles are measured components, and runs with these numbers.
+
+    Args:
+        numbers, reliefs: of the runs in their order, None of those that fail.
 
     Raises:
         NoCalibration: no two runs have a relief, none can be aligned, or all are the same.
@@ -143,7 +122,6 @@ def reduce_profiles(
     for place, condition in enumerate(plan.conditions):
         if condition.profile is None:
             continue
-        reliefs = np.array([heights_of(one) for one in numbers])
         fit, components = _fit(place + 1, condition.profile, reliefs)
         fits.append(fit)
         conditions[place] = replace(condition, values={**condition.values, **fit.measured})
@@ -154,24 +132,34 @@ def reduce_profiles(
     return replace(plan, conditions=tuple(conditions)), found, fits
 
 
-def _fit(number: int, target: ProfileTarget, reliefs: Array) -> tuple[ProfileFit, Array]:
-    """The fit of one profile, and components (runs, k) of runs with heights (runs, PLACES) [m]."""
-    has = np.isfinite(reliefs[:, 0])
-    best, nearest = _nearest(number, target, reliefs[has])
-    places, step, x = _places(target.period), target.period / PLACES, best.x
+def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileFit, Array]:
+    """The fit of one profile, and components (runs, k) of the runs."""
+    known = [one for one in reliefs if one is not None]
+    best, nearest = _nearest(number, target, known)
+    x, y, is_map = best.x, best.y, np.ptp(best.y) > 0.0
+    factor, step = best.values.get("fluence_factor", 1.0), nearest.table.period / STEPS
 
-    def at(heights: Array, moved: float = 0.0) -> Array:
-        return np.interp(x + moved, places, heights, period=target.period)
+    def slope(along: float, across: float) -> Array:
+        before, after = (
+            nearest.at(x + sign * along * step, y + sign * across * step, factor)
+            for sign in (-1.0, 1.0)
+        )
+        return (after - before) / (2.0 * step)
 
-    computed = np.array([at(one) for one in reliefs[has]])
+    computed = np.array([one.at(x, y, 1.0) for one in known])
     middle, root = computed.mean(axis=0), np.sqrt(x.size)
-    slope = (at(nearest, step) - at(nearest, -step)) / (2.0 * step)
-    tilts = [np.ones_like(x), x] + ([best.y] if np.ptp(best.y) > 0.0 else [])
-    scale = best.values["lateral_scale"]
-    stretch = -slope * x / scale  # dh/ds
+    slope_x, slope_y = slope(1.0, 0.0), np.zeros_like(x)
+    moves = [np.ones_like(x), x, slope_x]
+    if is_map and nearest.is_spot:
+        slope_y = slope(0.0, 1.0)
+        moves.append(slope_y)
+    if is_map:
+        moves += [y, y * slope_x - x * slope_y]
+    free, scale = np.stack(moves, axis=1), best.values["lateral_scale"]
+    stretch = -(x * slope_x + y * slope_y) / scale  # dh/ds
     # s is 1 +- its error beforehand: the one moves the heights, the other widens their errors
     measured = best.measured - stretch * (1.0 - scale) - middle
-    free, widened = np.stack([*tilts, slope], axis=1), target.scale_error * stretch
+    widened = target.scale_error * stretch
     tau, sd, rest = 1.0, target.error, measured
     for _ in range(2):  # the second time with the tau of what the first leaves over
         sd = target.error * np.sqrt(tau)
@@ -185,13 +173,12 @@ def _fit(number: int, target: ProfileTarget, reliefs: Array) -> tuple[ProfileFit
         rest = _project(measured[None], free, widened / sd)[0]
         values = right[tells] @ rest
         rest = rest - values @ right[tells]
-        tau = correlation_length(rest, target.surface)
+        tau = correlated_points(rest, target.surface, MOST_POINTS)
     freedom = (x.size - free.shape[1] - 1 - values.size) / tau
-    components = np.full((has.size, values.size), np.nan)
-    components[has] = left[:, tells] * sizes[tells] / root
+    components = np.full((len(reliefs), values.size), np.nan)
+    components[[one is not None for one in reliefs]] = left[:, tells] * sizes[tells] / root
     fit = ProfileFit(
         number=number,
-        period=target.period,
         comparison=best,
         middle=middle,
         shapes=root * (left[:, tells] / sizes[tells]).T @ (computed - middle),
@@ -205,16 +192,28 @@ def _fit(number: int, target: ProfileTarget, reliefs: Array) -> tuple[ProfileFit
     return fit, components
 
 
-def _nearest(number: int, target: ProfileTarget, reliefs: Array) -> tuple[Comparison, Array]:
-    """The comparison with the run that fits best, and its heights. Raises NoCalibration."""
-    places, found = _places(target.period), []
-    for heights in reliefs:
-        if np.ptp(heights) > 0.0:
-            ours = repeating_relief("", places, heights, target.period)
-            found.append((compare(ours, target.surface, target.scale_error), heights))
-    if len(found) < 2:
+def _nearest(
+    number: int, target: ProfileTarget, reliefs: Sequence[Relief]
+) -> tuple[Comparison, Relief]:
+    """The comparison with the relief that fits best. Raises NoCalibration."""
+    uneven = [one for one in reliefs if np.ptp(one.table.values["height"]) > 0.0]
+    tables: dict[int, Relief] = {}  # spots of one table differ by their light alone
+    for one in uneven:
+        tables.setdefault(id(one.table), one)
+    found = [(_aligned(one, target), one) for one in tables.values()]
+    good = [(aligned, one) for aligned, one in found if aligned is not None]
+    if len(uneven) < 2 or not good:
         raise NoCalibration(f"profile {number}: fewer than two runs leave a relief")
-    return min(found, key=lambda one: float(np.sum(one[0].residual ** 2)))
+    return min(good, key=lambda one: float(np.sum(one[0].residual ** 2)))
+
+
+@lru_cache(maxsize=64)
+def _aligned(relief: Relief, target: ProfileTarget) -> Comparison | None:
+    """The comparison with a relief, made once; None where that is flat beside the measurement."""
+    try:
+        return compare(relief, target.surface, target.scale_error)
+    except NoComparison:
+        return None
 
 
 def _project(rows: Array, free: Array, widened: Array) -> Array:

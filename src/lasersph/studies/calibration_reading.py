@@ -46,9 +46,11 @@ from lasersph.studies.calibration_plan import (
     Relation,
     Unknown,
 )
+from lasersph.studies.calibration_spot import SpotCells
 from lasersph.studies.calibration_target import ProfileEntry, read_target
 from lasersph.studies.measured_value import kind_of_number, read_measured
 from lasersph.studies.texture.measurement import NoComparison
+from lasersph.studies.texture.spot import NoTexture
 from lasersph.sweeps import CaseTemplate
 from lasersph.sweeps.plan_reading import (
     KeyPath,
@@ -151,7 +153,36 @@ class _Reader:
         entry.runs.refuse_too_few(len(units), self.mistakes)
         self._check_box(plan)
         self.mistakes.raise_any()
-        return plan
+        return self._with_spot(plan, contents)
+
+    def _with_spot(self, plan: CalibrationPlan, contents: CaseContents) -> CalibrationPlan:
+        """The plan with the cells of its spots, where the case has a spot that was measured."""
+        measured = [number for number, one in enumerate(plan.conditions) if one.profile]
+        if not measured or contents.laser is None or contents.laser.spot is None:
+            if "cells" in self.entry.runs.model_fields_set:
+                self.mistakes.add(
+                    ("runs", "cells"),
+                    "says of how many cells a spot is assembled, and no spot is measured",
+                    "remove it, or give the case laser.spot and a measurement its profile",
+                )
+                self.mistakes.raise_any()
+            return plan
+        low, high = (dict(zip(plan.keys, ends.tolist(), strict=True)) for ends in plan.box())
+        spot = SpotCells(plan.template, plan.units, low, high, plan.runs.cells)
+        for number, one in enumerate(plan.conditions):
+            if one.values:
+                self.mistakes.add(
+                    ("measured", number, "values"),
+                    "a spot that is assembled from cells has no such number",
+                    "leave values out, or laser.spot",
+                )
+        self.mistakes.raise_any()
+        try:
+            spot.points({key: 0.5 * (low[key] + high[key]) for key in plan.keys})
+        except (NoTexture, CaseError) as error:
+            self.mistakes.add(("measured", measured[0], "profile"), str(error))
+        self.mistakes.raise_any()
+        return replace(plan, spot=spot)
 
     def _settings(self, table: Mapping[str, Any], *path: str | int) -> dict[str, Any]:
         """Settings by key of the case."""
@@ -290,7 +321,7 @@ class _Reader:
         if profile is not None:
             try:
                 target = read_target(profile, Path(self.mistakes.document.file).parent, contents)
-            except (NoComparison, OutputError) as error:
+            except (NoComparison, NoTexture, OutputError) as error:
                 self.mistakes.add(("measured", number, "profile"), str(error))
         return Condition(read, values, target)
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.util import find_spec
 from os import PathLike
 from pathlib import Path
@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.input import CaseError
 from lasersph.output import OutputError, open_run
 from lasersph.output.atomic import replace_json, replace_text
 from lasersph.output.errors import install_hint
@@ -35,9 +36,11 @@ from lasersph.studies.calibration_answer import (
     profile_text,
 )
 from lasersph.studies.calibration_plan import CalibrationPlan
-from lasersph.studies.calibration_profile import height_numbers, heights_of
 from lasersph.studies.calibration_reading import read_calibration_plan
 from lasersph.studies.posterior import GRID
+from lasersph.studies.texture.cells import Cell, read_cell
+from lasersph.studies.texture.relief import Relief, repeating_relief
+from lasersph.studies.texture.spot import NoTexture
 from lasersph.sweeps import Engine, Event, LocalEngine, Point, Study, Table, make_runs
 from lasersph.sweeps.folder import RUNS
 from lasersph.sweeps.table import Row
@@ -87,7 +90,7 @@ def calibrate(
     runs = _Runs(
         plan, Path(out), engine or LocalEngine(workers, threads, retries), report, should_stop
     )
-    found = calibrate_with(plan, runs.make, report)
+    found = calibrate_with(plan, runs.make, report, runs.reliefs)
     content = answer(found)
     if plan.runs.check:
         content["check"] = _check(found, runs)
@@ -109,23 +112,47 @@ class _Runs:
     engine: Engine
     report: Callable[[str], None]
     should_stop: Callable[[], bool]
+    cells: dict[str, Cell] = field(default_factory=dict)
 
     def make(self, settings: Sequence[Settings]) -> list[Numbers | None]:
-        """Numbers of the runs with these settings, None of those that fail."""
-        points = [self.plan.template.point(dict(one)) for one in settings]
-        return [self.numbers(row) for row in self.table(points).rows]
+        """Numbers of the runs with these settings, None of those that fail; none of a spot."""
+        if self.plan.spot is not None:
+            return [None if one is None else {} for one in self.reliefs(settings)]
+        rows = self.table([self.plan.template.point(dict(one)) for one in settings]).rows
+        return [row.numbers if row.status == "complete" else None for row in rows]
 
-    def numbers(self, row: Row) -> Numbers | None:
-        """Numbers of the run of a row, with its heights where profiles are measured."""
-        if row.status != "complete":
-            return None
+    def reliefs(self, settings: Sequence[Settings]) -> list[Relief | None]:
+        """Reliefs of the runs with these settings, or of the spots; None of those that fail, and
+        where no profile is measured."""
         profile = next((one.profile for one in self.plan.conditions if one.profile), None)
         if profile is None:
-            return row.numbers
-        return {
-            **row.numbers,
-            **height_numbers(open_run(self.path / RUNS / row.run), profile.period),
-        }
+            return [None] * len(settings)
+        spot = self.plan.spot
+        points = [self._points(one) for one in settings]
+        every = {point.hash: point for cells in points for point in cells}
+        rows = dict(zip(every, self.table(list(every.values())).rows, strict=True))
+        found = [[self._cell(rows[one.hash], profile.period) for one in cells] for cells in points]
+        if spot is not None:
+            return [
+                spot.relief(one, cells) if cells else None
+                for one, cells in zip(settings, found, strict=True)
+            ]
+        return [None if one is None else repeating_relief(one, profile.period) for (one,) in found]
+
+    def _points(self, settings: Settings) -> list[Point]:
+        """The run with these settings, or the cells of their spot; none where it has none."""
+        if self.plan.spot is None:
+            return [self.plan.template.point(dict(settings))]
+        try:
+            return self.plan.spot.points(settings)
+        except (NoTexture, CaseError):
+            return []
+
+    def _cell(self, row: Row, period: float) -> Cell | None:
+        """The cell of a run, read once."""
+        if row.status == "complete" and row.run not in self.cells:
+            self.cells[row.run] = read_cell(open_run(self.path / RUNS / row.run), period)
+        return self.cells.get(row.run)
 
     def table(self, points: Sequence[Point]) -> Table:
         """The table of these points, all runs made. Raises Stopped."""
@@ -170,41 +197,40 @@ def _check(found: Calibration, runs: _Runs) -> dict[str, Any]:
     first = plan.template.point(dict(best))
     if first.case is None:
         return {"numbers": [], "failed": first.reason}
-    half = plan.template.point({**best, "particles.spacing": 0.5 * first.case.particles.spacing})
-    points = [plan.template.point(dict(one)) for one in found.settings]
-    coarse, fine = runs.table([*points, first, half]).rows[-2:]
+    half = {**best, "particles.spacing": 0.5 * first.case.particles.spacing}
+    pair = runs.make([*found.settings, best, half])[-2:]
+    words = zip(("the most probable one", "half the spacing"), pair, strict=True)
+    failed = " and ".join(word for word, one in words if one is None)
+    coarse, fine = (one or {} for one in pair)
     emulated = model.predict(found.posterior.most_probable)[0][0]
     numbers = []
     for number, (place, column) in enumerate(model.data):
-        if place == 0 and column in coarse.numbers:
-            at_half = fine.numbers.get(column)
-            shift = None if at_half is None else at_half - coarse.numbers[column]
+        if place == 0 and column in coarse:
+            at_half = fine.get(column)
+            shift = None if at_half is None else at_half - coarse[column]
             numbers.append(
                 {
                     "number": column,
-                    "run": coarse.numbers[column],
+                    "run": coarse[column],
                     "emulated": float(emulated[number]),
                     "shift_at_half_spacing": shift,
                     "standard_error": condition.values[column].sd,
                 }
             )
-    for fit in found.profiles:
-        rows = [runs.numbers(row) for row in (coarse, fine)]
-        if fit.number == 1 and None not in rows:
-            first_rms, fine_rms = (fit.difference(fit.at(heights_of(one))) for one in rows)
-            numbers.append(
-                {
-                    "number": "profile_1.difference_rms_m",
-                    "run": first_rms,
-                    "emulated": fit.difference(computed_profile(found, fit)),
-                    "shift_at_half_spacing": fine_rms - first_rms,
-                    "standard_error": condition.profile.error if condition.profile else 0.0,
-                }
-            )
-    failed = "; ".join(
-        row.reason or row.status for row in (coarse, fine) if row.status != "complete"
-    )
-    return {"runs": [coarse.run, fine.run], "numbers": numbers, "failed": failed}
+    if condition.profile is not None and not failed:
+        fit = found.profiles[0]
+        reliefs = runs.reliefs([*found.settings, best, half])[-2:]
+        first_rms, fine_rms = (fit.difference(fit.at(one)) for one in reliefs if one is not None)
+        numbers.append(
+            {
+                "number": "profile_1.difference_rms_m",
+                "run": first_rms,
+                "emulated": fit.difference(computed_profile(found, fit)),
+                "shift_at_half_spacing": fine_rms - first_rms,
+                "standard_error": condition.profile.error,
+            }
+        )
+    return {"numbers": numbers, "failed": failed}
 
 
 def read_answer(folder: str | PathLike[str]) -> tuple[dict[str, Any], np.ndarray]:

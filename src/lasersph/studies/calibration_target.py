@@ -10,11 +10,10 @@ from pydantic import Field
 
 from lasersph.case.contents import CaseContents
 from lasersph.input import Fraction, Length, Model
-from lasersph.lasers import InterferenceBeam
 from lasersph.output.height_map import HeightMap
 from lasersph.output.surface_files.read import read_surface
-from lasersph.studies.texture.cells import PERIOD_FITS
 from lasersph.studies.texture.compare import SCALE_ERROR
+from lasersph.studies.texture.make import period_of_lines, spot_of
 from lasersph.studies.texture.measurement import NoComparison, point_noise, refuse_odd
 
 
@@ -33,7 +32,7 @@ class ProfileEntry(Model):
 
 @dataclass(frozen=True, eq=False)
 class ProfileTarget:
-    """A measured profile or height map across lines that repeat.
+    """A measured profile or height map across lines that repeat, or of a spot.
 
     Attributes:
         file: its name. surface: its heights. period: of the lines [m].
@@ -51,26 +50,17 @@ def read_target(entry: ProfileEntry, folder: Path, contents: CaseContents) -> Pr
     """The measurement in a file, relative to a folder, beside the case of the runs.
 
     Raises:
-        NoComparison: the case computes no such profile, or the measurement cannot be right.
+        NoTexture: the case computes neither lines nor a spot of them.
+        NoComparison: pulses that are moved, or the measurement cannot be right.
         OutputError: the file cannot be read.
     """
-    laser, width = contents.laser, contents.domain.width or 0.0
-    beam = None if laser is None else laser.beam
-    period = beam.lateral_period if isinstance(beam, InterferenceBeam) else None
-    if laser is None or period is None or laser.spot is not None or contents.solver.dimensions != 2:
+    laser = contents.laser
+    is_spot = laser is not None and laser.spot is not None
+    period = spot_of(contents)[1] if is_spot else period_of_lines(contents)
+    if is_spot and laser is not None and laser.displacement and laser.pulse.count > 1:
         raise NoComparison(
-            "a profile is one across lines of the same fluence, which a case in 2-D of interfering "
-            "beams without laser.spot computes; for that of a whole spot take lasersph texture "
-            "and compare"
-        )
-    if not contents.surface_moves:
-        raise NoComparison(
-            'the surface of the case does not move; write "solver.flow.surface" = "moving" in [set]'
-        )
-    if abs(width - period) > PERIOD_FITS * period:
-        raise NoComparison(
-            f'the case is {1e6 * width:.6g} um wide; write "domain.width" = '
-            f'"{1e6 * period:.6g} um", one period'
+            "the spot of the case moves from pulse to pulse: what is measured is one spot; leave "
+            "laser.spot.shift and scan_speed out"
         )
     surface = read_surface(folder / entry.file)
     refuse_odd(surface, period)

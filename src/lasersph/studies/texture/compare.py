@@ -1,23 +1,25 @@
 """A measured profile or map beside ours: leveled, aligned, and the fluence that explains it.
 
-    z = a + b x + c y + h((x - x_0)/s, (y - y_0)/s; f) + noise
+    z = a + b x + c y + h((x' cos phi + y' sin phi)/s, (y' cos phi - x' sin phi)/s; f) + noise,
+    x' = x - x_0,   y' = y - y_0
 
-Offset and tilts a, b, c, place x_0, y_0 and lateral scale s are those of the measurement. h is our
-relief, of a texture at f times its local fluence: its cells tell it at any f that they cover. Of a
-run of one cell h repeats, and f is 1. A profile is taken as the line through the center of a spot.
+Offset and tilts a, b, c, place x_0, y_0, angle phi and lateral scale s are those of the
+measurement. h is our relief, of a texture at f times its local fluence: its cells tell it at any f
+that they cover. Of a run of one cell h repeats, and f is 1. A profile is taken as the line through
+the center of a spot; angle and y_0 are those of maps.
 
 The sum of squares is least over all of them: a, b, c are solved for exactly at each trial of the
-others [Golub1973]. The start is the best of all places on a grid. Standard errors are those of the
-linear problem at the minimum, with the variance of the residuals times their correlation length,
-tau = 1 + 2 sum rho_k (to the first k at which rho_k is not above 0): residuals of a wrong model are
-not independent. Of the lateral scale it is known beforehand that it is 1 to 3 %.
+others [Golub1973]. The start is the best of all places on a grid, for which some rows of a map are
+enough; phi starts from how the phase of the lines moves from row to row. Standard errors are those
+of the linear problem at the minimum, with the variance of the residuals times the points that are
+correlated, see `correlated_points`. The lateral scale is known to be 1 to 3 % beforehand.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,12 +27,16 @@ from numpy.typing import NDArray
 from lasersph.output.height_map import HeightMap
 from lasersph.studies.texture.measurement import (
     NoComparison,
-    correlation_length,
+    correlated_points,
     point_noise,
     points_of,
     refuse_odd,
+    turn_of,
 )
 from lasersph.studies.texture.relief import Relief
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 Array = NDArray[np.float64]
 SCALE_ERROR = 0.03
@@ -38,6 +44,10 @@ SCALE_ERROR = 0.03
 STARTS, STARTS_A_PERIOD = 3, 12
 """Minima that are followed, and places of a period among which they are looked for."""
 LOWEST_FACTOR = 0.3
+MOST_POINTS, START_POINTS = 40_000, 4_000
+"""Of a map that are compared, and by which its place is looked for: of finer ones every n-th."""
+LARGEST_TURN = 0.35
+"""Angle of a map to the lines [rad]: 20 degrees, beyond what a stage is out of line."""
 NORMAL_95 = 1.959964
 """Half width of the 95 % interval of a normal distribution in standard deviations."""
 
@@ -88,114 +98,149 @@ def compare(relief: Relief, surface: HeightMap, scale_error: float = SCALE_ERROR
         NoComparison: it is shorter than a period, too coarse for one, too flat to align, or its
             unit can't be right.
     """
-    from scipy.optimize import least_squares
+    refuse_odd(surface, relief.table.period)
+    few = _Alignment.of(relief, surface, scale_error, START_POINTS)
+    unknowns = min((few.least(one) for one in few.starts()), key=lambda found: found.cost).x
+    every = _Alignment.of(relief, surface, scale_error, MOST_POINTS)
+    found = every.least(unknowns)
+    return every.comparison(found.x, found.jac)
 
-    x, y, z = points_of(surface)
-    period = relief.table.period
-    refuse_odd(surface, period)
-    columns = [np.ones_like(x), x - x.mean()] + ([y - y.mean()] if np.ptp(y) > 0.0 else [])
-    basis = np.linalg.qr(np.stack(columns, axis=1))[0]
-    low, high = LOWEST_FACTOR, relief.largest_factor
-    names = ["shift_x_m", *(["shift_y_m"] if np.ptp(y) > 0.0 else []), "lateral_scale"]
-    names += ["fluence_factor"] if relief.is_spot else []
-    size = float(np.std(z - basis @ (basis.T @ z)))
 
-    def heights(unknowns: Array) -> Array:
-        found = dict(zip(names, unknowns, strict=True))
-        scale = found["lateral_scale"]
-        along = (x - period * found["shift_x_m"]) / scale
-        across = (y - period * found.get("shift_y_m", 0.0)) / scale
-        return relief.at(along, across, found.get("fluence_factor", 1.0))
+@dataclass(frozen=True, eq=False)
+class _Alignment:
+    """Least squares of the unknowns of an alignment, of order 1: shifts are counted in periods.
 
-    noise = max(point_noise(surface.z), 1e-6 * size)
+    Attributes:
+        x, y, z: (n,) measured, from the middle of the measurement [m]. surface: all of it.
+        noise: of a point [m]. names: of the unknowns. basis: (n, 2 or 3) level and tilts.
+    """
 
-    def misfit(unknowns: Array) -> Array:
+    relief: Relief
+    surface: HeightMap
+    scale_error: float
+    most: int
+    x: Array
+    y: Array
+    z: Array
+    noise: float
+    names: list[str]
+    basis: Array
+
+    @classmethod
+    def of(cls, relief: Relief, surface: HeightMap, scale_error: float, most: int) -> Self:
+        x, y, z = points_of(surface, most)
+        is_map = np.ptp(y) > 0.0
+        columns = [np.ones_like(x), x - x.mean()] + ([y - y.mean()] if is_map else [])
+        basis = np.linalg.qr(np.stack(columns, axis=1))[0]
+        names = ["shift_x_m", "lateral_scale"] + (["rotation_rad"] if is_map else [])
+        if relief.is_spot:
+            names += ["fluence_factor"] + (["shift_y_m"] if is_map else [])
+        noise = max(point_noise(surface.z), 1e-6 * float(np.std(z - basis @ (basis.T @ z))))
+        return cls(relief, surface, scale_error, most, x, y, z, noise, names, basis)
+
+    @property
+    def bounds(self) -> Mapping[str, tuple[float, float]]:
+        high = self.relief.largest_factor * (1.0 + 1e-12)
+        turn = LARGEST_TURN
+        return {
+            "lateral_scale": (0.8, 1.25),
+            "fluence_factor": (LOWEST_FACTOR, high),
+            "rotation_rad": (-turn, turn),
+        }
+
+    def places(self, unknowns: Array) -> tuple[Array, Array]:
+        """Our coordinates of the points [m]."""
+        found, period = dict(zip(self.names, unknowns, strict=True)), self.relief.table.period
+        turn, scale = found.get("rotation_rad", 0.0), found["lateral_scale"]
+        x, y = self.x - period * found["shift_x_m"], self.y - period * found.get("shift_y_m", 0.0)
+        cosine, sine = np.cos(turn), np.sin(turn)
+        return (cosine * x + sine * y) / scale, (cosine * y - sine * x) / scale
+
+    def heights(self, unknowns: Array) -> Array:
+        """Ours (n,) at the points [m]."""
+        factor = dict(zip(self.names, unknowns, strict=True)).get("fluence_factor", 1.0)
+        return self.relief.at(*self.places(unknowns), factor)
+
+    def leveled(self, heights: Array) -> Array:
+        """Heights (n,) without level and tilts [m]."""
+        return heights - self.basis @ (self.basis.T @ heights)
+
+    def misfit(self, unknowns: Array) -> Array:
         """Residuals over the noise, and how far the lateral scale is from 1 over its error."""
-        left = z - heights(unknowns)
-        left = (left - basis @ (basis.T @ left)) / noise
-        scale = unknowns[names.index("lateral_scale")]
-        return np.append(left, (scale - 1.0) / scale_error)
+        left = self.leveled(self.z - self.heights(unknowns)) / self.noise
+        scale = unknowns[self.names.index("lateral_scale")]
+        return np.append(left, (scale - 1.0) / self.scale_error)
 
-    start = _start(relief, x, y, z, basis, names)
-    bounds = {"lateral_scale": (0.8, 1.25), "fluence_factor": (low, high * (1.0 + 1e-12))}
-    ends = np.array([bounds.get(name, (-np.inf, np.inf)) for name in names]).T
-    best = None
-    for one in start:  # shifts are counted in periods, so that all unknowns are of order 1
-        found = least_squares(
-            misfit,
-            np.clip(one, ends[0] + 1e-9, ends[1] - 1e-9),
+    def least(self, start: Array) -> OptimizeResult:
+        """The minimum next to a start."""
+        from scipy.optimize import least_squares
+
+        ends = np.array([self.bounds.get(name, (-np.inf, np.inf)) for name in self.names]).T
+        return least_squares(
+            self.misfit,
+            np.clip(start, ends[0] + 1e-9, ends[1] - 1e-9),
             bounds=tuple(ends),
             x_scale=0.01,
             diff_step=1e-5,
         )
-        best = found if best is None or found.cost < best.cost else best
-    assert best is not None
-    residual = noise * misfit(best.x)[:-1]
-    freedom = max(z.size - len(names) - basis.shape[1], 1)
-    variance, tau = float(residual @ residual) / freedom, correlation_length(residual, surface)
-    jacobian = noise * best.jac[:-1]
-    precision = jacobian.T @ jacobian / (variance * tau)
-    place = names.index("lateral_scale")
-    precision[place, place] += 1.0 / scale_error**2
-    covariance = np.linalg.pinv(precision, hermitian=True)
-    units = [period if name.startswith("shift") else 1.0 for name in names]
-    errors = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * units
-    ours = heights(best.x)
-    if np.std(ours) == 0.0:
-        raise NoComparison("our relief is flat where the measurement lies: nothing to align with")
-    level = z - ours - residual
-    measured, flat = z - level, ours - basis @ (basis.T @ ours)
-    factor = float(flat @ z) / float(flat @ flat)
-    found = dict(zip(names, best.x, strict=True))
-    scale = found["lateral_scale"]
-    at_bound = [
-        name
-        for name in ("fluence_factor",)
-        if name in found and min(found[name] - low, high - found[name]) < 1e-6
-    ]
-    return Comparison(
-        (x - period * found["shift_x_m"]) / scale,
-        (y - period * found.get("shift_y_m", 0.0)) / scale,
-        measured,
-        ours,
-        dict(zip(names, best.x * units, strict=True)),
-        dict(zip(names, errors, strict=True)),
-        tuple(at_bound),
-        noise,
-        tau,
-        (factor, float(np.sqrt(variance * tau / (flat @ flat)))),
-        relief.error,
-    )
 
-
-def _start(
-    relief: Relief, x: Array, y: Array, z: Array, basis: Array, names: list[str]
-) -> list[Array]:
-    """The best three places on a grid, in periods, with lateral scale 1."""
-    period = relief.table.period
-    reach = 0.5 * (np.ptp(x) + np.ptp(relief.x)) if relief.is_spot else 0.5 * period
-    shifts = np.arange(-reach, reach, period / STARTS_A_PERIOD)
-    if "shift_y_m" in names and relief.is_spot:
+    def starts(self) -> list[Array]:
+        """The best places on a grid, with lateral scale 1."""
+        relief, period = self.relief, self.relief.table.period
+        reach = 0.5 * (np.ptp(self.x) + np.ptp(relief.x)) if relief.is_spot else 0.5 * period
+        shifts = np.arange(-reach, reach, period / STARTS_A_PERIOD) / period
+        left = self.leveled(self.z)
         # the center across the lines: that of the squares of the leveled heights
-        left = z - basis @ (basis.T @ z)
-        across = float(np.sum(y * left**2) / np.sum(left**2))
-    else:
-        across = 0.0
-    factors = (1.0,) if not relief.is_spot else (relief.largest_factor * k for k in (0.97, 0.8))
-    found = []
-    for factor in factors:
-        for shift in shifts:
-            left = z - relief.at(x - shift, y - across, factor)
-            left = left - basis @ (basis.T @ left)
-            values = {
-                "shift_x_m": shift / period,
-                "shift_y_m": across / period,
-                "lateral_scale": 1.0,
-                "fluence_factor": factor,
-            }
-            found.append((float(left @ left), np.array([values[name] for name in names])))
-    found.sort(key=lambda one: one[0])
-    return [one for _, one in found[:STARTS]]
+        across = float(np.sum(self.y * left**2) / np.sum(left**2)) / period
+        values = {"lateral_scale": 1.0, "shift_y_m": across}
+        values["rotation_rad"] = turn_of(self.surface, period, LARGEST_TURN)
+        factors = (relief.largest_factor * k for k in (0.97, 0.8)) if relief.is_spot else (1.0,)
+        found = []
+        for factor in factors:
+            heights = relief.sampled(factor, period / STARTS_A_PERIOD)
+            for shift in shifts:
+                every = {**values, "shift_x_m": shift, "fluence_factor": factor}
+                one = np.array([every[name] for name in self.names])
+                left = self.leveled(self.z - heights(*self.places(one)))
+                found.append((float(left @ left), one))
+        found.sort(key=lambda one: one[0])
+        return [one for _, one in found[:STARTS]]
+
+    def comparison(self, unknowns: Array, jacobian: Array) -> Comparison:
+        """What the minimum says. Raises NoComparison."""
+        relief, names = self.relief, self.names
+        residual, jacobian = self.noise * self.misfit(unknowns)[:-1], self.noise * jacobian[:-1]
+        freedom = max(self.z.size - len(names) - self.basis.shape[1], 1)
+        variance = float(residual @ residual) / freedom
+        tau = correlated_points(residual, self.surface, self.most)
+        precision = jacobian.T @ jacobian / (variance * tau)
+        place = names.index("lateral_scale")
+        precision[place, place] += 1.0 / self.scale_error**2
+        covariance = np.linalg.pinv(precision, hermitian=True)
+        units = [relief.table.period if name.startswith("shift") else 1.0 for name in names]
+        errors = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * units
+        ours = self.heights(unknowns)
+        if np.std(ours) == 0.0:
+            raise NoComparison("our relief is flat where the measurement lies: nothing to align to")
+        flat = self.leveled(ours)
+        factor = float(flat @ self.z) / float(flat @ flat)
+        at_bound = tuple(
+            name
+            for name, value in zip(names, unknowns, strict=True)
+            if np.min(np.abs(value - np.asarray(self.bounds.get(name, np.inf)))) < 1e-6
+        )
+        return Comparison(
+            *self.places(unknowns),
+            ours + residual,
+            ours,
+            dict(zip(names, unknowns * units, strict=True)),
+            dict(zip(names, errors, strict=True)),
+            at_bound,
+            self.noise,
+            tau,
+            (factor, float(np.sqrt(variance * tau / (flat @ flat)))),
+            relief.error,
+        )
 
 
 def answer(found: Comparison) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.case import Case
+from lasersph.case.contents import CaseContents
 from lasersph.input import CaseError
 from lasersph.lasers import InterferenceBeam, SpotFluence
 from lasersph.observers.areal_parameters import areal_parameters
@@ -27,7 +28,7 @@ from lasersph.output.image_file import Maps, write_maps
 from lasersph.simulation.layers import expected_melt
 from lasersph.studies.texture.cells import PERIOD_FITS, UNITS, read_cell
 from lasersph.studies.texture.spot import NoTexture, texture_maps
-from lasersph.studies.texture.table import CellTable
+from lasersph.studies.texture.table import FEWEST_CELLS, CellTable
 from lasersph.sweeps import CaseTemplate, SweepPlan, Table, build_plan
 from lasersph.sweeps.folder import RUNS, SweepFolder
 from lasersph.sweeps.points import Value
@@ -41,6 +42,8 @@ ANSWER, MAPS, HEIGHTS, PROFILE, CELLS = (
 )
 SCHEMA = 1
 KEY = "laser.fluence"
+LIGHT = (KEY, "laser.spot", "laser.pulse_energy", "laser.power", "laser.intensity")
+"""First letters of keys that say how bright and how large a spot is, which no cell depends on."""
 FEWEST, USUAL = 6, 24
 """Cells at least, which leaves four to be left out; and where nothing is said, a first guess: the
 answer states the error of the interpolation, 20 % of the height with 8 cells of 50 nm."""
@@ -88,48 +91,73 @@ def plan_texture(
     given = dict(settings or {})
     template = CaseTemplate(name, given)
     case = template.file.case(template.overrides({}))
-    laser = case.laser
-    if laser is None or not isinstance(laser.beam, InterferenceBeam):
-        raise NoTexture(f"{case.name} has no pattern of interfering beams to texture with")
-    period = laser.beam.lateral_period
-    if laser.spot is None or period is None:
-        raise NoTexture(
-            f"{case.name} has no spot; write e.g. spot = {{ diameter = "
-            '"50 um", definition = "1/e^2" } in [laser]'
-        )
-    if case.solver.dimensions != 2 or laser.beam.lateral_period_y is not None:
+    spot, period = spot_of(case)
+    laser, bare = case.laser, cell_settings(given)
+    assert laser is not None
+    moves = laser.displacement is not None and laser.pulse.count > 1
+    pulses, shift = (laser.pulse.count, float(laser.displacement or 0.0)) if moves else (1, 0.0)
+    if moves:
+        bare["laser.pulse.count"] = 1
+    fluences = cell_fluences(CaseTemplate(name, {**bare, KEY: "1 J/cm^2"}), spot.center, cells)
+    vary = {KEY: [f"{one!r} J/m^2" for one in fluences]}
+    plan = build_plan(str(name), vary, set=bare)
+    return TexturePlan(case, plan, spot, period, pulses, shift)
+
+
+def period_of_lines(case: CaseContents) -> float:
+    """Period of the lines [m] that a case of one cell computes.
+
+    Raises:
+        NoTexture: what it lacks for that.
+    """
+    beam = None if case.laser is None else case.laser.beam
+    period = beam.lateral_period if isinstance(beam, InterferenceBeam) else None
+    if period is None or not isinstance(beam, InterferenceBeam):
+        raise NoTexture("the case has no pattern of interfering beams to texture with")
+    if case.solver.dimensions != 2 or beam.lateral_period_y is not None:
         raise NoTexture("a texture is of lines along y: two beams along x, and a case in 2-D")
     if not case.surface_moves:
         raise NoTexture(
-            f'the surface of {case.name} does not move; write surface = "moving" in [solver.flow]'
+            'the surface of the case does not move; write solver.flow.surface = "moving"'
         )
-    if laser.spot.extent != "cell":
-        raise NoTexture('laser.spot.extent is "whole"; write extent = "cell": cells make the spot')
     width = case.domain.width or 0.0
     if abs(width - period) > PERIOD_FITS * period:
         raise NoTexture(
-            f"a cell is one period wide: write domain.width = {1e6 * period:.6g} um, not "
+            f'a cell is one period wide: write domain.width = "{1e6 * period:.6g} um", not '
             f"{1e6 * width:.6g} um"
         )
-    if laser.displacement is not None and laser.beam.shift:
+    return period
+
+
+def spot_of(case: CaseContents) -> tuple[SpotFluence, float]:
+    """Local fluence of a case with a spot, and the period of its lines [m].
+
+    Raises:
+        NoTexture: what a texture needs and the case does not have.
+    """
+    period, laser = period_of_lines(case), case.laser
+    if laser is None or laser.spot is None:
+        raise NoTexture(
+            'the case has no spot; write e.g. spot = { diameter = "50 um", definition = "1/e^2" } '
+            "in [laser]"
+        )
+    if laser.spot.extent != "cell":
+        raise NoTexture('laser.spot.extent is "whole"; write extent = "cell": cells make the spot')
+    is_moved = isinstance(laser.beam, InterferenceBeam) and laser.beam.shift
+    if laser.displacement is not None and is_moved:
         raise NoTexture(
             "laser.beam.shift moves the lines from pulse to pulse, and the spot moves as well: "
             "cells of one pulse know neither; leave one of the two out"
         )
     if laser.fluence_kind == "peak":
         raise NoTexture('laser.fluence_kind is "peak", cells count their mean; write "mean"')
-    bare = {key: one for key, one in given.items() if not key.startswith((KEY, "laser.spot"))}
-    bare |= {"laser.spot": "", "laser.pulse_energy": "", "laser.power": "", "laser.intensity": ""}
-    bare["laser.fluence_kind"] = "mean"
-    moves = laser.displacement is not None and laser.pulse.count > 1
-    pulses, shift = (laser.pulse.count, float(laser.displacement or 0.0)) if moves else (1, 0.0)
-    if moves:
-        bare["laser.pulse.count"] = 1
-    spot = laser.spot_fluence
-    fluences = cell_fluences(CaseTemplate(name, {**bare, KEY: "1 J/cm^2"}), spot.center, cells)
-    vary = {KEY: [f"{one!r} J/m^2" for one in fluences]}
-    plan = build_plan(str(name), vary, set=bare)
-    return TexturePlan(case, plan, spot, period, pulses, shift)
+    return laser.spot_fluence, period
+
+
+def cell_settings(settings: Mapping[str, Value]) -> dict[str, Value]:
+    """Settings of a case with a spot for its cells, whose light is set by `KEY` alone."""
+    kept = {key: value for key, value in settings.items() if not key.startswith(LIGHT)}
+    return {**kept, **dict.fromkeys(LIGHT[1:], ""), "laser.fluence_kind": "mean"}
 
 
 def cell_fluences(template: CaseTemplate, highest: float, cells: int) -> tuple[float, ...]:
@@ -214,7 +242,7 @@ def read_table(folder: str | PathLike[str], period: float) -> CellTable:
         OutputError: no runs, or runs that are no cells of this period [m].
     """
     rows = [row for row in Table.read(folder).rows if row.status == "complete"]
-    if len(rows) < 3:
+    if len(rows) < FEWEST_CELLS:
         raise OutputError(f"{folder} holds {len(rows)} complete cells, fewer than three")
     runs = [open_run(Path(folder) / RUNS / row.run) for row in rows]
     cells = [

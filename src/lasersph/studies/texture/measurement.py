@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from lasersph.output.height_map import HeightMap
 
 Array = NDArray[np.float64]
-MOST_POINTS = 40_000
-"""Of a measured map that are compared; of finer ones every n-th in both directions."""
 PERIOD_LIMIT, SCALE_LIMIT, OVERTONES = 0.2, 0.05, (2, 3)
 """How far a measured period may be off: of coarse measurements, and by a microscope's lateral scale
 alone, which tells overtones of our period from other ones."""
+FEWEST_ROWS = 16
+"""Of a map that is thinned: a spot has a shape across the lines as well."""
 FEWEST_POINTS = 8
 """Of a measurement in a period: fewer do not show its shape."""
 
@@ -21,18 +21,23 @@ class NoComparison(ValueError):
     """The two cannot be compared; the text says why, in one line."""
 
 
-def correlation_length(residual: Array, surface: HeightMap) -> float:
-    """tau of residuals along x, in points; 1 where they are independent."""
-    length = surface.z.shape[1] if residual.size == surface.z.size else residual.size
-    rows = residual[: residual.size // length * length].reshape(-1, length)
-    variance = float(np.mean(rows**2)) or 1.0
+def correlated_points(residual: Array, surface: HeightMap, most: int) -> float:
+    """tau of residuals at `points_of`, the points that have the information of one: 1 + 2 sum rho_k
+    over the lags k up to the first at which rho_k is no more than chance, along x; times that along
+    y. 1 where residuals are independent, as those of a wrong model are not."""
+    grid = np.isfinite(_thinned(surface, most)[2]).astype(float)
+    grid[grid > 0.0] = residual
+    variance = float(np.mean(residual**2)) or 1.0
     tau = 1.0
-    for lag in range(1, length // 4):
-        rho = float(np.mean(rows[:, lag:] * rows[:, :-lag])) / variance
-        # of independent residuals rho scatters by 1/sqrt(n): smaller ones tell nothing
-        if rho < 2.0 / np.sqrt(residual.size):
-            break
-        tau += 2.0 * rho
+    for rows in (grid, grid.T):
+        here = 1.0
+        for lag in range(1, rows.shape[1] // 4):
+            rho = float(np.mean(rows[:, lag:] * rows[:, :-lag])) / variance
+            # of independent residuals rho scatters by 1/sqrt(n): smaller ones tell nothing
+            if rho < 2.0 / np.sqrt(residual.size):
+                break
+            here += 2.0 * rho
+        tau *= here
     return tau
 
 
@@ -42,14 +47,41 @@ def point_noise(z: Array) -> float:
     return float(np.sqrt(np.nanmean(bend**2) / 6.0))
 
 
-def points_of(surface: HeightMap) -> tuple[Array, Array, Array]:
-    thin = max(1, int(np.ceil(np.sqrt(surface.z.size / MOST_POINTS))))
-    thin_y = thin if surface.y.size > 1 else 1
-    x, y = np.meshgrid(surface.x[::thin], surface.y[::thin_y])
-    z = surface.z[::thin_y, ::thin]
+def points_of(surface: HeightMap, most: int) -> tuple[Array, Array, Array]:
+    """Known points (n,), no more than `most` of a map: places from its middle, heights from their
+    mean [m]."""
+    x, y, z = _thinned(surface, most)
     known = np.isfinite(z)
-    x, y, z = x[known], y[known], z[known]
-    return x - x.mean(), y - y.mean(), z - z.mean()
+    x, y = x - 0.5 * (surface.x[0] + surface.x[-1]), y - 0.5 * (surface.y[0] + surface.y[-1])
+    return x[known], y[known], z[known] - z[known].mean()
+
+
+def _thinned(surface: HeightMap, most: int) -> tuple[Array, Array, Array]:
+    """Places and heights (rows, columns) of a map [m]: of more than `most` every n-th row and, as
+    far as they still show a line, every n-th column. All of a profile."""
+    across = along = 1
+    if surface.y.size > 1:
+        across = max(1, min(int(np.ceil(surface.z.size / most)), surface.y.size // FEWEST_ROWS))
+        along = max(1, int(np.ceil(surface.z[::across].size / most)))
+    x, y = np.meshgrid(surface.x[::along], surface.y[::across])
+    return x, y, surface.z[::across, ::along]
+
+
+def turn_of(surface: HeightMap, period: float, largest: float) -> float:
+    """Angle of a map's x to that across its lines [rad], of 0 for a profile.
+
+    The complex amplitude of the lines' strongest wave turns by k tan phi per length along y.
+    """
+    if surface.y.size == 1:
+        return 0.0
+    x, z = surface.x - surface.x.mean(), np.nan_to_num(surface.z - np.nanmean(surface.z))
+    z = (z - np.outer(z @ x / (x @ x), x)) * np.hanning(x.size)
+    waves = 2.0 * np.pi / period * np.arange(1, 1 + max(OVERTONES))
+    rows = z @ np.exp(-1j * np.outer(x, waves))
+    strongest = int(np.argmax(np.sum(np.abs(rows) ** 2, axis=0)))
+    turns = np.sum(rows[1:, strongest] * np.conj(rows[:-1, strongest]))
+    slope = float(np.angle(turns)) / (surface.steps[1] * waves[strongest])
+    return float(np.clip(np.arctan(slope), -largest, largest))
 
 
 def refuse_odd(surface: HeightMap, period: float) -> None:
@@ -77,7 +109,7 @@ def refuse_odd(surface: HeightMap, period: float) -> None:
     waves = 1.0 if measured is None else period / measured
     # two hills a line make its second or third wave the strongest one
     is_overtone = round(waves) in OVERTONES and abs(waves / round(waves) - 1.0) < SCALE_LIMIT
-    if abs(1.0 / waves - 1.0) > PERIOD_LIMIT and not is_overtone:
+    if measured is not None and abs(1.0 / waves - 1.0) > PERIOD_LIMIT and not is_overtone:
         raise NoComparison(
             f"the measured period of {1e6 * measured:.4g} um does not fit ours of "
             f"{1e6 * period:.4g} um"

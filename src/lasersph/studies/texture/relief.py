@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +14,7 @@ from lasersph.lasers import InterferenceBeam
 from lasersph.output import OutputError, open_run
 from lasersph.output.image_file import read_maps
 from lasersph.output.reader import read_json
-from lasersph.studies.texture.cells import read_cell
+from lasersph.studies.texture.cells import Cell, read_cell
 from lasersph.studies.texture.table import CellTable
 
 Array = NDArray[np.float64]
@@ -46,20 +48,35 @@ class Relief:
         return float(self.table.fluence[-1] / self.fluence.max()) if self.is_spot else 1.0
 
     def at(self, x: Array, y: Array, factor: float) -> Array:
-        """Heights at places (n,) [m] with a factor on the fluence."""
+        """Heights at places [m], any shape, with a factor on the fluence."""
         if not self.is_spot:
             height = self.table.values["height"][0]
             return np.interp(x, self.table.x, height, period=self.table.period)
-        from scipy.ndimage import map_coordinates
-
-        sides = (self.y, self.x)
-        steps = [(side[-1] - side[0]) / (side.size - 1) for side in sides]
-
-        def local(x: Array, y: Array) -> Array:
-            places = [(y - self.y[0]) / steps[0], (x - self.x[0]) / steps[1]]
-            return factor * map_coordinates(self.fluence, places, order=1, mode="constant")
-
+        local = linear_map(self.x, self.y, factor * self.fluence)
         return self.table.lines.across(local, x, y)
+
+    def sampled(self, factor: float, step: float) -> Callable[[Array, Array], Array]:
+        """Heights that are linear between places about a step [m] apart, for many looks."""
+        if not self.is_spot:
+            return lambda x, y: self.at(x, y, factor)
+        x, y = (
+            np.linspace(side[0], side[-1], 1 + int(np.ceil(np.ptp(side) / step)))
+            for side in (self.x, self.y)
+        )
+        return linear_map(x, y, self.at(x[None, :], y[:, None], factor))
+
+
+def linear_map(x: Array, y: Array, values: Array) -> Callable[[Array, Array], Array]:
+    """Values (ny, nx) at even places x (nx,) and y (ny,), linear between them and 0 outside."""
+    from scipy.ndimage import map_coordinates
+
+    steps = [(side[-1] - side[0]) / (side.size - 1) for side in (y, x)]
+
+    def at(along: Array, across: Array) -> Array:
+        places = [(across - y[0]) / steps[0], (along - x[0]) / steps[1]]
+        return map_coordinates(values, places, order=1, mode="constant")
+
+    return at
 
 
 def read_relief(folder: Path) -> Relief:
@@ -86,12 +103,12 @@ def read_relief(folder: Path) -> Relief:
     period = InterferenceBeam.model_validate(beam).lateral_period if is_pattern else None
     if period is None:
         raise OutputError(f"{folder} has no pattern with a period, and is no texture")
-    cell = read_cell(run, period)
-    return repeating_relief(folder.name, cell.x, cell.values["height"], period)
+    return repeating_relief(read_cell(run, period), period, folder.name)
 
 
-def repeating_relief(name: str, x: Array, height: Array, period: float) -> Relief:
-    """The relief of heights (columns,) at places (columns,) of a period that repeats [m]."""
-    values = {"height": np.tile(height, (3, 1))}  # the same at any fluence
-    table = CellTable(np.array([0.5, 1.0, 2.0]), x, period, values, 0.0)
+@lru_cache(maxsize=256)
+def repeating_relief(cell: Cell, period: float, name: str = "") -> Relief:
+    """The relief of a cell that repeats, the same one for the same cell."""
+    values = {"height": np.tile(cell.values["height"], (3, 1))}  # the same at any fluence
+    table = CellTable(np.array([0.5, 1.0, 2.0]), cell.x, period, values, 0.0)
     return Relief(name, table, np.zeros(1), np.zeros(1), np.ones((1, 1)))

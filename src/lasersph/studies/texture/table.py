@@ -21,6 +21,8 @@ from lasersph.studies.texture.cells import UNITS, Cell
 from lasersph.studies.texture.lines import LEVELS, LineHeights
 
 Array = NDArray[np.float64]
+FEWEST_CELLS = 3
+"""Of which one can be left out and predicted from two others."""
 ROUNDING = 1e-9
 """By which a fluence may exceed that of the highest cell."""
 
@@ -44,7 +46,11 @@ class CellTable:
 
     def __post_init__(self) -> None:
         """Raises ValueError for fewer than three cells, or fluences that do not rise."""
-        if self.fluence.size < 3 or np.any(np.diff(self.fluence) <= 0.0) or self.fluence[0] <= 0.0:
+        if (
+            self.fluence.size < FEWEST_CELLS
+            or np.any(np.diff(self.fluence) <= 0.0)
+            or self.fluence[0] <= 0.0
+        ):
             raise ValueError("a table needs three cells or more whose fluences rise from above 0")
 
     @classmethod
