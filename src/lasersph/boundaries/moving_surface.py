@@ -286,7 +286,7 @@ class MovingSurface:
         self.find(now.position)
         if not lost.any():
             return 0.0
-        density = self.liquid.density
+        density = self.liquid.particle_density
         gone, spacing = self._followed / density, self.spacing
         return take_mass(self.backend, now, self.depth, line, lost, gone, spacing, density)
 
@@ -297,16 +297,16 @@ class MovingSurface:
 
     def _loss(self, part: SurfaceLine, columns: NDArray[np.int64], now: SurfaceStep) -> HostArray:
         """Speed at which mass that leaves lowers a part of the line [m/s]."""
-        begin, end = now.interval
+        (begin, end), density = now.interval, self.liquid.particle_density
         loss = np.zeros(columns.size)
         if (wave := self.drives.mass_flux) is not None:
             S = np.sqrt(1.0 + part.slope**2)
-            loss = wave.mean_over(self.line.x[columns], begin, end) * S / self.liquid.density
+            loss = wave.mean_over(self.line.x[columns], begin, end) * S / density
         if self.drives.recoil is not None:
             # of the steps of heat before this one, per area of the surface seen from above
             gone = self.backend.to_host(self.backend.head(now.evaporated, self.line.count))[columns]
             followed = self._followed.copy()
-            loss = loss + (gone - followed[columns]) / (self.liquid.density * (end - begin))
+            loss = loss + (gone - followed[columns]) / (density * (end - begin))
             followed[columns] = gone
             self._followed = followed
         self.flux_loss += (end - begin) * float(np.sum(loss)) * part.width

@@ -28,10 +28,15 @@ LEAST_SHARE = 0.5
 
 
 class SurfaceLiquid(NamedTuple):
-    """The melt below: rho [kg/m^3], eta at the liquidus [Pa s], temperatures [K] and eta there over
-    that, and the metal, for gamma(T)."""
+    """The melt below: rho of its flow and m/V of the particles [kg/m^3], eta at the liquidus
+    [Pa s], temperatures [K] and eta there over that, and the metal, for gamma(T).
+
+    Flow has the density of the melt, particles that of the cold metal, and nothing swells: so mass
+    that leaves takes the volume that it has in them, else those that stay grow heavy.
+    """
 
     density: float
+    particle_density: float
     viscosity: float
     relative_viscosity: ViscosityTable
     material: Material

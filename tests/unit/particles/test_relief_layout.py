@@ -6,7 +6,7 @@ import pytest
 from lasersph.particles import Domain, Lattice
 from lasersph.particles.filling import fill
 from lasersph.particles.layers import stack
-from lasersph.particles.relief_layout import lay_below
+from lasersph.particles.relief_layout import carry_over, lay_below, resample
 
 
 @pytest.fixture(scope="module")
@@ -50,3 +50,43 @@ def test_too_deep(layers):
     height[3] = -1e-6
     with pytest.raises(ValueError, match="reaches the lower end"):
         lay_below(layers, height)
+
+
+def test_resample():
+    """Sums stay, a constant stays, the same edges change nothing, and a line is exact inside."""
+    rng = np.random.default_rng(3)
+    edges = np.append(0.0, np.cumsum(rng.uniform(0.5, 1.0, 20)))
+    new = np.linspace(0.0, edges[-1], 15)
+    line = 0.5 * (edges[1:] + edges[:-1])
+    values = np.array([np.ones(20), line, rng.uniform(size=20)])
+    found = resample(edges, values, new)
+    assert np.abs(found @ np.diff(new) - values @ np.diff(edges)).max() < 1e-13
+    assert np.abs(found[0] - 1.0).max() < 1e-14
+    inside = slice(2, -2)
+    assert np.abs(found[1] - 0.5 * (new[1:] + new[:-1]))[inside].max() < 1e-13
+    assert found[2].max() <= values[2].max() and found[2].min() >= values[2].min()
+    assert np.abs(resample(edges, values, edges) - values).max() < 1e-13
+
+
+def test_particles_carry_what_they_hold(layers):
+    """Below a relief from which much has left, with columns that hold too much or too little."""
+    rng = np.random.default_rng(5)
+    start = lay_below(layers, np.zeros(20))
+    x, z = start.position
+    lost = 3e-7 + 1e-7 * np.cos(np.pi * x / 1e-6)
+    volume = start.volume * (1.0 - lost / 1e-6)
+    place = np.array([x + rng.uniform(-3e-8, 3e-8, x.size), z * (1.0 - lost / 1e-6) - lost])
+    h, u = 1e6 * np.exp(z / 3e-7), np.sin(np.pi * x / 1e-6)
+    height = -3e-7 - 1e-7 * np.cos(np.pi * (-1e-6 + 1e-7 * (np.arange(20) + 0.5)) / 1e-6)
+    volume *= 1.0 + 0.02 * rng.uniform(-1.0, 1.0, x.size)
+    layout = lay_below(layers, height)
+    new_volume, (new_h, new_u) = carry_over(layers, layout, place, volume, np.array([h, u]))
+    assert new_volume.sum() == pytest.approx(volume.sum(), rel=1e-14)
+    assert new_volume @ new_h == pytest.approx(volume @ h, rel=1e-13)
+    assert new_volume @ new_u == pytest.approx(volume @ u, abs=1e-13 * (volume @ np.abs(u)))
+    assert np.ptp(new_volume / layout.volume) < 1e-12
+    # what lay at one height below the relief still does
+    depth = np.interp(layout.position[0], x[:20], height) - layout.position[1]
+    wanted = 1e6 * np.exp(-depth / (1.0 - lost[np.argsort(x)].mean() / 1e-6) / 3e-7)
+    assert np.abs(new_h - wanted).max() < 0.1e6
+    assert np.abs(new_u - np.sin(np.pi * layout.position[0] / 1e-6)).max() < 0.06

@@ -1,11 +1,22 @@
-"""Particles laid out anew below a relief, so that what melts there next starts evenly."""
+"""Particles laid out anew below a relief, so that what melts there next starts evenly.
+
+So they are in a pause between pulses. And where a surface recedes: particles below it share what
+evaporates, and once one has lost WORN of its volume, all are laid out before each step, with what
+they carry. Else rows at the surface become thinner without end, above the melt that comes from
+below; lower than the gap that is kept below the surface, none would count as lying at it: steel
+that melts and evaporates under steady light, six rows in D/v, had no surface after five rows.
+"""
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Mapping
 
-from lasersph.particles.relief_layout import lay_below
-from lasersph.solvers.conduction.body import Body
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.compute.array_types import Array
+from lasersph.particles.relief_layout import ReliefLayout, carry_over, lay_below
+from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
@@ -14,24 +25,46 @@ from lasersph.solvers.step_control import StepFailed
 EVEN = (0.7, 1.4)
 """Height of particles laid out below a relief over the spacing: more than one row would count as
 that at the surface, which is a spacing thick, or none."""
+WORN = 0.6
+"""Volume of a particle over that of a cell of the lattice below which the surface recedes: a row of
+it lies as deep as `moving_surface.GAP`. In deep melt four spacings have evaporated then."""
 
 
 class UnevenRelief(StepFailed):
     """The relief is too deep for the layers below it."""
 
 
+def same(V):
+    """Argument."""
+    return V
+
+
 class LayoutRenewal:
-    """Lays the particles of a pool out below its surface while nothing flows.
+    """Lays the particles of a pool out below its surface.
 
     Attributes:
-        volume: that they have gained by it so far [m^2].
+        volume: that they have gained in pauses so far [m^2]. recedes: whether they are laid out
+            before each step.
     """
 
     def __init__(
         self, body: Body, domain: PoolDomain, kinds: ParticleKinds, pairs: HeatPairs
     ) -> None:
         self.body, self.domain, self.kinds, self.pairs = body, domain, kinds, pairs
-        self.volume = 0.0
+        self.volume, self.recedes = 0.0, False
+        columns = body.filling.surface.size
+        thickness = domain.layers.thickness
+        self._cell = domain.width / columns * float(thickness[0])
+        fine = int(np.count_nonzero(thickness <= thickness[0] * (1.0 + 1e-9))) * columns
+        self._fine_volume = body.backend.head(body.particles["volume"], fine)
+
+    def checkpoint_scalars(self) -> dict[str, float]:
+        """Numbers that survive a step."""
+        return {"rearranged": self.volume, "recedes": float(self.recedes)}
+
+    def restore(self, numbers: Mapping[str, float]) -> None:
+        """Continue from `checkpoint_scalars`."""
+        self.volume, self.recedes = numbers["rearranged"], bool(numbers["recedes"])
 
     def lay_out(self) -> None:
         """Lay the particles of the finest layers out evenly below the surface as it is.
@@ -41,34 +74,77 @@ class LayoutRenewal:
         Raises:
             UnevenRelief: the relief is too deep for these layers.
         """
-        body, domain, surface = self.body, self.domain, self.domain.surface
-        particles, backend = body.particles, body.backend
-        height = np.zeros(body.filling.surface.size)
+        layout, surface = self._layout(), self.domain.surface
+        self.volume += float(np.sum(layout.volume) - np.sum(self._fine("volume")))
+        self.recedes = False
+        if surface is not None:
+            surface.rest()
+        mass = self.body.material.density_reference * layout.volume
+        self._place({"position": layout.position, "volume": layout.volume, "mass": mass})
+
+    def follow_recession(self) -> None:
+        """Below a surface that recedes, lay them out with what they carry: mass, heat and momentum
+        stay.
+
+        Raises:
+            UnevenRelief: the relief is too deep for these layers.
+        """
+        if not self.domain.surface_moves:
+            return
+        if not self.recedes:
+            fields: dict[str, Array] = {"V": self._fine_volume}
+            (least,) = self.body.backend.pointwise(same, fields, (None,), reduce=("min",))
+            self.recedes = least < WORN * self._cell
+        if not self.recedes:
+            return
+        layout, volume = self._layout(), self._fine("volume")
+        carried = [self._fine(name) for name in ("enthalpy", "pressure", "velocity")]
+        density = np.sum(self._fine("mass")) / np.sum(volume)
+        place = self._fine("position")
+        volume, (h, p, *v) = carry_over(
+            self.domain.layers, layout, place, volume, np.vstack(carried)
+        )
+        new = {"position": layout.position, "volume": volume, "mass": density * volume}
+        new |= {"pressure": p, "velocity": np.array(v)} | dict.fromkeys(HISTORY, h)
+        self._place(new | {"enthalpy_excess": 0.0 * h})
+
+    def _fine(self, name: str) -> NDArray[np.float64]:
+        """A field of the particles of the finest layers, on the host."""
+        values = self.body.backend.to_host(self.body.particles[name])
+        return np.array(values[..., : self._fine_volume.shape[0]])
+
+    def _layout(self) -> ReliefLayout:
+        surface, domain = self.domain.surface, self.domain
+        height = np.zeros(self.body.filling.surface.size)
         if surface is not None and "surface_height" in surface.arrays:
-            height = backend.to_host(surface.arrays["surface_height"])
+            height = self.body.backend.to_host(surface.arrays["surface_height"])
+        more = "give a larger particles.fine_depth (of a box domain.depth)"
         try:
             layout = lay_below(domain.layers, height)
         except ValueError as error:
-            raise UnevenRelief(f"{error}; give a larger particles.fine_depth") from None
+            raise UnevenRelief(f"{error}; {more}") from None
         least, most = (size / domain.spacing for size in layout.heights)
         if least < EVEN[0] or most > EVEN[1]:
             raise UnevenRelief(
                 f"particles below the relief would be {least:.3g} to {most:.3g} spacings high; "
-                "give a larger particles.fine_depth, or fewer pulses"
+                f"{more}, fewer pulses or an earlier end"
             )
-        place, volume, mass = (
-            np.array(backend.to_host(particles[name])) for name in ("position", "volume", "mass")
-        )
-        fine = layout.volume.size
-        self.volume += float(np.sum(layout.volume) - np.sum(volume[:fine]))
-        place[:, :fine], volume[:fine] = layout.position, layout.volume
-        mass[:fine] = body.material.density_reference * layout.volume
-        for name, values in (("position", place), ("volume", volume), ("mass", mass)):
-            particles.set(name, values)
+        return layout
+
+    def _place(self, fields: dict[str, NDArray[np.float64]]) -> None:
+        """Give the particles of the finest layers new fields, and all of them new pairs."""
+        body, domain, surface = self.body, self.domain, self.domain.surface
+        particles, backend = body.particles, body.backend
+        for name, values in fields.items():
+            whole = np.array(backend.to_host(particles[name]))
+            whole[..., : values.shape[-1]] = values
+            particles.set(name, whole)
+        body.update_temperature()
+        self.kinds.find_fluid(particles["melt_fraction"])
+        self.kinds.remember()
         # pairs of all particles that lie elsewhere now, and of those near them
         position = particles["position"]
         if surface is not None:
-            surface.rest()
             surface.find(position)
         domain.cover_fine_layers()
         block = domain.block_for(position, self.kinds)

@@ -138,7 +138,7 @@ class MeltPool:
             "block_layers": self.domain.block_layers,
             "has_moved": float(self._has_moved),
             "spacing_min": self.spacing_min,
-            "rearranged": self.layout_renewal.volume,
+            **self.layout_renewal.checkpoint_scalars(),
             "divergence_rms": self.flow.divergence[0],
             "divergence_max": self.flow.divergence[1],
         }
@@ -199,6 +199,7 @@ class MeltPool:
             raise SurfaceTrouble(trouble)
         if self.flow.largest_speed * SHORTEST * self.heat.end_of_pulse > self.domain.support:
             raise NotConverged(f"the flow has become unstable: {self.flow.largest_speed:.3g} m/s")
+        self.layout_renewal.follow_recession()
         self._keep()
         return retry_step(self._advance, step, unclipped_step, undo=self._return)
 
@@ -292,8 +293,7 @@ class MeltPool:
 
     def shift(self, step: float) -> None:
         """Displacements that keep the density of particles even (73)."""
-        surface = self.domain.surface
-        at_face = self.kinds.dummy
+        surface, at_face = self.domain.surface, self.kinds.dummy
         if surface is not None and not self.domain.surface_moves:
             at_face = surface.at_surface
         speed = max(self.flow.largest_speed, self.domain.conditions.largest_wall_speed())
@@ -383,7 +383,7 @@ class MeltPool:
         self.domain.block_layers = int(numbers["block_layers"])
         self._has_moved = bool(numbers["has_moved"])
         self.spacing_min = numbers["spacing_min"]
-        self.layout_renewal.volume = numbers["rearranged"]
+        self.layout_renewal.restore(numbers)
         self.steadiness.restore(numbers)
         self.exchange.restore(numbers)
         if self.domain.surface is not None:

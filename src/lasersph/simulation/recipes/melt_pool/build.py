@@ -71,6 +71,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             support=support,
             liquid=SurfaceLiquid(
                 liquid.density,
+                case.material.density_reference,
                 liquid.viscosity * liquid.density,
                 liquid.relative_viscosity,
                 case.material,
