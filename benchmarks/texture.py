@@ -116,10 +116,7 @@ def direct(folder: Path, more: Sequence[str]) -> int:
     half = whole.x < 0.5e-6 * wide
     x = whole.x[half]
     local = spot(1e-6 * wide, float(cells.fluence[-1])).at
-    ours = {
-        "height": cells.lines.across(local, x, 0.0),
-        "melt_depth": cells.at("melt_depth", local(x, 0.0), x),
-    }
+    ours = {name: lines.across(local, x, 0.0) for name, lines in cells.lines.items()}
     figure, panels = style.new_figure(2, height=5.0, share_x=True)
     for axes, name in zip(panels, ("height", "melt_depth"), strict=True):
         theirs = whole.values[name][half]

@@ -85,8 +85,11 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], units: dict[str, str]) ->
 
 
 def _draw_profile(axes: Axes, profile: np.ndarray) -> None:
-    """The measured and the most probable heights along the line of a map nearest to y = 0."""
-    near = profile[profile[:, 1] == profile[np.argmin(np.abs(profile[:, 1])), 1]]
+    """The measured and the most probable heights; of a map those nearest to y = 0, as near as its
+    points lie side by side."""
+    side = np.sqrt(np.ptp(profile[:, 0]) * np.ptp(profile[:, 1]) / len(profile))
+    away = np.abs(profile[:, 1])
+    near = profile[away <= away.min() + 0.5 * side]
     x, _, measured, computed = near[np.argsort(near[:, 0], kind="stable")].T
     along = style.unit_for(float(np.max(np.abs(x))), style.LENGTHS)
     up = style.fitting_unit("m", float(np.max(np.abs(measured))))

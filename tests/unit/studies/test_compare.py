@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import synthetic_flow
 import synthetic_run
+from scipy.ndimage import uniform_filter
 from texture_cells import HIGHEST, PERIOD, spot, table
 from texture_cells import relief as made_up
 
@@ -18,7 +19,7 @@ from lasersph.output.particle_file import ParticleFile
 from lasersph.studies.texture import compare as comparing
 from lasersph.studies.texture import relief
 from lasersph.studies.texture.compare import compare
-from lasersph.studies.texture.measurement import NoComparison, refuse_odd
+from lasersph.studies.texture.measurement import NoComparison, correlated_points, refuse_odd
 from lasersph.studies.texture.relief import Relief, read_relief
 
 NM, UM = 1e-9, 1e-6
@@ -32,13 +33,14 @@ def ours():
     return Relief("texture", table(), x, x, fluence, 0.1 * NM)
 
 
-def measurement(ours, factor, seed, scale=1.01, noise=5 * NM, rows=1):
+def measurement(ours, factor, seed, scale=1.01, noise=5 * NM, rows=1, count=500, turn=0.0):
     """A profile (or a map) of 44 um of a relief with a factor on its fluence, tilted and moved."""
     random = np.random.default_rng(seed)
-    x, y = np.linspace(-22 * UM, 22 * UM, 500), np.linspace(-8 * UM, 8 * UM, rows)
+    x, y = np.linspace(-22 * UM, 22 * UM, count), np.linspace(-8 * UM, 8 * UM, rows)
     y = np.zeros(1) if rows == 1 else y
     X, Y = np.meshgrid(x, y)
-    z = ours.at(((X - 0.7 * UM) / scale).ravel(), (Y / scale).ravel(), factor).reshape(X.shape)
+    x_0, cosine, sine = (X - 0.7 * UM) / scale, np.cos(turn), np.sin(turn)
+    z = ours.at(cosine * x_0 + sine * Y / scale, cosine * Y / scale - sine * x_0, factor)
     z = z + 3 * NM + 2e-3 * X + 1e-3 * Y + noise * random.normal(size=X.shape)
     return HeightMap(x - x[0], y - y[0], z)
 
@@ -56,10 +58,22 @@ def test_hidden_factor(ours):
 
 
 def test_map(ours):
-    """A height map is leveled in both directions; it tells the factor more surely."""
-    found = compare(ours, measurement(ours, 0.95, 1, rows=9))
+    """A height map is leveled in both directions and turned; it tells the factor more surely."""
+    found = compare(ours, measurement(ours, 0.95, 1, rows=20, count=160, turn=0.1))
+    assert abs(found.values["rotation_rad"] - 0.1) < 3.0 * found.errors["rotation_rad"] < 0.01
     assert abs(found.values["fluence_factor"] - 0.95) < 3.0 * found.errors["fluence_factor"]
     assert found.errors["fluence_factor"] < 0.004
+
+
+def test_points_that_are_correlated():
+    """Waves of a wrong model count along both directions, noise does not."""
+    x = np.linspace(0.0, 1.0, 80)
+    noise = np.random.default_rng(0).normal(size=(80, 80))
+    blurred = uniform_filter(noise, 4, mode="wrap")
+    found = [correlated_points(z.ravel(), HeightMap(x, x, z), 10_000) for z in (noise, blurred)]
+    assert found[0] == pytest.approx(1.0, abs=0.2)
+    assert found[1] == pytest.approx(16.0, rel=0.3)
+    assert correlated_points(blurred[0], HeightMap(x, x[:1], blurred[:1]), 1) < 6.0
 
 
 def test_end_of_the_cells(ours):

@@ -76,7 +76,8 @@ def test_edges_of_lines():
 
 
 def test_lines_of_a_spot():
-    """A line is the cell of its own fluence between edges at theirs; its volume stays zero."""
+    """A line is the cell that is as bright as it at its brightest, between edges at their fluence;
+    its volume stays zero. At the end of a top hat the slope of the fluence says nothing."""
     local, cells = spot(40e-6), table(24, 400, pools)
     x = 2.0 * PERIOD + np.linspace(-0.5, 0.5, 4001)[:-1] * PERIOD
 
@@ -86,13 +87,18 @@ def test_lines_of_a_spot():
 
     a, b = edge(-1.0), edge(1.0)
     assert 2.0 * PERIOD - a > 1.1 * (b - 2.0 * PERIOD)  # the fluence falls outward
-    own = local.at(2.0 * PERIOD)
+    near = 2.0 * PERIOD + np.linspace(-0.1, 0.1, 2001) * PERIOD
+    own = float(np.max(local.at(near) * np.cos(np.pi * near / PERIOD) ** 2))
+    assert own > 1.005 * local.at(2.0 * PERIOD)
     inside = (x - 0.5 * (a + b)) * half_width(own) / (0.5 * (b - a))
     expected = np.where((x > a) & (x < b), pools(own, inside), 0.0)
-    found = cells.lines.across(local.at, x, 0.0)
+    found = cells.lines["height"].across(local.at, x, 0.0)
     assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
     assert abs(found.mean()) < 1e-3 * np.abs(expected).mean()
-    assert found.max() - cells.at("height", local.at(x), x).max() < -0.04 * found.max()
+    assert found.max() - cells.at("height", local.at(x), x).max() < -0.03 * found.max()
+    line = np.array([PERIOD])
+    ends = cells.lines["height"]._brightest(lambda x, y: 5000.0 * (x <= line), line, np.zeros(1))
+    assert ends == pytest.approx(5000.0)
 
 
 def test_maps_of_a_spot():

@@ -1,8 +1,9 @@
-"""Heights of the lines of a texture, over places of their melt.
+"""Heights and depths of the melt of the lines of a texture, over places of their melt.
 
 The heights of a line end steeply at the edges of its melt, which lie farther out the more light
-there is. So cells are interpolated over places between the line and the edge, each of which follows
-a monotone cubic over fluence [Fritsch1980], and so does w^2, the squared distance of the edge:
+there is, and so does the depth of the melt, of which all of this holds as well. So cells are
+interpolated over places between the line and the edge, each of which follows a monotone cubic over
+fluence [Fritsch1980], and so does w^2, the squared distance of the edge:
 
     Z(F, x) = S(F, x/w(F)),   S = 0 outside of -1 to 1
 
@@ -11,10 +12,19 @@ particles melt or do not: an edge is known to a column's width d, evenly distrib
 deviation d/sqrt 12. A smoothing spline follows w^2 as closely as that, and no closer.
 
 In a spot the fluence changes across a line. Its melt is one pool nevertheless: it levels between
-its edges, and its two rims come out of one height. The heights of line k are those of the cell of
-its own fluence, moved and stretched to the edges a < b, each of which is at the fluence there:
+its edges, and its two rims come out of one height. The heights of line k are those of one cell,
+moved and stretched to the edges a < b, each of which is at the fluence there:
 
-    z(x) = S(F(x_k), (2 x - a - b)/(b - a)),   x_k - a = w(F(a)),   b - x_k = w(F(b))
+    z(x) = S(F_k, (2 x - a - b)/(b - a)),   x_k - a = w(F(a)),   b - x_k = w(F(b))
+
+Of that cell the brightest place is as bright as that of the line, whose light, with F(x) = F_c
+(1 + g (x - x_k)) about it, is brightest beside x_k, at x_k + 2 g (p/2 pi)^2:
+
+    F_k = max F(x) (1 + cos(2 pi (x - x_k)/p))/2 = F_c (1 + (g p/2 pi)^2)
+
+This is the light of two equal beams; of unequal ones of contrast C the brightest place gains
+(1 + C)/2 C times as much, which is left out. So is that the inner rim of a line, where the melt is
+hotter, is higher than the outer one: cells without a slope of the fluence do not know it.
 
 Moving and stretching leave the volume of a cell zero, as its own motion does. Where the melt of a
 line meets that of the next one there is no edge between them: Z(F(x), x - x_k).
@@ -44,13 +54,15 @@ ROWS_A_PERIOD = 40
 a spot of ten periods."""
 MEETS = 1e-6
 """A line without an edge reaches by bisections to within this share of half a period."""
+SLOPE_STEP = 0.1
+"""Of a period, over which the slope of the fluence is taken: several pixels of a map of it."""
 FEWEST = 4
 """Edges from which a cubic spline can be smooth: one more is known than it has coefficients."""
 
 
 @dataclass(frozen=True, eq=False)
 class LineHeights:
-    """Heights of a line by its fluence.
+    """Heights of a line, or depths of its melt, by its fluence.
 
     Attributes:
         period: [m]. highest: fluence of the highest cell [J/m^2].
@@ -122,7 +134,7 @@ class LineHeights:
         lines, line = np.unique(np.round(x / self.period) + 1j * y, return_inverse=True)
         center, row = self.period * lines.real, lines.imag
         left, right = self._edges(fluence, center, row)
-        own = fluence(center, row)
+        own = self._brightest(fluence, center, row)
         half, off = 0.5 * (left + right), 0.5 * (right - left)
         meets = np.maximum(left, right) > 0.5 * self.period * (1.0 - MEETS)
         line = line.reshape(x.shape)
@@ -130,6 +142,19 @@ class LineHeights:
         if not meets.any():
             return alone
         return np.where(meets[line], self.at(fluence(x, y), x), alone)
+
+    def _brightest(
+        self, fluence: Callable[[Array, Array], Array], center: Array, row: Array
+    ) -> Array:
+        """F_k (n,) of lines at (center, row); that at the line where an edge of the light, such as
+        of a top hat, gives no slope."""
+        own, step = fluence(center, row), SLOPE_STEP * self.period
+        change = fluence(center + step, row) - fluence(center - step, row)
+        slope = change / (2.0 * step * np.maximum(own, 1e-12 * self.highest))
+        wave = 2.0 * np.pi / self.period
+        off = np.clip(2.0 * slope / wave**2, -0.25 * self.period, 0.25 * self.period)
+        moved = 0.5 * fluence(center + off, row) * (1.0 + np.cos(wave * off))
+        return np.maximum(own, moved)
 
     def _edges(
         self, fluence: Callable[[Array, Array], Array], center: Array, row: Array

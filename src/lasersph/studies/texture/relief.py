@@ -53,7 +53,7 @@ class Relief:
             height = self.table.values["height"][0]
             return np.interp(x, self.table.x, height, period=self.table.period)
         local = linear_map(self.x, self.y, factor * self.fluence)
-        return self.table.lines.across(local, x, y)
+        return self.table.lines["height"].across(local, x, y)
 
     def sampled(self, factor: float, step: float) -> Callable[[Array, Array], Array]:
         """Heights that are linear between places about a step [m] apart, for many looks."""

@@ -2,10 +2,10 @@
 
     z(x, y) = Z(F(x, y), x mod period)
 
-F is the local fluence, mean over a period, and Z the table of cells; heights of a line lie between
-the edges of its melt, see `lines`. A cell knows neither heat nor melt that the slope of F moves
-across a period: in a Gaussian spot of diameter D at 1/e^2 the fluence changes by up to 2.4 p/D of
-that at the center over a period p.
+F is the local fluence, mean over a period, and Z the table of cells; heights of a line and depths
+of its melt lie between the edges of the melt, see `lines`. A cell knows neither heat nor melt that
+the slope of F moves across a period: in a Gaussian spot of diameter D at 1/e^2 the fluence changes
+by up to 2.4 p/D of that at the center over a period p.
 
 Pulses that are moved: a pulse finds the relief of those before. Where it melts nothing, that relief
 stays; where nothing has been molten before, it meets a flat surface, as a cell does. Where it
@@ -21,7 +21,7 @@ from lasersph.input import format_quantity
 from lasersph.lasers import SpotFluence
 from lasersph.output.image_file import Maps
 from lasersph.studies.texture.cells import UNITS
-from lasersph.studies.texture.table import CellTable
+from lasersph.studies.texture.table import BETWEEN_EDGES, CellTable
 
 Array = NDArray[np.float64]
 MOST_PIXELS = 16_000_000
@@ -84,8 +84,12 @@ def texture_maps(
     for number in range(pulses):
         here = x - number * shift
         local = spot.at(here[None, :], y[:, None])
-        found = {name: table.at(name, local, here[None, :]) for name in UNITS if name != "height"}
-        found["height"] = table.lines.across(spot.at, here[None, :], y[:, None])
+        found = {
+            name: table.lines[name].across(spot.at, here[None, :], y[:, None])
+            if name in BETWEEN_EDGES
+            else table.at(name, local, here[None, :])
+            for name in UNITS
+        }
         melts = (found["melt_depth"] > 0.0) | (found["height"] != 0.0)
         if np.any(melts & has_melted):
             row, column = (int(n) for n in np.argwhere(melts & has_melted)[0])

@@ -2,8 +2,8 @@
 
 Between fluences each place of the period follows a monotone cubic [Fritsch1980], which does not
 overshoot where melting begins; between places of the period it is linear, as columns are narrow.
-Heights are interpolated over places of the melt instead, see `lines`. Below the lowest cell the
-values fall linearly to those of a surface without light.
+Heights and depths of the melt are interpolated over places of the melt instead, see `lines`. Below
+the lowest cell the values fall linearly to those of a surface without light.
 
 The error of the interpolation is found by leaving out each cell but the two at the ends, and
 predicting it from the others, which lie twice as far apart there: it is an upper estimate.
@@ -21,6 +21,8 @@ from lasersph.studies.texture.cells import UNITS, Cell
 from lasersph.studies.texture.lines import LEVELS, LineHeights
 
 Array = NDArray[np.float64]
+BETWEEN_EDGES = ("height", "melt_depth")
+"""What ends steeply at the edges of a line's melt."""
 FEWEST_CELLS = 3
 """Of which one can be left out and predicted from two others."""
 ROUNDING = 1e-9
@@ -86,8 +88,8 @@ class CellTable:
             raise ValueError(
                 f"a fluence of {wanted.max():g} J/m^2 exceeds that of all cells, {highest:g} J/m^2"
             )
-        if name == "height":
-            return self.lines.at(wanted[:, None], self.x[None, :])
+        if name in BETWEEN_EDGES:
+            return self.lines[name].at(wanted[:, None], self.x[None, :])
         low = float(self.fluence[0])
         found = PchipInterpolator(self.fluence, self.values[name], axis=0)(
             np.clip(wanted, low, highest)
@@ -97,15 +99,19 @@ class CellTable:
         return dark + share * (found - dark)
 
     @cached_property
-    def lines(self) -> LineHeights:
-        """Heights over places of the melt."""
-        return LineHeights.of(self.fluence, self.x, self.period, self.values["height"])
+    def lines(self) -> dict[str, LineHeights]:
+        """What follows places of the melt, by name."""
+        return {
+            name: LineHeights.of(self.fluence, self.x, self.period, self.values[name])
+            for name in BETWEEN_EDGES
+            if name in self.values
+        }
 
     @cached_property
     def _levels(self) -> tuple[Array, dict[str, Array]]:
         """Fluences (LEVELS,) and values (LEVELS, columns + 1), whose last column is the first."""
         fluence = np.linspace(0.0, self.fluence[-1], LEVELS)
-        names = [name for name in self.values if name != "height"]
+        names = [name for name in self.values if name not in BETWEEN_EDGES]
         values = {name: self.profiles(name, fluence) for name in names}
         return fluence, {n: np.column_stack([v, v[:, 0]]) for n, v in values.items()}
 
@@ -119,8 +125,8 @@ class CellTable:
 
         wanted, places = np.broadcast_arrays(np.asarray(fluence, float), np.asarray(x, float))
         self.profiles(name, wanted.max(keepdims=True).ravel())  # refuses what no cell covers
-        if name == "height":
-            return self.lines.at(wanted, places)
+        if name in BETWEEN_EDGES:
+            return self.lines[name].at(wanted, places)
         levels, values = self._levels
         row = np.minimum(wanted / levels[-1], 1.0) * (LEVELS - 1)
         step = self.period / self.x.size
