@@ -62,7 +62,7 @@ def heat(study: Study) -> None:
 def rises(study: Study) -> None:
     """For how long two extrema count, and the inner one is the faster one."""
     times = ", ".join(f'"{t:.1f} ns"' for t in LOOKS)
-    for fluence in (0.535, 0.55, 0.57):
+    for fluence in (0.535, 0.55, 0.57, 0.8):
         one = steel(study, fluence, 10, 62, f"output.snapshots.times=[{times}]")
         for least in RISES:
             both, faster = coexistence(one, least)
