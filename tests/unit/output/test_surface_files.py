@@ -59,7 +59,7 @@ BAD = {
     "empty": ("a.csv", "", "it is empty"),
     "no unit": ("a.csv", "x,z\n0,1\n1,2\n2,3\n", "name columns with their units"),
     "other unit": ("a.csv", "x [ns],z [nm]\n0,1\n1,2\n2,3\n", "name columns with their units"),
-    "word": ("a.csv", "x [um],z [nm]\n0,1\n1,two\n2,3\n", '"two" is no number'),
+    "word": ("a.csv", "x [um],z [nm]\n0,1\n1,two\n2,3\n", 'row 2: "two" is no number'),
     "short row": ("a.csv", "x [um],z [nm]\n0,1\n1\n2,3\n", "row 2 holds 1 numbers, not 2"),
     "uneven": ("a.csv", "x [um],z [nm]\n0,1\n1,2\n5,3\n", "the steps of x differ"),
     "no grid": ("a.csv", "x_m,y_m,z_m\n0,0,1\n1,0,2\n0,1,3\n", "no rectangular grid"),

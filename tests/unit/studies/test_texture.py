@@ -202,10 +202,24 @@ def test_refused(tmp_path, monkeypatch, capsys, settings, message):
 @pytest.fixture(scope="module")
 def plan():
     """The plan of a coarse texture of six cells, as a call of Python makes it."""
+    return plan_texture("dlip-steel", settings_of_a_spot(), 6)
+
+
+def settings_of_a_spot(**more):
+    """Settings of a coarse texture."""
     settings = dict(one.split("=", 1) for one in COARSE[:-1])
-    settings["laser.spot"] = {"diameter": "50 um", "definition": "1/e^2"}
-    settings["particles.spacing"] = "100 nm"
-    return plan_texture("dlip-steel", settings, 6)
+    return {**settings, "laser.spot": {"diameter": "50 um", "definition": "1/e^2", **more}}
+
+
+def test_cells_of_moved_pulses(monkeypatch):
+    """They are those of one pulse, however long the pause between pulses lasts."""
+    monkeypatch.setattr(make, "cell_fluences", lambda *_: (4000.0,))
+    pulses = {"laser.pulse.count": 3, "laser.pulse.period": "1 ms", "time.end": "2.00009 ms"}
+    for pause in ({}, {"time.pause": "remove"}):
+        moved = plan_texture("dlip-steel", settings_of_a_spot(shift="60 um") | pulses | pause)
+        one = plan_texture("dlip-steel", settings_of_a_spot())
+        assert (moved.pulses, moved.shift) == (3, pytest.approx(60e-6))
+        assert [p.hash for p in moved.cells.points()] == [p.hash for p in one.cells.points()]
 
 
 def test_plan(plan):

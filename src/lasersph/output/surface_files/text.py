@@ -114,16 +114,16 @@ def _numbers(lines: list[str], count: int) -> np.ndarray:
     try:
         return np.array(rows, dtype=float)
     except ValueError:
-        return np.array([[_number(one) for one in row] for row in rows])
+        return np.array([[_number(one, n + 1) for one in row] for n, row in enumerate(rows)])
 
 
-def _number(word: str) -> float:
+def _number(word: str, row: int) -> float:
     if re.fullmatch(r"(?i)bad|nan|-+|no|data|\*+", word):
         return np.nan
     try:
         return float(word)
     except ValueError:
-        raise OutputError(f'"{word}" is no number') from None
+        raise OutputError(f'row {row}: "{word}" is no number') from None
 
 
 def _length(text: str) -> float:

@@ -96,8 +96,11 @@ def plan_texture(
     assert laser is not None
     moves = laser.displacement is not None and laser.pulse.count > 1
     pulses, shift = (laser.pulse.count, float(laser.displacement or 0.0)) if moves else (1, 0.0)
-    if moves:
-        bare["laser.pulse.count"] = 1
+    if moves:  # a cell has one pulse, and the time after it that the last one has
+        end = case.time.end - (pulses - 1) * float(laser.pulse.interval or 0.0)
+        bare |= {"laser.pulse.count": 1, "time.end": f"{end:.9g} s"}
+        bare |= dict.fromkeys(("laser.pulse.period", "laser.pulse.repetition_rate"), "")
+        bare["time.pause"] = ""
     fluences = cell_fluences(CaseTemplate(name, {**bare, KEY: "1 J/cm^2"}), spot.center, cells)
     vary = {KEY: [f"{one!r} J/m^2" for one in fluences]}
     plan = build_plan(str(name), vary, set=bare)
