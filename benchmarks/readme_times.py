@@ -45,14 +45,20 @@ def lasersph(arguments: list[str]) -> tuple[float, int]:
 
 
 def measure(row: dict) -> dict:
-    """The row with what its run took, when, at which commit and on which machine."""
-    command = ["run", row["case"]] + [part for s in row["set"] for part in ("--set", s)]
+    """The row with what its run took, when, at which commit and on which machine; the particles
+    are those of all runs of a row that has several."""
+    command = [row["case"]] + [part for s in row["set"] for part in ("--set", s)]
     with tempfile.TemporaryDirectory() as folder:
-        lasersph([*command, "--quick", "--out", f"{folder}/quick"])
-        seconds, memory = lasersph([*command, "--out", f"{folder}/run"])
-        summary = json.loads(Path(folder, "run", "summary.json").read_text(encoding="utf-8"))
+        lasersph(["run", *command, "--quick", "--out", f"{folder}/quick"])
+        verb, *options = row.get("verb", ["run"])
+        seconds, memory = lasersph([verb, *command, *options, "--out", f"{folder}/run"])
+        files = [
+            *Path(folder, "run").glob("summary.json"),
+            *Path(folder, "run").glob("cells/runs/*/summary.json"),
+        ]
+        summaries = [json.loads(file.read_text(encoding="utf-8")) for file in files]
     return row | {
-        "particles": summary["particles"],
+        "particles": sum(one["particles"] for one in summaries),
         "seconds": round(seconds, 1),
         "memory_bytes": memory,
         "date": date.today().isoformat(),
@@ -80,9 +86,13 @@ def table(rows: list[dict]) -> str:
     """The table of the pages."""
     lines = ["| `lasersph run` | particles | time | memory | measured |", "|---|---|---|---|---|"]
     for row in rows:
+        if "seconds" not in row:  # not measured yet
+            continue
         command = " ".join([row["case"], *(f'--set "{s}"' for s in row["set"])])
         if len(row["set"]) > MOST_SETTINGS:
             command = f"{row['case']} --set ..."
+        if "verb" in row:
+            command = f"lasersph {row['verb'][0]} {command} {' '.join(row['verb'][1:])}"
         particles = f"{row['particles']:,}".replace(",", " ")
         when = f"{row['date']}, {row['commit']}" + (f", {row['note']}" if row["note"] else "")
         memory = f"{row['memory_bytes'] / 2**30:.2g} GiB"

