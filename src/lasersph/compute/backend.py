@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lasersph.compute import connected, threads
+from lasersph.compute import connected, key_order, threads
 from lasersph.compute.arguments import components
 from lasersph.compute.array_types import Array, Outputs, PairList, Rows
 from lasersph.compute.launch import Launch, Launcher
@@ -16,7 +16,11 @@ from lasersph.compute.loops import Loops
 from lasersph.compute.routine import Step, run_routine
 from lasersph.compute.signature import Call
 
-_KINDS = {"index": np.uint32, "offset": np.uint64, "flag": np.uint8}
+_KINDS = {
+    "index": np.dtype(np.uint32),
+    "offset": np.dtype(np.uint64),
+    "flag": np.dtype(np.uint8),
+}
 
 
 class Backend:
@@ -38,7 +42,7 @@ class Backend:
         self.precision = precision
         self.real = np.dtype(precision)
         self.threads = threads.chosen(threads_wanted)
-        self._loops = Loops(self.precision, self.launcher(), self.unwrap)
+        self._loops = Loops(self.precision, self.launcher(), self.unwrap, self.object_address)
 
     def launcher(self) -> Launcher:
         """What runs the loops."""
@@ -52,7 +56,7 @@ class Backend:
             return self.real
         if kind not in _KINDS:
             raise ValueError(f"kind must be real, index, offset or flag, not {kind!r}")
-        return np.dtype(_KINDS[kind])
+        return _KINDS[kind]
 
     def wrap(self, array: np.ndarray) -> Array:
         """Array as the caller sees it."""
@@ -61,6 +65,9 @@ class Backend:
     def unwrap(self, array: Array) -> np.ndarray:
         """NumPy array behind the caller's array."""
         return array  # type: ignore[return-value]
+
+    object_address = staticmethod(id)
+    """Address of the NumPy object behind the caller's array, which compiled code reads."""
 
     def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> Array:
         """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
@@ -151,12 +158,15 @@ class Backend:
         """Rows k in order, kind "index", whose array[k] is exactly `value`."""
         return self.wrap(np.flatnonzero(self.unwrap(array) == value).astype(np.uint32))
 
+    def rows_by_key(self, keys: Array, key_count: int) -> tuple[Array, Rows]:
+        """Where the rows of each index key 0 ... key_count - 1 begin, kind "offset", one more than
+        there are keys; and the rows, key after key and in order, kind "index"."""
+        start, order = key_order.rows_by_key(self.unwrap(keys), key_count)
+        return self.wrap(start), self.wrap(order)
+
     def sort_by_key(self, keys: Array, key_count: int) -> Rows:
         """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
-        host = self._keys(keys, key_count)
-        if key_count <= 1 << 16:
-            host = host.astype(np.uint16)  # sorted by digits, in linear time
-        return self.wrap(np.argsort(host, kind="stable").astype(np.uint32))
+        return self.rows_by_key(keys, key_count)[1]
 
     def count_by_key(self, keys: Array, key_count: int) -> Rows:
         """How often each key 0 ... key_count - 1 occurs among index keys, kind "index"."""
@@ -171,8 +181,7 @@ class Backend:
         Args:
             filled: (columns lines,) kind "index", not 0 where a cell is filled.
         """
-        is_filled = self.unwrap(filled).reshape(columns, lines) > 0
-        return self.wrap(connected.first_connected(is_filled, wraps).astype(np.uint32))
+        return self.wrap(connected.first_connected(self.unwrap(filled), columns, lines, wraps))
 
     def _keys(self, keys: Array, key_count: int) -> np.ndarray:
         host = self.unwrap(keys)

@@ -204,6 +204,12 @@ class CudaBackend(Backend):
         start(cuda_kernels.list_marked, size, count, marks.parts[0], place.parts[0], rows.parts[0])
         return rows
 
+    def rows_by_key(self, keys: Array, key_count: int) -> tuple[CudaArray, CudaArray]:
+        """Where the rows of each index key begin, and these key after key, see `Backend`."""
+        start = self.zeros(key_count + 1, "offset")
+        self.exclusive_scan(self.count_by_key(keys, key_count), start)
+        return start, self.sort_by_key(keys, key_count)
+
     def sort_by_key(self, keys: Array, key_count: int) -> CudaArray:
         """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
         self.count_by_key(keys, key_count)

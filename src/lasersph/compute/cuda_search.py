@@ -137,9 +137,7 @@ class CudaSearch:
         ]
         key = self._cells(position, number, [one.low for one in levels], grids)
         cells = sum(one.cells for one in grids)
-        order = backend.sort_by_key(key, cells)
-        starts = backend.empty(cells + 1, np.uint64)
-        backend.exclusive_scan(backend.count_by_key(key, cells), starts)
+        starts, order = backend.rows_by_key(key, cells)
         x, l_j = backend.zeros(position.shape), backend.zeros(total)
         backend.gather(position, order, x)
         backend.gather(support, order, l_j)

@@ -27,6 +27,10 @@ from lasersph.compute.signature import Call, Signature, listed
 
 _layout = attrgetter("dtype", "shape", "strides")
 _INDEX, _OFFSET = np.dtype(np.uint32), np.dtype(np.uint64)
+KEPT = 4
+"""Launches kept for calls of the same names whose arrays differ in type or shape."""
+_PLAIN = {float, int}
+"""Types of constants that tell all about them."""
 
 
 class Given(NamedTuple):
@@ -53,8 +57,11 @@ class Given(NamedTuple):
 class Loops:
     """All loops of one backend, found by signature and kinds."""
 
-    def __init__(self, precision: str, launcher: Launcher, unwrap: Callable[[Any], Any]) -> None:
+    def __init__(
+        self, precision: str, launcher: Launcher, unwrap: Callable, object_address: Callable = id
+    ) -> None:
         self.precision, self.launcher, self.unwrap = precision, launcher, unwrap
+        self._object_address = object_address
         self.real = np.dtype(precision)
         self._signatures: dict[Any, Signature] = {}
         self._record: list[Launch] | None = None
@@ -78,13 +85,12 @@ class Loops:
         """The loop of a call, bound to its arrays; `again` itself where it can take them."""
         if again is None or not self._rebinds:
             return self.launcher.launch(self._bound(self.given(call)))
-        signature, kinds, ones, numbers = self._addresses(call)
+        signature, kinds, ones, values = self._addresses(call)
         key, found = (signature, kinds), again.rebound
-        if found is not None and found.key == key and source.is_current(found.watched):
-            is_bound = found.run(ones, numbers)
-            if is_bound:
-                again.holds(call)
-                return again
+        is_same = found is not None and found.key == key and source.is_current(found.watched)
+        if is_same and found.run(ones, values):
+            again.holds(call)
+            return again
         found = Rebound(self._bound(self.given(call)), signature, self.launcher.threads, call)
         found.only_binds(key)
         found.launch.holds(call)
@@ -103,38 +109,42 @@ class Loops:
 
     def _run_rebound(self, call: Call) -> tuple[float, ...]:
         """Run a call by the launch of an earlier one with arrays of the same kinds, if any."""
-        signature, kinds, ones, numbers = self._addresses(call)
-        found = signature.rebound.get(kinds)
-        is_current = found is not None and source.is_current(found.watched)
-        if found is not None and is_current and found.run(ones, numbers):
-            return tuple(found.launch.results)
-        bound, threads = self._bound(self.given(call)), self.launcher.threads
-        found = signature.rebound[kinds] = Rebound(bound, signature, threads, call)
+        signature, kinds, ones, values = self._addresses(call)
+        launches = signature.rebound.get(kinds, ())
+        for found in launches:
+            if source.is_current(found.watched) and found.run(ones, values):
+                return tuple(found.launch.results)
+        found = Rebound(self._bound(self.given(call)), signature, self.launcher.threads, call)
+        signature.rebound[kinds] = (found, *launches[: KEPT - 1])
         return found.launch()
 
-    def _addresses(self, call: Call) -> tuple[Signature, tuple, array, dict[str, Any]]:
-        """Signature, kinds beside those of arrays, addresses for `Rebound`, and numbers."""
-        signature, constants, neighbors = self._signature(call), call.constants, call.neighbors
-        numbers = {name: constants[name] for name in signature.numbers}
-        outs, fields = listed(call.out), [call.fields[symbol] for symbol in signature.fields]
-        kinds = (*map(fingerprint, numbers.values()), *[out is None for out in outs])
-        if neighbors is None:
-            arrays = [call.rows, None, None, None, *fields]
-        else:
-            support = neighbors.support
-            arrays = [call.rows, neighbors.row_start, neighbors.neighbor, support, *fields]
+    def _addresses(self, call: Call) -> tuple[Signature, tuple, array, tuple]:
+        """Signature, kinds beside those of arrays, addresses and numbers for `Rebound`."""
+        signature = self._signature(call)
+        _, _, neighbors, fields, out, rows, _, _, constants, _ = call
+        outs, values = listed(out), signature.number_values(constants)
+        kinds: tuple = tuple(map(type, values))
+        if not _PLAIN.issuperset(kinds):
+            kinds = tuple(map(fingerprint, values))
+        stored, address = [one for one in outs if one is not None], self._object_address
+        if len(stored) < len(outs):
+            kinds += tuple([one is None for one in outs])
+        ones = [0, 0 if rows is None else address(rows), 0, 0, 0]
+        ones += map(address, signature.field_values(fields))
+        if neighbors is not None:
+            support, position = neighbors.support, neighbors.position
+            ones[2:4] = address(neighbors.row_start), address(neighbors.neighbor)
+            ones[4] = place = 0 if support is None else address(support)
             if signature.position:
-                arrays.append(neighbors.position)
+                ones.append(0 if position is None else address(position))
             if signature.support:
-                arrays.append(support)
+                ones.append(place)
             if signature.geometry:
-                period = numbers["period"] = neighbors.period
-                kinds += (neighbors.kernel, neighbors.mean, period)
-        arrays += [out for out in outs if out is not None]
-        arrays += [constants[name] for name in signature.tables]
-        unwrap = self.unwrap
-        ones = [0, *[0 if one is None else id(unwrap(one)) for one in arrays]]
-        return signature, kinds, array("Q", ones), numbers
+                values += (neighbors.period,)
+                kinds += (neighbors.kernel, neighbors.mean, neighbors.period)
+        ones += map(address, stored)
+        ones += map(address, signature.table_values(constants))
+        return signature, kinds, array("Q", ones), values
 
     def _bound(self, given: Given) -> Bound:
         """The loop of a call with its arguments, all checked."""

@@ -179,7 +179,7 @@ class Rebound:
     """
 
     key: tuple | None = None
-    _numbers: dict[str, Any] | None = None
+    _values: tuple | None = None
 
     def __init__(self, bound: Bound, signature: Signature, threads: int, call: Call) -> None:
         compiled = bound.compiled
@@ -210,17 +210,22 @@ class Rebound:
         self._plan = array("Q", [*head, id(_OFFSET), id(_INDEX), 0, *words])
         self._call = rebinding_function(compiled.real.name)
         self._places = self._plan.buffer_info()[0], self.launch.address
+        self._names = signature.numbers + (("period",) if signature.geometry else ())
 
     def only_binds(self, key: tuple) -> None:
         """Bind without running from now on, for a launch of its own that is run later."""
         self.key, self._plan[ONLY_BINDS], self.launch.rebound = key, 1, self
 
-    def run(self, ones: array, numbers: dict[str, Any]) -> bool:
-        """Run with the arrays at some addresses, 0 first; False where they are of other kinds."""
+    def run(self, ones: array, values: tuple) -> bool:
+        """Run with the arrays at some addresses, 0 first; False where they are of other kinds.
+
+        Args:
+            values: of the constants that are numbers, with the period of the list.
+        """
         # routines change the numbers of prepared launches where they lie
-        if self.key is not None or numbers != self._numbers:
-            self.launch.set(numbers)
-            self._numbers = numbers
+        if self.key is not None or values != self._values:
+            self.launch.set(dict(zip(self._names, values, strict=True)))
+            self._values = values
         plan, frame = self._places
         self._call(plan, ones.buffer_info()[0], frame)
         return bool(ones[0])

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
+from math import floor, inf, isfinite, prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -144,7 +145,7 @@ def neighbor_list(
         )
     refuse_escape(host, lower, upper)
     smallest, largest = (supports.min(), supports.max()) if total else (1.0, 1.0)
-    if not (smallest > 0.0 and np.isfinite(largest)):  # not a number is neither
+    if not (smallest > 0.0 and isfinite(largest)):  # not a number is neither
         refuse_support(supports)
     row_start = np.zeros(count + 1, dtype=np.uint64)
     if count == 0:
@@ -154,8 +155,8 @@ def neighbor_list(
     periodic = tuple(bool(width) for width in widths)
     module = _module(_scan(backend.precision, dimension, mean, periodic).text)
     sort = _module(sort_text(backend.precision, dimension)).sort
-    cells = _levels(sort, host, supports, mean, lower, upper)
-    extent = max(float(np.abs(cells.low).max()), float(np.abs(cells.high).max()), widths.max())
+    cells = _levels(sort, host, supports, mean, lower, upper, (smallest, largest))
+    extent = float(max(*map(abs, (*cells.low.flat, *cells.high.flat)), *widths))
     slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(largest)))
     targets = host
     if wanted is not None:  # the others lie where nothing is near
@@ -216,11 +217,12 @@ def _levels(
     mean: Callable,
     lower: Sequence[float] | None,
     upper: Sequence[float] | None,
+    ends: tuple[Any, Any],
 ) -> _Cells:
-    """Sort the particles into levels and cells."""
+    """Sort the particles into levels and cells; `ends` are the least and the largest support."""
     dimension, total = position.shape
-    smallest = support.min()
-    if support.max() < FINEST * smallest:
+    smallest = ends[0]
+    if ends[1] < FINEST * smallest:
         groups = [np.arange(total, dtype=np.uint32)]
     else:
         level = np.frexp(support / (FINEST * smallest))[1]
@@ -237,8 +239,10 @@ def _levels(
         part = position if single else np.ascontiguousarray(position[:, group])
         low[k] = part.min(axis=1) if lower is None else lower
         high[k] = part.max(axis=1) if upper is None else upper
-        supports = support if single else support[group]
-        largest[k], least[k] = supports.max(), supports.min()
+        least[k], largest[k] = ends
+        if not single:
+            supports = support[group]
+            least[k], largest[k] = supports.min(), supports.max()
         size = float(mean(largest[k], largest[k]))
         place = order[members : members + group.size]
         start, shape[k], inverse[k] = _sorted(sort, position, group, low[k], high[k], size, place)
@@ -249,7 +253,7 @@ def _levels(
         np.take(position, order, axis=1),
         support[order],
         order,
-        np.concatenate(starts),
+        starts[0] if len(starts) == 1 else np.concatenate(starts),
         first_cell,
         first_member,
         low,
@@ -280,14 +284,13 @@ def _sorted(
 
 def grid(low: np.ndarray, high: np.ndarray, size: float, members: int, real: np.dtype) -> Grid:
     """Cells of an edge of `size` [m] in a box, or larger where there are few members."""
-    width = (high - low).astype(float)
+    widths = [float(width) for width in high - low]
     while True:
-        shape = np.floor(width / size) + 1.0
-        if np.prod(shape) <= _CELLS_PER_PARTICLE * members + 64:
+        shape = [floor(width / size) + 1 for width in widths]
+        if prod(shape) <= _CELLS_PER_PARTICLE * members + 64:
             break
         size *= 1.25
-    shape = shape.astype(np.int64)
-    return Grid(shape, int(np.prod(shape)), real.type(1.0 / size))
+    return Grid(np.array(shape, np.int64), prod(shape), real.type(1.0 / size))
 
 
 def refuse_escape(
@@ -297,13 +300,14 @@ def refuse_escape(
     if not position.size:
         return
     dimension = position.shape[0]
-    low = np.full(dimension, -np.inf) if lower is None else np.asarray(lower, dtype=float)
-    high = np.full(dimension, np.inf) if upper is None else np.asarray(upper, dtype=float)
-    least, most = position.min(axis=1), position.max(axis=1)
-    finite = np.isfinite(least).all() and np.isfinite(most).all()
-    if finite and (least >= low).all() and (most <= high).all():
+    low = (-inf,) * dimension if lower is None else lower
+    high = (inf,) * dimension if upper is None else upper
+    ends = zip(position.min(axis=1), position.max(axis=1), low, high, strict=True)
+    if all(-inf < least >= bottom and inf > most <= top for least, most, bottom, top in ends):
         return
-    inside = np.isfinite(position) & (position >= low[:, None]) & (position <= high[:, None])
+    corners = np.asarray(low, float), np.asarray(high, float)
+    inside = np.isfinite(position)
+    inside &= (position >= corners[0][:, None]) & (position <= corners[1][:, None])
     outside = np.flatnonzero(~inside.all(axis=0))
     number = int(outside[0])
     place = ", ".join(f"{x:.6g}" for x in position[:, number])
@@ -312,7 +316,7 @@ def refuse_escape(
     raise EscapedParticle(f"particle {number} escaped: position ({place}) m{box}{others}")
 
 
-def _box(corner: np.ndarray) -> str:
+def _box(corner: Sequence[float]) -> str:
     return "(" + ", ".join(f"{x:.6g}" for x in corner) + ")"
 
 

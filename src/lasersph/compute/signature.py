@@ -8,6 +8,7 @@ arrays are new at each call, and are checked at each call.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 from lasersph.compute.arguments import pair_roles, parameter_names
@@ -43,6 +44,7 @@ class Signature:
             have entries for, name of the argument). neighbors: (place, name) of those that are
             read at neighbors.
         constants: names. numbers, tables: those that are numbers or tuples of them, and arrays.
+        field_values, number_values, table_values: give these of a call's fields or constants.
         reduce, combine: for each result.
         geometry: whether the loop depends on the list's period. apart: and on the dimension.
             kernel, mean: and on these.
@@ -65,6 +67,9 @@ class Signature:
         self.reduce = () if call.reduce is None else tuple(listed(call.reduce))
         self.combine = () if call.combine is None else tuple(listed(call.combine))
         self._place(call, [one for one in arguments if one[1] in NEEDS])
+        self.field_values = _values_of(self.fields)
+        self.number_values = _values_of(self.numbers)
+        self.table_values = _values_of(self.tables)
         self.loops: dict[Any, Any] = {}
         self.rebound: dict[Any, Any] = {}
 
@@ -102,6 +107,14 @@ class Signature:
 def listed(value: Any) -> tuple | list:
     """A single value as a tuple of one."""
     return value if isinstance(value, tuple | list) else (value,)
+
+
+def _values_of(names: tuple[str, ...]) -> Callable[[Mapping[str, Any]], tuple]:
+    """Function of a dictionary that gives its values of some names."""
+    if not names:
+        return lambda given: ()
+    (first, *others) = names
+    return itemgetter(*names) if others else lambda given: (given[first],)
 
 
 def _once(names: Any) -> tuple[str, ...]:

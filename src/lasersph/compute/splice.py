@@ -7,6 +7,8 @@ that the result does not depend on the number of threads.
 
 from __future__ import annotations
 
+from functools import cache as once
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
@@ -70,6 +72,12 @@ class PairRows(NamedTuple):
     values: Array
 
 
+@once
+def _module() -> ModuleType:
+    """The compiled functions of `_TEXT`, whose look-up by its content takes long."""
+    return cache.load(_TEXT)
+
+
 def splice(backend: Backend, first: PairRows, chosen: Array, rest: PairRows) -> PairRows:
     """Rows of `first` where `chosen`, those of `rest` elsewhere.
 
@@ -89,7 +97,7 @@ def splice(backend: Backend, first: PairRows, chosen: Array, rest: PairRows) -> 
         return backend.search.splice(first, mark, rest)
     if start.size - 1 < count and mark[start.size - 1 :].any():
         raise ValueError(f"a row is chosen beyond the {start.size - 1} of the first list")
-    module = cache.load(_TEXT)
+    module = _module()
     row_start = np.empty(count + 1, np.uint64)
     module.lengths(count, mark, start, kept, row_start)
     pairs = int(row_start[-1])

@@ -39,3 +39,7 @@ class StrictBackend(Backend):
         if type(array) is not StrictArray:
             raise TypeError(f"{type(array).__name__} given; make it with backend.asarray()")
         return array._host
+
+    def object_address(self, array: Array) -> int:
+        """Address of the NumPy object behind the caller's array."""
+        return id(self.unwrap(array))

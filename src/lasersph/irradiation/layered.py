@@ -106,6 +106,7 @@ class LayeredLight:
         position, size = filling.position[:-1, surface], width[:-1, surface]
         self.lower, self.upper = position - 0.5 * size, position + 0.5 * size
         self.surface_area = area[surface]
+        self._means = laser.resting_means(self.lower, self.upper)
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._varies = bool(np.ptp(table[1]) > 0.0)
         R_T, R_R = map(backend.asarray, table)
@@ -138,7 +139,7 @@ class LayeredLight:
         self.incident = self.reflected = self.transmitted = 0.0
         if self.laser is None:
             return
-        density = self.laser.energy_density(self.lower, self.upper, start, end)
+        density = self.laser.energy_density(self.lower, self.upper, start, end, self._means)
         self.incident = float(np.sum(density * self.surface_area))
         self.backend.copy(self.backend.asarray(density), self.fluence)
 

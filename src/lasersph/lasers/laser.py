@@ -292,12 +292,27 @@ class Laser(Model):
             return np.broadcast_to(start, (2, *time.shape))
         return start + self.path.at(time)
 
-    def energy_density(self, lower: ArrayLike, upper: ArrayLike, t0: float, t1: float) -> Array:
+    def resting_means(self, lower: Array, upper: Array) -> Array | None:
+        """(n,) means of a beam that rests over cells, for `energy_density`; None where it moves."""
+        is_shifted = isinstance(self.beam, InterferenceBeam) and self.beam.shift
+        if is_shifted or self.path is not None:
+            return None
+        return self._cell_means(lower, upper, self.axis(0.0))
+
+    def energy_density(
+        self,
+        lower: ArrayLike,
+        upper: ArrayLike,
+        t0: float,
+        t1: float,
+        resting_means: Array | None = None,
+    ) -> Array:
         """Energy that falls onto each surface cell from t0 to t1, per area [J/m^2], shape (n,).
 
         Args:
             lower, upper: corners of the cells, shape (dim - 1, n) [m]; dim - 1 = 0 is a column on
                 the line x = y = 0, dim - 1 = 1 a strip of the line y = 0.
+            resting_means: what the function of this name gives, where it is known.
         """
         low, high = np.asarray(lower, float), np.asarray(upper, float)
         if isinstance(self.beam, InterferenceBeam) and self.beam.shift:
@@ -311,7 +326,9 @@ class Laser(Model):
             share = float(self.pulse.delivered(t0, t1))
             if share == 0.0:
                 return np.zeros(low.shape[1])
-            return self.unit_fluence * share * self._cell_means(low, high, self.axis(t0))
+            if resting_means is None:
+                resting_means = self._cell_means(low, high, self.axis(t0))
+            return self.unit_fluence * share * resting_means
         total = np.zeros(low.shape[1])
         scale = self.beam.scale
         if self.spot is not None and self.spot.extent == "whole":

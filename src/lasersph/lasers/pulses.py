@@ -117,17 +117,24 @@ class PulseTrain(Model, ABC):
 
         Time steps must end there.
         """
+        if self.count == 1:
+            marks = self._first_marks
+            return marks[(marks >= start) & (marks <= end)]
         marks = self._marks()
-        if self.count > 1:
-            low = max(0, int(np.floor((start - marks[-1]) / self._step)))
-            high = self.count
-            if np.isfinite(end):
-                high = min(high, max(low, int(np.ceil((end - marks[0]) / self._step)) + 1))
-            marks = (np.arange(low, high)[:, None] * self._step + marks[None, :]).ravel()
+        low = max(0, int(np.floor((start - marks[-1]) / self._step)))
+        high = self.count
+        if np.isfinite(end):
+            high = min(high, max(low, int(np.ceil((end - marks[0]) / self._step)) + 1))
+        marks = (np.arange(low, high)[:, None] * self._step + marks[None, :]).ravel()
         return np.unique(marks[(marks >= start) & (marks <= end)])
 
     def _marks(self) -> Array:
         return np.array(self.window)
+
+    @cached_property
+    def _first_marks(self) -> Array:
+        """Those of the first pulse, rising and each once."""
+        return np.unique(self._marks())
 
     def active(self, start: float, end: float) -> bool:
         """Whether there is light at any time in (start, end)."""

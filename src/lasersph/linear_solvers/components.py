@@ -89,6 +89,7 @@ class Components:
         self.backend, self.count = backend, 0
         self.number, self.mask = backend.zeros(count, "index"), backend.zeros(count)
         self._cells = Cells(backend, count, CELL * support, period)
+        self._share = backend.zeros(0)
 
     def find(self, position: Array, mask: Array, boundary_coefficient: Array) -> None:
         """Label the particles with mask 1.
@@ -113,8 +114,9 @@ class Components:
         fields, out = {"part": self.number}, (self.number, self.mask)
         backend.pointwise(component_of, fields, out, members=members, before=before)
         self._members = members_of(backend, self.number, self.count + 1)
-        self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
-        self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
+        if self._share.shape[0] != self.count + 1:
+            self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
+            self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
         self._sum(share_of, self._share, boundary_coefficient=boundary_coefficient)
 
     def remove_means(self, values: Array) -> float:

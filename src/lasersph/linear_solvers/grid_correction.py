@@ -261,19 +261,19 @@ def _inverse(backend: Backend, level: Level) -> np.ndarray:
     Vanishing beside the largest: a node that particles touch by a rounding error has nothing else.
     """
     n, stencil = level.count, level.stencil
-    s, a = (backend.to_host(level.at[name]).astype(np.float64) for name in ("s", "a"))
-    first, second, kinds = _couplings(*level.shape.values())
+    s, a = (np.asarray(backend.look(level.at[name]), np.float64) for name in ("s", "a"))
+    first, second, kinds, place = _couplings(*level.shape.values())
     g = np.array([stencil[name] for name in COUPLINGS])[kinds] * s[first] * s[second]
-    place = np.concatenate([np.arange(n) * (n + 1), first * (n + 1), first * n + second])
     K = np.asarray(np.bincount(place, np.concatenate([a, g, -g]), n * n), float).reshape(n, n)
-    return invert(K, VANISHING * np.diag(K).max(initial=0.0)).ravel()
+    return invert(K, VANISHING * K.ravel()[:: n + 1].max(initial=0.0)).ravel()
 
 
 @lru_cache(maxsize=8)
 def _couplings(
     columns: int, lines: int, x_wraps: int, z_wraps: int
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Both nodes of all that are coupled in a grid, and the place of the kind in COUPLINGS."""
+) -> tuple[NDArray[np.int64], ...]:
+    """Both nodes of all that are coupled in a grid, the place of the kind in COUPLINGS, and the
+    places in a matrix of its diagonal, and of what couplings add to the diagonal and beside it."""
     c, m = np.divmod(np.arange(columns * lines), lines)
     parts: list[tuple[NDArray[np.int64], ...]] = []
     for i in (-1, 0, 1):
@@ -285,4 +285,6 @@ def _couplings(
             k = np.flatnonzero(is_inside & (other != np.arange(other.size)))
             parts.append((k, other[k], np.full(k.size, 2 if i and j else 0 if i else 1)))
     first, second, kinds = (np.concatenate(part) for part in zip(*parts, strict=True))
-    return first, second, kinds
+    n = c.size
+    place = np.concatenate([np.arange(n) * (n + 1), first * (n + 1), first * n + second])
+    return first, second, kinds, place

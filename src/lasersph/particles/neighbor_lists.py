@@ -177,8 +177,6 @@ def members_of(
         key: (n,) of kind "index"; `count` stands for none. position: (dim, n) [m], where loops
             read it.
     """
-    start = backend.zeros(count + 2, "offset")
-    backend.exclusive_scan(backend.count_by_key(key, count + 1), start)
-    order = backend.sort_by_key(key, count + 1)
+    start, order = backend.rows_by_key(key, count + 1)
     # loops take the number of particles from the length of the supports
     return NeighborList(backend.head(start, count + 1), order, position, key)

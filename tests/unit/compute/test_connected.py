@@ -45,7 +45,7 @@ def test_random_grids(backend):
     random = np.random.default_rng(4)
     for share, wraps in ((0.3, (True, False)), (0.45, (False, False)), (0.7, (False, True))):
         filled = random.random((7, 9)) < share
-        expected = first_connected(filled, wraps)
+        expected = first_connected(filled.ravel().astype(np.uint32), *filled.shape, wraps)
         assert np.array_equal(np.ravel(first(backend, filled, wraps)), expected)
 
 
@@ -60,7 +60,8 @@ def test_as_labels_of_images_say():
     ndimage = pytest.importorskip("scipy.ndimage")
     filled = np.random.default_rng(7).random((40, 30)) < 0.4
     label, count = ndimage.label(filled, np.ones((3, 3)))
-    found = first_connected(filled, (False, False)).reshape(filled.shape)
+    cells = filled.ravel().astype(np.uint32)
+    found = first_connected(cells, *filled.shape, (False, False)).reshape(filled.shape)
     assert count > 10
     for k in range(1, count + 1):
         assert np.all(found[label == k] == np.flatnonzero(label == k)[0])

@@ -5,6 +5,7 @@ import numpy as np
 from lasersph import compute
 from lasersph.compute import loops
 from lasersph.compute.rebinding import has_known_layout
+from lasersph.compute.vectors import element
 
 
 def doubled(a):
@@ -80,3 +81,24 @@ def test_a_prepared_loop_of_other_kinds_is_bound_anew():
     other()
     launch()
     assert first.tolist() == [2.0, 4.0] and second.tolist() == [3.0, 6.0]
+
+
+def test_calls_that_alternate_keep_their_launches(monkeypatch):
+    """Arrays of another type get a launch of their own, which does not drive out the first."""
+    backend, made, bind = compute.cpu(threads=1), [], loops.Rebound
+
+    def count(*arguments):
+        made.append(arguments)
+        return bind(*arguments)
+
+    monkeypatch.setattr(loops, "Rebound", count)
+    for _ in range(3):
+        for kind in ("real", "index"):
+            out = backend.zeros(2, kind)
+            fields, table = (
+                {"place": backend.asarray([1, 0], "index")},
+                backend.asarray([5, 7], kind),
+            )
+            backend.pointwise(element, fields, out, table=table)
+            assert backend.to_host(out).tolist() == [7, 5]
+    assert len(made) == 2

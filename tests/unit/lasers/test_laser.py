@@ -37,6 +37,17 @@ def test_interference_fluence_is_the_mean():
     assert (peak.mean_fluence, peak.peak_fluence) == (3e3, 6e3)
 
 
+def test_means_of_a_resting_beam_are_kept():
+    """A beam that rests gives the same fluence from means found once; one that moves has none."""
+    lower, upper, _ = plane(2e-5, 6)
+    rests = laser(pulse_energy=1.0, beam=SPOT)
+    means = rests.resting_means(lower, upper)
+    known = rests.energy_density(lower, upper, 2e-8, 5e-8, means)
+    np.testing.assert_array_equal(known, rests.energy_density(lower, upper, 2e-8, 5e-8))
+    moves = laser(pulse_energy=1.0, beam=SPOT, path=LinearPath(speed=2.0))
+    assert moves.resting_means(lower, upper) is None
+
+
 def test_gaussian_statements_agree():
     """Pulse energy E, power E/t, peak 2E/(pi w^2), mean E/(pi w^2) are the same light."""
     energy = 1e-3

@@ -102,9 +102,8 @@ class Block(GhostExtension):
         potential, enthalpy: heat potential [W/m] and enthalpy [J/kg] of a wall's temperature [K].
 
     Attributes:
-        rules: (M,) what faces mean to heat, by the names of `ghost_walls`. heat_face, wall_x,
-            wall_z: tables of these by type, see `GhostRules`. across: (M,) 1 beyond a
-            surface that is no plane.
+        rules: (M,) what faces mean to heat, by the names of `ghost_walls`. across: (M,) 1
+            beyond a surface that is no plane.
         pairs: NeighborList with the rows of the block, among all M.
         weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
             there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1]. viscous_weights:
@@ -171,8 +170,8 @@ class Block(GhostExtension):
         for name, values in self._wall_state(rules.wall_temperature).items():
             self._walls[name] = ghosts.table(is_ghost * values)
         self._varies = ghosts.table(rules.varies) if rules.varies.any() else None
-        self.heat_face = ghosts.table(rules.heat_face)
-        self.wall_x, self.wall_z = (ghosts.table(faces) for faces in rules.walls)
+        self._faces = ghosts.tables("wall_x", "wall_z", rules.walls)
+        self._faces["heat_face"] = ghosts.table(rules.heat_face)
 
     def _wall_state(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
         """Temperature, heat potential and enthalpy of walls."""
@@ -221,7 +220,7 @@ class Block(GhostExtension):
         self.has_row = has_row
         self.rows = None if has_row is None else backend.rows_where(has_row, 1.0)
         ghosts.find(position, None if self._beyond is None else self._beyond.distance)
-        self.total, self.source = ghosts.total, ghosts.source
+        self.total, self.source, self._ghost_faces = ghosts.total, ghosts.source, {}
         self.sources = {"source": ghosts.source, "ghost_type": ghosts.ghost_type}
         names: tuple[str, ...] = ("V", "support", "radius", "layer", "normal", "lateral")
         found: dict[str, Array] = {name: backend.zeros(self.total) for name in names}
@@ -344,10 +343,20 @@ class Block(GhostExtension):
             n_z=n_z,
             distance=beyond.distance,
             sign_x=self.signs["sign_x"],
-            heat_face=self.heat_face,
+            heat_face=self._faces["heat_face"],
             surface=1.0 + PLANE.index(SURFACE),
             **self._across,
         )
+
+    @property
+    def walls(self) -> dict[str, Array]:
+        """(M,) faces of the ghosts by the names of `ghost_faces`, 0 where there is none."""
+        if not self._ghost_faces:
+            found = {name: self.backend.zeros(self.total) for name in self._faces}
+            fields, out = {"ghost_type": self.ghosts.ghost_type}, tuple(found.values())
+            self.backend.pointwise(ghost_fields.ghost_faces, fields, out, **self._faces)
+            self._ghost_faces = found
+        return self._ghost_faces
 
     def move(self, position: Array) -> None:
         """The same pairs at other positions."""

@@ -119,7 +119,7 @@ class FaceExchange:
     def find_walls(self, block: Block) -> None:
         """Sums over the pairs with each face, while weights toward ghosts are not yet set to 0."""
         if self.potential is not None and block.has_walls:
-            fields = {"g_ij": block.weights, "heat_face": block.of_type(block.heat_face)}
+            fields = {"g_ij": block.weights, "heat_face": block.walls["heat_face"]}
             self.backend.pair_sum(
                 heat_terms,
                 block.pairs,
@@ -150,7 +150,7 @@ class FaceExchange:
         found = self.backend.pair_sum(
             viscous_terms,
             block.pairs,
-            fields | walls_of(block),
+            fields | block.walls,
             (None,) * (2 * len(PLANE)),
             finish=sums_of_row,
             rows=block.rows_near_faces,
@@ -169,7 +169,7 @@ class FaceExchange:
         found = self.backend.pair_sum(
             pressure_terms,
             block.pairs,
-            fields | walls_of(block) | {"V": block.volume},
+            fields | block.walls | {"V": block.volume},
             (None,) * len(PLANE),
             finish=force_across,
             rows=block.rows_near_faces,
@@ -196,11 +196,6 @@ def outward(components: tuple[float, ...]) -> tuple[float, ...]:
     """Components along x, x, z, z at each face, as components out of the box."""
     left, right, bottom, surface = components
     return -left, right, -bottom, surface
-
-
-def walls_of(block: Block) -> dict[str, Array]:
-    """(M,) numbers of the faces across x and across z beyond which a ghost lies, else 0."""
-    return {name: block.of_type(getattr(block, name)) for name in ("wall_x", "wall_z")}
 
 
 def add_to(sums: dict[str, float], found: tuple[float, ...], factor: float) -> None:

@@ -70,7 +70,7 @@ class Liquid:
     diffusivity: float
     surface_tension: float
 
-    @property
+    @cached_property
     def largest_viscosity(self) -> float:
         """nu of the melt where it is most viscous [m^2/s]."""
         return self.viscosity * float(np.max(self.relative_viscosity[1]))

@@ -61,6 +61,11 @@ def ghost_walls(ghost_type, dirichlet, flux, plane, T_w, P_w, wall_enthalpy, nor
     )
 
 
+def ghost_faces(ghost_type, wall_x, wall_z, heat_face):
+    """Faces across x and across z beyond which a ghost lies, and that across which heat flows."""
+    return wall_x[ghost_type], wall_z[ghost_type], heat_face[ghost_type]
+
+
 def ghost_velocity(v, factor, added, slope, jump, along):
     """Velocity of a ghost [m/s]: S v + c, and the slope of a stressed surface.
 
