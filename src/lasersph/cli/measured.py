@@ -28,7 +28,7 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
     from lasersph.output.errors import clear_errors
     from lasersph.output.surface_files.read import read_surface
     from lasersph.plots import style
-    from lasersph.plots.texture_comparison import comparison_figure
+    from lasersph.plots.texture_comparison import comparison_figure, comparison_maps
     from lasersph.report.comparison_page import difference_rows, unknown_rows, write_comparison
     from lasersph.studies.texture import compare as comparing
     from lasersph.studies.texture import relief as ours
@@ -52,7 +52,10 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
     width = 0.51 * surface.steps[1] if surface.y.size > 1 else np.inf
     near = np.abs(found.y - found.y[np.argmin(np.abs(found.y))]) < width
     picture = comparison_figure(found.x[near], found.measured[near], found.ours[near], content)
-    file = style.save(picture, target / "comparison.png")
+    file, maps = style.save(picture, target / "comparison.png"), None
+    if surface.y.size > 1:
+        picture = comparison_maps(found.x, found.y, found.measured, found.ours)
+        maps = style.save(picture, target / "comparison-maps.png")
     print(
         text_table(unknown_rows(content), ("unknown", "value", "standard error", "95 %")),
         end="\n\n",
@@ -60,4 +63,4 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
     print(text_table(difference_rows(content)))
     print(content["sentence"])
     title = f"{profile.name} beside {relief.name}"
-    print(write_comparison(target / "comparison.html", content, file, title))
+    print(write_comparison(target / "comparison.html", content, file, title, maps))

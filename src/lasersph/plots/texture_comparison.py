@@ -42,3 +42,30 @@ def comparison_figure(
     second.set_xlim(x[0] * along.factor, x[-1] * along.factor)
     style.label(second, f"x [{along.name}]", f"measured less computed [{fine.name}]")
     return figure
+
+
+def comparison_maps(x: np.ndarray, y: np.ndarray, measured: np.ndarray, ours: np.ndarray) -> Figure:
+    """Maps of measured and computed heights on one scale, and of their difference.
+
+    Args:
+        x, y: (n,) aligned places [m]. measured, ours: (n,) heights [m].
+    """
+    from matplotlib.figure import Figure
+
+    along = style.unit_for(float(max(np.ptp(x), np.ptp(y))), style.LENGTHS)
+    figure = Figure(figsize=(style.WIDTH, 3.2), layout="constrained")
+    panels = figure.subplots(1, 3, sharex=True, sharey=True)
+    size = (150.0 / np.sqrt(x.size)) ** 2  # points side by side in a panel 150 points wide
+    words = ("measured", "computed", "measured less computed")
+    largest = float(np.max(np.abs(ours)))
+    for axes, z, title in zip(panels, (measured, ours, measured - ours), words, strict=True):
+        end = 1.2 * largest if title != words[2] else 3.0 * float(np.std(z)) or largest
+        up = style.fitting_unit("m", end)
+        place, most = (along.factor * x, along.factor * y), up.factor * end
+        shown = axes.scatter(*place, c=up.factor * z, s=size, marker="s", linewidths=0)
+        shown.set(cmap="RdBu_r", clim=(-most, most))
+        axes.set_aspect("equal")
+        axes.set_title(title, fontsize=9, loc="left")
+        style.label(axes, f"x [{along.name}]", f"y [{along.name}]" if title == words[0] else "")
+        figure.colorbar(shown, ax=axes, label=f"[{up.name}]", location="bottom")
+    return figure

@@ -46,8 +46,11 @@ def difference_rows(content: dict[str, Any]) -> list[list[str]]:
     return [*rows, ["measured over computed heights", text]]
 
 
-def write_comparison(path: Path, content: dict[str, Any], picture: Path, title: str) -> Path:
-    """Write the page. Raises OutputError."""
+def write_comparison(
+    path: Path, content: dict[str, Any], picture: Path, title: str, maps: Path | None = None
+) -> Path:
+    """Write the page, with the maps of a height map. Raises OutputError."""
+    words = "Heights of all points after leveling and alignment, and their difference."
     body = [
         f"<h1>{escape(title)}</h1>",
         paragraph(content["sentence"], "result"),
@@ -57,6 +60,7 @@ def write_comparison(path: Path, content: dict[str, Any], picture: Path, title: 
             "their difference; the band is twice what noise and interpolation explain.",
             1,
         ),
+        *([figure(maps, words, 2)] if maps else []),
         heading("Alignment"),
         table(unknown_rows(content), ("", "value", "standard error", "95 %")),
         heading("Difference"),

@@ -133,10 +133,21 @@ def test_command(ours, tmp_path, capsys, monkeypatch):
     lines = np.loadtxt(folder / "aligned.csv", delimiter=",", skiprows=1)
     assert lines[:, 4] == pytest.approx(lines[:, 2] - lines[:, 3], abs=1e-14)
     assert content["sentence"].split(";")[0] in (folder / "comparison.html").read_text()
+    assert not (folder / "comparison-maps.png").exists()
     (tmp_path / "bad.csv").write_text("x,z\n1,2\n")
     assert main(["compare", str(tmp_path), str(tmp_path / "bad.csv")]) == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
     assert not (tmp_path / "compare-bad").exists()
+
+
+def test_command_with_a_map(ours, tmp_path, capsys, monkeypatch):
+    """The page has maps of both and of their difference; a profile has none."""
+    monkeypatch.setattr(relief, "read_relief", lambda folder: ours)
+    file = measurement(ours, 0.95, 5, rows=16, count=90, turn=0.05).write(tmp_path / "map.sdf")
+    assert main(["compare", str(tmp_path), str(file)]) == 0
+    assert "angle of the measurement to the lines" in capsys.readouterr().out
+    assert (tmp_path / "compare-map/comparison-maps.png").exists()
+    assert 'id="comparison-maps"' in (tmp_path / "compare-map/comparison.html").read_text()
 
 
 def test_run_whose_period_follows_from_an_angle(tmp_path):
