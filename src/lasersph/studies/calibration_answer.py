@@ -186,9 +186,12 @@ def best_case_text(found: Calibration) -> str:
     plan = found.plan
     document = plan.template.file.document
     data = override(document, plan.template.overrides(dict(best_settings(found)))).data
-    material = data.get("material")
+    # files beside the case are not beside its copy
+    material, spot = data.get("material"), data.get("laser", {}).get("spot", {})
     if isinstance(material, str) and material.endswith(".toml"):
         data["material"] = str((Path(document.file).parent / material).absolute())
+    if "image" in spot:
+        spot["image"] = str((Path(document.file).parent / spot["image"]).absolute())
     values = zip(plan.unknowns, found.posterior.most_probable, strict=True)
     told = ", ".join(f"{one.name} = {value:.6g} {one.unit}".rstrip() for one, value in values)
     lines = [f"# The most probable unknowns at the settings of the first measurement: {told}"]

@@ -55,6 +55,19 @@ def test_exports_of_microscopes(tmp_path, text):
     np.testing.assert_allclose(np.diff(found.x), 5e-7)
 
 
+def test_rounded_places(tmp_path):
+    """Places 88.18 nm apart, written to 0.1 nm, are even; those that drift by half a step are not."""
+    x = np.arange(50) * 0.08818
+    for drift, is_even in ((0.0, True), (0.02, False)):
+        lines = [f"{a + drift * a * (4.4 - a):.4f},{k}" for k, a in enumerate(x)]
+        (tmp_path / "a.csv").write_text("\n".join(["x [um],z [nm]", *lines]))
+        if is_even:
+            assert read_surface(tmp_path / "a.csv").steps[0] == pytest.approx(88.18e-9, rel=1e-4)
+        else:
+            with pytest.raises(OutputError, match="the steps of x differ"):
+                read_surface(tmp_path / "a.csv")
+
+
 BAD = {
     "empty": ("a.csv", "", "it is empty"),
     "no unit": ("a.csv", "x,z\n0,1\n1,2\n2,3\n", "name columns with their units"),

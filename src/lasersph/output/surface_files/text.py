@@ -16,9 +16,9 @@ import numpy as np
 from lasersph.input import QuantityError, parse_quantity
 from lasersph.output.errors import OutputError
 
-EVEN = 1e-3
-"""Steps of a grid may differ by this share of their mean: coordinates are written with 4 digits or
-more."""
+EVEN = 0.1
+"""Share of a step by which places may lie beside an even grid: coordinates are rounded where they
+are written, 88.2 nm to 0.0882 um, and a tenth of a step moves no line."""
 NAME = re.compile(r"([xyz])\w*?[ _]*[\[(_ ]\s*([nuµμm]?m)\s*[\])]?$", re.IGNORECASE)
 SEPARATORS = re.compile(r"[,;\t ]+")
 CALIBRATION = re.compile(r"XY.?calibration\D*?([0-9.eE+-]+)\W*([nuµμm]?m)", re.IGNORECASE)
@@ -135,10 +135,11 @@ def _length(text: str) -> float:
 
 def _even(places: np.ndarray, name: str) -> np.ndarray:
     """Places of equal steps. Raises OutputError where the steps differ."""
-    steps = np.diff(places)
-    if places.size > 1 and np.ptp(steps) > EVEN * np.mean(steps) + 1e-9 * np.max(np.abs(places)):
+    even = np.linspace(places[0], places[-1], places.size)
+    if places.size > 1 and np.max(np.abs(places - even)) > EVEN * (even[1] - even[0]):
+        steps = np.diff(places)
         raise OutputError(
             f"the steps of {name} differ, from {steps.min():.4g} m to "
             f"{steps.max():.4g} m: resample it to equal steps"
         )
-    return np.linspace(places[0], places[-1], places.size)
+    return even
