@@ -56,7 +56,7 @@ def test_exports_of_microscopes(tmp_path, text):
 
 
 def test_rounded_places(tmp_path):
-    """Places 88.18 nm apart, written to 0.1 nm, are even; those that drift by half a step are not."""
+    """Places 88.18 nm apart, written to 0.1 nm, are even; ones half a step off are not."""
     x = np.arange(50) * 0.08818
     for drift, is_even in ((0.0, True), (0.02, False)):
         lines = [f"{a + drift * a * (4.4 - a):.4f},{k}" for k, a in enumerate(x)]
