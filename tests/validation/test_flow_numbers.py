@@ -7,11 +7,13 @@ from scipy.interpolate import RegularGridInterpolator
 
 from lasersph.analytic.taylor_green import TaylorGreen
 from lasersph.case import load_case
+from lasersph.materials import load_material
 from lasersph.validation.dlip_steel import rows as dlip
 from lasersph.validation.lid_driven_cavity import rows as lid_driven_cavity
 from lasersph.validation.lid_driven_cavity.center_lines import center_line
 from lasersph.validation.marangoni_layer import rows as marangoni_layer
 from lasersph.validation.moving_film import rows as moving_film
+from lasersph.validation.moving_recession import rows as moving_recession
 from lasersph.validation.natural_convection import rows as natural_convection
 from lasersph.validation.taylor_green import rows as taylor_green
 
@@ -226,3 +228,25 @@ def test_every_case_of_a_validation_is_sound(name, study, monkeypatch):
         if one.plan.experiment:
             dlip.add_experiment(one)
     assert len(set(labels)) == 2 * 7 + 1 + 2 + 2
+
+
+@pytest.mark.parametrize(
+    ("faster", "hotter", "lost", "good"),
+    [
+        (1.0, 0.0, 0.0, [True, True, True]),
+        (1.006, 6.0, 2e-4, [False, False, False]),
+    ],
+)
+def test_recession_is_judged_by_the_steady_state(study, faster, hotter, lost, good):
+    """Landau's speed and temperature at the end pass, however a run came there; 0.6 % more speed, 6
+    K more and 2e-4 of the energy lost do not."""
+    one = study("moving-recession")
+    steady = moving_recession.steady_state(load_material("steel-304-demuth"), 1e11, 0.268)
+    assert steady.speed == pytest.approx(1.45876, rel=1e-5)
+    time = np.linspace(0.0, one.plan.end, 400) * steady.time
+    late = time > 5.0 * steady.time
+    history = {"time_s": time, "energy_imbalance_relative": lost * late}
+    history["evaporated_max_m"] = np.cumsum(np.where(late, faster, 0.5)) * time[1] * steady.speed
+    history["temperature_max_K"] = steady.surface_temperature + np.where(late, hotter, -400.0)
+    moving_recession.judge(one, MadeUp(history=history), steady, metal="steel", flux=1e11)
+    assert [row.verdict for row in one.rows] == good
