@@ -86,3 +86,29 @@ def test_it_resumes_bit_for_bit(pool):
         assert np.array_equal(
             solver.backend.to_host(values), again.backend.to_host(again.fields[name])
         )
+
+
+WIDE = EXACT.thermal_length / 3.0
+BOX = (
+    *("solver.kind=melt-pool", "solver.vaporization=flux", "boundaries.ambient_pressure=0 Pa"),
+    *("solver.marangoni=false", "boundaries.surface_temperature_wave="),
+    *("boundaries.surface_temperature=", "initial_temperature=298.15 K", "domain.extent=full"),
+    *("boundaries.surface=prescribed-flux", f"boundaries.surface_flux={FLUX} W/m^2"),
+    'material.vaporization={ temperature = "3273.15 K", latent_heat = "6.36 MJ/kg", '
+    'molar_mass = "55.34 g/mol", critical_temperature = "9250 K" }',
+    *("material.viscosity=0.7 mPa s", "material.conductivity=0.268 W/(m K)"),
+    *(f"particles.spacing={WIDE} m", f"domain.width={12 * WIDE} m", f"domain.depth={24 * WIDE} m"),
+    *(f"time.end={10 * EXACT.time} s", f"time.step={EXACT.time / 20} s"),
+)
+
+
+def test_all_of_a_flux_enters_while_rows_become_lower():
+    """The heat that a box of liquid stores and loses with its vapor is the flux through its
+    surface; pairs across it see 5 % more of it by then."""
+    _, solver = solver_of("moving-film", *BOX)
+    while solver.state.time < 0.9 * EXACT.time:
+        solver.step(min(solver.time_step_limits().values()))
+    assert host(solver, "volume").min() < 0.8 * WIDE**2
+    stored = np.sum(host(solver, "mass") * host(solver, "enthalpy"))
+    heat = stored + solver.state.energy["removed"]
+    assert heat == pytest.approx(FLUX * 12 * WIDE * solver.state.time, rel=1e-3)

@@ -175,8 +175,7 @@ class MeltPool:
             surface_tension=liquid.surface_tension,
             is_implicit=self.settings.viscosity == "implicit",
         )
-        if surface is not None:
-            found |= surface.time_step_limits()
+        found |= {} if surface is None else surface.time_step_limits()
         return limits | {name: limit for name, limit in found.items() if limit < np.inf}
 
     def step(self, step: float, unclipped_step: float | None = None) -> float:
@@ -261,6 +260,7 @@ class MeltPool:
             self.state.energy["removed"] += left
         block.move(self.position)
         self.flow.correct_kernel(self.kinds.fluid_rows)
+        self.pairs.even_out_flux(block)
         self.exchange.find_walls(block)
         self.pairs.renew(block)
 
