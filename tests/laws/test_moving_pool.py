@@ -54,3 +54,49 @@ def test_same_bits():
         fields = host_fields(other)
         for name, values in host_fields(first).items():
             assert np.array_equal(values, fields[name]), name
+
+
+HALF, HEIGHT = 6e-7, 4.2e-7
+"""Half of the chord and height of a drop [m], which meets the solid at 54 degrees."""
+
+
+def drop_on_solid(tmp_path):
+    """A viscous drop of steel over a pool of its own width, on solid that it does not melt."""
+    x = np.linspace(-3e-6, 3e-6, 3001)
+    rows = np.c_[x, np.maximum(HEIGHT * (1.0 - (x / HALF) ** 2), 0.0)]
+    path = tmp_path / "drop.csv"
+    np.savetxt(path, rows, delimiter=",", header="x_m,height_m", comments="")
+    settings = ("particles.spacing=60nm", "particles.fine_depth=900nm", "laser.fluence=1e-9 J/cm^2",
+                "solver.marangoni=false", f"solver.flow.initial_surface.path={path}",
+                "material.conductivity=1e-6 W/(m K)", "material.viscosity=25 mPa s",
+                "time.step=1ns", "domain.extent=full")  # fmt: skip
+    return pool(
+        lambda x, z: (np.abs(x) < HALF) & (z > -1.5e-7), *MOVING, *settings, hot=1760.0, cold=1600.0
+    )
+
+
+def kept_line(solver):
+    """Arrays of the line, by the names of a checkpoint."""
+    return {k: solver.backend.to_host(v) for k, v in solver.domain.surface.arrays.items()}
+
+
+def test_drop_spreads_to_the_advancing_angle(tmp_path):
+    """To 45 degrees at its edge: the segment of a circle of its area, whose chord the pins meet
+    within a column; both sides alike, volume is kept, columns that are just reached drive no flow,
+    and what is restored on the way has the same bits."""
+    solver = drop_on_solid(tmp_path)
+    segments, line = solver.domain.surface.segments, solver.domain.surface.line
+    area = line.height.sum() * line.width
+    go(solver, 30)
+    again = drop_on_solid(tmp_path)
+    again.restore(host_fields(solver) | kept_line(solver), solver.checkpoint_scalars())
+    for one in (solver, again):
+        go(one, 5)
+    for name, values in host_fields(solver).items():
+        assert np.array_equal(values, host_fields(again)[name]), name
+    assert solver.flow.largest_speed < 10.0
+    go(solver, 40)
+    assert abs(line.height.sum() * line.width / area - 1.0) < 1e-12
+    assert np.abs(line.height - line.height[::-1]).max() < 1e-12 * line.height.max()
+    chord = 2.0 * np.sqrt(area / (np.pi / 4.0 - 0.5)) * np.sin(np.pi / 4.0)
+    assert abs(segments.is_molten.sum() * line.width - chord) < line.width

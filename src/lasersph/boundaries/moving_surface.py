@@ -115,7 +115,7 @@ class MovingSurface:
         )
         self.ghosts = SurfaceGhosts(self._distance, self._p_b, CLOSEST * spacing, *vectors)
         self.pressure: PressureCondition | None = None
-        self._followed = np.zeros(line.count)
+        self._followed, self._is_overrun = np.zeros(line.count), np.zeros(line.count, bool)
         low, high = (END_KINDS[kind] for kind in line.ends)
         self._grid: Constants = {"start": line.start, "inverse": 1.0 / line.width}
         self._ends = self._grid | {"columns": line.count, "low_end": low, "high_end": high}
@@ -177,8 +177,8 @@ class MovingSurface:
         tables |= self._ends | {"spacing": self.spacing}
         backend.pointwise(loops.surface_velocity, self._columns, found, **tables)
         u_s, w_s, T_s, weight = (backend.to_host(values) for values in found)
-        full = weight > 0.0
-        if full.any() and not full.all():  # columns without melt near the surface
+        full = (weight > 0.0) & ~self._is_overrun
+        if full.any() and not full.all():  # columns without melt near the surface, or just reached
             u_s, w_s, T_s = (np.interp(line.x, line.x[full], f[full]) for f in (u_s, w_s, T_s))
         self._line_temperature = T_s
         shape = line.count
@@ -244,7 +244,10 @@ class MovingSurface:
         return float(np.max(tension))
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
-        """Let what is molten under too thin columns rest; returns how many particles flow."""
+        """Let what is molten under too thin columns rest; returns how many particles flow.
+
+        Columns over which the melt runs move, however little of it has arrived there.
+        """
         backend, line, everywhere = self.backend, self.line, np.ones(self.line.count, bool)
         members = self._members(position, flows)
         found = backend.zeros(line.count)
@@ -252,7 +255,9 @@ class MovingSurface:
         inverse = self._grid["inverse"]
         backend.pointwise(loops.thickness_of, self._columns, found, **tables, inverse=inverse)
         thickness = line.mean_of_neighbors(backend.to_host(found), everywhere)
-        self.segments.choose(thickness >= THINNEST * self.spacing)
+        thick = thickness >= THINNEST * self.spacing
+        self._is_overrun = self.segments.overrun(thick) & ~thick
+        self.segments.choose(thick | self._is_overrun)
         is_molten = backend.asarray(self.segments.is_molten.astype(float))
         grid = self._grid | {"columns": float(line.count), "is_molten": is_molten}
         fields = {"x": position, "flows": flows}

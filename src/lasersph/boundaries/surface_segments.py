@@ -3,6 +3,10 @@
 A column moves where the melt below it is thick enough; the others keep their heights. A line ends
 as the whole one does at the ends of the domain, and is pinned at the height of the solid beside it
 elsewhere, so that no slope is assumed there and nothing is smoothed across the edge of a pool.
+
+Melt advances over the solid beside it where it stands there at more than 45 degrees: the next
+column joins, and takes what flows into it, until the melt is less steep. Melt that withdraws leaves
+a film too thin to move, which keeps its height.
 """
 
 from __future__ import annotations
@@ -16,6 +20,10 @@ from lasersph.boundaries.surface_line import End, SurfaceLine
 
 FEWEST = 12
 """Columns of a part that moves, with those of its image; fewer show no curvature and are held."""
+
+ADVANCE = 0.5
+"""Height of melt over the solid beside its last column, over the width of a column, above which it
+advances: 45 degrees from the pin at the side of that column to its middle."""
 
 
 class Segment(NamedTuple):
@@ -61,6 +69,16 @@ class SurfaceSegments:
             self.parts.append(
                 Segment(columns, self._line(columns.size, (left, right), len(self.parts)))
             )
+
+    def overrun(self, thick: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """(count,) columns over which melt advances from the thick ones, (count,), beside them."""
+        whole, found = self.whole, np.zeros(self.whole.count, bool)
+        for shift, first in ((1, 0), (-1, -1)):  # from the left, from the right
+            rise = np.roll(whole.height, shift) - whole.height
+            beside = np.roll(thick, shift) & (rise > ADVANCE * whole.width)
+            beside[first] &= whole.ends[0] == "periodic"
+            found |= beside
+        return found
 
     def follow(self) -> None:
         """Give the segments the heights of the whole line, and of the solid beside them."""

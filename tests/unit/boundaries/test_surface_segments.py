@@ -60,3 +60,14 @@ def test_half_of_a_pool_moves_as_the_whole_does(width):
     whole = segments(("pinned", "pinned"), [0] * 9 + [1] * 2 * width + [0] * 9)
     half = segments(("mirror", "pinned"), [1] * width + [0] * 9)
     assert len(half.parts) == len(whole.parts) == (2 * width >= FEWEST)
+
+
+@pytest.mark.parametrize("end, overrun", [("mirror", [9]), ("periodic", [0, 9])])
+def test_melt_advances_over_lower_solid(end, overrun):
+    """Lower by more than half a column: not on the right of the first run, and across a period."""
+    found = SurfaceSegments(SurfaceLine(0.0, 1.0, 40, (end, end), 30.0))
+    thick = np.zeros(40, bool)
+    thick[10:30] = thick[38:] = True
+    found.whole.height = 1.0 * thick
+    found.whole.height[[9, 30, 37]] = 0.4, 0.6, 2.0
+    assert np.flatnonzero(found.overrun(thick)).tolist() == overrun
