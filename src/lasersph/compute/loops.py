@@ -87,8 +87,8 @@ class Loops:
             return self.launcher.launch(self._bound(self.given(call)))
         signature, kinds, ones, values = self._addresses(call)
         key, found = (signature, kinds), again.rebound
-        is_same = found is not None and found.key == key and source.is_current(found.watched)
-        if is_same and found.run(ones, values):
+        is_same = found and found.key == key and source.is_current(found.watched)
+        if found and is_same and found.run(ones, values):
             again.holds(call)
             return again
         found = Rebound(self._bound(self.given(call)), signature, self.launcher.threads, call)
