@@ -107,13 +107,13 @@ def test_the_line_goes_through_the_middle_of_a_step(is_late, monkeypatch):
     """Half of the step: the same height within 0.1 %; 1.4 % off where the line waits and then goes
     the whole way with the velocity at the end."""
     if is_late:
-        carry, calls = moving_surface.MovingSurface.carry, count()
+        go_halfway, calls = moving_surface.MovingSurface._go_halfway, count()
 
         def go_twice_at_the_end(surface, now):
             for _ in range(2 * (next(calls) % 2)):
-                carry(surface, now)
+                go_halfway(surface, now)
 
-        monkeypatch.setattr(moving_surface.MovingSurface, "carry", go_twice_at_the_end)
+        monkeypatch.setattr(moving_surface.MovingSurface, "_go_halfway", go_twice_at_the_end)
     coarse, fine = (go(film(), 10e-9, step=step) for step in (3.3334e-10, 1.6667e-10))
     assert (abs(coarse / fine - 1.0) < 1e-3) == (not is_late)
 

@@ -18,8 +18,8 @@ p = 2 p_b - p_i; in the pressure equation the surface is a boundary of given pre
 The line goes half of its way through a step with the velocity at its begin, the flow of the step is
 found with particles and line there, and it goes the other half with the velocity at the end: a
 leapfrog, of second order as the particles' own way (71). Curvature and stress are those of the
-middle. Waves neither grow nor decay by it while omega dt < 2 for the fastest of those that the
-smoothed line shows; half of one is taken.
+middle, with half of the mass gone that leaves in the step. Waves neither grow nor decay by it while
+omega dt < 2 for the fastest of those that the smoothed line shows; half of one is taken.
 Waves shorter than the smoothing length are damped within the time of that wave.
 """
 
@@ -43,7 +43,7 @@ from lasersph.boundaries.surface_conditions import SurfaceLiquid, find_condition
 from lasersph.boundaries.surface_drives import Drives
 from lasersph.boundaries.surface_flux import flux_through, volume_flux
 from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
-from lasersph.boundaries.surface_mass import take_mass
+from lasersph.boundaries.surface_mass import part_due, take_mass
 from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
 from lasersph.boundaries.surface_trouble import trouble_of
 from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
@@ -125,6 +125,7 @@ class MovingSurface:
         if has_stress:
             self._gamma_table = surface_tension_table(liquid.material)
         self.flux_loss, self.segments = 0.0, SurfaceSegments(line)
+        self._delay, self._lost = 0.0, np.zeros(line.count)
         self._kept: dict[str, HostArray] = {}
         self.rest()
 
@@ -265,57 +266,60 @@ class MovingSurface:
         return count
 
     def carry(self, now: SurfaceStep) -> None:
-        """Move the line through half of a step: the first, with the velocity at its begin."""
-        height, flux = self.line.height.copy(), self._volume_flux(now)
-        half = 0.5 * (now.interval[1] - now.interval[0])
-        for part, own in self.segments.parts:
-            height[part] = own.heights_after(half, flux_through(own, part, flux))
-        self.line.height = height
-        self._renew()
+        """Move the line through the first half of a step, with the velocity at its begin."""
+        self._lost = np.zeros(self.line.count)
+        due, self._delay = part_due(now.interval[1] - now.interval[0], self._delay)
+        self.segments.follow()
+        for part in self.segments.parts:
+            self._lost[part.columns] = self._loss(part, now, due)
+        self.flux_loss += float(np.sum(self._lost)) * self.line.width
+        self._go_halfway(now)
 
     def move(self, now: SurfaceStep) -> float:
-        """Move the line through the second half of a step, with the velocity at its end; then take
-        what leaves in the step, damp short waves, and find the particles again."""
-        self.carry(now)
-        line, step = self.line, now.interval[1] - now.interval[0]
-        moved, lost = line.height.copy(), np.zeros(line.count)
+        """Move the line through the second half of a step, with the velocity at its end, and damp
+        short waves; find the particles again, and take from them what has left in the step."""
+        self._go_halfway(now)
+        line, moved, step = self.line, self.line.height.copy(), now.interval[1] - now.interval[0]
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
         self.segments.follow()
         for part, own in self.segments.parts:
-            lost[part] = step * self._loss(own, part, now)
-            own.height = own.height - lost[part]
             own.damp_short_waves(step * rate)
             moved[part] = own.height
         line.height = moved
         self._renew()
         self.find(now.position)
-        if not lost.any():
+        if not self._lost.any():
             return 0.0
-        density = self.liquid.particle_density
-        gone, spacing = self._followed / density, self.spacing
+        density, spacing = self.liquid.particle_density, self.spacing
+        lost, gone = self._lost, self._followed / density
         return take_mass(self.backend, now, self.depth, line, lost, gone, spacing, density)
 
-    def _volume_flux(self, now: SurfaceStep) -> HostArray:
-        """Q through the sides of all columns, toward larger x (count + 1,) [m^2/s]."""
+    def _go_halfway(self, now: SurfaceStep) -> None:
+        """Move the line by what flows in half of a step, and by half of what leaves in it."""
         self.segments.follow()
-        return volume_flux(self.backend, self.line, self.bottom, now, self._ends)
+        flux = volume_flux(self.backend, self.line, self.bottom, now, self._ends)
+        half, height = 0.5 * (now.interval[1] - now.interval[0]), self.line.height.copy()
+        for part, own in self.segments.parts:
+            flow = flux_through(own, part, flux)
+            height[part] = own.heights_after(half, flow) - 0.5 * self._lost[part]
+        self.line.height = height
+        self._renew()
 
-    def _loss(self, part: SurfaceLine, columns: NDArray[np.int64], now: SurfaceStep) -> HostArray:
-        """Speed at which mass that leaves lowers a part of the line [m/s]."""
-        (begin, end), density = now.interval, self.liquid.particle_density
-        loss = np.zeros(columns.size)
+    def _loss(self, part: Segment, now: SurfaceStep, due: float) -> HostArray:
+        """Thickness that leaves in a step [m]: what is imposed, and the part `due` of what heat has
+        evaporated before, both per area of the surface seen from above."""
+        (columns, line), (begin, end) = part, now.interval
+        mass = np.zeros(columns.size)
         if (wave := self.drives.mass_flux) is not None:
-            S = np.sqrt(1.0 + part.slope**2)
-            loss = wave.mean_over(self.line.x[columns], begin, end) * S / density
+            S = np.sqrt(1.0 + line.slope**2)
+            mass = (end - begin) * S * wave.mean_over(self.line.x[columns], begin, end)
         if self.drives.recoil is not None:
-            # of the steps of heat before this one, per area of the surface seen from above
-            gone = self.backend.to_host(self.backend.head(now.evaporated, self.line.count))[columns]
-            followed = self._followed.copy()
-            loss = loss + (gone - followed[columns]) / (density * (end - begin))
-            followed[columns] = gone
-            self._followed = followed
-        self.flux_loss += (end - begin) * float(np.sum(loss)) * part.width
-        return loss
+            gone = self.backend.to_host(self.backend.head(now.evaporated, self.line.count))
+            vapor = due * (gone - self._followed)[columns]
+            self._followed = self._followed.copy()
+            self._followed[columns] += vapor
+            mass = mass + vapor
+        return mass / self.liquid.particle_density
 
     def confine(self, position: Array, flows: Array) -> None:
         """Keep particles that flow below the surface."""
@@ -334,11 +338,13 @@ class MovingSurface:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step."""
-        return {"surface.flux_loss": self.flux_loss, "surface.tension": self._tension}
+        numbers = {"flux_loss": self.flux_loss, "tension": self._tension, "delay": self._delay}
+        return {f"surface.{name}": number for name, number in numbers.items()}
 
     def restore(self, numbers: Mapping[str, float]) -> None:
         """Continue from `checkpoint_scalars`."""
         self.flux_loss, self._tension = numbers["surface.flux_loss"], numbers["surface.tension"]
+        self._delay = numbers["surface.delay"]
 
     def restore_arrays(self, arrays: Mapping[str, np.ndarray]) -> None:
         """Continue from the arrays of a checkpoint."""

@@ -6,7 +6,7 @@ import pytest
 from lasersph import compute
 from lasersph.boundaries.surface import SurfaceStep
 from lasersph.boundaries.surface_line import SurfaceLine
-from lasersph.boundaries.surface_mass import take_mass
+from lasersph.boundaries.surface_mass import CATCH_UP, part_due, take_mass
 
 SPACING, COLUMNS, ROWS, DENSITY = 1e-8, 6, 30, 7000.0
 LINE = SurfaceLine(0.0, SPACING, COLUMNS, ("mirror", "mirror"), 30 * SPACING)
@@ -96,3 +96,19 @@ def test_mass_that_arrives_is_as_hot_as_the_surface(melt):
     _, new_h, _, _ = on_host(backend, now)
     assert heat == pytest.approx(-COLUMNS * 0.1 * DENSITY * SPACING**2 * 2e6, rel=1e-12)
     assert np.array_equal(new_h[0], h[0]) and np.all(new_h[1] > h[1])
+
+
+@pytest.mark.parametrize("short", [(0.3, 0.7), (0.01,), (0.3,) * 60])
+def test_shorter_steps_take_what_evaporates_in_their_own_time(short):
+    """Metal that evaporates evenly: each step takes that of its own time, within the part more by
+    which steps that stay short catch up, until the one before is all that they take."""
+    left, delay, rates = 1.0, 1.0, []
+    for step in (1.0, *short, 1.0, 1.0):
+        part, delay = part_due(step, delay)
+        rates.append(part * left / step)
+        left += step - part * left
+        assert left == pytest.approx(delay)
+        if len(rates) == 60:
+            assert left == pytest.approx(step)
+    assert all(rate < 1.0 + CATCH_UP + 1e-9 for rate in rates)
+    assert min(rates[:-2]) > 1.0 - 1e-9 and rates[-1] == pytest.approx(1.0)
