@@ -114,15 +114,16 @@ def near_faces(x, search_radius, low_0, high_0, low_1, high_1):
     return int(across), int(along), min(across + along, 1.0)
 
 
-def near_surface(x, distance, search_radius, low_0, high_0, low_1, high_1):
+def near_surface(x, distance, radius, search_radius, low_0, high_0, low_1, high_1):
     """`near_faces` below a surface at a distance, instead of an upper face of z.
 
-    Ghosts across an inclined tangent are seen beyond a lateral face though their source is not
-    within the radius of it.
+    Within the particle's own radius: ghosts of coarse ones deep below a flank would lie across its
+    tangent far from it, in the melt of a valley. Ghosts across an inclined tangent are seen beyond
+    a lateral face though their source is not within the radius of it.
     """
     wide, _lowest, _is_wide = near_faces(x, SLANTED * search_radius, low_0, high_0, low_1, low_1)
     narrow, below, _is_near = near_faces(x, search_radius, low_0, high_0, low_1, low_1)
-    along = 2.0 if distance < search_radius else 0.0
+    along = 2.0 if distance < radius else 0.0
     if below > 0:
         along += 1.0
     across = wide if along > 1.0 else narrow
@@ -183,20 +184,21 @@ class GhostParticles:
         self._numbers = backend.zeros(0, "index")
         self.total = 0
 
-    def find(self, position: Array, distance: Array | None = None) -> None:
+    def find(self, position: Array, below: tuple[Array, Array] | None = None) -> None:
         """Find the ghosts of the particles at `position`, shape (2, n) [m].
 
         Args:
-            distance: (n,) from a surface that is the upper TANGENT face [m].
+            below: (n,) distances from a surface that is the upper TANGENT face [m], and (count,)
+                radii within which particles have ghosts across it [m].
         """
         backend, count = self.backend, self.count
         # particles near a face, and the faces that they are near
         fields = {"x": backend.head(position, count)}
         out = (*self._faces, self.is_near)
-        if distance is None:
+        if below is None:
             backend.pointwise(near_faces, fields, out, **self._near)
         else:
-            fields["distance"] = backend.head(distance, count)
+            fields["distance"], fields["radius"] = (backend.head(a, count) for a in below)
             backend.pointwise(near_surface, fields, out, **self._near)
         near = self.near = backend.rows_where(self.is_near, 1.0)
         across, along = (self._gather(face, near) for face in self._faces)

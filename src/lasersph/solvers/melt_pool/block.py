@@ -219,7 +219,8 @@ class Block(GhostExtension):
         backend, ghosts = self.backend, self.ghosts
         self.has_row = has_row
         self.rows = None if has_row is None else backend.rows_where(has_row, 1.0)
-        ghosts.find(position, None if self._beyond is None else self._beyond.distance)
+        beyond = self._beyond
+        ghosts.find(position, None if beyond is None else (beyond.distance, self._own["radius"]))
         self.total, self.source, self._ghost_faces = ghosts.total, ghosts.source, {}
         self.sources = {"source": ghosts.source, "ghost_type": ghosts.ghost_type}
         names: tuple[str, ...] = ("V", "support", "radius", "layer", "normal", "lateral")

@@ -12,7 +12,9 @@ from flow_boxes import (
     place_of,
 )
 
+from lasersph import compute, load_case
 from lasersph.compute.search import EscapedParticle
+from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.block import inner_weight, wall_terms
 from lasersph.solvers.melt_pool.ghost_fields import ghost_tensor, ghost_velocity
 
@@ -197,3 +199,24 @@ def test_escaped_particle(wrong):
     place[0, 7] = wrong
     with pytest.raises(EscapedParticle):
         block_of(solver, place)
+
+
+FLANK = "[[0, 3e-7], [0.8e-6, 3e-7], [1.5e-6, -3e-7], [5.05e-6, -3e-7]]"
+"""Relief [m] that falls by 0.6 um at 41 degrees."""
+
+
+def test_no_ghost_of_what_lies_deep_below_a_flank():
+    """Across the tangent it would lie far from the flank, at its foot: as large as a coarse cell,
+    among fine particles."""
+    settings = "particles.spacing=100nm", "particles.fine_depth=1um"
+    case = load_case("texture-steel", (*settings, f"solver.flow.initial_surface.rows={FLANK}"))
+    solver = recipe_of(case).build(compute.cpu(threads=1))
+    solver.domain.cover_fine_layers()
+    block = solver.domain.block_for(solver.position, solver.kinds)
+    block.find_pairs(solver.position, None)
+    host = block.backend.to_host
+    start, neighbor = host(block.pairs.row_start).astype(int), host(block.pairs.neighbor)
+    near = host(solver.domain.surface.ghosts.distance)[: block.count] < block.moving_support
+    volume, seen = host(block.V), np.repeat(near, np.diff(start))
+    assert volume.max() > 5.0 * volume[: block.count][near].max()
+    assert volume[neighbor[seen]].max() < 1.5 * volume[: block.count][near].max()
