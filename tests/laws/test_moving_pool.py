@@ -1,9 +1,12 @@
 """Pools whose surface moves: pinned at the solid, the same bits, no volume made."""
 
 import numpy as np
+import pytest
 from flow_boxes import go, host_fields, pool
 
 from lasersph import compute
+from lasersph.input import format_quantity
+from lasersph.solvers.step_control import NotConverged
 
 MOVING = (
     "solver.flow.surface=moving",
@@ -28,6 +31,19 @@ def test_relief():
     assert line.height.max() > 1e-12
     assert not line.height[line.x > EDGE].any()
     assert abs(line.height.sum()) < 1e-10 * np.abs(line.height).sum()
+
+
+def test_flow_that_has_become_unstable():
+    """It stops at once, with the speed, the place and what to change."""
+    solver = moving_pool()
+    velocity = host_fields(solver)["velocity"]
+    fastest = np.argmax(velocity[0])
+    velocity[1, fastest] = 2000.0
+    solver.flow.begin(velocity)
+    x, z = (format_quantity(place, "m", 3) for place in host_fields(solver)["position"][:, fastest])
+    line = rf"unstable: 2e\+03 m/s at x = {x}, z = {z}; take another particles.spacing"
+    with pytest.raises(NotConverged, match=line):
+        solver.step(1e-12)
 
 
 def test_one_row_of_melt_moves():

@@ -24,17 +24,14 @@ from lasersph.solvers.melt_pool.face_exchange import FaceExchange
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.flow_terms import advect, move
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
+from lasersph.solvers.melt_pool.instability import refuse_unstable
 from lasersph.solvers.melt_pool.layout_renewal import LayoutRenewal
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.particle_shifting import ParticleShifting
 from lasersph.solvers.melt_pool.pauses import Pauses
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
-from lasersph.solvers.step_control import PAUSE, NotConverged, StepFailed, retry_step
-
-SHORTEST = 1e-9
-"""Time in which the fastest particle crosses its support, over the time to compute: in a flow that
-takes less its speeds have grown without bound."""
+from lasersph.solvers.step_control import PAUSE, StepFailed, retry_step
 
 
 def larger(a, b):
@@ -196,8 +193,7 @@ class MeltPool:
         surface = self.domain.surface
         if surface is not None and (trouble := surface.trouble()):
             raise SurfaceTrouble(trouble)
-        if self.flow.largest_speed * SHORTEST * self.heat.end_of_pulse > self.domain.support:
-            raise NotConverged(f"the flow has become unstable: {self.flow.largest_speed:.3g} m/s")
+        refuse_unstable(self.flow, self.domain, self.position, self.heat.end_of_pulse)
         self.layout_renewal.follow_recession()
         self._keep()
         return retry_step(self._advance, step, unclipped_step, undo=self._return)

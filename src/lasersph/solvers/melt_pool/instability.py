@@ -1,0 +1,40 @@
+"""Where a flow has become unstable: speeds that have grown beyond what can be."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lasersph.compute.array_types import Array
+from lasersph.input import format_quantity
+from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.flow import Flow
+from lasersph.solvers.step_control import NotConverged
+
+SHORTEST = 1e-9
+"""Time in which the fastest particle crosses its support, over the time to compute: in a flow that
+takes less its speeds have grown without bound."""
+FASTEST = 1000.0
+"""Speed of metal below a surface that moves [m/s], a quarter of that of sound in liquid steel and
+aluminium, some 4 km/s: what flows faster is not incompressible, and no texture flows at 200 m/s."""
+
+
+def refuse_unstable(flow: Flow, domain: PoolDomain, position: Array, time: float) -> None:
+    """Stop a flow that has become unstable.
+
+    Args:
+        position: (2, n) [m]. time: to compute [s].
+
+    Raises:
+        NotConverged: with the speed, the place and what to change.
+    """
+    speed = flow.largest_speed
+    is_possible = speed <= FASTEST or not domain.surface_moves
+    if is_possible and speed * SHORTEST * time <= domain.support:
+        return
+    host = flow.backend.to_host
+    fastest = int(np.argmax(np.sum(host(flow.velocity) ** 2, axis=0)))
+    x, z = (format_quantity(float(place), "m", 3) for place in host(position)[:, fastest])
+    raise NotConverged(
+        f"the flow has become unstable: {speed:.3g} m/s at x = {x}, z = {z}; take another "
+        "particles.spacing, a weaker drive or an earlier end"
+    )
