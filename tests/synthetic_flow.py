@@ -75,6 +75,33 @@ def pool_flow(view: View, *, inner=None) -> View:
     return replace(view, flow=flow, iterations=counts if view.step else {})
 
 
+def liquid_rows(count, spacing=5 * NM) -> View:
+    """Half a period of liquid metal: rows of particles below the surface, without a flow."""
+    columns = round(0.5 * PERIOD / spacing)
+    x = (np.arange(columns) + 0.5) * spacing
+    z = -(np.arange(count) + 0.5) * spacing
+    grid = np.array([g.ravel() for g in np.meshgrid(x, z)])
+    n = grid.shape[1]
+    temperature = 2000.0 + 1000.0 * np.cos(2 * np.pi * grid[0] / PERIOD)
+    return View(
+        time=57 * NS,
+        step=1,
+        time_step=0.1 * NS,
+        position=grid,
+        width=np.full((2, n), spacing),
+        volume=np.full(n, spacing**2),
+        mass=np.full(n, spacing**2),
+        temperature=temperature,
+        enthalpy=temperature,
+        melt_fraction=np.ones(n),
+        vapor_fraction=np.zeros(n),
+        surface=np.arange(columns),
+        symmetry_factor=2,
+        iterations={"pressure": 7},
+        vaporization=2990.0,
+    )
+
+
 def make_pool_run(folder: Path, *, complete=True) -> Path:
     """Write a run folder with heat, melting and flow and return its path."""
     return write_run(folder, pool_views(), box=False, end=200 * NS, complete=complete, times=FINE)

@@ -2,19 +2,24 @@
 
 The surface flows away from the maximum of the light (x = 0). Its speed |u(x)| has one maximum on
 each side, the outer one, from the onset of the flow. When a zone at the vaporization temperature
-shrinks, the steep gradient at its edge can raise a second maximum closer to x = 0, the inner one.
+shrinks, the steep gradient at its edge can raise a second maximum there, the inner one, which may
+outgrow the outer one and outlive the zone.
 
 A maximum counts where it rises above the lowest speed between itself and a larger one by a
-twentieth of the largest speed of the profile; of more than two, the two that rise most count. An
-inner one appears after the surface has been at the vaporization temperature, and closer to x = 0
-than the outer one that it joins. Until then the pool spreads, the temperature bends in the mush
-before it and the speed with it: no maximum within some spacings of the edge counts. Of two that do
-not fit this the one that continues the outer one counts alone (the larger one, where none is
-known). A single one keeps the name of the one it continues: that whose last place is closer. A
-first single one is outer. Its place is the center of its top, all that lies less than that
-twentieth below it: where maxima that do not count by themselves take turns in being the highest,
-the place of the highest jumps between them, as from 0.9 of the width of a pool to its middle. Seen
-is the side x > 0; a run over a full period is symmetric, which a law of its own checks.
+twentieth of the largest speed of the profile; of more than two, the two that rise most count. Once
+the zone shrinks, a line tells the names: inside of it a maximum is inner, outside it is outer. The
+line lies half way between the last place of the outer maximum and the edge of the zone, or the last
+place of the inner one if that is further out. Before, and without a zone and an inner one, all are
+outer. When the zone is gone, the inner one keeps its name until the outer one is alone. Of two on a
+side counts the larger one inside and the one that continues the last outer one outside (the larger
+one, where none is known).
+
+Until the zone shrinks the pool spreads, the temperature bends in the mush before it and the speed
+with it: no maximum within some spacings of the edge of the liquid counts. The place of a maximum is
+the center of its top, all on its side of the line that lies less than that twentieth below it:
+where maxima that do not count by themselves take turns in being the highest, the place of the
+highest jumps between them, as from 0.9 of the width of a pool to its middle. Seen is the side
+x > 0; a run over a full period is symmetric, which a law of its own checks.
 """
 
 from __future__ import annotations
@@ -33,7 +38,7 @@ PROMINENCE = 0.05
 """Least rise of an extremum over the valley beside it, as a part of the largest speed."""
 
 EDGE = 4.0
-"""Spacings from the edge of the liquid within which no extremum counts at first."""
+"""Spacings from the edge of the liquid within which no extremum counts while the pool spreads."""
 NEARLY = 1.0 - 1e-9
 """Of the vaporization temperature: at it, but for rounding."""
 STATES = {
@@ -69,22 +74,28 @@ class FlowExtrema(Observer):
         for name, text in STATES.items()
         for key, words in (("start", "first"), ("end", "last"), ("lasted", "in all"))
     )
-    kept = ("span", "lasted", "last_place", "has_boiled")
+    kept = ("span", "lasted", "last_place", "widest")
 
     def __init__(self) -> None:
         super().__init__()
         self.span = {name: Span() for name in STATES}
         self.lasted = dict.fromkeys(STATES, 0.0)
         self.last_place: dict[str, float] = {}
-        self.has_boiled = False
+        self.widest = 0.0
 
     def observe(self, view: View) -> Row:
         """Speed [m/s] and place [m] of both extrema; 0 where one does not exist."""
-        if view.vaporization is not None:
-            hottest = float(np.max(view.temperature[view.surface]))
-            self.has_boiled |= hottest >= view.vaporization * NEARLY
-        found = self._by_name(surface_extrema(view, 0.0 if self.has_boiled else EDGE))
-        self.last_place = {name: x for name, (_, x) in found.items()}
+        edge = zone_edge(view)
+        self.widest = max(self.widest, edge)
+        # a particle less at its edge, not its motion with the flow
+        shrinks = edge < self.widest - 0.5 * float(np.min(view.width))
+        line = self._line(edge) if shrinks else 0.0
+        found = self._by_name(surface_extrema(view, 0.0 if shrinks else EDGE, line), line)
+        # a maximum that does not count for a while goes on, but not the inner one without a zone
+        lasting = self.last_place if edge > 0.0 or "inner" in found else {}
+        self.last_place = lasting | {name: x for name, (_, x) in found.items()}
+        if not self.last_place:
+            self.widest = 0.0
         outer, inner = found.get("outer", (0.0, 0.0)), found.get("inner", (0.0, 0.0))
         both = len(found) == 2
         for name, holds in zip(
@@ -94,23 +105,28 @@ class FlowExtrema(Observer):
             self.lasted[name] += view.time_step if holds else 0.0
         return self.record(view.time, (*outer, *inner))
 
-    def _by_name(self, extrema: list[Place]) -> dict[str, Place]:
-        """Extrema in order of x, one or two, by name."""
-        if not extrema:
-            return {}
-        if len(extrema) == 2:
-            # of two, the one that goes on with the outer one; the larger, where none is known
-            one = max(extrema)
-            if "outer" in self.last_place:
-                one = min(extrema, key=lambda place: abs(place[1] - self.last_place["outer"]))
-            is_closer = one is extrema[1] or "outer" not in self.last_place
-            if "inner" in self.last_place or (self.has_boiled and is_closer):
-                return {"inner": extrema[0], "outer": extrema[1]}
-            return {"outer": one}
-        x = extrema[0][1]
-        apart = {name: abs(place - x) for name, place in self.last_place.items()}
-        name = min(apart, key=lambda known: apart[known]) if apart else "outer"
-        return {name: extrema[0]}
+    def _line(self, edge: float) -> float:
+        """Place of the line inside of which an extremum is inner [m]; 0: none can be.
+
+        Args:
+            edge: of the zone at the vaporization temperature [m]; 0 where there is none.
+        """
+        inside = max(edge, self.last_place.get("inner", 0.0))
+        outer = self.last_place.get("outer", 0.0)
+        return 0.5 * (inside + outer) if inside > 0.0 and outer > 0.0 else 0.0
+
+    def _by_name(self, extrema: list[Place], line: float) -> dict[str, Place]:
+        """At most one extremum on each side of the line, by name."""
+        inner = [place for place in extrema if place[1] < line]
+        outer = [place for place in extrema if place[1] >= line]
+        last = self.last_place.get("outer")
+        found = {"inner": max(inner)} if inner else {}
+        if outer:
+            # the one that goes on with the outer one; the larger, where none is known
+            found["outer"] = (
+                max(outer) if last is None else min(outer, key=lambda place: abs(place[1] - last))
+            )
+        return found
 
     def values(self) -> dict[str, object]:
         """For how long the inner one was there, beside the outer one, and faster than that."""
@@ -126,11 +142,24 @@ class FlowExtrema(Observer):
         return super().summary() if any(peak.value for peak in self.peak.values()) else {}
 
 
-def surface_extrema(view: View, margin: float = 0.0) -> list[Place]:
+def zone_edge(view: View) -> float:
+    """Outer edge at x > 0 of the surface at the vaporization temperature [m]; 0 where none is."""
+    if view.vaporization is None:
+        return 0.0
+    row = flow_of(view).surface
+    boils = view.temperature[row] >= view.vaporization * NEARLY
+    if not np.any(boils):
+        return 0.0
+    half = 0.5 * float(view.width[0, row[0]])
+    return max(float(np.max(view.position[0, row][boils])) + half, 0.0)
+
+
+def surface_extrema(view: View, margin: float = 0.0, line: float = 0.0) -> list[Place]:
     """The one or two largest maxima of |u| along the surface at x > 0, in order of x.
 
     Args:
         margin: spacings from the edge of the liquid within which none counts.
+        line: place that no top crosses [m].
     """
     flow = flow_of(view)
     x = view.position[0, flow.surface]
@@ -141,7 +170,7 @@ def surface_extrema(view: View, margin: float = 0.0) -> list[Place]:
     place = np.concatenate([[0.0], x[chosen], [0.0]])
     least = PROMINENCE * float(np.max(speed))
     found, rise = local_maxima(speed, least)
-    center = centers_of_tops(place, speed, found, least)
+    center = centers_of_tops(place, speed, found, least, line)
     edge = float(np.max(place)) - margin * float(view.width[0, flow.surface[0]])
     inside = np.flatnonzero(place[found] <= edge)
     most = np.sort(inside[np.argsort(-rise[inside], kind="stable")[:2]])
@@ -149,14 +178,15 @@ def surface_extrema(view: View, margin: float = 0.0) -> list[Place]:
 
 
 def centers_of_tops(
-    place: np.ndarray, speed: np.ndarray, peaks: np.ndarray, least: float
+    place: np.ndarray, speed: np.ndarray, peaks: np.ndarray, least: float, line: float = 0.0
 ) -> np.ndarray:
     """Centers of what rises above speed[peak] - least, weighted by how far, for each peak [m].
 
-    A top reaches to the lowest speeds between its peak and the next ones.
+    A top reaches to the lowest speeds between its peak and the next ones, and not across the line.
 
     Args:
         place, speed: (n,) [m], [m/s]; speeds are zero at both ends. peaks: (m,) their numbers.
+        line: place [m].
     """
     valleys = [a + int(np.argmin(speed[a:b])) for a, b in pairwise(peaks)]
     ends = [0, *valleys, speed.size]
@@ -164,6 +194,7 @@ def centers_of_tops(
     for k, peak in enumerate(peaks):
         top = slice(ends[k], ends[k + 1])
         weights = np.maximum(speed[top] - speed[peak] + least, 0.0)
+        weights *= (place[top] < line) == (place[peak] < line)
         centers[k] = np.average(place[top], weights=weights)
     return centers
 

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 import synthetic_flow
 import synthetic_run
-from synthetic_flow import FASTEST, LAYER, SLOPE, VISCOSITY, pool_flow
-from synthetic_run import NM, NS, PERIOD
+from synthetic_flow import FASTEST, LAYER, SLOPE, VISCOSITY, liquid_rows, pool_flow
+from synthetic_run import NM, PERIOD
 
-from lasersph.observers import View, flow_observers, snapshot_fields
-from lasersph.observers.flow_extrema import FlowExtrema, centers_of_tops, surface_extrema
+from lasersph.observers import flow_observers, snapshot_fields
 from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.snapshots import UNITS
@@ -19,41 +18,14 @@ from lasersph.observers.surface_pressure import SurfacePressure
 from lasersph.observers.surface_speed import SurfaceSpeed, mean_along, zero_of
 
 
-def rows(*heights, spacing=5 * NM):
-    """A body of half a period, all liquid: columns of `spacing`, as many rows; (view)."""
-    count = round(0.5 * PERIOD / spacing)
-    x = (np.arange(count) + 0.5) * spacing
-    z = -(np.arange(heights[0]) + 0.5) * spacing
-    grid = np.array([g.ravel() for g in np.meshgrid(x, z)])
-    n = grid.shape[1]
-    temperature = 2000.0 + 1000.0 * np.cos(2 * np.pi * grid[0] / PERIOD)
-    return View(
-        time=57 * NS,
-        step=1,
-        time_step=0.1 * NS,
-        position=grid,
-        width=np.full((2, n), spacing),
-        volume=np.full(n, spacing**2),
-        mass=np.full(n, spacing**2),
-        temperature=temperature,
-        enthalpy=temperature,
-        melt_fraction=np.ones(n),
-        vapor_fraction=np.zeros(n),
-        surface=np.arange(count),
-        symmetry_factor=2,
-        iterations={"pressure": 7},
-        vaporization=2990.0,
-    )
-
-
 @pytest.fixture(scope="module")
 def view():
-    return pool_flow(rows(80), inner=0.0)
+    return pool_flow(liquid_rows(80), inner=0.0)
 
 
 def test_speed_and_kinetic_energy():
     """The fastest particle, and half rho V v^2 over two moving ones."""
-    still = pool_flow(rows(2), inner=0.0)
+    still = pool_flow(liquid_rows(2), inner=0.0)
     velocity = np.zeros_like(still.flow.velocity)
     velocity[:, 3], velocity[:, 8] = (3.0, -4.0), (0.0, 2.0)
     view = replace(still, flow=replace(still.flow, velocity=velocity, divergence_rms=1e6))
@@ -118,7 +90,7 @@ def test_estimate_of_the_speed(view):
 
 def test_layer_down_to_the_bottom():
     """Where nothing flows back, the layer reaches half a spacing below the lowest particle."""
-    view = pool_flow(rows(4), inner=0.0)
+    view = pool_flow(liquid_rows(4), inner=0.0)
     assert SurfaceSpeed().observe(view)["flow_layer_thickness_m"] == pytest.approx(20 * NM)
 
 
@@ -146,119 +118,6 @@ def test_left_side_of_a_full_period(view):
     x = row.pop("flow_surface_speed_max_x_m")
     assert image.pop("flow_surface_speed_max_x_m") == pytest.approx(-x, abs=6 * NM)
     assert image == pytest.approx(row, rel=1e-4)
-
-
-def test_two_extrema_are_told_apart():
-    """The inner one lies closer to x = 0; without a second one it is absent."""
-    body = rows(2)
-    (only,) = surface_extrema(pool_flow(body, inner=0.0))
-    assert only[1] == pytest.approx(PERIOD / 4, abs=5 * NM)
-    inner, outer = surface_extrema(pool_flow(body, inner=1.0))
-    assert inner[1] == pytest.approx(400 * NM, abs=60 * NM)
-    assert inner[0] > outer[0]
-    assert outer[1] == pytest.approx(PERIOD / 4, abs=5 * NM)
-
-
-def test_place_does_not_jump_between_maxima_of_one_top():
-    """Two maxima, the second one falling behind by less than a twentieth: the place goes over."""
-    place = np.arange(9.0)
-    places = []
-    for second in (1.02, 1.01, 1.0, 0.99, 0.98, 0.96, 0.94):
-        speed = np.array([0.0, 0.5, 1.0, 0.98, 0.97, 0.98, second, 0.5, 0.0])
-        peak = np.array([int(np.argmax(speed))])
-        places.append(float(centers_of_tops(place, speed, peak, 0.05)[0]))
-    assert places[2] == pytest.approx(4.0)
-    assert np.all(np.diff(places) < 0.0) and np.min(np.diff(places)) > -1.0
-    assert places[-1] < 3.5
-
-
-def test_tops_end_at_the_valleys_between_them():
-    """Two maxima that count: each has its own center."""
-    speed = np.array([0.0, 1.0, 0.5, 0.2, 0.5, 1.0, 0.0])
-    found = centers_of_tops(np.arange(7.0), speed, np.array([1, 5]), 0.05)
-    assert found.tolist() == [1.0, 5.0]
-
-
-def test_noise_is_no_extremum():
-    """Fluctuations below a twentieth of the largest speed are not counted."""
-    view = pool_flow(rows(2), inner=0.0)
-    noise = 0.04 * FASTEST * np.random.default_rng(1).uniform(-0.5, 0.5, 500)
-    noisy = replace(view.flow, surface_velocity=view.flow.surface_velocity + noise)
-    assert len(surface_extrema(replace(view, flow=noisy))) == 1
-
-
-def test_edge_of_the_spreading_liquid_is_no_extremum():
-    """A speed that rises up to the last molten particle, but for a maximum further in."""
-    view = maxima_at((600,), (2.0,))
-    x = view.position[0, view.flow.surface]
-    rising = view.flow.surface_velocity + np.where(x > 1000 * NM, 1.5, 0.0)
-    flows = view.flow.flows & (view.position[0] < 1020 * NM)
-    two_maxima = replace(view, flow=replace(view.flow, surface_velocity=rising, flows=flows))
-    assert len(surface_extrema(two_maxima)) == 2
-    (only,) = surface_extrema(two_maxima, margin=4.0)
-    assert only[1] == pytest.approx(600 * NM, abs=3 * NM)
-
-
-def test_extrema_in_time():
-    """One, two, and the inner one alone: it keeps its name, and the times are counted."""
-    body, observer = rows(2), FlowExtrema()
-    heights = (0.0, 0.5, 1.5, 1.5, 0.0)
-    for step, height in enumerate(heights):
-        view = pool_flow(body, inner=height)
-        observer.observe(replace(view, time=step * NS, time_step=1 * NS))
-    found = observer.summary()["flow"]["extrema"]
-    assert found["coexist_lasted_s"] == pytest.approx(3 * NS)
-    assert (found["coexist_start_s"], found["coexist_end_s"]) == (1 * NS, 3 * NS)
-    assert found["inner_exceeds_lasted_s"] == pytest.approx(2 * NS)
-    assert found["inner_speed_max_m_s"] > found["outer_speed_max_m_s"]
-
-
-def maxima_at(x, speeds, hottest=3000.0):
-    """A view with maxima of |u| at places x [nm], at most `hottest` [K]; T_v is 2990 K."""
-    view = pool_flow(rows(2), inner=0.0)
-    place = view.position[0, view.flow.surface]
-    u = sum(speed * np.exp(-(((place - x) / (60 * NM)) ** 2))
-            for x, speed in zip(np.array(x) * NM, speeds, strict=True))  # fmt: skip
-    flow = replace(view.flow, surface_velocity=u)
-    return replace(view, flow=flow, temperature=np.minimum(view.temperature, hottest))
-
-
-def test_a_second_extremum_before_anything_boils_is_none():
-    """The larger one, then the one that goes on, is the outer one; the other is left out."""
-    observer = FlowExtrema()
-    seen = ((700, 300), (2.0, 1.0)), ((700, 300), (2.0, 3.0)), ((300,), (2.0,))
-    names = ("flow_outer_x_m", "flow_inner_x_m")
-    for (places, speeds), expected in zip(seen, (700, 700, 300), strict=True):
-        row = observer.observe(maxima_at(places, speeds, hottest=2900.0))
-        assert [row[name] for name in names] == pytest.approx([expected * NM, 0.0], abs=20 * NM)
-
-
-def test_a_second_extremum_further_out_is_none():
-    """An inner one lies closer to x = 0 than the outer one that it joins, and may outlive it."""
-    observer = FlowExtrema()
-    seen = (
-        ((500,), (500, None)),
-        ((500, 1000), (500, None)),
-        ((200, 500), (500, 200)),
-        ((200,), (None, 200)),
-        ((200, 600), (600, 200)),
-    )
-    for places, expected in seen:
-        row = observer.observe(maxima_at(places, [2.0] * len(places)))
-        found = [row["flow_outer_x_m"], row["flow_inner_x_m"]]
-        assert found == pytest.approx([NM * (x or 0.0) for x in expected], abs=20 * NM)
-
-
-def test_inner_extremum_that_remains_alone():
-    """When the outer one vanishes, the remaining one is still the inner one."""
-    body, observer = rows(2), FlowExtrema()
-    observer.observe(pool_flow(body, inner=1.5))
-    view = pool_flow(body, inner=1.5)
-    x = body.position[0, view.flow.surface]
-    alone = np.where(x < 600 * NM, view.flow.surface_velocity, 0.0)
-    row = observer.observe(replace(view, flow=replace(view.flow, surface_velocity=alone)))
-    assert row["flow_outer_speed_m_s"] == 0.0
-    assert row["flow_inner_speed_m_s"] > FASTEST
 
 
 def test_lid_pressure_beside_the_recoil_pressure(view):
@@ -289,7 +148,7 @@ def test_lid_pressure_counts_an_impulse_by_its_size(view, share):
 
 def test_pool_width_of_moved_particles():
     """Cells meet half way between their particles: a pool of three, whose neighbors came closer."""
-    view = replace(rows(1), surface=np.arange(500))
+    view = replace(liquid_rows(1), surface=np.arange(500))
     x = view.position.copy()
     x[0, :4] = np.array([2.0, 8.0, 11.0, 16.0]) * NM
     fraction = np.where(np.arange(500) < 3, 1.0, 0.0)

@@ -63,9 +63,9 @@ def compare(study: Study) -> None:
         }
         add_pools(study, label, metal, runs)
     add_speeds(study, runs)
+    add_elevated(study, runs)
     if plan.is_whole:
         heated = add_detail(study, runs["steel", HOLD])
-        add_elevated(study, runs)
         add_aluminium(study, runs["aluminium", HOLD])
         pair = [runs["steel", HOLD][plan.detail], heated]
         study.save("fig7a-extrema", speed_extrema(pair[1:]))
@@ -210,14 +210,15 @@ def add_elevated(study: Study, runs: Readings) -> None:
     for plateau in (HOLD, CLIP):
         one = runs["steel", plateau][fluence]
         words: Words = {"fluence": fluence, "plateau": plateau}
-        path = "flow.extrema.inner_{}_s"
-        start, exceeds = (
-            number_at(one.summary, path.format(key), 1e9) for key in ("start", "exceeds_start")
-        )
-        study.add("emerges", None if start is None or exceeds is None else exceeds - start, **words)
-        outer = one.history["time_s"][one.history["flow_outer_speed_m_s"] > 0.0]
-        inner = one.history["time_s"][one.history["flow_inner_speed_m_s"] > 0.0]
-        study.add("vanishes", bool(inner.size and outer.size and outer[-1] < inner[-1]), **words)
+        time = one.history["time_s"]
+        inner, outer = (one.history[f"flow_{name}_speed_m_s"] for name in ("inner", "outer"))
+        # where an outer one does not count beside it, the inner one exceeds it, too
+        exists, exceeds = time[inner > 0.0], time[inner > outer]
+        after = 1e9 * float(exceeds[0] - exists[0]) if exceeds.size else None
+        study.add("emerges", after, **words)
+        last = time[outer > 0.0]
+        vanishes = bool(exists.size and last.size and last[-1] < exists[-1])
+        study.add("vanishes", vanishes, **words)
 
 
 def add_aluminium(study: Study, runs: Runs) -> None:
