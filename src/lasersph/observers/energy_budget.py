@@ -14,6 +14,8 @@ particles hold, sum m |h|: what has warmed and what has cooled both count.
 What the numerics do has numbers of its own, so that each fails by itself: light that no particle
 took, heat that shifting added, heat that was cut off, work of an ejection that no heat pays for,
 and the residual of the implicit steps, which is added to the enthalpies, so that it loses nothing.
+Of each the largest magnitude over the run is given beside the value at the end, where what was
+added and taken away again does not show.
 
 Kinetic energy counts in runs with light. Models of flow without viscous heating and without work
 by surface stress take it from no heat, so that it is a part of the imbalance: some 1e-6 in a melt
@@ -42,7 +44,7 @@ BOOKED = {
     "shifting": "heat that particle shifting added",
     "ejection_work": "kinetic energy that no heat of the ejecta pays for",
     "pauses": "heat taken away in pauses between pulses that are jumped over",
-    "newton_residual": "sum of the residuals of implicit steps, which joined the enthalpies",
+    "newton_residual": "sum of the |residuals| of implicit steps, which joined the enthalpies",
 }
 """What solvers book since the start; a `View` holds them."""
 NUMERICAL = ("unassigned", "discarded", "shifting", "ejection_work", "newton_residual")
@@ -73,8 +75,15 @@ class EnergyBudget(Observer):
     )
     columns = (
         *(
-            Quantity(f"energy_{k}_J", "J", words, end=f"energy.{k}_J", is_main=k == "absorbed")
-            for k, words in TERMS.items()
+            Quantity(
+                f"energy_{name}_J",
+                "J",
+                words,
+                largest=f"energy.{name}_max_J" if name in NUMERICAL else "",
+                end=f"energy.{name}_J",
+                is_main=name == "absorbed",
+            )
+            for name, words in TERMS.items()
         ),
         Quantity(
             "energy_imbalance_relative",
@@ -104,7 +113,10 @@ class EnergyBudget(Observer):
         self.scale = max(self.scale, terms["absorbed"], abs(terms["lost"]), held)
         difference = abs(imbalance(terms)) + abs(terms["removed"] - ejecta)
         relative = difference / self.scale if self.scale > 0.0 else 0.0
-        return self.record(view.time, (*terms.values(), relative))
+        row = self.record(view.time, (*terms.values(), relative))
+        for name in NUMERICAL:
+            self.peak[f"energy_{name}_J"].update(abs(terms[name]), view.time)
+        return row
 
     def values(self) -> dict[str, object]:
         """The unit of the terms."""

@@ -112,7 +112,7 @@ def warning_texts(summary: dict[str, Any], events: list[dict[str, Any]]) -> list
         found.append(f"The energy balance does not close within {share} of the energy moved.")
     whole = exchanged(summary["energy"])
     for name in NUMERICAL:
-        share = abs(summary["energy"].get(f"{name}_J", 0.0)) / max(whole, 1e-300)
+        share = summary["energy"].get(f"{name}_max_J", 0.0) / max(whole, 1e-300)
         if share > NUMERICAL_ALLOWED:
             percent = shown(100.0 * share, 3)
             found.append(f"The {TERMS[name]} is {percent} % of the energy moved.")

@@ -25,7 +25,7 @@ from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, s
 NOT_ANSWERS = re.compile(
     r"(dimensions|particles|schema_version|spacing_m|spacing_requested_m|steps|threads|time_s"
     r"|wall_time_s|numerical_sd\..*|time_step\..*|iterations\..*|material\..*|dimensionless\..*|energy\.imbalance_relative(_at_s)?"
-    rf"|energy\.({'|'.join(NUMERICAL)})_J"
+    rf"|energy\.({'|'.join(NUMERICAL)})_(J|max_J|max_at_s)"
     r"|surface\.(symmetry_factor|depth_of_particle_m)"
     r"|probes\..*\.(depth_m|x_m|y_m|depth_used_m))"
 )

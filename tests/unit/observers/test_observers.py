@@ -16,6 +16,7 @@ from lasersph.observers import (
     heat_observers,
     snapshot_fields,
 )
+from lasersph.observers.energy_budget import NUMERICAL
 from lasersph.observers.peak import Peak
 from lasersph.output.settings import Probe, SnapshotPlan, SnapshotSchedule
 
@@ -88,6 +89,18 @@ def test_numerics_have_numbers_of_their_own(views, name, sign):
     row = EnergyBudget(2).observe(seen(views[0], BOOKED | {name: 0.3}, 3.0 + sign * 0.3))
     assert row["energy_imbalance_relative"] == pytest.approx(0.0, abs=1e-15)
     assert row[f"energy_{name}_J"] == 0.3
+
+
+@pytest.mark.parametrize("name", NUMERICAL)
+def test_numerics_that_cancel_are_seen(views, name):
+    """0.1, -0.3 and 0.2 J, one after the other: 0.2 at the end, 0.3 at most, at the second."""
+    budget = EnergyBudget(2)
+    for step, value in enumerate((0.1, -0.3, 0.2)):
+        view = seen(views[0], BOOKED | {name: value}, 3.0)
+        budget.observe(replace(view, time=float(step)))
+    energy = budget.summary()["energy"]
+    assert (energy[f"{name}_J"], energy[f"{name}_max_J"]) == (0.2, 0.3)
+    assert energy[f"{name}_max_at_s"] == 1.0
 
 
 def test_energy_budget_without_light(views):

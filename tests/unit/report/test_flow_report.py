@@ -70,6 +70,13 @@ def test_flow_may_close_less_well(pool):
     ]
 
 
+def test_numerics_that_cancel_are_warned_of(pool):
+    """Heat that shifting added and took away again: nothing at the end, a thousandth before."""
+    energy = {**ENERGY, "shifting_J": 0.0, "shifting_max_J": 1e-3}
+    (text,) = warning_texts({**pool, "energy": energy}, [])
+    assert text == "The heat that particle shifting added is 0.1 % of the energy moved."
+
+
 def test_tables_have_units(pool, box):
     """Every number in every table of the flow carries its unit, but for numbers without one."""
     kinds = (FlowSpeed, SurfaceSpeed, FlowExtrema, SurfacePressure, BoxFlow, WallExchange)
