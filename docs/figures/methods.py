@@ -24,7 +24,7 @@ from lasersph.plots import style
 from lasersph.validation.drawing import Panel, draw, line
 
 NUMBERS = Path(__file__).parents[1] / "methods" / "numbers.md"
-KINDS = ("guard", "cost only", "forecast only", "judgement, no study")
+KINDS = ("guard", "cost only", "forecast only")
 METALS = ("aluminium", "copper", "steel-304", "titanium", "tungsten")
 
 
