@@ -58,6 +58,7 @@ BAD_FLOW_CASES = {
     "no viscosity": (VISCOSITY + "\n", "", ':7: material: "of the case" has no viscosity, which flow needs; write e.g. viscosity = "5 mPa s" in [material], or kind = "conduction" in [solver]'),
     "no surface tension": (LID, 'surface = "free-surface"', ':7: material: "of the case" has no surface_tension_slope, which drives the surface; write e.g. surface_tension_slope = "-0.4 mN/(m K)" in [material], or marangoni = false in [solver]'),
     "viscosity of another kind": (VISCOSITY, 'viscosity = "0.0071 m^2/s"', ':11: material.viscosity: "0.0071 m^2/s" is a diffusivity, not a viscosity; write e.g. "1.3 mPa s"'),
+    "two viscosities": (VISCOSITY, VISCOSITY + '\nviscosity = "0.0032 Pa s"', ':11: material.kinematic_viscosity: with viscosity makes the density of the liquid 0.4507 kg/m^3 at 298.15 K, but density is 1 kg/m^3; write kinematic_viscosity = "0.0032 m^2/s", or leave one of the two viscosities out'),
     "no viscosity at all": (VISCOSITY, 'kinematic_viscosity = "0 m^2/s"', ":7: material: kinematic_viscosity must be positive everywhere in its range"),
     "no conductivity": ('diffusivity = "0.01 m^2/s"\n', "", ':7: material.conductivity: missing; write conductivity = "167 W/(m K)"'),
 }  # fmt: skip

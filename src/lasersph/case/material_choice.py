@@ -8,8 +8,9 @@
         kinematic_viscosity = "0.01 m^2/s"
 
 In a changed material a property replaces the base's whole law, a section (melting, vaporization,
-optics) keeps the base's other numbers. Numbers without a source have "set in the case". A whole
-material may have a constant diffusivity instead of its conductivity k = D rho c_p.
+optics) keeps the base's other numbers. Numbers without a source have "set in the case". Of the two
+viscosities the one that is set replaces both of the base, and the density of its melt stays. A
+constant diffusivity may stand instead of the conductivity k = D rho c_p.
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema
 
-from lasersph.input import QuantityError, parse_quantity, read_toml
+from lasersph.input import QuantityError, parse_quantity, read_toml, refusal
 from lasersph.materials import Material, load_material, material_file
+from lasersph.materials.material import VISCOSITIES
 
 SET_HERE = "set in the case"
 UNNAMED = "of the case"
@@ -90,9 +92,13 @@ def _changed(table: dict[str, Any], folder: Path | None) -> dict[str, Any]:
     if not isinstance(base, str):
         raise ValueError('base must be the name or path of a material; write e.g. "steel-304"')
     located = _located(base, folder)
-    load_material(located)
+    material = load_material(located)
     data = read_toml(material_file(located)).data
     changes = {key: value for key, value in table.items() if key != "base"}
+    if len(changes.keys() & VISCOSITIES) == 1:
+        if data.keys() >= set(VISCOSITIES) and "density" not in changes:
+            data["density"] = _with_melt(data["density"], material.density_liquid)
+        data = {key: value for key, value in data.items() if key not in VISCOSITIES}
     if changes:
         data["note"] = f"{data.get('note', '')} Changed in the case: {', '.join(changes)}.".strip()
     for key, value in changes.items():
@@ -102,7 +108,21 @@ def _changed(table: dict[str, Any], folder: Path | None) -> dict[str, Any]:
             data[key] = value
         else:
             data[key] = _sourced(value)
+    if "diffusivity" in changes:
+        conductivity = _conductivity(data)
+        if "conductivity" in changes or conductivity is None:
+            why = (
+                "beside conductivity" if conductivity else "where one of D, rho, c_p is no constant"
+            )
+            raise refusal(("diffusivity", f"says nothing {why}; write conductivity alone"))
+        data["conductivity"] = conductivity
     return data
+
+
+def _with_melt(density: dict[str, Any], melt: float) -> dict[str, Any]:
+    """The density of a base, its melt's as both viscosities of the base have it [kg/m^3]."""
+    liquid = {"value": f"{melt!r} kg/m^3", "source": "viscosity / kinematic_viscosity of the base"}
+    return {"solid": density.get("solid", density), "liquid": liquid}
 
 
 def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from lasersph.input import (
     SurfaceTensionSlope,
     Temperature,
     Viscosity,
+    format_quantity,
     refusal,
 )
 from lasersph.materials.caloric_curve import CaloricCurve
@@ -42,10 +43,15 @@ POSITIVE = (
     "surface_tension",
 )
 """Properties whose values must be above zero wherever their source gives them."""
+VISCOSITIES = ("viscosity", "kinematic_viscosity")
+"""Two names of one thing: over each other they are the density of the liquid."""
 NO_ADSORPTION = (
     "lowers the surface tension by surface_tension.adsorption, which the material does not have; "
     "give saturation, segregation and enthalpy there, or leave sulfur out"
 )
+CONTRADICTION = 0.2
+"""By how much eta / nu may differ from the density. A paper may print one average density over
+solid and liquid; metals lose up to 15 % of theirs from room temperature to the liquidus."""
 JUMP_WIDTH = 1e-3
 """Temperature over which a table draws a jump at the melting point [K]."""
 
@@ -109,10 +115,26 @@ class Material(Model):
                     raise ValueError(f"{where} must be positive everywhere in its range")
                 if name.endswith("reflectivity") and (values.min() < 0.0 or values.max() > 1.0):
                     raise ValueError(f"{where} must lie between 0 and 1 everywhere in its range")
+        self._compare_viscosities()
         boiling = self.vaporization.temperature if self.vaporization else float("inf")
         if self.liquidus is not None and boiling <= self.liquidus:
             raise ValueError("the boiling temperature must lie above the liquidus")
         return self
+
+    def _compare_viscosities(self) -> None:
+        """Refuse dynamic and kinematic viscosities whose ratio is not the density of the liquid."""
+        if self.viscosity is None or self.kinematic_viscosity is None:
+            return
+        T, ratio = self.flow_temperature, self.density_liquid
+        density = float(self.density.liquid_law.at(T))
+        if abs(ratio / density - 1.0) > CONTRADICTION:
+            right = format_quantity(float(self.viscosity_at(T)) / density, "m^2/s")
+            text = (
+                f"with viscosity makes the density of the liquid {ratio:.4g} kg/m^3 at {T:g} K, "
+                f'but density is {density:.4g} kg/m^3; write kinematic_viscosity = "{right}", or '
+                "leave one of the two viscosities out"
+            )
+            raise refusal(("kinematic_viscosity", text))
 
     def properties(self) -> dict[str, Property[Any]]:
         """All given properties by name, reflectivity and the effect of sulfur included."""

@@ -16,6 +16,7 @@ from lasersph.case import Case
 from lasersph.case.quick import largest_spacing
 from lasersph.input import QuantityError, format_quantity
 from lasersph.materials import Law
+from lasersph.materials.material import VISCOSITIES
 from lasersph.materials.uncertainty import relative_uncertainty
 from lasersph.simulation.layers import fine_depth
 from lasersph.studies.variation import changed
@@ -76,11 +77,20 @@ def _value_at(case: Case, key: str) -> tuple[Law | float, str]:
 def shifted(case: Case, one: Input, sign: int) -> Case | str:
     """The case with an input one standard uncertainty higher (+1) or lower (-1); the reason in one
     line where the case refuses that."""
-    value, _ = _value_at(case, one.key)
-    factor = 1.0 + sign * one.relative
-    new = value.scaled(factor) if isinstance(value, Law) else factor * value
+    key, factor, material = one.key, 1.0 + sign * one.relative, case.material
+    both = {name: getattr(material, name) for name in VISCOSITIES}
+    if key.removeprefix("material.") in both and None not in both.values():
+        key, new = (
+            "material",
+            material.model_copy(  # the density of the melt is their ratio
+                update={name: law.scaled(factor) for name, law in both.items()}
+            ),
+        )
+    else:
+        value, _ = _value_at(case, key)
+        new = value.scaled(factor) if isinstance(value, Law) else factor * value
     try:
-        return changed(case, one.key, new)
+        return changed(case, key, new)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
         return " ".join(first.split())

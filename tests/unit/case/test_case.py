@@ -18,7 +18,7 @@ from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.quick import expected_crater, quick_settings, what_is_not_shown
 from lasersph.case.size import in_words
 from lasersph.compute import cuda_device
-from lasersph.input import CaseError
+from lasersph.input import CaseError, parse_quantity
 from lasersph.materials import material_file
 
 
@@ -119,6 +119,38 @@ def test_changed_material():
     assert material.melting.source_of("liquidus") == base.melting.source_of("liquidus")
     assert "conductivity, melting" in material.note
     assert case.hash() != load_case("dlip-steel").hash()
+
+
+@pytest.mark.parametrize(
+    ("metal", "key", "value", "density"),
+    [
+        ("steel-304", "kinematic_viscosity", "2e-6 m^2/s", 6900.0),
+        ("steel-304-demuth", "kinematic_viscosity", "2e-6 m^2/s", 6863.0),
+        ("aluminium-demuth", "viscosity", "4 mPa s", 2379.0),
+    ],
+)
+def test_a_viscosity_that_is_set_replaces_both_of_its_base(metal, key, value, density):
+    """The melt flows with it, with the density that it had; both twice as large keep it, too."""
+    settings = (f"material={metal}", f"material.{key}={value}")
+    base = load_case("dlip-steel", settings[:1]).material
+    material = load_case("dlip-steel", settings).material
+    assert base.density_liquid == pytest.approx(density, rel=5e-3)
+    assert material.density_liquid == base.density_liquid
+    assert material.density_reference == base.density_reference
+    T = material.flow_temperature
+    kinematic, dynamic = material.kinematic_viscosity_at(T), material.viscosity_at(T)
+    assert float(dynamic) == pytest.approx(float(kinematic) * base.density_liquid)
+    one = kinematic if key == "kinematic_viscosity" else dynamic
+    assert float(one) == parse_quantity(value, key)
+
+
+def test_a_diffusivity_that_is_set_replaces_the_conductivity_of_its_base():
+    """k = D rho c_p of constants; where they are none, or with a conductivity, it is refused."""
+    material = load_case("dlip-steel", ["material.diffusivity=1e-5 m^2/s"]).material
+    assert float(material.conductivity_at(300.0)) == pytest.approx(1e-5 * 7262.0 * 704.0)
+    for more in ("material=steel-304", "material.conductivity=20 W/(m K)"):
+        with pytest.raises(CaseError, match="diffusivity: says nothing"):
+            load_case("dlip-steel", [more, "material.diffusivity=1e-5 m^2/s"])
 
 
 def test_changed_number_loses_the_uncertainty_of_its_base():

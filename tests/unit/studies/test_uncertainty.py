@@ -244,3 +244,12 @@ def test_melting_front_lies_inside_its_error(tmp_path):
     assert abs(front["value"] - float(exact_solution(case).front(1e-6))) < front["error"]
     assert front["error"] < 0.02 * front["value"]
     assert abs(hottest["value"] - 1333.0) < hottest["error"] < 0.03 * 1333.0
+
+
+def test_a_shifted_viscosity_keeps_the_density_of_the_melt():
+    """Of a metal that gives both viscosities both are shifted."""
+    base = load_case("dlip-steel")
+    case = shifted(base, read_input(base, "material.viscosity=7%"), +1)
+    nu = [float(one.material.kinematic_viscosity_at(1727.0)) for one in (base, case)]
+    assert nu[1] == pytest.approx(1.07 * nu[0])
+    assert case.material.density_liquid == pytest.approx(base.material.density_liquid)

@@ -35,8 +35,7 @@ def lit(study: Study, metal: str, flux: float) -> tuple[Run, SteadyRecession]:
     steady, length = steady_state(material, flux, 1.0), 1e-9 * plan.length
     conductivity = length / steady.thermal_length
     steady, spacing = steady_state(material, flux, conductivity), length / plan.rows
-    liquid = "surface_tension = '0.01 N/m', viscosity = '0.07 mPa s'"
-    liquid += ", kinematic_viscosity = '1e-8 m^2/s'"
+    liquid = "surface_tension = '0.01 N/m', kinematic_viscosity = '1e-8 m^2/s'"
     one = study.run(
         f"{metal}-{flux:.0e}",
         f"material={{ base = '{metal}', conductivity = '{conductivity!r} W/(m K)', {liquid} }}",
