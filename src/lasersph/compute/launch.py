@@ -135,7 +135,7 @@ class Launch:
 
     Attributes:
         address: of its frame. reductions: "sum", "max" or "min" for each result.
-        rebound: what binds it to other arrays, where it was prepared again.
+        rebound: what binds it to other arrays, where it can take them.
         results: what the last run has reduced. numbers: the constants as `places` counts them.
     """
 

@@ -22,7 +22,7 @@ from lasersph.compute.arguments import argument_for, array_kind, fingerprint
 from lasersph.compute.array_types import PairList
 from lasersph.compute.generate import Loop, LoopText
 from lasersph.compute.launch import Bound, Compiled, Launch, Launcher, bytes_of
-from lasersph.compute.rebinding import Rebound, has_known_layout, rebinding_function
+from lasersph.compute.rebinding import has_known_layout, rebindable, rebinding_function
 from lasersph.compute.signature import Call, Signature, listed
 
 _layout = attrgetter("dtype", "shape", "strides")
@@ -88,13 +88,13 @@ class Loops:
         signature, kinds, ones, values = self._addresses(call)
         key, found = (signature, kinds), again.rebound
         is_same = found and found.key == key and source.is_current(found.watched)
-        if found and is_same and found.run(ones, values):
+        if found and is_same and found.run(again, ones, values):
             again.holds(call)
             return again
-        found = Rebound(self._bound(self.given(call)), signature, self.launcher.threads, call)
-        found.only_binds(key)
-        found.launch.holds(call)
-        return found.launch
+        launch = rebindable(self.launcher, self._bound(self.given(call)), signature, call)
+        launch.rebound.only_binds(key)
+        launch.holds(call)
+        return launch
 
     def recorded(self, run: Callable[[], None]) -> list[Launch]:
         """Run `run`; returns what it has launched."""
@@ -111,12 +111,13 @@ class Loops:
         """Run a call by the launch of an earlier one with arrays of the same kinds, if any."""
         signature, kinds, ones, values = self._addresses(call)
         launches = signature.rebound.get(kinds, ())
-        for found in launches:
-            if source.is_current(found.watched) and found.run(ones, values):
-                return tuple(found.launch.results)
-        found = Rebound(self._bound(self.given(call)), signature, self.launcher.threads, call)
-        signature.rebound[kinds] = (found, *launches[: KEPT - 1])
-        return found.launch()
+        for launch in launches:
+            found = launch.rebound
+            if source.is_current(found.watched) and found.run(launch, ones, values):
+                return tuple(launch.results)
+        launch = rebindable(self.launcher, self._bound(self.given(call)), signature, call)
+        signature.rebound[kinds] = (launch, *launches[: KEPT - 1])
+        return launch()
 
     def _addresses(self, call: Call) -> tuple[Signature, tuple, array, tuple]:
         """Signature, kinds beside those of arrays, addresses and numbers for `Rebound`."""

@@ -23,7 +23,7 @@ import numpy as np
 
 from lasersph.compute import cache as folder
 from lasersph.compute.generate import NATIVE
-from lasersph.compute.launch import HEAD_WORDS, RUN, SHARED, Bound, Launch
+from lasersph.compute.launch import HEAD_WORDS, RUN, SHARED, Bound, Launch, Launcher
 from lasersph.compute.signature import Call, Signature
 
 HEAD, ENTRY = 8, 8
@@ -169,10 +169,14 @@ def rebinding_text(precision: str) -> str:
 
 
 class Rebound:
-    """A launch that takes other arrays at each call.
+    """What binds a launch to other arrays at each call.
+
+    The launch holds this, and not the other way round: in a ring both, and the arrays that a
+    launch holds, would stay until Python looks for rings, which can take hundreds of steps.
 
     Args:
-        bound: a call of the same kinds. signature: of all such calls. call: the same call.
+        launch: of `bound`, a call of the same kinds. signature: of all such calls. call: the same
+            call.
 
     Attributes:
         key: signature and kinds of a launch that is bound again, see `only_binds`.
@@ -181,9 +185,10 @@ class Rebound:
     key: tuple | None = None
     _values: tuple | None = None
 
-    def __init__(self, bound: Bound, signature: Signature, threads: int, call: Call) -> None:
+    def __init__(
+        self, launch: Launch, bound: Bound, signature: Signature, threads: int, call: Call
+    ) -> None:
         compiled = bound.compiled
-        self.launch = Launch(bound, threads, holds=False)
         self.watched = compiled.watched
         roles = {place: (ROW, TOTAL, PAIR)[need] for place, need, _ in signature.needs}
         at_neighbors = {place for place, _ in signature.neighbors}
@@ -209,26 +214,34 @@ class Rebound:
         head = [len(words) // ENTRY, compiled.block, threads, capacity, is_values]
         self._plan = array("Q", [*head, id(_OFFSET), id(_INDEX), 0, *words])
         self._call = rebinding_function(compiled.real.name)
-        self._places = self._plan.buffer_info()[0], self.launch.address
+        self._places = self._plan.buffer_info()[0], launch.address
         self._names = signature.numbers + (("period",) if signature.geometry else ())
 
     def only_binds(self, key: tuple) -> None:
         """Bind without running from now on, for a launch of its own that is run later."""
-        self.key, self._plan[ONLY_BINDS], self.launch.rebound = key, 1, self
+        self.key, self._plan[ONLY_BINDS] = key, 1
 
-    def run(self, ones: array, values: tuple) -> bool:
+    def run(self, launch: Launch, ones: array, values: tuple) -> bool:
         """Run with the arrays at some addresses, 0 first; False where they are of other kinds.
 
         Args:
-            values: of the constants that are numbers, with the period of the list.
+            launch: that this was made for. values: of the constants that are numbers, with the
+                period of the list.
         """
         # routines change the numbers of prepared launches where they lie
         if self.key is not None or values != self._values:
-            self.launch.set(dict(zip(self._names, values, strict=True)))
+            launch.set(dict(zip(self._names, values, strict=True)))
             self._values = values
         plan, frame = self._places
         self._call(plan, ones.buffer_info()[0], frame)
         return bool(ones[0])
+
+
+def rebindable(launcher: Launcher, bound: Bound, signature: Signature, call: Call) -> Launch:
+    """Launch of a call that can take other arrays; it does not hold those that it has."""
+    launch = launcher.launch(bound, holds=False)
+    launch.rebound = Rebound(launch, bound, signature, launcher.threads, call)
+    return launch
 
 
 def _entry(one: Any, role: int, place: int) -> list[int]:

@@ -1,5 +1,8 @@
 """Binding of launches in compiled code, or in Python where arrays are laid out otherwise."""
 
+import gc
+from weakref import ref
+
 import numpy as np
 
 from lasersph import compute
@@ -37,7 +40,7 @@ def test_same_results_without_the_layout(monkeypatch):
     """An unknown layout costs time and changes no result."""
     expected = doubles(compute.cpu(threads=1))
     monkeypatch.setattr(loops, "has_known_layout", lambda: False)
-    monkeypatch.setattr(loops, "Rebound", None)
+    monkeypatch.setattr(loops, "rebindable", None)
     for one, other in zip(doubles(compute.cpu(threads=1)), expected, strict=True):
         np.testing.assert_array_equal(one, other)
 
@@ -72,6 +75,24 @@ def test_a_prepared_loop_takes_other_arrays():
     assert seen[2] is seen[1]
 
 
+def test_a_loop_prepared_anew_lets_go_of_the_arrays_before():
+    """Where rows outgrow the sums of a launch another takes its place, and nothing holds that of
+    before: as long as a melt pool grew, each left a ring with the pairs of its last step."""
+    backend, launch, seen = compute.cpu(threads=1), None, []
+    gc.disable()
+    try:
+        for size in (3, 4, 20_000):
+            a, out = backend.asarray(np.ones(size)), backend.zeros(size)
+            how = {"reduce": (None, "sum"), "again": launch, "factor": 2.0}
+            launch = backend.prepare(scaled, {"a": a}, (out, None), **how)
+            seen.append(ref(a))
+            del a, out, how
+        assert launch() == (40_000.0,)
+        assert [one() is None for one in seen] == [True, True, False]
+    finally:
+        gc.enable()
+
+
 def test_a_prepared_loop_of_other_kinds_is_bound_anew():
     """What was another loop is left alone."""
     backend = compute.cpu(threads=1)
@@ -85,13 +106,13 @@ def test_a_prepared_loop_of_other_kinds_is_bound_anew():
 
 def test_calls_that_alternate_keep_their_launches(monkeypatch):
     """Arrays of another type get a launch of their own, which does not drive out the first."""
-    backend, made, bind = compute.cpu(threads=1), [], loops.Rebound
+    backend, made, bind = compute.cpu(threads=1), [], loops.rebindable
 
     def count(*arguments):
         made.append(arguments)
         return bind(*arguments)
 
-    monkeypatch.setattr(loops, "Rebound", count)
+    monkeypatch.setattr(loops, "rebindable", count)
     for _ in range(3):
         for kind in ("real", "index"):
             out = backend.zeros(2, kind)
