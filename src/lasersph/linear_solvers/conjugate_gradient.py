@@ -26,7 +26,7 @@ from lasersph.compute.routine import Step
 from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.incomplete_factors import IncompleteFactors
 from lasersph.linear_solvers.iteration import conjugate_gradients
-from lasersph.linear_solvers.multigrid import Multigrid
+from lasersph.linear_solvers.multigrid import Multigrid, are_same
 from lasersph.particles.neighbor_lists import NeighborList
 
 STIFF = 20.0
@@ -122,6 +122,7 @@ class ConjugateGradient:
         self._turn: Launch | None = None
         self._multigrid: Multigrid | None = None
         self._is_set_up = False
+        # held no longer than the operator has them: as much memory as the pairs in use
         self._given: tuple = (operator.neighbors, operator.weights) if rests else ()
         self.factors: IncompleteFactors | None = None
 
@@ -145,6 +146,8 @@ class ConjugateGradient:
         """
         self._is_set_up = self._is_set_up and not renews
         v, operator = self._v, self.operator
+        if self._given and not are_same((operator.neighbors, operator.weights), self._given):
+            self._given, self.factors = (), None
         fields = {
             "C": C,
             "S": operator.total,
@@ -188,11 +191,8 @@ class ConjugateGradient:
         """Incomplete factors of the pairs that the solver was made with, while they stay."""
         if not self._given:
             return self.factors
-        now = (self.operator.neighbors, self.operator.weights)
-        if any(a is not b for a, b in zip(now, self._given, strict=True)):
-            self._given, self.factors = (), None
-        elif self.factors is None:
-            pairs = ordered_pairs(self.backend, now[0], self._weights())
+        if self.factors is None:
+            pairs = ordered_pairs(self.backend, self.operator.neighbors, self._weights())
             if pairs is None:
                 self._given = ()
             else:
@@ -209,8 +209,7 @@ class ConjugateGradient:
         """Product with the pairs and weights that the operator has now."""
         operator, used, v = self.operator, self._used, self._v
         now = (operator.neighbors, operator.weights)
-        is_bound = self._bound and all(a is b for a, b in zip(now, self._bound, strict=True))
-        if is_bound and self._turn is not None:
+        if self._turn is not None and are_same(now, self._bound):
             return self._turn
         self._bound = now
         used.neighbors, used.weights = operator.neighbors, self._weights()

@@ -166,7 +166,7 @@ class _Level:
 
     def prepare(self, C: Array, w: Array, s: float) -> None:
         """Set the operator from the row sums C and the free shares w of the members."""
-        if not _are(self._from, (C, w)):
+        if not are_same(self._from, (C, w)):
             self._from = (C, w)
             self._sums = self._sum(C, self.C), self._sum(w, self.w, mean)
         for sums in self._sums:
@@ -196,7 +196,7 @@ class _Level:
         )
 
 
-def _are(some: tuple, others: tuple) -> bool:
+def are_same(some: tuple, others: tuple) -> bool:
     """Whether two tuples hold the same objects."""
     return len(some) == len(others) and all(a is b for a, b in zip(some, others, strict=True))
 
@@ -255,7 +255,7 @@ class Multigrid:
 
     def correction(self, r: Array, z: Array, mask: Array) -> Step:
         """Step that adds P B P^T r to z on the particles whose mask is 1, and reduces r z."""
-        if not _are(self._for, (r, z, mask)):
+        if not are_same(self._for, (r, z, mask)):
             self._for, finest = (r, z, mask), self.levels[0]
             fields = {"r": r, "z": z, "mask": mask}
             self._restrict = finest.restriction(r)

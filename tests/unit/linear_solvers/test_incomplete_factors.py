@@ -1,5 +1,7 @@
 """Incomplete factors: by hand, against dense solves, and when they are left out."""
 
+from weakref import ref
+
 import numpy as np
 import pytest
 from particle_square import dense, held_front, right_side, square, system
@@ -105,6 +107,18 @@ def test_new_mask_and_weights(backend):
     solver.solve(*arrays, STEP, residual=1e-9, max_iterations=200)
     assert solver.factors is None
     assert backend.to_host(solver.solution) == pytest.approx(expected, abs=1e-9)
+
+
+def test_pairs_that_were_replaced_are_let_go():
+    """Nothing holds them once a solve has seen others, though it is too stiff for factors."""
+    backend = compute.cpu(threads=1)
+    operator, pairs = system(backend, SIDE)
+    b, C, mask = problem()
+    _, _, solver = solved(backend, operator, b, C, mask, STEP, residual=1e-9)
+    replaced, operator.weights = ref(operator.weights), backend.asarray(pairs[2])
+    arrays = [backend.asarray(v) for v in (b, C, mask)]
+    solver.solve(*arrays, 1e3 * STEP, residual=1e-6, max_iterations=200)
+    assert replaced() is None and solver.factors is None
 
 
 def test_threads_change_no_bit(monkeypatch):
