@@ -167,19 +167,26 @@ def test_depth_between_two_rows():
     assert found == pytest.approx([1.5 + share, 0.0])
 
 
+TRAIN = ("laser.pulse.count=2", "laser.pulse.period=0.5 us", "time.end=0.6 us")
 REFUSED = {
     "no spot": (["laser.spot="], "has no spot"),
     "flat": (["solver.flow.surface=flat"], "does not move"),
     "whole": (["laser.spot.extent=whole", "domain.extent=full"], 'write extent = "cell"'),
     "too dark": (["laser.fluence=0.05 J/cm^2"], "melt nothing"),
     "two periods": (["domain.width=10 um"], "a cell is one period wide"),
+    "pulses that melt the same place": (
+        [*TRAIN, "laser.spot.shift=10 um"],
+        'write laser.spot.shift = "26 um", or leave the spot at one place',
+    ),
+    "pulses that find the heat of others": (
+        [*TRAIN, "laser.spot.shift=60 um", "time.pause=compute"],
+        'time.pause is "compute", and a pulse finds the heat of those before',
+    ),
     "lines and spot moved": (
         [
             "laser.spot.shift=20 um",
             "laser.beam.shift=1 um",
-            "laser.pulse.count=2",
-            "laser.pulse.period=0.5 us",
-            "time.end=0.6 us",
+            *TRAIN,
             "domain.extent=full",
             "boundaries.sides=periodic",
         ],

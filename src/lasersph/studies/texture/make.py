@@ -27,7 +27,7 @@ from lasersph.output.height_map import HeightMap
 from lasersph.output.image_file import Maps, write_maps
 from lasersph.simulation.layers import expected_melt
 from lasersph.studies.texture.cells import PERIOD_FITS, UNITS, read_cell
-from lasersph.studies.texture.spot import NoTexture, texture_maps
+from lasersph.studies.texture.spot import NoTexture, refuse_common_melt, texture_maps
 from lasersph.studies.texture.table import FEWEST_CELLS, CellTable
 from lasersph.sweeps import CaseTemplate, SweepPlan, Table, build_plan
 from lasersph.sweeps.folder import RUNS, SweepFolder
@@ -96,12 +96,19 @@ def plan_texture(
     assert laser is not None
     moves = laser.displacement is not None and laser.pulse.count > 1
     pulses, shift = (laser.pulse.count, float(laser.displacement or 0.0)) if moves else (1, 0.0)
+    if moves and case.pause != "remove":
+        raise NoTexture(
+            f'time.pause is "{case.pause}", and a pulse finds the heat of those before: cells of '
+            "one pulse begin cold; leave it out, with a laser.pulse.period after which all is solid"
+        )
     if moves:  # a cell has one pulse, and the time after it that the last one has
         end = case.time.end - (pulses - 1) * float(laser.pulse.interval or 0.0)
         bare |= {"laser.pulse.count": 1, "time.end": f"{end:.9g} s"}
         bare |= dict.fromkeys(("laser.pulse.period", "laser.pulse.repetition_rate"), "")
         bare["time.pause"] = ""
     fluences = cell_fluences(CaseTemplate(name, {**bare, KEY: "1 J/cm^2"}), spot.center, cells)
+    if moves:
+        refuse_common_melt(spot, period, fluences[0] / BELOW, pulses, shift)
     vary = {KEY: [f"{one!r} J/m^2" for one in fluences]}
     plan = build_plan(str(name), vary, set=bare)
     return TexturePlan(case, plan, spot, period, pulses, shift)
