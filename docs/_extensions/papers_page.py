@@ -24,6 +24,8 @@ REPRODUCED, DIFFERS, NOT_MET, NOT_GIVEN, OWN, MISSING = (
 )
 Part = dict[str, Any]
 """One `[[ablation]]` or `[[texturing]]` of docs/papers.toml."""
+Entry = Mapping[str, Any]
+"""One row of a part. `by` names one row or several, of the validation `of` where it is another."""
 Row = dict[str, Any]
 """One row of a record."""
 
@@ -56,7 +58,7 @@ def papers_page(papers: Mapping[str, list[Part]], states: Mapping[str, State]) -
     for paper, title in TITLES.items():
         parts = papers[paper]
         counts = Counter(
-            verdict(entry, states[part["validation"]])[0]
+            verdict(entry, states[part["validation"]], states)[0]
             for part in parts
             for entry in entries(part, states)
         )
@@ -67,7 +69,7 @@ def papers_page(papers: Mapping[str, list[Part]], states: Mapping[str, State]) -
     return "\n\n".join(texts) + "\n"
 
 
-def entries(part: Part, states: Mapping[str, State]) -> list[dict[str, str]]:
+def entries(part: Part, states: Mapping[str, State]) -> list[dict[str, Any]]:
     """Entries of a part; one with `all` stands for every row whose name has these words.
 
     Rows that an entry names by itself, and rows that judge nothing for themselves, are left out.
@@ -97,7 +99,8 @@ def section(part: Part, states: Mapping[str, State]) -> list[str]:
         alt = plain(part["where"])
         texts += [f"![{alt}](validation/{state.name}/{file})" for file in files if file in drawn]
     if part.get("rows"):
-        texts.append(table(HEAD, [cells(entry, state) for entry in entries(part, states)]))
+        found = [cells(entry, state, states) for entry in entries(part, states)]
+        texts.append(table(HEAD, found))
     if part.get("missing"):
         texts.append(f"*Not given by the paper*: {prose(part['missing'])}.")
     return texts
@@ -108,9 +111,10 @@ def prose(text: str) -> str:
     return plain(text).replace("\\`", "`")
 
 
-def cells(entry: Mapping[str, str], state: State | None) -> tuple[str, ...]:
+def cells(entry: Entry, state: State | None, states: Mapping[str, State]) -> tuple[str, ...]:
     """What it is, the paper's number, ours, the verdict with its reason."""
-    row, words = row_named(state, entry["row"]), ": ".join(filter(None, verdict(entry, state)))
+    row = row_named(state, entry["row"])
+    words = ": ".join(filter(None, verdict(entry, state, states)))
     if row is None:
         return plain(entry["row"]), "", "", words
     unit = f" [{row['unit']}]" if row["unit"] not in ("", "1", "SI") else ""
@@ -118,7 +122,18 @@ def cells(entry: Mapping[str, str], state: State | None) -> tuple[str, ...]:
     return plain(row["quantity"] + unit), paper, number(row["computed"]), words
 
 
-def verdict(entry: Mapping[str, str], state: State | None) -> tuple[str, str]:
+def reason(entry: Entry, state: State | None, states: Mapping[str, State]) -> str:
+    """`because`, and the recorded numbers that show it."""
+    names = entry.get("by", [])
+    shown = states.get(entry.get("of", ""), state)
+    rows = [row_named(shown, name) for name in ([names] if isinstance(names, str) else names)]
+    numbers = [f"{row['quantity']}: {number(row['computed'])}" for row in rows if row]
+    return entry.get("because", "") + (f" ({'; '.join(numbers)})" if numbers else "")
+
+
+def verdict(
+    entry: Entry, state: State | None, states: Mapping[str, State] | None = None
+) -> tuple[str, str]:
     """The verdict on a row, and its reason: its band, or `because` and `by` of docs/papers.toml.
 
     A number for which the paper prints nothing is not reproduced, however near another reference.
@@ -132,17 +147,16 @@ def verdict(entry: Mapping[str, str], state: State | None) -> tuple[str, str]:
     changed = f"; changed: {row['changed']}" if row["changed"] else ""
     if row["own"]:
         return OWN, plain(f"our other result, or fitted{changed}")
-    if "because" in entry and row["verdict"] is not False:
-        other = row_named(state, entry["by"]) if "by" in entry else None
-        shown = f" ({other['quantity']}: {number(other['computed'])})" if other else ""
-        return REPRODUCED if agrees(row) else DIFFERS, prose(entry["because"] + shown)
+    because = reason(entry, state, states or {})
+    if because and row["verdict"] is not False:
+        return REPRODUCED if agrees(row) else DIFFERS, prose(because)
     if row["verdict"] is None and agrees(row):
         return REPRODUCED, "a statement"
     if row["verdict"] is None:
         raise ValueError(f"{row['quantity']!r} is not judged: say why it differs")
     unit = "" if row["unit"] in ("", "1", "SI") else f" {row['unit']}"
     band = "" if row["tolerance"] is None else f"within {row['tolerance']:.3g}{unit}"
-    reasons = "; ".join(filter(None, (band, row["reason"], entry.get("because"))))
+    reasons = "; ".join(filter(None, (band, row["reason"], because)))
     if row["verdict"] and row["published"] is None and "paper" not in entry:
         reasons = f"reference {number(row['reference'])} ({row['source']}); {reasons}"
         return NOT_GIVEN, prose(reasons + changed)

@@ -13,6 +13,7 @@ from lasersph.validation.records import state_of
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 sys.path.insert(0, str(DOCS / "_extensions"))
 from papers_page import (  # noqa: E402  (the folder is no package)
+    DIFFERS,
     MISSING,
     NOT_GIVEN,
     NOT_MET,
@@ -43,12 +44,30 @@ def test_every_number_is_recorded(part):
     state = recorded(part["validation"])
     assert all(entry.keys() & {"row", "all"} for entry in part.get("rows", ()))
     for entry in entries(part, {state.name: state}):
-        assert entry.keys() <= {"row", "all", "because", "by", "paper"}
-        for key in ("row", "by"):
-            if key in entry:
-                assert row_named(state, entry[key]), entry[key]
+        assert entry.keys() <= {"row", "all", "because", "by", "of", "paper"}
+        assert row_named(state, entry["row"]), entry["row"]
         verdict(entry, state)
+        beside = recorded(entry.get("of", part["validation"]))
+        for name in rows_named(entry):
+            assert beside.is_out_of_date or row_named(beside, name), name
     assert {f"{name}.png" for name in part.get("figures", ())} <= {*state.record["figures"]}
+
+
+def rows_named(entry):
+    """What `by` names."""
+    names = entry.get("by", [])
+    return [names] if isinstance(names, str) else names
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part["where"])
+def test_every_difference_is_shown(part):
+    """Rows, a command or arithmetic show why ours differs, in older records too."""
+    state = recorded(part["validation"]) if "validation" in part else None
+    for entry in entries(part, {part.get("validation"): state}):
+        because = entry.get("because", "")
+        if because and verdict(entry, state)[0] == DIFFERS:
+            is_computed = "`" in because or because.startswith("by arithmetic: ")
+            assert rows_named(entry) or is_computed, f"{entry['row']}: nothing shows why"
 
 
 def test_page_names_every_figure_and_table():
@@ -95,6 +114,11 @@ def test_verdicts():
         verdict(entry, shown)
     explained = entry | {"because": "no heat", "by": "as measured"}
     assert verdict(explained, shown) == ("differs", "no heat (as measured: 5)")
+    both = explained | {"by": ["T", "as measured"]}
+    assert verdict(both, shown) == ("differs", "no heat (T: 3.1; as measured: 5)")
+    other = {"dam-break": state(row(quantity="as measured", computed=7.0))}
+    elsewhere = explained | {"of": "dam-break"}
+    assert verdict(elsewhere, shown, other) == ("differs", "no heat (as measured: 7)")
     assert verdict(explained, state(row(verdict=False)))[0] == NOT_MET
     held = state(row(verdict=None, computed="holds", published="claimed"))
     assert verdict(entry, held) == ("reproduced", "a statement")
