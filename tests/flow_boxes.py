@@ -98,7 +98,8 @@ def matrix_of(backend, neighbors, weights, count):
     start = backend.to_host(neighbors.row_start).astype(np.int64)
     row = np.repeat(np.arange(start.size - 1), np.diff(start))
     matrix = np.zeros((count, count))
-    np.add.at(matrix, (row, backend.to_host(neighbors.neighbor)), backend.to_host(weights))
+    neighbor, g = (backend.to_host(one)[: row.size] for one in (neighbors.neighbor, weights))
+    np.add.at(matrix, (row, neighbor), g)
     return matrix
 
 

@@ -10,6 +10,7 @@ from hot_loops.least import Least, least_of
 from lasersph.compute.backend import Backend
 from lasersph.compute.launch import Bound, Launch
 from lasersph.compute.loops import Loops
+from lasersph.compute.phase import Phase
 from lasersph.compute.signature import Call
 
 
@@ -19,6 +20,10 @@ class CountingBackend(Backend):
     def __init__(self, threads: int | None) -> None:
         super().__init__(threads, "float64")
         self._loops = _CountedLoops(self.precision, self.launcher(), self.unwrap)
+
+    def phase(self, run: Callable[..., Any]) -> Phase:
+        """A phase that is run as it is, so that its loops are counted each time."""
+        return Phase(self._loops, run, checks=True)
 
     def least(self, run: Callable[[], Any]) -> Least:
         """Run `run` once; returns the sum over its loops, called, prepared or recorded."""
@@ -46,11 +51,14 @@ class _CountedLoops(Loops):
     note: Callable[[Call], None] = staticmethod(_ignore)
 
     def run(self, call: Call) -> tuple[float, ...]:
-        if self._record is None:
+        if self.recorder.recording is None:
             self.note(call)
         return super().run(call)
 
     def prepared(self, call: Call, again: Launch | None = None) -> Launch:
+        return super().prepared(call)
+
+    def bind(self, call: Call) -> Launch:
         bound = self._bound(self.given(call))
         return _CountedLaunch(bound, self.launcher.threads, partial(self._tell, call))
 

@@ -13,8 +13,10 @@ from lasersph.compute.arguments import components
 from lasersph.compute.array_types import Array, Outputs, PairList, Rows
 from lasersph.compute.launch import Launch, Launcher
 from lasersph.compute.loops import Loops
+from lasersph.compute.phase import Phase
 from lasersph.compute.routine import Step, run_routine
 from lasersph.compute.signature import Call
+from lasersph.compute.vectors import constant, same
 
 _KINDS = {
     "index": np.dtype(np.uint32),
@@ -71,7 +73,12 @@ class Backend:
 
     def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> Array:
         """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
-        return self.wrap(np.zeros(shape, self.kind(kind)))
+        recording = self._loops.recorder.recording
+        if recording is None:
+            return self.wrap(np.zeros(shape, self.kind(kind)))
+        array = self.wrap(recording.make(shape, self.kind(kind)))
+        self.fill(array, 0)
+        return array
 
     def asarray(self, array: ArrayLike, kind: str = "real") -> Array:
         """Copy of host data as an array of this backend."""
@@ -113,11 +120,20 @@ class Backend:
         first, second = self.unwrap(source), self.unwrap(destination)
         if first.shape != second.shape:
             raise ValueError(f"copy of shape {first.shape} into shape {second.shape}")
-        second[...] = first
+        if self._loops.recorder.recording is None:
+            second[...] = first
+        else:
+            self.pointwise(same, {"value": source}, destination)
 
     def fill(self, array: Array, value: float) -> None:
         """Set all elements."""
-        self.unwrap(array).fill(value)
+        host = self.unwrap(array)
+        if self._loops.recorder.recording is None:
+            host.fill(value)
+            return
+        number = float(value) if host.dtype.kind == "f" else int(value)
+        for part in components(host):
+            self.pointwise(constant, {}, self.wrap(part), value=number)
 
     def head(self, array: Array, count: int) -> Array:
         """View of the first `count` particles of (n,), (dim, n) or (dim, dim, n)."""
@@ -303,10 +319,18 @@ class Backend:
     def recorded(self, run: Callable[[], None]) -> Step:
         """Run loops, and return a step that runs them again: same arrays, same constants.
 
-        For sequences of many small loops, which take longer to bind than to run. Only loops are
-        repeated, not copies or sorts between them.
+        For sequences of many small loops, which take longer to bind than to run. Sorts between
+        them are not repeated.
 
         Raises:
             ValueError: a loop reduces, since nobody would receive the number.
         """
-        return Step(self._loops.recorded(run))
+        found = self._loops.recorder.record(run).launches
+        for launch, call, _ in found:
+            if launch.reduces:
+                raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
+        return Step([launch for launch, _, _ in found])
+
+    def phase(self, run: Callable[..., Any]) -> Phase:
+        """A function that is run again as one list of loops; see `compute.phase`."""
+        return Phase(self._loops, run)

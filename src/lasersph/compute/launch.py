@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lasersph.compute import cache as folder
-from lasersph.compute.arguments import addresses
+from lasersph.compute.arguments import address, addresses
 from lasersph.compute.generate import NATIVE, LoopText
 
 SHARED = 50_000
@@ -54,6 +54,15 @@ def run(launch):
                 total = part
         results[k] = total
 '''
+
+
+LIST = """
+
+def loop(first, count):
+    launches = at_uint64(first)
+    for k in range(count):
+        run(launches[k])
+"""
 
 
 class Compiled(NamedTuple):
@@ -135,16 +144,21 @@ class Launch:
 
     Attributes:
         address: of its frame. reductions: "sum", "max" or "min" for each result.
-        rebound: what binds it to other arrays, where it can take them.
+        rebound: what binds it to other arrays, where it can take them. bound_to: addresses of the
+            loop and its arrays but the rows, where it was bound first.
         results: what the last run has reduced. numbers: the constants as `places` counts them.
     """
 
     __slots__ = (
+        "_block",
         "_bound",
         "_frame",
         "_partial",
+        "_per_row",
         "_start",
+        "_threads",
         "address",
+        "bound_to",
         "numbers",
         "places",
         "rebound",
@@ -153,20 +167,21 @@ class Launch:
     )
 
     def __init__(self, bound: Bound, threads: int, *, holds: bool) -> None:
-        compiled, _, rows, visits, lists, fields, outs, tables, constants = bound
+        compiled, listed, rows, visits, lists, fields, outs, tables, constants = bound
         self.reductions, self.places = compiled.reductions, compiled.places
+        self._block, self._threads, self._per_row = compiled.block, threads, visits / max(rows, 1)
         real = _CODES[compiled.real.name]
         reals, whole = compiled.numbers
         self.numbers = (
             array(real, bytes(compiled.real.itemsize * reals)),
             array("q", bytes(8 * whole)),
         )
-        reduced, blocks = len(compiled.reductions), -(-rows // compiled.block)
+        reduced, blocks = len(compiled.reductions), -(-listed // compiled.block)
         self.results = array("d", bytes(8 * reduced))
         self._partial = array(real, bytes(compiled.real.itemsize * reduced * blocks))
         words = [
             compiled.entry,
-            blocks,
+            -(-rows // compiled.block),
             1 if visits < SHARED else threads,
             rows,
             reduced,
@@ -183,6 +198,7 @@ class Launch:
                 words += addresses(one)
         for one in tables:
             words += (*addresses(one), one.size)
+        self.bound_to = (compiled.entry, *words[HEAD_WORDS + len(lists) % 2 :])
         words += [_address(numbers) for numbers in self.numbers if numbers]
         if reduced:
             words.append(words[6])
@@ -211,6 +227,13 @@ class Launch:
     def holds(self, arrays: Any) -> None:
         """Keep what holds the arrays, as long as it is bound to them."""
         self._bound = arrays
+
+    def take_rows(self, rows: np.ndarray) -> None:
+        """Run other rows from now on: (k,) numbers among those that there are, kind "index"."""
+        frame, count = self._frame, rows.size
+        frame[1], frame[3] = -(-count // self._block), count
+        frame[2] = 1 if count * self._per_row < SHARED else self._threads
+        frame[HEAD_WORDS] = address(rows)
 
     def number_places(self, name: str) -> list[int]:
         """Addresses of a constant, none where the loop does not have it."""
@@ -252,6 +275,13 @@ def start_function(precision: str) -> Callable[[int], None]:
     text = (NATIVE + RUN).format(precision=precision) + "\n\ndef loop(launch):\n    run(launch)\n"
     address = folder.entry(text, is_fast=False)
     return ctypes.PYFUNCTYPE(None, ctypes.c_uint64)(address)
+
+
+@cache
+def list_function(precision: str) -> Callable[[int, int], None]:
+    """What runs the launches at a list of addresses, one after the other."""
+    text = (NATIVE + RUN).format(precision=precision) + LIST
+    return ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 2)(folder.entry(text, is_fast=False))
 
 
 def bytes_of(reductions: tuple[str, ...]) -> array:

@@ -23,6 +23,7 @@ from lasersph.compute.array_types import PairList
 from lasersph.compute.generate import Loop, LoopText
 from lasersph.compute.launch import Bound, Compiled, Launch, Launcher, bytes_of
 from lasersph.compute.rebinding import has_known_layout, rebindable, rebinding_function
+from lasersph.compute.recording import Recorder
 from lasersph.compute.signature import Call, Signature, listed
 
 _layout = attrgetter("dtype", "shape", "strides")
@@ -64,27 +65,34 @@ class Loops:
         self._object_address = object_address
         self.real = np.dtype(precision)
         self._signatures: dict[Any, Signature] = {}
-        self._record: list[Launch] | None = None
+        self.recorder = Recorder()
         self._rebinds = launcher.rebinds and has_known_layout()
         if self._rebinds:
             rebinding_function(precision)
 
     def run(self, call: Call) -> tuple[float, ...]:
         """Launch the loop of a call; returns the reductions."""
-        if self._record is not None:
-            launch = self.prepared(call)
-            if launch.reduces:
-                raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
-            self._record.append(launch)
-            return launch()
-        if self._rebinds:
-            return self._run_rebound(call)
-        return self.launcher.launch(self._bound(self.given(call)))()
+        recorder = self.recorder
+        if recorder.recording is not None:
+            launch = self.bind(call)
+            return recorder.add(launch, call, launch())
+        results = self._run_rebound(call) if self._rebinds else self.bind(call)()
+        if recorder.tally is not None:
+            recorder.tally += results
+        return results
+
+    def bind(self, call: Call) -> Launch:
+        """The loop of a call, bound to its arrays."""
+        return self.launcher.launch(self._bound(self.given(call)))
 
     def prepared(self, call: Call, again: Launch | None = None) -> Launch:
         """The loop of a call, bound to its arrays; `again` itself where it can take them."""
-        if again is None or not self._rebinds:
-            return self.launcher.launch(self._bound(self.given(call)))
+        is_recorded = self.recorder.recording is not None
+        if again is None or not self._rebinds or is_recorded:
+            launch = self.bind(call)
+            if is_recorded:
+                self.recorder.add(launch, call, None)
+            return launch
         signature, kinds, ones, values = self._addresses(call)
         key, found = (signature, kinds), again.rebound
         is_same = found and found.key == key and source.is_current(found.watched)
@@ -95,17 +103,6 @@ class Loops:
         launch.rebound.only_binds(key)
         launch.holds(call)
         return launch
-
-    def recorded(self, run: Callable[[], None]) -> list[Launch]:
-        """Run `run`; returns what it has launched."""
-        if self._record is not None:
-            raise ValueError("a recording is under way")
-        launches = self._record = []
-        try:
-            run()
-        finally:
-            self._record = None
-        return launches
 
     def _run_rebound(self, call: Call) -> tuple[float, ...]:
         """Run a call by the launch of an earlier one with arrays of the same kinds, if any."""

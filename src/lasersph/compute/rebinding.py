@@ -209,7 +209,7 @@ class Rebound:
         for name in signature.tables:
             words += _entry(by_name[name], TABLE, place)
             place += 2
-        capacity = -(-bound.rows // compiled.block) if compiled.reductions else _MANY
+        capacity = -(-bound.listed // compiled.block) if compiled.reductions else _MANY
         is_values = call.shape == "pair_values"
         head = [len(words) // ENTRY, compiled.block, threads, capacity, is_values]
         self._plan = array("Q", [*head, id(_OFFSET), id(_INDEX), 0, *words])

@@ -11,7 +11,7 @@ import ctypes
 import inspect
 from array import array
 from collections.abc import Callable, Sequence
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 from lasersph.compute import cache as folder
@@ -71,6 +71,7 @@ class Step:
         """Whether every launch has a frame."""
         return all(type(launch) is Launch for launch in self.launches)
 
+    @cached_property
     def words(self) -> array:
         """Numbers of launches and of places of the constant, address of the results, and addresses
         of all launches and places, for compiled code."""
@@ -104,7 +105,7 @@ def run_routine(
     """
     if not all(step.is_compiled for step in steps):
         return function(*steps, *numbers)
-    words, values = [step.words() for step in steps], array("d", numbers)
+    words, values = [step.words for step in steps], array("d", numbers)
     frame = array("Q", [word.buffer_info()[0] for word in (*words, values)])
     _compiled(function, len(steps), precision)(frame.buffer_info()[0])
     return tuple(values)

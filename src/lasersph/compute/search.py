@@ -50,12 +50,30 @@ class Room:
     A list that was found in a room is lost when the next one is found in it.
 
     Attributes:
-        neighbor: neighbors of the list, and room for more. scratch: (blocks, places) of a group.
+        row_start: of the list. neighbor: neighbors of the list, and room for more. scratch:
+            (blocks, places) of a group.
     """
 
     def __init__(self) -> None:
-        self.neighbor = np.empty(0, dtype=np.uint32)
+        self.row_start = np.zeros(0, dtype=np.uint64)
+        self.neighbor = self._given = np.empty(0, dtype=np.uint32)
         self.scratch = np.empty((0, 0), dtype=np.uint32)
+
+    def for_rows(self, count: int) -> np.ndarray:
+        """Row pointers of so many rows; the first is 0."""
+        if self.row_start.size != count + 1:
+            self.row_start = np.zeros(count + 1, dtype=np.uint64)
+        return self.row_start
+
+    def listed(self, pairs: int) -> np.ndarray:
+        """The neighbors of so many pairs and a few places more, which name particle 0: an array
+        that stays while the number of pairs changes a little."""
+        given = self._given
+        stays = given.base is self.neighbor and pairs <= given.size <= pairs + pairs // SPARE
+        if not stays:
+            self._given = self.neighbor[: pairs + pairs // (4 * SPARE)]
+        self._given[pairs:] = 0
+        return self._given
 
     def for_group(self, blocks: int, places: int) -> np.ndarray:
         """Scratch for at least so many blocks of rows and places for the neighbors of each."""
@@ -118,7 +136,8 @@ def neighbor_list(
         room: where the list is put, in place of the last one there; None for memory of its own.
 
     Returns:
-        row_start, kind "offset", shape (count + 1,), and neighbor, kind "index".
+        row_start, kind "offset", shape (count + 1,), and neighbor, kind "index": both in the room
+        where there is one, in which neighbor has a few places more than there are pairs.
 
     Raises:
         EscapedParticle: a position is not finite or outside the box; number and position are named.
@@ -143,11 +162,13 @@ def neighbor_list(
             period=period,
             wanted=None if wanted is None else backend.unwrap(wanted),
         )
+    host = np.ascontiguousarray(host)
     refuse_escape(host, lower, upper)
     smallest, largest = (supports.min(), supports.max()) if total else (1.0, 1.0)
     if not (smallest > 0.0 and isfinite(largest)):  # not a number is neither
         refuse_support(supports)
-    row_start = np.zeros(count + 1, dtype=np.uint64)
+    used = room or Room()
+    row_start = used.for_rows(count)
     if count == 0:
         return backend.wrap(row_start), backend.wrap(np.zeros(0, dtype=np.uint32))
     if widths.any():
@@ -164,7 +185,8 @@ def neighbor_list(
         targets = np.full_like(host, np.inf)
         targets[:, rows] = host[:, rows]
     arguments = (np.uint64(count), targets, supports, *cells, slack, widths)
-    neighbor = _scanned(module, backend, arguments, count, row_start, room or Room())
+    pairs = _scanned(module, backend, arguments, count, row_start, used)
+    neighbor = used.neighbor[:pairs] if room is None else room.listed(pairs)
     return backend.wrap(row_start), backend.wrap(neighbor)
 
 
@@ -182,8 +204,9 @@ def _scan(precision: str, dimension: int, mean: Callable, periodic: tuple[bool, 
 
 def _scanned(
     module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray, room: Room
-) -> np.ndarray:
-    """Scan groups of blocks into scratch, growing it where it is too short, and join them."""
+) -> int:
+    """Scan groups of blocks into scratch, growing it where it is too short, and join them in the
+    room; returns the number of pairs."""
     store = _module(store_text()).store
     threads = np.uint64(backend.threads)
     blocks, group = -(-count // BLOCK), 32 * backend.threads
@@ -207,7 +230,7 @@ def _scanned(
             neighbor = room.lengthen(before, filled + (blocks - end) * int(counts.max()))
         store(*share, np.uint64(count), bases, scratch, ends, row_start, neighbor)
         begin = end
-    return neighbor[:filled]
+    return filled
 
 
 def _levels(

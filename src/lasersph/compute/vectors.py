@@ -71,6 +71,16 @@ def inverse(M):
     return np.linalg.inv(M)
 
 
+def same(value):
+    """The value itself: number, vector or tensor."""
+    return 1 * value
+
+
+def constant(value):
+    """A number, the same for all."""
+    return value
+
+
 def element(place, table):
     """Value at a place of a table."""
     return table[place]

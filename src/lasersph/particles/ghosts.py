@@ -29,6 +29,8 @@ LOWER, UPPER = 1, 2
 SLANTED = 2.5
 """Search radii beside a lateral face within which ghosts across a tangent are mirrored: one, and
 the way across twice one, 2 sin 45 degrees."""
+SPARE = 8
+"""Part of the ghosts for which there is room beside them."""
 BOTH = 3
 """What `near_faces` says of a particle close to both faces of an axis, LOWER + UPPER."""
 
@@ -146,10 +148,12 @@ def is_ghost(k, across, along, crossed_x, crossed_z, size):
     return 0.0
 
 
-def origin(k, count, size, near, found):
-    """Source and type of particle k among all `count` with their ghosts."""
+def origin(k, count, total, size, near, found):
+    """Source and type of particle k among all `count` with their ghosts, 0 beyond these."""
     if k < count:
         return k, 0 * k
+    if k >= total:
+        return 0 * k, 0 * k
     pair = found[k - count]
     return near[pair % size], pair // size + 1
 
@@ -158,9 +162,11 @@ class GhostParticles:
     """The first `count` particles with their ghosts.
 
     Attributes:
-        source, ghost_type: (M,) kind "index", particle behind each and its type; a particle is
-            its own source, of type 0. total: M. near: numbers of the particles near a face, which
-            may have ghosts as neighbors; is_near: (n,) 1 for them; all_rows: (n,) 1 for all.
+        total: number of both. source, ghost_type: (M,) kind "index", particle behind each and its
+            type; a particle is its own source, of type 0. M exceeds the total, so that arrays stay
+            while their number changes a little; the places beyond it stand for nothing.
+            near: numbers of the particles near a face, which may have ghosts as neighbors;
+            is_near: (n,) 1 for them; all_rows: (n,) 1 for all.
     """
 
     source: Array
@@ -182,7 +188,7 @@ class GhostParticles:
         self.is_near, self.all_rows = backend.zeros(count), backend.zeros(count)
         backend.fill(self.all_rows, 1.0)
         self._numbers = backend.zeros(0, "index")
-        self.total = 0
+        self.total, self.source = 0, backend.zeros(0, "index")
 
     def find(self, position: Array, below: tuple[Array, Array] | None = None) -> None:
         """Find the ghosts of the particles at `position`, shape (2, n) [m].
@@ -210,12 +216,15 @@ class GhostParticles:
         backend.pointwise(is_ghost, fields, marks, **tables, **self._crossed)
         found = backend.rows_where(marks, 1.0)
         # source and type of each particle and each ghost
-        self.total = count + found.shape[0]
-        self.source, self.ghost_type = (backend.zeros(self.total, "index") for _ in range(2))
-        fields, out = {"k": self._numbers_below(self.total)}, (self.source, self.ghost_type)
-        backend.pointwise(
-            origin, fields, out, count=count, size=max(size, 1), near=near, found=found
-        )
+        ghosts = found.shape[0]
+        total = self.total = count + ghosts
+        if self.source.shape[0] < total:
+            room = total + ghosts // SPARE
+            self.source, self.ghost_type = (backend.zeros(room, "index") for _ in range(2))
+        fields = {"k": self._numbers_below(self.source.shape[0])}
+        out, tables = (self.source, self.ghost_type), {"near": near, "found": found}
+        sizes = {"count": count, "total": total, "size": max(size, 1)}
+        backend.pointwise(origin, fields, out, **tables, **sizes)
 
     def table(self, values: NDArray[Any]) -> Array:
         """Host values (w,) of the types, for loops that read them at `ghost_type`."""

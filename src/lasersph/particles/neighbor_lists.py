@@ -93,11 +93,13 @@ def find_neighbors(
     box: Box | None = None,
     radius: Array | None = None,
     wanted: Rows | None = None,
+    total: int | None = None,
     room: search.Room | None = None,
 ) -> NeighborList:
     """All pairs closer than their support radius, of the first `count` particles with any.
 
     Args:
+        total: how many of the particles there are, the first ones; None for all.
         box: that no particle may leave; default: around them all, as they are. radius: (N,) to
             search within [m], where it is more than the support. wanted: rows that are to be
             found, the others stay empty; None for all. room: where the list is put, in place of
@@ -111,10 +113,11 @@ def find_neighbors(
         ends = host.min(axis=1) - margin, host.max(axis=1) + margin
         low, high = (tuple(float(v) for v in end) for end in ends)
         box = Box(low, high, (0.0,) * host.shape[0])
+    reach, there = support if radius is None else radius, position.shape[1]
     row_start, neighbor = search.neighbor_list(
         backend,
-        position,
-        support if radius is None else radius,
+        backend.head(position, total or there),
+        backend.head(reach, total or there),
         count,
         mean=mean,
         lower=box.low,

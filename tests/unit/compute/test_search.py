@@ -45,7 +45,7 @@ def rows_of(backend, x, reach, count, **options):
     )
     starts, host = backend.to_host(start), backend.to_host(neighbor)
     assert starts.dtype == np.uint64 and host.dtype == np.uint32
-    assert starts[-1] == host.size
+    assert starts[-1] == host.size or (starts[-1] < host.size and "room" in options)
     return [np.sort(host[int(a) : int(b)]) for a, b in itertools.pairwise(starts)]
 
 

@@ -22,7 +22,7 @@ from lasersph.boundaries.surface_loops import mean_weight
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.search import Room
-from lasersph.compute.vectors import dot, element
+from lasersph.compute.vectors import element
 from lasersph.particles.faces import LEFT, PLANE, SURFACE
 from lasersph.particles.ghosts import LOWER, SLANTED, UPPER, GhostParticles, ghost_types_of
 from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
@@ -30,6 +30,7 @@ from lasersph.particles.support import common
 from lasersph.physics.viscosity import viscous_weight
 from lasersph.solvers.conduction.body import Weighing
 from lasersph.solvers.melt_pool import ghost_fields
+from lasersph.solvers.melt_pool.block_terms import both, is_near
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.ghost_extension import GhostExtension
 from lasersph.solvers.melt_pool.near_melt import NearMelt
@@ -37,39 +38,6 @@ from lasersph.solvers.melt_pool.pair_geometry import PairGeometry, distance_squa
 
 SKIN = 1.02
 """Search radius over the support radius: positions change a little within a step."""
-
-
-def wall_terms(g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j, closest):
-    """Share of a pair in the boundary coefficient A [m^(d-2)], A P_w, A T_w and the power b.
-
-    Beyond a Dirichlet face c_ij = n_ij / n_i times the weight, n normal to the face; beyond a
-    Neumann face 2 q n_j times the weight. Below a surface that bends a particle may lie beyond the
-    plane of its neighbor's ghost: `closest` is the least n_i that counts [m].
-    """
-    n_i = max(plane_j - dot(x_i, normal_j), closest)
-    n_j = dot(x_j, normal_j) - plane_j
-    A = dirichlet_j * g_ij * (n_i + n_j) / n_i
-    return A, A * P_w_j, A * T_w_j, 2.0 * (1.0 - dirichlet_j) * g_ij * flux_j * n_j
-
-
-def inner_weight(g_ij, dirichlet_j):
-    """Weight of a pair that conducts between particles: 0 toward ghosts beyond a Dirichlet face."""
-    return g_ij * (1.0 - dirichlet_j)
-
-
-def is_near(distance, has_row, radius):
-    """1 for a particle within a radius of the surface whose pairs were found."""
-    return has_row if distance < radius else 0.0 * has_row
-
-
-def both(a, b):
-    """1 where both marks are."""
-    return a * b
-
-
-def weight_of(g_ij):
-    """Weight of a pair, for its sum over the neighbors."""
-    return g_ij
 
 
 @dataclass(frozen=True)
@@ -102,9 +70,10 @@ class Block(GhostExtension):
         potential, enthalpy: heat potential [W/m] and enthalpy [J/kg] of a wall's temperature [K].
 
     Attributes:
-        rules: (M,) what faces mean to heat, by the names of `ghost_walls`. across: (M,) 1
+        walls: (M,) faces of the ghosts by the names of `ghost_faces`, 0 where there is none. rules:
+            (M,) what faces mean to heat, by the names of `ghost_walls`. across: (M,) 1
             beyond a surface that is no plane.
-        pairs: NeighborList with the rows of the block, among all M.
+        pairs: NeighborList with the rows of the block, among all M. place: (2, M) of these [m].
         weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
             there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1]. viscous_weights:
             (pairs,) g_ij there times the mean of the relative viscosities of both particles [1].
@@ -156,6 +125,10 @@ class Block(GhostExtension):
         self._set_rules()
         self._set_factors()
         self._geometry, self._room = PairGeometry(backend, lattice.weighing), Room()
+        self._folded, self.place = backend.zeros(0, "index"), backend.zeros((2, 0))
+        self._extend_to_ghosts = backend.phase(Block._run_extension)
+        self._find_geometry = backend.phase(Block._run_geometry)
+        self._move_pairs = backend.phase(Block._run_move)
 
     def _set_rules(self) -> None:
         """Tables of what ghosts carry, by their type."""
@@ -221,17 +194,14 @@ class Block(GhostExtension):
         self.rows = None if has_row is None else backend.rows_where(has_row, 1.0)
         beyond = self._beyond
         ghosts.find(position, None if beyond is None else (beyond.distance, self._own["radius"]))
-        self.total, self.source, self._ghost_faces = ghosts.total, ghosts.source, {}
+        self.total, self.source = ghosts.source.shape[0], ghosts.source
         self.sources = {"source": ghosts.source, "ghost_type": ghosts.ghost_type}
-        names: tuple[str, ...] = ("V", "support", "radius", "layer", "normal", "lateral")
-        found: dict[str, Array] = {name: backend.zeros(self.total) for name in names}
-        backend.pointwise(
-            ghost_fields.ghost_layers, self.sources, tuple(found.values()), **self._own
-        )
-        self.V, self.support, self._layers = found["V"], found["support"], found
+        if self.place.shape[1] != self.total:
+            self.place = backend.zeros((2, self.total))
+        self._extend_to_ghosts(self, position, reads=(position, ghosts.source, self.place))
         self._find_rows_near_faces()
-        place = self._place(position)
-        self._find_wall_rules(place)
+        place = self.place
+        self._find_varying_walls(place)
         self._find_tangent_planes(place)
         corners = (self._corner(0), self._corner(1), (0.0, 0.0))
         self.pairs = find_neighbors(
@@ -242,18 +212,48 @@ class Block(GhostExtension):
             kernel=self.lattice.weighing.kernel,
             mean=self._mean,
             box=Box(*corners),
-            radius=found["radius"],
+            radius=self._layers["radius"],
             wanted=self.rows,
+            total=ghosts.total,
             room=self._room,
         )
         geometry, neighbor = self._geometry, self.pairs.neighbor
         geometry.begin(self.pairs, has_row, self._even_above)
-        geometry.find(self.pairs, self._layers, has_kernel=has_kernel)
         self.weights, self.gradient, self.kernel = geometry.arrays
+        if self._folded.shape != neighbor.shape:
+            self._folded = backend.zeros(neighbor.shape[0], "index")
+        if has_kernel:
+            self._find_geometry(self, reads=self.arrays, rows=geometry.rows)
+        else:
+            self._run_geometry(has_kernel=False)
         self._average_weights(position)
         self.viscous_weights = self.weights
-        self._folded = backend.zeros(neighbor.shape[0], "index")
-        backend.pointwise(element, {"place": neighbor}, self._folded, table=self.source)
+
+    @property
+    def arrays(self) -> tuple[Array, ...]:
+        """Those of pairs and ghosts that are replaced where there is no room for more, as all
+        others are then too."""
+        return self.pairs.neighbor, self.source, self.V, self.weights, self.place
+
+    def _run_extension(self, position: Array) -> None:
+        """What particles with their ghosts at `position` (2, n) [m] have of the lattice and of the
+        walls, and where they are."""
+        backend, names = self.backend, ("V", "support", "radius", "layer", "normal", "lateral")
+        self._layers: dict[str, Array] = {name: backend.zeros(self.total) for name in names}
+        out = tuple(self._layers.values())
+        backend.pointwise(ghost_fields.ghost_layers, self.sources, out, **self._own)
+        self.V, self.support = self._layers["V"], self._layers["support"]
+        self._find_wall_rules()
+        self.walls = {name: backend.zeros(self.total) for name in self._faces}
+        fields, out = {"ghost_type": self.ghosts.ghost_type}, tuple(self.walls.values())
+        backend.pointwise(ghost_fields.ghost_faces, fields, out, **self._faces)
+        self._place(position, self.place)
+
+    def _run_geometry(self, *, has_kernel: bool = True) -> None:
+        """Geometry of the pairs that were found, and their neighbors without ghosts."""
+        self._geometry.find(self.pairs, self._layers, has_kernel=has_kernel)
+        fields = {"place": self.pairs.neighbor}
+        self.backend.pointwise(element, fields, self._folded, table=self.source)
 
     def _average_weights(self, position: Array) -> None:
         """Make the weights toward ghosts across a tangent symmetric.
@@ -270,24 +270,25 @@ class Block(GhostExtension):
         fields["has_row"] = self.has_row if self.has_row is not None else ghosts.all_rows
         backend.pointwise(is_near, fields, near, radius=self.search_radius)
         rows = backend.rows_where(near, 1.0)
-        swapped = backend.zeros(self.weights.shape[0])
-        pairs = replace(self.pairs, position=self._place(position, self._within), mean=common)
+        swapped = self._geometry.per_pair("swapped")
+        pairs = replace(
+            self.pairs, position=self._place(position, across=self._within), mean=common
+        )
         self._geometry.find_weights(pairs, self._layers, swapped, rows)
         fields = {"g_ij": self.weights, "swapped_ij": swapped, "across": self.across}
         backend.pair_values(mean_weight, self.pairs, fields, self.weights, rows=rows)
 
     def weigh_viscosity(self, relative: Array) -> None:
         """Set `viscous_weights` from viscosities (n,) of particles over that at the liquidus."""
-        found = self.backend.zeros(self.weights.shape[0])
+        found = self.viscous_weights = self._geometry.per_pair("viscous")
         fields = {"g_ij": self.weights, "m": self.gather(relative)}
         self.backend.pair_values(viscous_weight, self.pairs, fields, found, rows=self.rows)
-        self.viscous_weights = found
 
     def weights_within(self) -> Array:
         """(pairs,) weights that are 0 toward ghosts across the surface."""
         if self._beyond is None:
             return self.weights
-        found = self.backend.zeros(self.weights.shape[0])
+        found = self._geometry.per_pair("within")
         fields = {"g_ij": self.weights, "across": self.across}
         self.backend.pair_values(weight_within, self.pairs, fields, found, rows=self.rows)
         return found
@@ -304,12 +305,8 @@ class Block(GhostExtension):
         backend.pointwise(both, marks, found)
         self.rows_near_faces = backend.rows_where(found, 1.0)
 
-    def _find_wall_rules(self, place: Array) -> None:
-        """What `wall_terms` reads of each particle, in a domain with walls that matter to heat.
-
-        The state of ghosts beyond a face whose temperature varies along it is found on the host: it
-        is that of few ghosts, and curves of the material.
-        """
+    def _find_wall_rules(self) -> None:
+        """What `wall_terms` reads of each particle, in a domain with walls that matter to heat."""
         backend = self.backend
         self.rules = {"dirichlet": backend.zeros(self.total)}
         if not self.has_walls:
@@ -319,7 +316,14 @@ class Block(GhostExtension):
         self.rules["normal"] = backend.zeros((2, self.total))
         fields, out = {"ghost_type": self.ghosts.ghost_type}, tuple(self.rules.values())
         backend.pointwise(ghost_fields.ghost_walls, fields, out, **self._walls)
-        if self._varies is None:
+
+    def _find_varying_walls(self, place: Array) -> None:
+        """State of ghosts beyond a face whose temperature varies along it.
+
+        It is found on the host, as that of few ghosts, by the curves of the material.
+        """
+        backend = self.backend
+        if self._varies is None or not self.has_walls:
             return
         rows = backend.rows_where(self.of_type(self._varies), 1.0)
         chosen = backend.zeros((2, rows.shape[0]))
@@ -349,23 +353,15 @@ class Block(GhostExtension):
             **self._across,
         )
 
-    @property
-    def walls(self) -> dict[str, Array]:
-        """(M,) faces of the ghosts by the names of `ghost_faces`, 0 where there is none."""
-        if not self._ghost_faces:
-            found = {name: self.backend.zeros(self.total) for name in self._faces}
-            fields, out = {"ghost_type": self.ghosts.ghost_type}, tuple(found.values())
-            self.backend.pointwise(ghost_fields.ghost_faces, fields, out, **self._faces)
-            self._ghost_faces = found
-        return self._ghost_faces
-
     def move(self, position: Array) -> None:
         """The same pairs at other positions."""
-        place = self._place(position)
-        self.pairs = replace(self.pairs, position=place)
-        self._geometry.find(self.pairs, self._layers)
+        self._move_pairs(self, position, reads=(position, *self.arrays), rows=self._geometry.rows)
         self._average_weights(position)
-        self._find_tangent_planes(place)
+        self._find_tangent_planes(self.place)
+
+    def _run_move(self, position: Array) -> None:
+        self._place(position, self.place)
+        self._geometry.find(self.pairs, self._layers)
 
     def without_ghosts(self) -> NeighborList:
         """The pairs with every ghost replaced by its source."""
@@ -382,13 +378,12 @@ class Block(GhostExtension):
         """
         return self._near_melt.find(position, fluid)
 
-    def smallest_distance(self, position: Array, rows: Rows) -> float:
-        """Smallest distance from one of `rows` to another particle or ghost [m]."""
+    def smallest_distance(self, position: Array, rows: Rows) -> tuple[float, ...]:
+        """Square of the smallest distance from one of `rows` to another particle or ghost [m^2]."""
         pairs = replace(self.pairs, position=self._place(position))
-        (least,) = self.backend.pair_sum(
+        return self.backend.pair_sum(
             distance_square, pairs, {}, (None,), rows=rows, combine=("min",), reduce=("min",)
         )
-        return least**0.5
 
     def _corner(self, end: int) -> tuple[float, ...]:
         """Box that no particle and no ghost may leave [m]."""

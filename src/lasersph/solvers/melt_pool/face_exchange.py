@@ -30,7 +30,8 @@ from collections.abc import Mapping
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.particles.faces import PLANE
-from lasersph.solvers.melt_pool.block import Block, wall_terms
+from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.block_terms import wall_terms
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.sph.correction import corrected_symmetric_term
 

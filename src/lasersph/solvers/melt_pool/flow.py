@@ -19,7 +19,6 @@ alone keeps the particles even. Viscosity acts on the velocity in the middle of 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import exp, isfinite
 
@@ -27,12 +26,12 @@ import numpy as np
 
 from lasersph.boundaries.surface import Surface, upward
 from lasersph.compute.array_types import Array, Rows
-from lasersph.materials.viscosity import ViscosityTable
 from lasersph.particles.particles import Particles
 from lasersph.physics import viscosity
 from lasersph.physics.buoyancy import buoyancy
 from lasersph.solvers.melt_pool import flow_terms as terms
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.liquid import Liquid
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.solvers.melt_pool.published.pressure_equation import PublishedPressure
@@ -55,27 +54,6 @@ DRIFT_RATE = 0.1
 """Rate at which particles that are too dense part, over the largest speed per spacing."""
 
 
-@dataclass(frozen=True)
-class Liquid:
-    """Numbers of the melt: nu at the liquidus [m^2/s], temperatures [K] and nu there over that,
-    rho [kg/m^3], beta [1/K], T_l [K], g [m/s^2], thermal diffusivity [m^2/s], surface tension [N/m]
-    (0 where it is not known)."""
-
-    viscosity: float
-    relative_viscosity: ViscosityTable
-    density: float
-    expansion: float
-    reference_temperature: float
-    gravity: float
-    diffusivity: float
-    surface_tension: float
-
-    @cached_property
-    def largest_viscosity(self) -> float:
-        """nu of the melt where it is most viscous [m^2/s]."""
-        return self.viscosity * float(np.max(self.relative_viscosity[1]))
-
-
 class Flow:
     """Velocity and pressure of the particles, and the equations that advance them.
 
@@ -84,7 +62,7 @@ class Flow:
         velocity: (2, n) [m/s]. pressure: (n,) [Pa]. largest_speed [m/s].
             largest_acceleration by all forces [m/s^2]. iterations: of the last step. divergence:
             rms and largest D after the projection [1/s]. relative_viscosity: (n,) of the particles
-            over that at the liquidus.
+            over that at the liquidus. current_block: None before anything flows.
         pressure_seen: fields of the symmetric gradient of the last step, p [Pa] over the lowest
             one, and that one [Pa]; None below a surface that moves.
     """
@@ -117,7 +95,7 @@ class Flow:
         self.wall_pressure = WallPressure(
             backend, liquid.density, liquid.viscosity, self.relative_viscosity
         )
-        self._block: Block | None = None
+        self.current_block: Block | None = None
 
     def begin(self, velocity: np.ndarray) -> None:
         """Start from velocities, host array (2, n) [m/s]."""
@@ -126,9 +104,9 @@ class Flow:
 
     def enter(self, block: Block, periods: tuple[float, float]) -> None:
         """Work on a new block; periods: width along each axis that repeats, else 0 [m]."""
-        self._block, backend, count = block, self.backend, block.count
+        self.current_block, backend, count = block, self.backend, block.count
         self._C = backend.zeros((2, 2, count))
-        self._rhs, self._mask, self._p = (backend.zeros(count) for _ in range(3))
+        self._rhs, self._p = backend.zeros(count), backend.zeros(count)
         self._V = block.volume
         weighing = block.lattice.weighing
         self._lattice_sum = kernel_sum(weighing.kernel, weighing.ratio)
@@ -139,11 +117,11 @@ class Flow:
         self.published = None
         if self.settings.pressure == "published":
             self.published = PublishedPressure(backend, count, tolerance=tolerance)
-
-    @property
-    def current_block(self) -> Block | None:
-        """The block, once something flows."""
-        return self._block
+        self._correct_kernel = backend.phase(Flow._run_kernel)
+        self._find_forces = backend.phase(Flow._run_forces)
+        self._find_load = backend.phase(Flow._run_load)
+        self._find_lowest = backend.phase(Flow._run_lowest)
+        self._accelerate = backend.phase(Flow._run_acceleration)
 
     @property
     def correction(self) -> Array:
@@ -153,8 +131,8 @@ class Flow:
     @property
     def block(self) -> Block:
         """The block of particles that may move."""
-        assert self._block is not None
-        return self._block
+        assert self.current_block is not None
+        return self.current_block
 
     def ghost_velocity_jump(self) -> Array:
         """By how much the surface makes ghosts faster than their sources [m/s].
@@ -165,22 +143,6 @@ class Flow:
             return self._nothing
         beyond = self.surface.ghosts
         return self.surface.ghost_velocity_jump if beyond is None else beyond.jump
-
-    def settle_jump(self, step: float) -> None:
-        """Let the divergence see the stress of the surface as fast as viscosity spreads it.
-
-        Ghosts beyond a stressed surface continue the profile of u, and where they do so unevenly
-        their divergence is that of the profile. A stress that changes at once has no profile yet:
-        its divergence would have to be undone within the step, by a pressure that grows as 1 / dt.
-        So the jump follows within the time l^2 / nu in which momentum crosses a support, nu of the
-        particle. Under a given pressure at the surface nothing is to be undone: it is seen at once.
-        """
-        if self.has_tangents:
-            return
-        time = self.block.moving_support**2 / self.liquid.viscosity
-        fields = {"settled": self.particles["settled_jump"], "jump": self.ghost_velocity_jump()}
-        fields["m"], rest = self.relative_viscosity, exp(-step / time)
-        self.backend.pointwise(terms.settle, fields, fields["settled"], rest=rest)
 
     @cached_property
     def _viscosity_varies(self) -> bool:
@@ -216,13 +178,31 @@ class Flow:
 
     def correct_kernel(self, rows: Rows) -> None:
         """Correction matrices of some rows at the present positions."""
-        block = self.block
-        fields, finish = {"G_ij": block.gradient}, bounded_inverse
-        self.backend.pair_sum(moment_term, block.pairs, fields, self._C, finish=finish, rows=rows)
+        self._correct_kernel(self, rows, reads=self.block.arrays, rows=(rows,))
+
+    def _run_kernel(self, rows: Rows) -> None:
+        pairs, fields, finish = self.block.pairs, {"G_ij": self.block.gradient}, bounded_inverse
+        self.backend.pair_sum(moment_term, pairs, fields, self._C, finish=finish, rows=rows)
 
     def predict(self, T: Array, kinds: ParticleKinds, step: float) -> None:
         """Velocity after viscous and body forces (68)."""
-        backend, liquid, block = self.backend, self.liquid, self.block
+        backend, block = self.backend, self.block
+        # viscosity at the end of the step; of second order, in its middle, below a moving surface
+        ahead = 0.5 * step if self.has_tangents else step
+        self.wall_pressure.find(block, self.pressure, self._C, ahead)
+        reads, rows = (self.stress_jump, *block.arrays), (kinds.fluid_rows,)
+        self._find_forces(self, T, kinds, reads=reads, rows=rows, step=ahead)
+        self.iterations["viscosity"] = self.viscous.advance(
+            block, self.velocity, self.body_force, self._extended, kinds, ahead
+        )
+        if self.has_tangents:
+            fields = {"v": self.velocity, "v_old": self.before}
+            backend.pointwise(terms.continue_from_middle, fields, self.velocity)
+        self.stop(kinds)
+
+    def _run_forces(self, T: Array, kinds: ParticleKinds, step: float) -> None:
+        """Keep the velocity; find the body force, and the velocity of the ghosts."""
+        backend, liquid = self.backend, self.liquid
         backend.copy(self.velocity, self.before)
         backend.pointwise(
             buoyancy,
@@ -233,24 +213,19 @@ class Flow:
             g=liquid.gravity,
             up=upward(2),
         )
-        # viscosity at the end of the step; of second order, in its middle, below a moving surface
-        ahead = 0.5 * step if self.has_tangents else step
-        self.wall_pressure.find(block, self.pressure, self._C, ahead)
-        extended = self.extend_velocity(self.velocity)
-        self._add_transposed_stress(extended, kinds)
-        self.iterations["viscosity"] = self.viscous.advance(
-            block, self.velocity, self.body_force, extended, kinds, ahead
-        )
-        if self.has_tangents:
-            fields = {"v": self.velocity, "v_old": self.before}
-            backend.pointwise(terms.continue_from_middle, fields, self.velocity)
-        self.stop(kinds)
+        self._extended = self.extend_velocity(self.velocity)
+        self._add_transposed_stress(self._extended, kinds)
+
+    @property
+    def stress_jump(self) -> Array:
+        """`ghost_velocity_jump`, as the viscosity of a step sees it [m/s]."""
+        beyond = None if self.surface is None else self.surface.ghosts
+        return self.ghost_velocity_jump() if beyond is None else beyond.stress_jump
 
     def extend_velocity(self, v: Array) -> Array:
         """v (2, n) on the block with ghosts (2, M), as the viscosity of a step sees it [m/s]."""
-        block, beyond = self.block, None if self.surface is None else self.surface.ghosts
-        jump = self.ghost_velocity_jump() if beyond is None else beyond.stress_jump
-        return self.wall_pressure.add_to(block.extend_velocity(v, jump), block)
+        extended = self.block.extend_velocity(v, self.stress_jump)
+        return self.wall_pressure.add_to(extended, self.block)
 
     def project(self, kinds: ParticleKinds, step: float) -> None:
         """Pressure that makes the velocity free of divergence (69).
@@ -259,22 +234,18 @@ class Flow:
             NotConverged: the pressure equation is not solved.
         """
         backend, block = self.backend, self.block
-        self.settle_jump(step)
         speed = max(self.largest_speed, block.conditions.largest_wall_speed())
-        rate = DRIFT_RATE * speed / self.spacing
-        backend.pair_sum(
-            terms.divergence_terms,
-            block.pairs,
-            self._divergence_fields() | {"VW_ij": block.kernel, "V": self._V},
-            self._rhs,
-            finish=terms.divergence_load,
-            rows=kinds.unknown_rows,
+        time = block.moving_support**2 / self.liquid.viscosity
+        self._find_load(
+            self,
+            kinds,
+            reads=(self.ghost_velocity_jump(), *block.arrays),
+            rows=(kinds.unknown_rows,),
+            rest=exp(-step / time),
             fraction=self.liquid.density / step,
-            lattice_sum=self._lattice_sum,
-            rate=rate,
+            rate=DRIFT_RATE * speed / self.spacing,
         )
         head, count = backend.head, block.count
-        backend.copy(head(self.pressure, count), self._p)
         mask = head(kinds.unknown, count)
         if self.published is not None:
             self.published.set_operator(
@@ -295,32 +266,66 @@ class Flow:
         self.iterations["pressure"] = outcome.iterations
         self._set_dummy_pressure(kinds)
 
+    def _run_load(self, kinds: ParticleKinds, rest: float, fraction: float, rate: float) -> None:
+        """Right-hand side of the pressure equation, and the pressure to begin with."""
+        backend, block = self.backend, self.block
+        if not self.has_tangents:
+            settled = self.particles["settled_jump"]
+            fields = {"settled": settled, "jump": self.ghost_velocity_jump()}
+            fields["m"] = self.relative_viscosity
+            backend.pointwise(terms.settle, fields, settled, rest=rest)
+        backend.pair_sum(
+            terms.divergence_terms,
+            block.pairs,
+            self._divergence_fields() | {"VW_ij": block.kernel, "V": self._V},
+            self._rhs,
+            finish=terms.divergence_load,
+            rows=kinds.unknown_rows,
+            fraction=fraction,
+            lattice_sum=self._lattice_sum,
+            rate=rate,
+        )
+        backend.copy(backend.head(self.pressure, block.count), self._p)
+
     def correct(self, kinds: ParticleKinds, step: float) -> None:
         """Velocity after the pressure (70).
 
         Raises:
             NotConverged: the velocity is not finite.
         """
+        arrays = self.block.arrays
+        found = self._find_lowest(self, kinds, reads=arrays, rows=(kinds.unknown_rows,))
+        lowest, reads = found[0] if found else 0.0, (self._extended_C, *arrays)
+        square, speed_square = self._accelerate(
+            self, kinds, reads=reads, rows=(kinds.fluid_rows,), lowest=lowest, step=step
+        )
+        self.pressure_seen = (self._pressure_fields, lowest) if found else None
+        self.largest_acceleration = max(square, 0.0) ** 0.5
+        self.largest_speed = max(speed_square, 0.0) ** 0.5
+        if not isfinite(self.largest_speed):
+            raise NotConverged("the velocity is not finite")
+
+    def _run_lowest(self, kinds: ParticleKinds) -> None:
+        """Corrections of the gradient with those of ghosts; reduces the lowest pressure, where the
+        gradient sees the pressure over that."""
+        self._extended_C = self.block.extend_tensor(self._C)
+        if not self.has_tangents:
+            fields, rows = {"p": self.pressure}, kinds.unknown_rows
+            self.backend.pointwise(terms.pressure_of, fields, (None,), rows=rows, reduce=("min",))
+
+    def _run_acceleration(self, kinds: ParticleKinds, lowest: float, step: float) -> None:
+        """Apply the gradient of the pressure; reduces |dv/dt|^2 and |v|^2."""
         backend, block = self.backend, self.block
-        C = block.extend_tensor(self._C)
         gradient, p = corrected_difference_term, block.pressure_across(self.pressure)
-        self.pressure_seen = None
         if p is None:
-            gradient = corrected_symmetric_term
-            (lowest,) = backend.pointwise(
-                terms.pressure_of,
-                {"p": self.pressure},
-                (None,),
-                rows=kinds.unknown_rows,
-                reduce=("min",),
-            )
-            p, ghosts = backend.zeros(block.total), {"source": block.source}
-            backend.pointwise(terms.pressure_over_lowest, ghosts, p, p=self.pressure, lowest=lowest)
-            self.pressure_seen = {"p": p, "G_ij": block.gradient, "C": C}, lowest
-        (square,) = backend.pair_sum(
+            gradient, p = corrected_symmetric_term, backend.zeros(block.total)
+            tables, ghosts = {"p": self.pressure}, {"source": block.source}
+            backend.pointwise(terms.pressure_over_lowest, ghosts, p, **tables, lowest=lowest)
+        self._pressure_fields = {"p": p, "G_ij": block.gradient, "C": self._extended_C}
+        backend.pair_sum(
             gradient,
             block.pairs,
-            {"p": p, "G_ij": block.gradient, "C": C, "v": self.velocity, "v_old": self.before},
+            self._pressure_fields | {"v": self.velocity, "v_old": self.before},
             (self.velocity, None),
             rows=kinds.fluid_rows,
             finish=terms.correct,
@@ -328,14 +333,13 @@ class Flow:
             step=step,
             density=self.liquid.density,
         )
-        self.largest_acceleration = max(square, 0.0) ** 0.5
-        self.stop(kinds)
-        if not isfinite(self.largest_speed):
-            raise NotConverged("the velocity is not finite")
+        self._stop(kinds)
 
-    def measure_divergence(self, kinds: ParticleKinds, count: float) -> None:
-        """Divergence that the projection left, for observers."""
-        square, largest = self.backend.pair_sum(
+    def measure(self, kinds: ParticleKinds) -> None:
+        """Reduce the sum of squares of the divergence that the projection left and the largest one,
+        then the kinetic energy of all that flows [J per meter], for observers."""
+        fields = self.particles.by_symbol("velocity", "volume")
+        self.backend.pair_sum(
             corrected_divergence_term,
             self.block.pairs,
             self._divergence_fields(),
@@ -344,15 +348,9 @@ class Flow:
             rows=kinds.fluid_rows,
             reduce=("sum", "max"),
         )
-        self.divergence = ((square / max(count, 1.0)) ** 0.5, largest)
-
-    def kinetic_energy(self) -> float:
-        """Of all that flows [J per meter]."""
-        fields = self.particles.by_symbol("velocity", "volume")
-        (energy,) = self.backend.pointwise(
+        self.backend.pointwise(
             terms.kinetic_energy, fields, (None,), reduce=("sum",), density=self.liquid.density
         )
-        return energy
 
     def rest(self) -> None:
         """Nothing flows any more."""
@@ -390,8 +388,9 @@ class Flow:
 
     def stop(self, kinds: ParticleKinds) -> None:
         """Stop everything but the fluid; find the largest speed."""
-        fields = {"v": self.velocity, "fluid": kinds.fluid}
-        (square,) = self.backend.pointwise(
-            terms.stop_solid, fields, (self.velocity, None), reduce=(None, "max")
-        )
+        (square,) = self._stop(kinds)
         self.largest_speed = max(square, 0.0) ** 0.5
+
+    def _stop(self, kinds: ParticleKinds) -> tuple[float, ...]:
+        fields, out = {"v": self.velocity, "fluid": kinds.fluid}, (self.velocity, None)
+        return self.backend.pointwise(terms.stop_solid, fields, out, reduce=(None, "max"))

@@ -31,8 +31,15 @@ def stop_solid(v, fluid):
 def settle(settled, jump, m, rest):
     """Jump that the divergence sees [m/s]; at once the present one where there was none.
 
+    Ghosts beyond a stressed surface continue the profile of u, and where they do so unevenly their
+    divergence is that of the profile. A stress that changes at once has no profile yet: its
+    divergence would have to be undone within the step, by a pressure that grows as 1 / dt. So the
+    jump follows within the time l^2 / nu in which momentum crosses a support, nu of the particle.
+    Under a given pressure at the surface nothing is to be undone: it is seen at once.
+
     Args:
-        m: relative viscosity. rest: of the difference after the step, where m is 1.
+        m: relative viscosity. rest: of the difference after the step, exp(-dt nu / l^2) where m is
+            1.
     """
     if settled == 0.0:
         return 1.0 * jump

@@ -25,9 +25,9 @@ class GhostExtension:
     """Fields (..., n) of all particles on those of a block with ghosts, (..., M).
 
     Attributes:
-        ghosts: of its particles. total: M. source: (M,) particle behind each of the block with
-            ghosts. sources: these and the types, the fields of `ghost_fields`. signs: tables of its
-            arguments sign_x and sign_z.
+        ghosts: of its particles. total: M, see `ghosts`. source: (M,) particle behind each of the
+            block with ghosts. sources: these and the types, the fields of `ghost_fields`. signs:
+            tables of its arguments sign_x and sign_z.
     """
 
     total: int
@@ -64,9 +64,9 @@ class GhostExtension:
         self._walls_along["plane"] = ghosts.table(plane)
 
     def gather(self, field: Array) -> Array:
-        """The field of all particles on the block with ghosts: (..., n) to (..., M)."""
-        out = self.backend.zeros((*field.shape[:-1], self.total))
-        self.backend.gather(field, self.source, out)
+        """The field of all particles on the block with ghosts: (n,) to (M,)."""
+        out, fields = self.backend.zeros(self.total), {"place": self.source}
+        self.backend.pointwise(element, fields, out, table=field)
         return out
 
     def of_type(self, table: Array) -> Array:
@@ -75,11 +75,11 @@ class GhostExtension:
         self.backend.pointwise(element, fields, out, table=table)
         return out
 
-    def extend(self, function: Callable, tables: Constants) -> Array:
-        """Vectors (2, M) by a function of `ghost_fields`."""
-        out = self.backend.zeros((2, self.total))
-        self.backend.pointwise(function, self.sources, out, **tables)
-        return out
+    def extend(self, function: Callable, tables: Constants, out: Array | None = None) -> Array:
+        """Vectors (2, M) by a function of `ghost_fields`, into `out` where it is given."""
+        found = self.backend.zeros((2, self.total)) if out is None else out
+        self.backend.pointwise(function, self.sources, found, **tables)
+        return found
 
     def extend_velocity(self, v: Array, jump: Array) -> Array:
         """Velocities (2, M) from those of the particles (2, n) [m/s].
@@ -159,14 +159,16 @@ class GhostExtension:
         backend.pointwise(function, self.sources, out, **tables, **self.signs)
         return out
 
-    def _place(self, position: Array, across: Constants | None = None) -> Array:
+    def _place(
+        self, position: Array, out: Array | None = None, across: Constants | None = None
+    ) -> Array:
         """Places of all; `across` says by type what is shifted across the surface."""
         x, z = (self.backend.component(position, k) for k in (0, 1))
         tables = {"x": x, "z": z, **self.signs, **self._offsets}
         if self._beyond is None:
-            return self.extend(ghost_fields.ghost_position, tables)
+            return self.extend(ghost_fields.ghost_position, tables, out)
         tables["shift_x"], tables["shift_z"] = (
             self.backend.component(self._beyond.shift, k) for k in (0, 1)
         )
         tables |= across or self._across
-        return self.extend(ghost_fields.position_across, tables)
+        return self.extend(ghost_fields.position_across, tables, out)

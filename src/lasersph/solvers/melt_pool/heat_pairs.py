@@ -9,7 +9,8 @@ import numpy as np
 from lasersph.compute.splice import PairRows, splice
 from lasersph.compute.vectors import dot
 from lasersph.solvers.conduction.body import Body
-from lasersph.solvers.melt_pool.block import Block, inner_weight, wall_terms, weight_of
+from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.block_terms import inner_weight, wall_terms, weight_of
 
 
 def wall_sums(total_0, total_1, total_2, total_3):

@@ -63,18 +63,29 @@ def even_rows(x, has_row, even_above):
 
 
 class PairGeometry:
-    """Arrays per pair with room for more, kept from list to list.
+    """Arrays per pair, kept while lists have as much room.
 
     Attributes:
         arrays: of the list, weights (pairs,) g_ij, gradient (2, pairs) G_ij, kernel (pairs,).
     """
 
-    arrays: tuple[Array, Array, Array]
-
     def __init__(self, backend: Backend, weighing: Weighing) -> None:
         self.backend, self.weighing = backend, weighing
-        self._room = (backend.zeros(0), backend.zeros((2, 0)), backend.zeros(0))
+        self.arrays = (backend.zeros(0), backend.zeros((2, 0)), backend.zeros(0))
+        self._others: dict[str, Array] = {}
         self._rows: list[tuple[Mean, Rows | None]] = []
+
+    @property
+    def rows(self) -> tuple[Rows, ...]:
+        """Lists of rows in the order in which `find` takes them, where they are not all."""
+        return tuple([rows for _, rows in self._rows if rows is not None])
+
+    def per_pair(self, name: str) -> Array:
+        """(pairs,) an array that is kept under a name while lists have as much room."""
+        count, kept = self.arrays[0].shape[0], self._others.get(name)
+        if kept is None or kept.shape[0] != count:
+            kept = self._others[name] = self.backend.zeros(count)
+        return kept
 
     def begin(self, pairs: NeighborList, has_row: Array | None, even_above: float) -> None:
         """Take a new list.
@@ -87,12 +98,8 @@ class PairGeometry:
             has_row: (n,) 1 for rows that are found; None for all. even_above: z of the plane [m].
         """
         backend, count = self.backend, pairs.neighbor.shape[0]
-        if self._room[0].shape[0] < count:
-            size = count + count // 4
-            self._room = (backend.zeros(size), backend.zeros((2, size)), backend.zeros(size))
-        weights, gradient, kernel = self._room
-        head = backend.head
-        self.arrays = (head(weights, count), head(gradient, count), head(kernel, count))
+        if self.arrays[0].shape[0] != count:
+            self.arrays = (backend.zeros(count), backend.zeros((2, count)), backend.zeros(count))
         self._rows = [(common, None)]
         if pairs.mean is common:
             return

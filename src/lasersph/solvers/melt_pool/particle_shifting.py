@@ -23,7 +23,9 @@ from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, matvec, outer, vector
+from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.sph.shifting import repulsion_terms, shift
 
@@ -168,10 +170,27 @@ class ParticleShifting:
         self.displacement, self._v = backend.zeros((2, count)), backend.zeros((2, count))
         self._up, self._down = backend.zeros(count), backend.zeros(count)
 
-    def shift(
-        self, block: Block, kinds: ParticleKinds, at_face: Array, speed: float, step: float
+    def rearrange(
+        self, flow: Flow, kinds: ParticleKinds, particles: Particles, at_face: Array, scale: float
     ) -> None:
-        """Find the displacement of each fluid particle (73), 0 of the others."""
+        """Shift the particles; reduces the heat added by it [J], if there is any shift."""
+        self.shift(flow.block, kinds, at_face, scale)
+        self.adjust(flow, kinds, particles)
+
+    def adjust(self, flow: Flow, kinds: ParticleKinds, particles: Particles) -> None:
+        """Move the particles by their displacements, with what they carry there."""
+        block, jump = flow.block, flow.ghost_velocity_jump()
+        self.adjust_velocity(block, kinds, flow.velocity, jump, flow.correction)
+        h, vapor, m = (particles[name] for name in ("enthalpy", "vapor_fraction", "mass"))
+        self.adjust_enthalpy(block, kinds, h, vapor, m)
+        self.move(particles["position"], kinds)
+
+    def shift(self, block: Block, kinds: ParticleKinds, at_face: Array, scale: float) -> None:
+        """Find the displacement of each fluid particle (73), 0 of the others.
+
+        Args:
+            scale: C times largest speed times step [m].
+        """
         backend = self.backend
         backend.fill(self.displacement, 0.0)
         if self.factor == 0.0:
@@ -185,7 +204,7 @@ class ParticleShifting:
             finish=shift,
             rows=kinds.fluid_rows,
             normal=upward(2),
-            scale=self.factor * speed * step,
+            scale=scale,
             limit=LARGEST * self.spacing,
         )
 

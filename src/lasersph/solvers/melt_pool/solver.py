@@ -95,6 +95,8 @@ class MeltPool:
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
+        self._find_sizes = backend.phase(MeltPool._run_sizes)
+        self._rearrange = backend.phase(ParticleShifting.rearrange)
         self._find_surface()
 
     @property
@@ -217,8 +219,7 @@ class MeltPool:
         self.illuminate(step)
         self.heat.conduct(step, unclipped_step)
         self.exchange.book_heat(self.flow.block, step)
-        self.shift(step)
-        self.adjust()
+        self.rearrange(step)
         self._measure()
         self.kinds.remember()
 
@@ -287,28 +288,23 @@ class MeltPool:
         fields = (self.particles[name] for name in names)
         return SurfaceStep(*fields, position, self.flow.velocity, self.kinds.fluid, times)
 
-    def shift(self, step: float) -> None:
-        """Displacements that keep the density of particles even (73)."""
-        surface, at_face = self.domain.surface, self.kinds.dummy
+    def rearrange(self, step: float) -> None:
+        """Displacements that keep the density of particles even (73), and velocity and enthalpy at
+        the shifted positions (74), (75)."""
+        surface, flow, kinds = self.domain.surface, self.flow, self.kinds
+        at_face = kinds.dummy
         if surface is not None and not self.domain.surface_moves:
             at_face = surface.at_surface
-        speed = max(self.flow.largest_speed, self.domain.conditions.largest_wall_speed())
-        self.shifting.shift(self.flow.block, self.kinds, at_face, speed, step)
-
-    def adjust(self) -> None:
-        """Velocity and enthalpy at the shifted positions (74), (75)."""
-        flow, particles, block = self.flow, self.particles, self.flow.block
-        C = flow.correction
-        self.shifting.adjust_velocity(
-            block, self.kinds, flow.velocity, flow.ghost_velocity_jump(), C
-        )
-        h, vapor, m = (particles[name] for name in ("enthalpy", "vapor_fraction", "mass"))
-        self.state.energy["shifting"] += self.shifting.adjust_enthalpy(
-            block, self.kinds, h, vapor, m
-        )
-        self.shifting.move(self.position, self.kinds)
-        if self.domain.surface is not None:
-            self.domain.surface.confine(self.position, self.kinds.fluid)
+        speed = max(flow.largest_speed, self.domain.conditions.largest_wall_speed())
+        (added,) = self._rearrange(
+            *(self.shifting, flow, kinds, self.particles, at_face),
+            reads=(flow.ghost_velocity_jump(), flow.correction, at_face, *flow.block.arrays),
+            rows=(kinds.fluid_rows,),
+            scale=self.shifting.factor * speed * step,
+        ) or (0.0,)
+        self.state.energy["shifting"] += added
+        if surface is not None:
+            surface.confine(self.position, kinds.fluid)
         self.body.update_temperature()
 
     def _melt(self) -> bool:
@@ -344,11 +340,19 @@ class MeltPool:
     def _measure(self) -> None:
         """What observers want to know of the step."""
         flow, block = self.flow, self.flow.block
-        flow.measure_divergence(self.kinds, self.fluid_count)
-        self.spacing_min = block.smallest_distance(self.position, self.kinds.fluid_rows)
-        energy = flow.kinetic_energy()
+        square, largest, energy, distance = self._find_sizes(
+            self,
+            reads=(flow.ghost_velocity_jump(), flow.correction, *block.arrays),
+            rows=(self.kinds.fluid_rows,),
+        )
+        flow.divergence = ((square / max(self.fluid_count, 1.0)) ** 0.5, largest)
+        self.spacing_min = distance**0.5
         self.steadiness.look(self.state.time, flow.largest_speed, energy)
         self._find_surface()
+
+    def _run_sizes(self) -> None:
+        self.flow.measure(self.kinds)
+        self.flow.block.smallest_distance(self.position, self.kinds.fluid_rows)
 
     def _find_surface(self) -> None:
         """Which particles lie at the surface where they are now."""

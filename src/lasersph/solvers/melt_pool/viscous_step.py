@@ -8,7 +8,7 @@ symmetric and positive, since a ghost changes at most the sign of a component.
 
 from __future__ import annotations
 
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.launch import Launch
 from lasersph.compute.routine import Step
@@ -49,6 +49,7 @@ class ViscousStep:
         self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
         self._g_sum, self.velocity = backend.zeros(count), backend.zeros((2, count))
         self._launches: tuple[Launch | None, ...] = (None,) * 4
+        self._begin = backend.phase(ViscousStep._run_begin)
 
     def advance(
         self, block: Block, v: Array, b: Array, extended: Array, kinds: ParticleKinds, step: float
@@ -71,15 +72,37 @@ class ViscousStep:
             )
             backend.copy(self._star, v)
             return 0
-        s = self.nu * step
+        r_z, r_r = self._begin(
+            self,
+            block,
+            v,
+            b,
+            extended,
+            rows,
+            reads=(v, b, extended, block.viscous_weights, *block.arrays),
+            rows=(rows,),
+            s=self.nu * step,
+            step=step,
+        )
+        iterations, *_ = backend.routine(
+            conjugate_gradients, self._steps, 0.0, r_z, r_r, TOLERANCE**2 * r_r, MOST
+        )
+        backend.copy(v, self.velocity)
+        return int(iterations)
+
+    def _run_begin(
+        self, block: Block, v: Array, b: Array, extended: Array, rows: Rows, s: float, step: float
+    ) -> None:
+        """Prepare the iteration; reduces r z and r r of the first guess."""
+        backend, fields = self.backend, {"g_ij": block.viscous_weights, "V": block.V}
         r, z, d, q = self._work
         backend.fill(d, 0.0)  # which ghosts read beyond the rows
         backend.pair_sum(weight_of, block.pairs, fields, self._g_sum, rows=rows)
         backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
-        fields |= {"v_star": self._star, "g_sum": self._g_sum}
+        given = fields | {"v": extended, "b": b, "v_star": self._star, "g_sum": self._g_sum}
         out, reduce = (r, z, None, None), (None, None, "sum", "sum")
-        r_z, r_r = backend.pair_sum(
-            momentum, block.pairs, fields, out, rows=rows, finish=start, reduce=reduce, s=s
+        backend.pair_sum(
+            momentum, block.pairs, given, out, rows=rows, finish=start, reduce=reduce, s=s
         )
         points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
         changes = backend.zeros((2, block.total))
@@ -88,7 +111,7 @@ class ViscousStep:
         ghosts = block.prepare_velocity_change(d, changes, again=ghosts)
         multiplied = backend.prepare(
             momentum,
-            {"v": changes, "d": d, "g_ij": block.viscous_weights, "V": block.V},
+            fields | {"v": changes, "d": d},
             (q, None),
             neighbors=block.pairs,
             rows=rows,
@@ -109,14 +132,4 @@ class ViscousStep:
         )
         self._launches = turned, ghosts, multiplied, advanced
         turns = Step([turned, ghosts, multiplied], "beta")
-        iterations, *_ = backend.routine(
-            conjugate_gradients,
-            (turns, Step([advanced], "alpha"), Step([])),
-            0.0,
-            r_z,
-            r_r,
-            TOLERANCE**2 * r_r,
-            MOST,
-        )
-        backend.copy(v, self.velocity)
-        return int(iterations)
+        self._steps = turns, Step([advanced], "alpha"), Step([])

@@ -129,7 +129,7 @@ def shift_particles(solver, place, shift, *, v=None, h=None):
         backend.copy(backend.asarray(v), solver.flow.velocity)
     if h is not None:
         start_from(solver, h)
-    solver.adjust()
+    shifting.adjust(solver.flow, solver.kinds, solver.particles)
     assert block is solver.flow.block
     return backend.to_host(solver.flow.velocity), backend.to_host(solver.particles["enthalpy"])
 
@@ -216,7 +216,7 @@ def test_largest_shift():
     place = jittered(solver, 0.45)
     block = block_of(solver, place)
     nothing = solver.backend.zeros(solver.body.count)
-    solver.shifting.shift(block, solver.kinds, nothing, 1.0, 1.0)
+    solver.shifting.shift(block, solver.kinds, nothing, 0.5)
     size = np.linalg.norm(solver.backend.to_host(solver.shifting.displacement), axis=0)
     assert size.max() == pytest.approx(LARGEST * 0.1)
 
@@ -231,8 +231,7 @@ def test_without_shifting():
     backend = solver.backend
     backend.copy(backend.asarray(v), solver.flow.velocity)
     block_of(solver, place)
-    solver.shift(1.0)
-    solver.adjust()
+    solver.rearrange(1.0)
     expected = place.copy()
     expected[1, 3] = -CLOSEST * 0.1
     assert place_of(solver) == pytest.approx(

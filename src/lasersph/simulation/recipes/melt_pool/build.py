@@ -28,7 +28,8 @@ from lasersph.solvers.conduction.walls import wall_enthalpy, wall_potential
 from lasersph.solvers.melt_pool.block import StaticParticleData
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
-from lasersph.solvers.melt_pool.flow import Flow, Liquid
+from lasersph.solvers.melt_pool.flow import Flow
+from lasersph.solvers.melt_pool.liquid import Liquid
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
 
