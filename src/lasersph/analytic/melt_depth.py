@@ -8,7 +8,11 @@ for the specific enthalpy h, with theta(h) = int k dT (Kirchhoff) piecewise line
 nodes of the caloric curve. One column at the peak fluence leaves the lateral heat flow out and so
 is an upper bound; columns over half an interference period follow the pool within some percent.
 
-Left out: flow, surface losses, density changes. The reflectivity is taken at the surface
+What evaporates can be asked for: the grid follows the surface then, so that metal moves up through
+it at m/rho, as in `steady_recession`, and m(T) and its heat leave at the temperature of the
+uppermost cell.
+
+Left out: flow, other surface losses, density changes. The reflectivity is taken at the surface
 temperature of the step before (steps take at most 1 % of the pulse).
 """
 
@@ -22,17 +26,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
+Vapor = Callable[[Array], tuple[Array, Array]]
+"""Mass [kg/(m^2 s)] and heat [W/m^2] that leave a surface at temperatures [K]."""
 
 
 @dataclass(frozen=True)
 class MeltEstimate:
     """Depth of the melt [m] (0 where nothing melts), first and last time there is some [s], the
-    highest surface temperature [K]; times are nan where nothing melts, as before any light."""
+    highest surface temperature [K]; times are nan where nothing melts, as before any light. And
+    what evaporates, as a depth in the mean of the columns [m], 0 where that was not asked for."""
 
     depth: float
     start: float
     end: float
     temperature: float
+    evaporated: float = 0.0
 
     @property
     def safe_depth(self) -> float:
@@ -54,6 +62,7 @@ def melt_depth(
     end_time: float,
     column_width: float | None = None,
     level: float = 0.0,
+    vapor: Vapor | None = None,
 ) -> MeltEstimate:
     """Deepest point where the melt fraction exceeds `level`, over the whole run.
 
@@ -66,6 +75,7 @@ def melt_depth(
             column next to each other, symmetric at both ends, each `column_width` [m] wide.
         delivered: share of one pulse's energy arriving between two times [s].
         end_time: time to stop at [s]; the run ends earlier when the pool has solidified.
+        vapor: what leaves the surface; nothing does by default.
 
     Raises:
         ValueError: several columns without a width.
@@ -80,7 +90,7 @@ def melt_depth(
     light = times[-1] - times[0]
     diffusivity = curve.slope.max() / density
     faces = _cell_faces(light, end_time - times[0], absorption_coefficient, diffusivity)
-    block = _Block(faces, columns.size, density, column_width)
+    block = _Block(faces, columns.size, density, column_width, vapor)
     if not callable(reflectivity):
         constant = float(reflectivity)
         reflectivity = lambda T: np.full_like(T, constant)  # noqa: E731
@@ -107,7 +117,8 @@ def melt_depth(
             deepest, end = max(deepest, depth), now
         elif now >= times[-1]:
             break
-    return MeltEstimate(float(deepest), float(start), float(end), hottest)
+    evaporated = float(np.mean(block.evaporated)) / density
+    return MeltEstimate(float(deepest), float(start), float(end), hottest, evaporated)
 
 
 class _Curve:
@@ -135,8 +146,14 @@ class _Curve:
         return np.interp(h, self.nodes, self.columns["f"])
 
     def potential_slope(self, h):
+        return self.slope[self._segment(h)]
+
+    def temperature_slope(self, h):
+        return (np.diff(self.columns["T"]) / np.diff(self.nodes))[self._segment(h)]
+
+    def _segment(self, h):
         k = np.searchsorted(self.nodes, h, side="right") - 1
-        return self.slope[np.clip(k, 0, self.slope.size - 1)]
+        return np.clip(k, 0, self.slope.size - 1)
 
 
 def _slanted(potential: Array, share: float = 0.02) -> Array:
@@ -151,9 +168,21 @@ def _slanted(potential: Array, share: float = 0.02) -> Array:
 
 
 class _Block:
-    """Columns of cells; advance() takes one step, conserving energy to the solver's tolerance."""
+    """Columns of cells; advance() takes one step, conserving energy to the solver's tolerance.
 
-    def __init__(self, faces: Array, columns: int, density: float, width: float | None):
+    Attributes:
+        evaporated: (columns,) mass that has left [kg/m^2].
+    """
+
+    def __init__(
+        self,
+        faces: Array,
+        columns: int,
+        density: float,
+        width: float | None,
+        vapor: Vapor | None,
+    ):
+        self.vapor, self.evaporated = vapor, np.zeros(columns)
         self.mass = density * np.diff(faces)
         centers = 0.5 * (faces[1:] + faces[:-1])
         self.conductance = 1.0 / np.diff(centers)
@@ -176,6 +205,20 @@ class _Block:
             inflow[1:] -= flow
         return inflow
 
+    def _evaporation(self, h: Array, curve: _Curve) -> tuple[Array, Array, Array]:
+        """Mass flux (columns,), power that cells lose by vapor and by the metal that moves up
+        through them (columns, cells) [W/m^2], and its slope in h of the uppermost ones."""
+        lost = np.zeros_like(h)
+        if self.vapor is None:
+            return lost[:, 0], lost, lost[:, 0]
+        T = curve.temperature(h[:, 0])
+        m, q = self.vapor(T)
+        m_near, q_near = self.vapor(T + 1.0)
+        lost[:, :-1] = m[:, None] * (h[:, :-1] - h[:, 1:])
+        lost[:, 0] += q
+        change = q_near - q + (m_near - m) * (h[:, 0] - h[:, 1])
+        return m, lost, change * curve.temperature_slope(h[:, 0])
+
     def advance(
         self, h0: Array, heat: Array, step: float, curve: _Curve, halvings: int = 6
     ) -> Array:
@@ -186,14 +229,16 @@ class _Block:
         tolerance = 1e-5 * np.abs(gain).sum() + 1e-9 * np.abs(capacity * h0).sum()
 
         def residual(h):
-            return capacity * (h - h0) + self._outflow(curve.potential(h)) - gain
+            _, lost, _ = self._evaporation(h, curve)
+            return capacity * (h - h0) + self._outflow(curve.potential(h)) + lost - gain
 
         h, r = h0, residual(h0)
         for _ in range(12):
             size = np.abs(r).sum()
             if size <= tolerance:
                 break
-            change = self._newton_change(curve.potential_slope(h), capacity, r)
+            m, _, surface = self._evaporation(h, curve)
+            change = self._newton_change(curve.potential_slope(h), capacity, r, m, surface)
             for damping in (1.0, 0.5, 0.25, 0.1):
                 trial = h + damping * change
                 r = residual(trial)
@@ -204,16 +249,22 @@ class _Block:
             if halvings > 0:
                 half = self.advance(h0, 0.5 * heat, 0.5 * step, curve, halvings - 1)
                 return self.advance(half, 0.5 * heat, 0.5 * step, curve, halvings - 1)
+        self.evaporated += step * self._evaporation(h, curve)[0]
         # what is left of the residual goes into the cells, so that no energy is lost
         return h - r / capacity
 
-    def _newton_change(self, slope: Array, capacity: Array, r: Array) -> Array:
+    def _newton_change(
+        self, slope: Array, capacity: Array, r: Array, m: Array, surface: Array
+    ) -> Array:
         """Solve (capacity + outflow slope) change = -r, all columns as one tridiagonal system."""
         zero = np.zeros((self.columns, 1))
         g = np.broadcast_to(self.conductance, (self.columns, self.conductance.size))
         diagonal = capacity + slope * (np.hstack([g, zero]) + np.hstack([zero, g]))
+        rising = np.broadcast_to(m[:, None], g.shape)
+        diagonal[:, :-1] += rising
+        diagonal[:, 0] += surface
         lower = np.hstack([-g * slope[:, :-1], zero]).ravel()[:-1]
-        upper = np.hstack([-g * slope[:, 1:], zero]).ravel()[:-1]
+        upper = np.hstack([-g * slope[:, 1:] - rising, zero]).ravel()[:-1]
         from scipy.linalg import get_lapack_funcs  # loads as long as all else that reads a case
 
         solve: Any = get_lapack_funcs("gtsv", dtype=np.float64)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lasersph.analytic.melt_depth import MeltEstimate, melt_depth
+from lasersph.analytic.melt_depth import MeltEstimate, Vapor, melt_depth
 from lasersph.case import Case
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import InterferenceBeam
@@ -50,8 +50,12 @@ def fine_depth(case: Case, melt: MeltEstimate | None) -> float:
     return max(least, melt.safe_depth + 2.0 * case.particles.support_over_spacing * spacing)
 
 
-def expected_melt(case: Case) -> MeltEstimate | None:
-    """How deep light will melt the case, and when; None without light or melting."""
+def expected_melt(case: Case, vapor: Vapor | None = None) -> MeltEstimate | None:
+    """How deep light will melt the case, and when; None without light or melting.
+
+    Args:
+        vapor: what leaves the surface, to be told how much evaporates; layers do not count on it.
+    """
     laser = case.laser
     if laser is None or not case.solver.phase_change or case.material.melting is None:
         return None
@@ -83,4 +87,5 @@ def expected_melt(case: Case) -> MeltEstimate | None:
         delivered=lambda start, end: float(laser.pulse.delivered(start, end)),
         end_time=case.end_of_pulse,
         column_width=column_width,
+        vapor=vapor,
     )

@@ -1,10 +1,12 @@
 """Forecasts: counts as the filling makes them, limits by name, warnings in words."""
 
 import pytest
+from receding_metals import recession_of
 
 from lasersph.case import load_case
 from lasersph.simulation import forecast
 from lasersph.simulation.layers import lay_out
+from lasersph.simulation.recipes import recipe_of
 
 
 def test_counts_are_those_of_the_layers() -> None:
@@ -86,3 +88,32 @@ def test_a_run_that_ends_before_the_light_says_so() -> None:
     """Nothing melts, so that the finest layers hold the light only; `check` warns."""
     found = forecast(load_case("dlip-steel", ["time.end=2 ns"]))
     assert any("no light falls before time.end" in warning for warning in found.warnings)
+
+
+def test_layers_too_shallow_for_what_evaporates():
+    """Steel under steady light, Landau: in the second 2.5 of its times D/v^2 it recedes at 0.989 of
+    the steady speed on the way from cold; the depth asked for is enough, one less is warned of."""
+    exact = recession_of("steel-304-demuth", 1e11, conductivity_share=0.01)
+    settings = [
+        *("solver.vaporization=flux", "boundaries.ambient_pressure=0 Pa", "laser.fluence="),
+        *("laser.fluence_kind=", "laser.intensity=1e11 W/m^2", "laser.beam.kind=uniform"),
+        *("laser.beam.period=", "laser.pulse={ kind = 'square', duration = '1 ms' }"),
+        *("laser.absorption={ kind = 'surface' }", "laser.reflectivity=0", "domain.extent=full"),
+        *("particles.arrangement=uniform", "particles.coarsest=", "particles.ratio="),
+        f"particles.spacing={exact.thermal_length / 4.0} m",
+        f"domain.width={3.0 * exact.thermal_length} m",
+        'material={ base = "steel-304-demuth", surface_tension = "1.6 N/m", '
+        'conductivity = "0.267892 W/(m K)" }',
+    ]
+    cases = [
+        load_case(
+            "texture-steel",
+            [*settings, f"time.end={end * exact.time} s", f"domain.depth={depth} nm"],
+        )
+        for end, depth in ((2.5, 200.0), (5.0, 431.0), (5.0, 660.0))
+    ]
+    said = [" ".join(recipe_of(case).warnings()) for case in cases]
+    gone = [float(text.split()[1]) * 1e-9 for text in said[:2]]
+    assert (gone[1] - gone[0]) / (2.5 * exact.time) == pytest.approx(0.989 * exact.speed, rel=0.01)
+    assert 'the run would stop; write domain.depth = "656 nm"' in said[1]
+    assert "evaporate" not in said[2]

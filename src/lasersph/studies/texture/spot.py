@@ -85,7 +85,7 @@ def refuse_common_melt(
     for number in range(1, min(pulses, 2 + int(2.0 * half / shift))):
         common = np.argwhere(first & melts(x - number * shift))
         if common.size:
-            row, column = common[0]
+            row, column = (int(n) for n in common[0])
             lit = np.any(spot.at(x[None, :], y[:, None]) >= least, axis=0)
             raise common_melt(number, x[column], y[row], float(np.ptp(x[lit])) + period, pulses)
 

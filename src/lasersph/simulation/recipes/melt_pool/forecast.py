@@ -11,6 +11,9 @@ from __future__ import annotations
 
 from math import pi, sqrt
 
+import numpy as np
+from numpy.typing import NDArray
+
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.boundaries.flow_conditions import FREE
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
@@ -19,15 +22,26 @@ from lasersph.boundaries.surface_line import cutoff_of
 from lasersph.boundaries.surface_waves import surface_limits
 from lasersph.case import Case
 from lasersph.input import format_quantity
+from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import GaussianBeam, InterferenceBeam
+from lasersph.materials.sections import Vaporization
+from lasersph.particles.layers import Layers
+from lasersph.physics.evaporation import latent_heat, vapor_constants
 from lasersph.physics.flow_limits import flow_limits
+from lasersph.physics.knudsen_layer import outflow_tables
+from lasersph.physics.losses import evaporation_loss
+from lasersph.simulation.layers import caloric_curve, expected_melt
+from lasersph.simulation.recipes.melt_pool.build import TABLE_NODES, TABLE_START
 from lasersph.simulation.recipes.recipe import FlowForecast
+from lasersph.solvers.melt_pool.layout_renewal import EVEN
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 BUOYANT_SHARE = 0.2
 MOLTEN_PULSES = 8.0
 """How long a pool lasts, in durations of the pulse."""
 FEWEST_ROWS = 8
+ROOM = 1.2
+"""Of the depth that is asked for over the least one, for what the estimate misses."""
 
 
 def flow_forecast(case: Case, solver: MeltPoolSettings, spacing: float) -> FlowForecast:
@@ -134,6 +148,52 @@ def _box_speed(case: Case, gravity: float, viscosity: float, density: float, slo
         else:
             speeds.append(0.25 * case.domain.depth / eta * slope * _imposed_gradient(case))
     return max(speeds)
+
+
+def recession_warning(case: Case, layers: Layers) -> str:
+    """What is said where the finest layers are too shallow for what light evaporates; else nothing.
+
+    All of their particles become lower where the surface recedes, which the run bears down to
+    `layout_renewal.EVEN[0]` of a spacing. Where they could be too shallow if all light that is
+    absorbed made vapor, the depth is estimated, see `analytic.melt_depth`.
+    """
+    metal, laser = case.material.vaporization, case.laser
+    if not case.surface_moves or not case.solver.has_vapor_flux or metal is None or laser is None:
+        return ""
+    pulses = laser.pulse.count if case.pause != "compute" else 1
+    bearable = (1.0 - EVEN[0]) * layers.fine_depth / pulses
+    constants, (ratio, flux, _) = vapor_constants(metal), outflow_tables()
+    T = np.linspace(TABLE_START, constants["T_c"], TABLE_NODES)
+    constants |= {"p_e": case.boundaries.pressure_of_surroundings}
+    loss = (evaporation_loss(t, **constants, ratio_nodes=ratio, flux_nodes=flux) for t in T)
+    heat, _, mass = np.array(list(loss)).T
+    _, R = laser.reflectivity_table(case.material, COLDEST, HOTTEST)
+    light = laser.mean_fluence if isinstance(laser.beam, InterferenceBeam) else laser.peak_fluence
+    absorbed = (1.0 - min(R)) * light * float(laser.pulse.delivered(0.0, case.end_of_pulse))
+    if absorbed <= bearable * case.material.density_reference * _least_heat_of_vapor(
+        case, metal, T
+    ):
+        return ""
+    melt = expected_melt(case, lambda at: (np.interp(at, T, mass), np.interp(at, T, heat)))
+    if melt is None or melt.evaporated <= bearable:
+        return ""
+    gone, times = pulses * melt.evaporated, 1.0 / (1.0 - EVEN[0])
+    key = "particles.fine_depth" if case.particles.arrangement == "graded" else "domain.depth"
+    return (
+        f"about {format_quantity(gone, 'm', 2)} will evaporate; the finest layers must be "
+        f"{times:.2g} times as deep, and reach {format_quantity(layers.fine_depth, 'm', 3)}: the "
+        f'run would stop; write {key} = "{format_quantity(ROOM * times * gone, "m", 2)}"'
+    )
+
+
+def _least_heat_of_vapor(case: Case, metal: Vaporization, T: NDArray[np.float64]) -> float:
+    """Least heat that metal takes with it as vapor of one of these temperatures [J/kg]."""
+    curve, vapor = caloric_curve(case), vapor_constants(metal)
+    h = np.interp(T, curve.temperature, curve.enthalpy)
+    (h1, h2), (T1, T2) = curve.enthalpy[-2:], curve.temperature[-2:]
+    h += np.maximum(T - T2, 0.0) * (h2 - h1) / (T2 - T1)
+    latent = [latent_heat(t, vapor["T_b"], vapor["L_b"], vapor["T_c"]) for t in T]
+    return float(np.min((h + latent)[case.material.flow_temperature < T]))
 
 
 def _warnings(layer: float | None, spacing: float) -> list[str]:

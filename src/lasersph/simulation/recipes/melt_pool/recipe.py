@@ -15,7 +15,7 @@ from lasersph.observers.topography import Topography
 from lasersph.observers.view import View
 from lasersph.simulation.recipes.conduction import HeatRecipe
 from lasersph.simulation.recipes.melt_pool.build import with_flow
-from lasersph.simulation.recipes.melt_pool.forecast import flow_forecast
+from lasersph.simulation.recipes.melt_pool.forecast import flow_forecast, recession_warning
 from lasersph.simulation.recipes.melt_pool.view import flow_view
 from lasersph.simulation.recipes.recipe import StepForecast
 from lasersph.simulation.scales import box_numbers, melt_numbers
@@ -112,7 +112,8 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
 
     def warnings(self) -> list[str]:
         """What a user should think about before the run."""
-        return [] if self.flow is None else list(self.flow.warnings)
+        recession = recession_warning(self.case, self.layers)
+        return [*([recession] if recession else []), *(self.flow.warnings if self.flow else ())]
 
     def dimensionless(self) -> dict[str, dict[str, float]]:
         """Scales and numbers of the pulse and of the melt; of a box those of its walls."""
