@@ -105,7 +105,7 @@ BAD_CASES = {
     "no width": ('width = "5 um"\n', "", ':12: domain.width: missing for 2-D; write e.g. width = "5 um"'),
     "width against period": ('width = "5 um"', 'width = "6 um"', ':14: domain.width: 6 um is no whole number of the pattern\'s periods of 5 um; write width = "5 um"'),
     "thinner than particles": ('depth = "2 um"', 'depth = "200 nm"', ":13: domain.depth: 200 nm holds fewer than 4 particles of 100 nm; give a larger domain or a finer spacing"),
-    "absurd number of particles": (SPACING, 'spacing = "1e-15 m"', ":18: particles.spacing: about 5e+18 particles, 1.28e+07 PiB of memory, more than lasersph can number; take a coarser spacing or a smaller domain"),
+    "absurd number of particles": (SPACING, 'spacing = "1e-15 m"', ":18: particles.spacing: about 5e+18 particles, 8.84e+06 PiB of memory, more than lasersph can number; take a coarser spacing or a smaller domain"),
     "absurd number of steps": (STEP, 'step = "1e-30 s"', ":30: time.step: 2e+23 steps to the end at least, more than 1e+09; take longer steps or an earlier end"),
     "absurd number of snapshots": ("", '\n[output.snapshots]\ninterval = "1e-20 s"', ":42: output.snapshots.interval: 20000000000000 snapshots are too many: give an interval of at least 2 ps"),
     "zero end": (END, 'end = "0 ns"', ':29: time.end: must be greater than 0, got "0 ns"'),

@@ -19,12 +19,13 @@ from lasersph.particles import Domain, Lattice
 
 if TYPE_CHECKING:
     from lasersph.case.contents import CaseContents
+    from lasersph.solvers.solver_settings import SolverSettings
 
 LARGEST_PARTICLES = 2**32 - 1
 """Neighbors are numbered with 32 bits."""
 LARGEST_STEPS = 1e9
-BYTES_PER_PARTICLE = 400
-"""Fields and what is kept of them for a checkpoint, besides neighbors."""
+PROGRAM_BYTES = 300 * 2**20
+"""Python, compiled loops and files of a run: `dlip-aluminium` with 1355 particles takes 265 MiB."""
 ASSUMED_FINE_DEPTH = 2e-7
 PENETRATIONS = 9.6
 """Depth of the active region over sqrt(D t)."""
@@ -49,8 +50,18 @@ def size_of(case: CaseContents) -> Size:
     lattice, dimensions = case.particles, case.solver.dimensions
     count = estimate_count(case.domain, lattice, dimensions)
     share = active_share(case, lattice.support_over_spacing * lattice.spacing)
-    neighbors = share * neighbor_count(lattice, dimensions)
-    return Size(count, count * (BYTES_PER_PARTICLE + case.solver.bytes_per_neighbor * neighbors))
+    pairs = count * share * neighbor_count(lattice, dimensions)
+    return Size(count, memory_of(case.solver, count, pairs))
+
+
+def memory_of(solver: SolverSettings, count: float, pairs: float) -> float:
+    """Expected largest memory of a run [bytes].
+
+    Args:
+        count: particles. pairs: of those that are computed.
+    """
+    per_particle, per_neighbor = solver.bytes_per_particle, solver.bytes_per_neighbor
+    return PROGRAM_BYTES + count * per_particle + pairs * per_neighbor
 
 
 def neighbor_count(lattice: Lattice, dimensions: int) -> float:

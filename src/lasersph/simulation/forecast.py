@@ -8,7 +8,7 @@ from typing import Any
 
 from lasersph.case import Case
 from lasersph.case.quick import what_is_not_shown
-from lasersph.case.size import BYTES_PER_PARTICLE, active_share, neighbor_count
+from lasersph.case.size import active_share, memory_of, neighbor_count
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
 from lasersph.simulation.progress import Span
@@ -62,7 +62,7 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         particles=count,
         layers=layers.thickness.size,
         pairs=pairs,
-        memory=count * BYTES_PER_PARTICLE + pairs * case.solver.bytes_per_neighbor,
+        memory=memory_of(case.solver, count, pairs),
         spacing=spacing,
         fine_depth=float(layers.thickness[is_fine].sum()),
         limits=steps.limits,

@@ -13,7 +13,7 @@ from lasersph.solvers.solver_settings import SolverSettings
 class HeatSettings(SolverSettings):
     """How heat and changes of phase are computed."""
 
-    bytes_per_neighbor: ClassVar[int] = 56
+    bytes_per_neighbor: ClassVar[int] = 36
     """Index and weight, and their copies while the list is assembled."""
 
     kind: str

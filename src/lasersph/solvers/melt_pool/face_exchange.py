@@ -114,7 +114,8 @@ class FaceExchange:
         self.heat: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         self.impulse: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         self.pressing: dict[str, float] = dict.fromkeys(PLANE, 0.0)
-        names = [f"{name}_{k}" for name in "ab" for k in range(len(PLANE))]
+        faces = range(0 if potential is None else len(PLANE))
+        names = [f"{name}_{k}" for name in "ab" for k in faces]
         self._sums = {name: backend.zeros(count) for name in names}
 
     def find_walls(self, block: Block) -> None:

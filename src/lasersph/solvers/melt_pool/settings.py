@@ -14,8 +14,11 @@ from lasersph.solvers.heat_settings import HeatSettings
 class MeltPoolSettings(HeatSettings):
     """Heat, melting and the incompressible flow of what is molten, or of a closed box."""
 
-    bytes_per_neighbor: ClassVar[int] = 100
-    """Weights of heat, viscosity and pressure."""
+    bytes_per_particle: ClassVar[int] = 1200
+    bytes_per_neighbor: ClassVar[int] = 64
+    """28 of a pair of the body: index and weight, twice while rows are renewed, and the weight in
+    single precision; and 74 of a pair that moves, half of them, with room for more: weights of
+    heat, viscosity and pressure, gradient and kernel, and two indices."""
 
     kind: Literal["melt-pool"] = "melt-pool"
     dimensions: Literal[2] = Field(default=2, description="of space: x and z")
