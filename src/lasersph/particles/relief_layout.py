@@ -86,19 +86,18 @@ def carry_over(
     columns = int(layout.column.max()) + 1
     place = np.floor((position[0] - low) * columns / (high - low)).astype(np.intp)
     place = np.clip(place, 0, columns - 1)
-    if np.bincount(place, minlength=columns).min() < 1:
+    members = columns_alike(place, columns, np.lexsort((-position[1], place)))
+    if members[0][1].shape[1] < 1:
         raise ValueError("a column holds no particle")
     # columns become even levels, from the top
     count = volume.size // columns
     levels = np.linspace(0.0, 1.0, count + 1)
-    order = np.lexsort((-position[1], place))
     held = np.bincount(place, volume, columns)
     means = np.empty((fields.shape[0], count, columns))
-    starts = np.searchsorted(place[order], np.arange(1, columns))
-    for column, members in enumerate(np.split(order, starts)):
-        edges = np.append(0.0, np.cumsum(volume[members])) / held[column]
-        edges[-1] = 1.0
-        means[:, :, column] = resample(edges, fields[:, members], levels)
+    for alike, rows in members:
+        edges = np.pad(np.cumsum(volume[rows], axis=1), ((0, 0), (1, 0))) / held[alike, None]
+        edges[:, -1] = 1.0
+        means[:, :, alike] = resample(edges, fields[:, rows], levels).swapaxes(1, 2)
     # what a column holds too much goes to the next
     new_volume = layout.volume * (volume.sum() / layout.volume.sum())
     wanted = np.bincount(layout.column, new_volume, columns)
@@ -110,28 +109,52 @@ def carry_over(
     means = content / wanted
     # levels become cells
     found = np.empty_like(fields)
-    for column in range(columns):
-        members = np.flatnonzero(layout.column == column)
-        cells = np.linspace(0.0, 1.0, members.size + 1)
-        values = resample(levels, means[:, :, column], cells)
-        found[:, members] = values[:, layout.row[members]]
+    for alike, rows in columns_alike(
+        layout.column, columns, np.argsort(layout.column, kind="stable")
+    ):
+        cells = np.linspace(0.0, 1.0, rows.shape[1] + 1)
+        values = resample(levels[None], means[:, :, alike].swapaxes(1, 2), cells)
+        found[:, rows] = np.take_along_axis(values, layout.row[rows][None], 2)
     return new_volume, found
 
 
-def resample(edges: Array, values: Array, new_edges: Array) -> Array:
-    """Means (k, m) between new edges (m + 1,) of what has the means (k, n) between edges (n + 1,).
+def columns_alike(
+    column: NDArray[np.intp], columns: int, order: NDArray[np.intp]
+) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Columns (c,) of equally many particles, the fewest first, and the numbers (c, n) of those.
 
-    Both begin and end at the same places.
+    Args:
+        column: (N,) of each particle. order: (N,) of the numbers, column after column.
+    """
+    held = np.bincount(column, minlength=columns)
+    start, groups = np.cumsum(held) - held, []
+    for count in np.unique(held):
+        alike = np.flatnonzero(held == count)
+        groups.append((alike, order[start[alike, None] + np.arange(count)]))
+    return groups
+
+
+def resample(edges: Array, values: Array, new_edges: Array) -> Array:
+    """Means (k, c, m) between new edges (m + 1,) of what has the means (k, c, n) between edges.
+
+    Args:
+        edges: (c, n + 1) of each of c columns, or (1, n + 1) of all. Old and new ones begin and end
+            at the same places.
     """
     size = np.diff(edges)
-    rise = np.diff(values) / (0.5 * (size[1:] + size[:-1]))
-    up, down = rise[:, :-1], rise[:, 1:]
+    rise = np.diff(values) / (0.5 * (size[:, 1:] + size[:, :-1]))
+    up, down = rise[..., :-1], rise[..., 1:]
     slope, product = np.zeros_like(values), up * down
     both = np.where(product > 0.0, up + down, 1.0)
-    slope[:, 1:-1] = np.where(product > 0.0, 2.0 * product / both, 0.0)
+    slope[..., 1:-1] = np.where(product > 0.0, 2.0 * product / both, 0.0)
     # integrals up to the new edges
-    total = np.cumsum(values * size, axis=1) - values * size
-    part = np.clip(np.searchsorted(edges, new_edges, side="right") - 1, 0, size.size - 1)
-    way = new_edges - edges[part]
-    integral = total[:, part] + way * (values[:, part] + 0.5 * slope[:, part] * (way - size[part]))
-    return np.diff(integral) / np.diff(new_edges)
+    content = values * size
+    total = np.cumsum(content, axis=2) - content
+    after = np.array([np.searchsorted(one, new_edges, side="right") for one in edges])
+    part = np.clip(after - 1, 0, size.shape[1] - 1)
+    way = new_edges - np.take_along_axis(edges, part, 1)
+    rest = way - np.take_along_axis(size, part, 1)
+    fields, columns, old = values.shape
+    place = part + old * np.arange(columns)[:, None]
+    v, s, t = (one.reshape(fields, -1).take(place, axis=1) for one in (values, slope, total))
+    return np.diff(t + way * (v + 0.5 * s * rest)) / np.diff(new_edges)
