@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 from math import comb, pi, sqrt
 from typing import TYPE_CHECKING, Literal
@@ -34,7 +35,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:  # SciPy's matrices take a tenth of a second to load, and few runs have a line
-    from scipy.sparse import csc_matrix
+    from scipy.sparse import csc_matrix, csr_matrix
     from scipy.sparse.linalg import SuperLU
 
 Array = NDArray[np.float64]
@@ -74,12 +75,17 @@ class Smoothing:
     pins: csc_matrix
     inverse: SuperLU
 
+    @cached_property
+    def transposed(self) -> tuple[csr_matrix, csr_matrix]:
+        """D^T and P^T, which take longer to make than to apply."""
+        return self.differences.T, self.pins.T
+
     def solve(self, values: Array, pinned: Array) -> Array:
         """F of values (count,) with heights (pins,) of the pinned ends."""
-        D, P = self.differences, self.pins
+        (D, P), (D_T, P_T) = (self.differences, self.pins), self.transposed
         f = np.zeros(values.size)
         for _ in range(1 + REFINEMENTS):
-            f = f + self.inverse.solve(values - f - D.T @ (D @ f) - P.T @ (P @ f - pinned))
+            f = f + self.inverse.solve(values - f - D_T @ (D @ f) - P_T @ (P @ f - pinned))
         return f
 
 
