@@ -4,7 +4,7 @@ python benchmarks/one_change.py                    all tables
 python benchmarks/one_change.py --only heat        extrema of steel near 0.5 J/cm2
 python benchmarks/one_change.py --only rises       how long both last, by the least rise of one
 python benchmarks/one_change.py --only cells       speed of steel by `clip` over the spacing
-python benchmarks/one_change.py --only gradients   mean |dT/dx| at 57 ns, by part of the surface
+python benchmarks/one_change.py --only gradients   mean |dT/dx| and outward layer at 57 ns, by place
 python benchmarks/one_change.py --only zones       fine rows of Table 5 beside recorded pools
 python benchmarks/one_change.py --only norms       eq. (33) over particles and times; eq. (37)
 
@@ -25,6 +25,8 @@ import numpy as np
 
 from lasersph.analytic.convergence import grid_convergence_index
 from lasersph.observers.flow_extrema import local_maxima
+from lasersph.observers.interpolation import interpolate
+from lasersph.observers.surface_speed import zero_of
 from lasersph.output import Run
 from lasersph.validation.dlip_figures.rows import PRINTED, details, speed_of
 from lasersph.validation.pulsed_heating.light import Light
@@ -134,7 +136,7 @@ def cells(study: Study) -> None:
 
 
 def gradients(study: Study) -> None:
-    """Mean |dT/dx| at 57 ns over parts of the surface: printed are 1240 and 900 K/um."""
+    """Mean |dT/dx| and outward layer at 57 ns: printed are 1240 and 900 K/um, 68 and 115 nm."""
     for case, spacing, fluences in POOLS:
         for fluence in fluences:
             one = study.run(
@@ -149,7 +151,13 @@ def gradients(study: Study) -> None:
             speed = f"largest speed {np.max(line.speed):.2f} m/s"
             print(f"{case}, {fluence} J/cm2, {spacing} nm:", speed)
             for words, value in mean_slopes(line).items():
-                print(f"  {words}: {value:.0f} K/um", flush=True)
+                print(f"  {words}: {value:.0f} K/um")
+            thickness = outward_layer(one, 57e-9, line.x[line.liquid], spacing)
+            thickest = int(np.argmax(thickness))
+            x = line.x[int(np.argmax(line.speed))], line.x[thickest]
+            there = float(np.interp(x[0], line.x[line.liquid], thickness))
+            print(f"  outward layer: {there:.1f} nm at the fastest place, {x[0]:.2f} um;", end=" ")
+            print(f"{thickness[thickest]:.1f} nm at most, {x[1]:.2f} um", flush=True)
 
 
 def surface_at(one: Run, time: float) -> Surface:
@@ -165,6 +173,23 @@ def surface_at(one: Run, time: float) -> Surface:
         np.abs(step["surface_velocity"][chosen]),
         step["flows"][chosen] > 0,
     )
+
+
+def outward_layer(one: Run, time: float, places: np.ndarray, spacing: float) -> np.ndarray:
+    """Depth [nm] at which u changes sign below places (m,) of the surface [um], at a time [s].
+
+    spacing: of the particles [nm].
+    """
+    step = one.snapshots.nearest(time)
+    depth = np.arange(0.5, 400.0 / spacing, 0.5) * spacing
+    found = []
+    for x in places:
+        near = np.abs(step["position"][0] - 1e-6 * x) < 4e-9 * spacing
+        near &= step["position"][-1] > -1e-9 * (depth[-1] + 4.0 * spacing)
+        below = np.stack([np.full(depth.size, 1e-6 * x), -1e-9 * depth])
+        u = interpolate(step["position"][:, near], step["velocity"][0, near], below)
+        found.append(zero_of(depth, u))
+    return np.array(found)
 
 
 def mean_slopes(line: Surface) -> dict[str, float]:
