@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -154,6 +155,10 @@ def command_of(verb: str) -> Callable[[Sequence[str]], object]:
     return command
 
 
+FIRST_TAB = '_lasersph_completion "$@"'
+"""What zsh calls when it loads typer's file, which only defines it: the first Tab did nothing."""
+
+
 def complete_in_shell(arguments: Sequence[str]) -> object:
     """Install or answer the completion of verbs and options, which needs all verbs at once."""
     import typer
@@ -166,7 +171,14 @@ def complete_in_shell(arguments: Sequence[str]) -> object:
             whole.command(name)(commands[0])
         else:
             whole.add_typer(app, name=name)
-    return whole(list(arguments), prog_name="lasersph", standalone_mode=False)
+    try:
+        return whole(list(arguments), prog_name="lasersph", standalone_mode=False)
+    finally:  # typer leaves the program once it has written
+        zsh = Path("~/.zfunc/_lasersph").expanduser()
+        is_new = "--install-completion" in arguments and zsh.is_file()
+        if is_new and FIRST_TAB not in zsh.read_text(encoding="utf-8"):
+            with zsh.open("a", encoding="utf-8") as file:
+                file.write(f"\n\n{FIRST_TAB}\n")
 
 
 def app_of(verb: str) -> typer.Typer:

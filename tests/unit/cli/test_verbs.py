@@ -77,6 +77,25 @@ def test_shell_completes_verbs_options_and_names(words, wanted, capsys, monkeypa
     assert wanted in capsys.readouterr().out.split()
 
 
+@pytest.mark.parametrize("shell", ["zsh", "fish"])
+def test_other_shells_complete_as_well(shell, capsys, monkeypatch):
+    """The answers to what zsh and fish ask; zsh's file answers at the first Tab, too."""
+    monkeypatch.setenv("HOME", str(Path.cwd()))
+    monkeypatch.setenv("_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION", "1")
+    with pytest.raises(SystemExit):
+        main(["--install-completion", shell])
+    file = {"zsh": ".zfunc/_lasersph", "fish": ".config/fish/completions/lasersph.fish"}[shell]
+    installed = Path(file).read_text(encoding="utf-8")
+    assert shell == "fish" or installed.endswith('_lasersph_completion "$@"\n')
+    capsys.readouterr()
+    monkeypatch.setenv("_LASERSPH_COMPLETE", f"complete_{shell}")
+    monkeypatch.setenv("_TYPER_COMPLETE_FISH_ACTION", "get-args")
+    monkeypatch.setenv("_TYPER_COMPLETE_ARGS", "lasersph run dlip-s")
+    with pytest.raises(SystemExit):
+        main([])
+    assert "dlip-steel" in capsys.readouterr().out
+
+
 def test_version(capsys):
     """--version prints the version."""
     assert said(capsys, "--version") == f"lasersph {lasersph.__version__}\n"
