@@ -24,7 +24,7 @@ from __future__ import annotations
 import numpy as np
 
 from lasersph.compute.array_types import Array, Rows
-from lasersph.compute.vectors import interpolate, interpolation_slope
+from lasersph.compute.vectors import interpolate, interpolation_slope, same
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
 from lasersph.physics.phase_change import balanced_enthalpy, follow_potential, potential_slope
 from lasersph.solvers.conduction.body import HISTORY, Body
@@ -95,11 +95,6 @@ def linearize(h, slope, m, dq, s, h_nodes, T_nodes):
 def move(h, dP, damping, h_nodes, P_nodes):
     """Enthalpy, P and dP/dh after a damped Newton step; on plateaus nothing moves."""
     return follow_potential(h, damping * dP, 0.0, h_nodes, P_nodes)
-
-
-def same(new):
-    """Argument."""
-    return new
 
 
 def close_balance(h, r, m, h0, excess, previous):
@@ -242,7 +237,7 @@ class ImplicitStep:
         backend, out = self.body.backend, (self.h, self.spare, self.slope)
         pairs, fields = self.body.pairs.neighbors, self._fields()
         backend.pair_sum(flow, pairs, fields, out, rows=rows, finish=balance, s=step, **self.curve)
-        backend.pointwise(same, {"new": self.spare}, self.P, rows=rows)
+        backend.pointwise(same, {"value": self.spare}, self.P, rows=rows)
 
     def _fields(self) -> dict[str, Array]:
         body = self.body

@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.array_types import Array
+from lasersph.compute.vectors import same
 from lasersph.solvers.conduction.body import Body
 
 COURANT = 0.25
@@ -58,11 +59,6 @@ def followed_enthalpy(h, face, below, column, m, area, faces, loss):
 def take_loss(evaporated, followed):
     """Mass per area that is to be followed [kg/m^2], and all that has been after it."""
     return evaporated - followed, evaporated
-
-
-def same(rate):
-    """Argument."""
-    return rate
 
 
 class Recession:
@@ -121,7 +117,7 @@ class Recession:
 
     def speed(self, mass_flux: Array) -> float:
         """Largest speed of the surface [m/s], from (n,) fluxes of the particles at it."""
-        fields = {"rate": self.body.backend.head(mass_flux, self._loss.shape[0])}
+        fields = {"value": self.body.backend.head(mass_flux, self._loss.shape[0])}
         (fastest,) = self.body.backend.pointwise(same, fields, (None,), reduce=("max",))
         return fastest / self._density
 

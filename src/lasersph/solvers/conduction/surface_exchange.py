@@ -8,6 +8,7 @@ import numpy as np
 
 from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.vectors import same
 from lasersph.input import format_quantity
 from lasersph.physics.evaporation import vapor_constants
 from lasersph.physics.knudsen_layer import outflow_tables
@@ -36,11 +37,6 @@ def evaporating_power(
 def accumulate_evaporated_mass(evaporated, mass_flux, step):
     """Mass per area that has evaporated [kg/m^2]."""
     return evaporated + step * mass_flux
-
-
-def same(T):
-    """Argument."""
-    return T
 
 
 class SupercriticalSurface(StepFailed):
@@ -115,7 +111,7 @@ class SurfaceExchange:
         """
         backend, highest = self.body.backend, self.constants["T_c"]
         (hottest,) = backend.pointwise(
-            same, {"T": temperature}, (None,), rows=self.rows, reduce=("max",)
+            same, {"value": temperature}, (None,), rows=self.rows, reduce=("max",)
         )
         if hottest <= highest:
             return

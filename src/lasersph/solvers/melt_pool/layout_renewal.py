@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.compute.array_types import Array
+from lasersph.compute.vectors import same
 from lasersph.particles.relief_layout import ReliefLayout, carry_over, lay_below
 from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.melt_pool.domain import PoolDomain
@@ -32,11 +33,6 @@ it lies as deep as `moving_surface.GAP`. In deep melt four spacings have evapora
 
 class UnevenRelief(StepFailed):
     """The relief is too deep for the layers below it."""
-
-
-def same(V):
-    """Argument."""
-    return V
 
 
 class LayoutRenewal:
@@ -92,7 +88,7 @@ class LayoutRenewal:
         if not self.domain.surface_moves:
             return
         if not self.recedes:
-            fields: dict[str, Array] = {"V": self._fine_volume}
+            fields: dict[str, Array] = {"value": self._fine_volume}
             (least,) = self.body.backend.pointwise(same, fields, (None,), reduce=("min",))
             self.recedes = least < WORN * self._cell
         if not self.recedes:

@@ -10,6 +10,7 @@ from typing import Literal
 
 import numpy as np
 
+from lasersph.compute.vectors import same
 from lasersph.lasers.pulses import PulseTrain
 from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.conduction.state import HeatState
@@ -17,11 +18,6 @@ from lasersph.solvers.melt_pool.layout_renewal import LayoutRenewal
 
 SAME = 1e-9
 """Rounding of times over the period."""
-
-
-def fraction_of(f_m):
-    """The melt fraction itself, for its maximum."""
-    return 1.0 * f_m
 
 
 class Pauses:
@@ -48,8 +44,8 @@ class Pauses:
         number = int(np.floor(time / period + SAME))
         if number + 1 >= self.pulse.count or time - number * period < self.pulse.window[1]:
             return None
-        fields = {"f_m": self.body.particles["melt_fraction"]}
-        (melt,) = self.body.backend.pointwise(fraction_of, fields, (None,), reduce=("max",))
+        fields = {"value": self.body.particles["melt_fraction"]}
+        (melt,) = self.body.backend.pointwise(same, fields, (None,), reduce=("max",))
         return None if melt > 0.0 else (number + 1) * period
 
     def jump_to(self, start: float) -> None:

@@ -20,6 +20,7 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import same
 from lasersph.linear_solvers.bicgstab import BiCGStab
 from lasersph.linear_solvers.matrix import PairMatrix
 from lasersph.particles.kinds import DUMMY, EDGE, FLUID
@@ -168,7 +169,7 @@ class PublishedPressure:
             self._b, residual=self.tolerance * scale, max_iterations=self.max_iterations
         )
         backend.copy(solver.solution, pressure)
-        (total,) = backend.pointwise(same, {"p": pressure}, None, reduce="sum")
+        (total,) = backend.pointwise(same, {"value": pressure}, None, reduce="sum")
         self._less(pressure, total / rows if rows else 0.0)
         return Outcome(outcome.iterations, outcome.residual / scale if scale > 0.0 else 0.0)
 
@@ -177,8 +178,3 @@ class PublishedPressure:
         return self.backend.pointwise(
             less, fields, (values, None), reduce=(None, "sum"), mean=mean
         )[0]
-
-
-def same(p):
-    """The value itself, for its sum."""
-    return p
