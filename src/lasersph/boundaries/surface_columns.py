@@ -59,6 +59,11 @@ def shared_area(left, cover_left, right, cover_right, covers, stretch, width):
     )
 
 
+def share_of_column(column, cover, factor, covers):
+    """Share of a column that one end of a particle stands for, times a factor."""
+    return factor * cover / max(covers[column], 1.0e-300)
+
+
 def product(a, b):
     """Product of two numbers."""
     return a * b
@@ -114,6 +119,17 @@ class SurfaceColumns:
         tables = {"covers": self._covers, "stretch": self._stretch}
         backend.pointwise(shared_area, fields, area, **tables, width=self._width)
         backend.scatter(area, rows, self.area)
+
+    def shares(self, factor: float) -> list[tuple[Array, Array]]:
+        """Of the left and the right ends of the particles at the surface: their column (rows,), and
+        the share of it for which they stand (rows,), times a factor."""
+        backend, size, found = self.backend, self.rows.shape[0], []
+        for column, cover, _ in self._ends:
+            share = backend.zeros(size)
+            fields = {"column": backend.head(column, size), "cover": backend.head(cover, size)}
+            backend.pointwise(share_of_column, fields, share, factor=factor, covers=self._covers)
+            found.append((fields["column"], share))
+        return found
 
     def mean(self, values: Array) -> Array:
         """(columns,) mean of a field (n,) over the particles at each column."""

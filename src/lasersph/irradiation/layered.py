@@ -7,7 +7,8 @@ cell means over the column), A_i its lateral cross-section, s_i the exact share 
 stays in its depth cell [Demuth2020, eq. (8)], T_s the temperature of the surface over it at the new
 time [Demuth2020, eq. (78)].
 
-Particles that moved (2-D) take the light by what lies above them now, see `absorbing_cells`; T_s is
+Particles that moved (2-D) take the light by what lies above them now, see `absorbing_cells`; light
+that the surface absorbs is taken by the particles at it now, each for its part of a column. T_s is
 that of the particles at the surface now.
 """
 
@@ -161,9 +162,23 @@ class LayeredLight:
             volume: (n,) [m^2], where it changes.
         """
         self._surface = surface
-        if self.incident == 0.0 or self.alpha is None:
+        if self.incident == 0.0:
             return
-        backend, fine, cells = self.backend, self._fine, self._cells
+        backend = self.backend
+        if not self._moving:
+            for name, values in self._lattice.items():
+                for side in ("", "_right"):
+                    kind = "index" if name == "column" else "real"
+                    self._moving[name + side] = backend.zeros(values.shape[0], kind)
+                backend.copy(values, self._moving[name])
+        if self.alpha is None:
+            ends = surface.shares(float(self.surface_area[0]))
+            for side, (column, share) in zip(("", "_right"), ends, strict=True):
+                backend.fill(self._moving[f"share{side}"], 0.0)
+                backend.scatter(share, surface.rows, self._moving[f"share{side}"])
+                backend.scatter(column, surface.rows, self._moving[f"column{side}"])
+            return
+        fine, cells = self._fine, self._cells
         # c_ik: cells of each particle, and how much of it lies in them
         if volume is not None:
             area = self._grid["inverse_x"] * self._grid["inverse_z"]
@@ -192,12 +207,6 @@ class LayeredLight:
             light_per_cover, fields, backend.head(light, cells), tau_one=self._tau_one
         )
         # shares of the particles in their left and right columns
-        if not self._moving:
-            for name, values in self._lattice.items():
-                for side in ("", "_right"):
-                    kind = "index" if name == "column" else "real"
-                    self._moving[name + side] = backend.zeros(values.shape[0], kind)
-                backend.copy(values, self._moving[name])
         for side, (upper, lower) in zip(("", "_right"), (corners[:2], corners[2:]), strict=True):
             fields = {"upper": upper[0], "cover_upper": upper[2]}
             fields |= {"lower": lower[0], "cover_lower": lower[2]}

@@ -147,6 +147,37 @@ def test_reflectivity_follows_what_lies_at_the_surface():
     assert reflected[1] > 1.2 * reflected[0]
 
 
+@pytest.mark.parametrize("kind", ["beer-lambert", "surface"])
+def test_numbers_of_particles_do_not_matter(kind):
+    """Particles that exchange their places exchange their light; none is lost or made."""
+    order = []
+
+    def exchange(x, z, spacing):
+        order[:] = [np.arange(x.size)]
+        melt = np.flatnonzero(z > -5e-7)
+        order[0][melt] = np.random.default_rng(2).permutation(melt)
+        return x[order[0]], z[order[0]]
+
+    solver, lattice, found = lit_pool(exchange, f"laser.absorption.kind={kind}")
+    assert found == pytest.approx(lattice[order[0]], rel=1e-12, abs=1e-15 * lattice.max())
+    assert not np.array_equal(found > 0.0, lattice > 0.0) or kind == "beer-lambert"
+    booked = energies(solver.body.light, float(found.sum()))
+    assert booked["unassigned"] == pytest.approx(0.0, abs=1e-14 * booked["incident"])
+
+
+def test_half_a_column_is_shared():
+    """The uppermost row moved by half a column: each takes half of the light of two columns."""
+
+    def move(x, z, spacing):
+        return x + np.where(z > -spacing, 0.5 * spacing, 0.0), z
+
+    solver, lattice, found = lit_pool(move, "laser.absorption.kind=surface")
+    top = solver.body.filling.surface
+    half = 0.5 * (lattice[top][1:-2] + lattice[top][2:-1])
+    assert found[top][1:-2] == pytest.approx(half, rel=1e-9)
+    assert found.sum() == pytest.approx(lattice.sum(), rel=1e-12)
+
+
 def test_losses_follow_what_lies_at_the_surface():
     """What has come up loses heat, what has gone down no longer does; the area stays."""
 
