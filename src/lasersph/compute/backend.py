@@ -172,7 +172,7 @@ class Backend:
 
     def rows_where(self, array: Array, value: float) -> Rows:
         """Rows k in order, kind "index", whose array[k] is exactly `value`."""
-        return self.wrap(np.flatnonzero(self.unwrap(array) == value).astype(np.uint32))
+        return self.wrap(key_order.rows_where(self.unwrap(array), value))
 
     def rows_by_key(self, keys: Array, key_count: int) -> tuple[Array, Rows]:
         """Where the rows of each index key 0 ... key_count - 1 begin, kind "offset", one more than
@@ -186,8 +186,7 @@ class Backend:
 
     def count_by_key(self, keys: Array, key_count: int) -> Rows:
         """How often each key 0 ... key_count - 1 occurs among index keys, kind "index"."""
-        host = self._keys(keys, key_count)
-        return self.wrap(np.bincount(host, minlength=key_count).astype(np.uint32))
+        return self.wrap(key_order.count_by_key(self.unwrap(keys), key_count))
 
     def first_connected(
         self, filled: Array, columns: int, lines: int, wraps: tuple[bool, bool]
@@ -198,12 +197,6 @@ class Backend:
             filled: (columns lines,) kind "index", not 0 where a cell is filled.
         """
         return self.wrap(connected.first_connected(self.unwrap(filled), columns, lines, wraps))
-
-    def _keys(self, keys: Array, key_count: int) -> np.ndarray:
-        host = self.unwrap(keys)
-        if host.size and int(host.max()) >= key_count:
-            raise ValueError(f"key {int(host.max())} is not below {key_count}")
-        return host
 
     # --- loop shapes ----------------------------------------------------------------------------
 

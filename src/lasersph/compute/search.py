@@ -20,6 +20,7 @@ from lasersph.compute import cache, source
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.generate import BLOCK
+from lasersph.compute.key_order import rows_where
 from lasersph.compute.scan import ScanText, scan_text, sort_text, store_text
 
 FINEST = 1.1
@@ -71,7 +72,7 @@ class Room:
         given = self._given
         stays = given.base is self.neighbor and pairs <= given.size <= pairs + pairs // SPARE
         if not stays:
-            self._given = self.neighbor[: pairs + pairs // (4 * SPARE)]
+            self._given = self.neighbor[: pairs + pairs // (2 * SPARE)]
         self._given[pairs:] = 0
         return self._given
 
@@ -249,7 +250,9 @@ def _levels(
         groups = [np.arange(total, dtype=np.uint32)]
     else:
         level = np.frexp(support / (FINEST * smallest))[1]
-        groups = [np.flatnonzero(level == k).astype(np.uint32) for k in np.unique(level)]
+        level = (level - level.min()).astype(np.uint32)
+        groups = [rows_where(level, k) for k in range(level.max() + 1)]
+        groups = [group for group in groups if group.size]
     order = np.empty(total, dtype=np.uint32)
     real = position.dtype
     low, high = (np.empty((len(groups), dimension), real) for _ in range(2))
@@ -259,7 +262,8 @@ def _levels(
     starts, cells, members = [], 0, 0
     for k, group in enumerate(groups):
         single = group.size == total
-        part = position if single else np.ascontiguousarray(position[:, group])
+        if lower is None or upper is None:
+            part = position if single else np.ascontiguousarray(position[:, group])
         low[k] = part.min(axis=1) if lower is None else lower
         high[k] = part.max(axis=1) if upper is None else upper
         least[k], largest[k] = ends

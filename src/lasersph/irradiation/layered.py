@@ -118,6 +118,9 @@ class LayeredLight:
         self.fluence, self.columns = backend.zeros(surface.size), backend.zeros(surface.size)
         self._surface: SurfaceColumns | None = None
         self._moving: dict[str, Array] = {}
+        self._find_cells = backend.phase(LayeredLight._run_cells)
+        self._find_shares = backend.phase(LayeredLight._run_shares)
+        self._absorb = backend.phase(LayeredLight._run_absorption)
         if filling.position.shape[0] == 2 and self.alpha is not None:
             self._lay_cells(width, half, self.alpha)
 
@@ -166,11 +169,7 @@ class LayeredLight:
             return
         backend = self.backend
         if not self._moving:
-            for name, values in self._lattice.items():
-                for side in ("", "_right"):
-                    kind = "index" if name == "column" else "real"
-                    self._moving[name + side] = backend.zeros(values.shape[0], kind)
-                backend.copy(values, self._moving[name])
+            self._make_room()
         if self.alpha is None:
             ends = surface.shares(float(self.surface_area[0]))
             for side, (column, share) in zip(("", "_right"), ends, strict=True):
@@ -178,41 +177,62 @@ class LayeredLight:
                 backend.scatter(share, surface.rows, self._moving[f"share{side}"])
                 backend.scatter(column, surface.rows, self._moving[f"column{side}"])
             return
-        fine, cells = self._fine, self._cells
         # c_ik: cells of each particle, and how much of it lies in them
+        there = () if volume is None else (volume,)
+        self._find_cells(self, position, depth, *there, reads=(position, depth, *there))
+        for (cell, _, _), members in zip(self._corners, self._members, strict=True):
+            members_of(backend, cell, self._cells, into=members)
+        self._find_shares(self, reads=[cover for _, _, cover in self._corners])
+
+    def _run_cells(self, position: Array, depth: Array, volume: Array | None = None) -> None:
+        """Cell, column and cover of each particle, by its four corners."""
+        backend, fine = self.backend, self._fine
         if volume is not None:
             area = self._grid["inverse_x"] * self._grid["inverse_z"]
             fields = {"V": backend.head(volume, fine)}
             backend.pointwise(scale, fields, self._size, factor=area)
         fields = {"x": backend.head(position, fine), "depth": backend.head(depth, fine)}
         fields["size"] = self._size
-        corners, tau, part = [], backend.zeros(cells + 1), backend.zeros(cells)
-        inner = backend.head(tau, cells)
+        self._corners = []
         for right, lower in product((0.0, 1.0), repeat=2):
             cell, column = backend.zeros(fine, "index"), backend.zeros(fine, "index")
             cover = backend.zeros(fine)
             out, corner = (cell, column, cover), {"right": right, "lower": lower}
             backend.pointwise(cell_at_corner, fields, out, **corner, **self._grid)
-            # tau_k of the cells
-            members = members_of(backend, cell, cells)
-            backend.pair_sum(
-                optical_thickness, members, {"cover": cover}, part, tau_one=self._tau_one
-            )
+            self._corners.append((cell, column, cover))
+
+    def _run_shares(self) -> None:
+        """Shares of the particles in their left and right columns."""
+        backend, fine, cells = self.backend, self._fine, self._cells
+        # tau_k of the cells
+        tau, part = backend.zeros(cells + 1), backend.zeros(cells)
+        inner, one = backend.head(tau, cells), self._tau_one
+        for (_, _, cover), members in zip(self._corners, self._members, strict=True):
+            backend.pair_sum(optical_thickness, members, {"cover": cover}, part, tau_one=one)
             backend.pointwise(add, {"a": inner, "b": part}, inner)
-            corners.append((cell, column, cover))
         # s_k over the cover of the cells
         light = backend.zeros(cells + 1)
         fields = {"tau": inner, "total": self._sums_from_above(inner)}
-        backend.pointwise(
-            light_per_cover, fields, backend.head(light, cells), tau_one=self._tau_one
-        )
-        # shares of the particles in their left and right columns
-        for side, (upper, lower) in zip(("", "_right"), (corners[:2], corners[2:]), strict=True):
+        backend.pointwise(light_per_cover, fields, backend.head(light, cells), tau_one=one)
+        left_and_right = self._corners[:2], self._corners[2:]
+        for side, (upper, lower) in zip(("", "_right"), left_and_right, strict=True):
             fields = {"upper": upper[0], "cover_upper": upper[2]}
             fields |= {"lower": lower[0], "cover_lower": lower[2]}
             out = backend.head(self._moving[f"share{side}"], fine)
             backend.pointwise(column_share, fields, out, width=self._size_x, light=light)
             backend.copy(upper[1], backend.head(self._moving[f"column{side}"], fine))
+
+    def _make_room(self) -> None:
+        """Arrays of particles that have moved, the coarse ones as they are on the lattice."""
+        backend = self.backend
+        for name, values in self._lattice.items():
+            for side in ("", "_right"):
+                kind = "index" if name == "column" else "real"
+                self._moving[name + side] = backend.zeros(values.shape[0], kind)
+            backend.copy(values, self._moving[name])
+        if self.alpha is not None:
+            key = backend.zeros(self._fine, "index")
+            self._members = [members_of(backend, key, self._cells) for _ in range(4)]
 
     def _sums_from_above(self, tau: Array) -> Array:
         """For each cell the tau of it and all above it in its column [1]."""
@@ -231,19 +251,21 @@ class LayeredLight:
         if self.incident == 0.0:
             self.backend.fill(self.deposit, 0.0)
             return 0.0
-        T_s = self.backend.head(temperature, self.columns.shape[0])
+        T_s, shares = temperature, self._lattice
         if self._varies and self._surface is not None:
             T_s = self._surface.mean(temperature)
-        self.reflected, self.transmitted = self.backend.pointwise(
-            enter_column,
-            {"F": self.fluence, "T_s": T_s, "area": self._area},
-            (self.columns, None, None),
-            reduce=(None, "sum", "sum"),
-            **self._entering,
-        )
-        take, shares = absorb_light, self._lattice
         if self._surface is not None and self._moving:
-            take, shares = absorb_from_two, self._moving
-        return self.backend.pointwise(
-            take, shares, self.deposit, reduce=("sum",), columns=self.columns
-        )[0]
+            shares = self._moving
+        reads = (T_s, *shares.values())
+        self.reflected, self.transmitted, absorbed = self._absorb(self, T_s, shares, reads=reads)
+        return absorbed
+
+    def _run_absorption(self, T_s: Array, shares: dict[str, Array]) -> None:
+        """Light that enters the columns, and what the particles take of it."""
+        backend, names = self.backend, (None, "sum", "sum")
+        fields = {"T_s": backend.head(T_s, self.columns.shape[0])}
+        fields |= {"F": self.fluence, "area": self._area}
+        out = (self.columns, None, None)
+        backend.pointwise(enter_column, fields, out, reduce=names, **self._entering)
+        take = absorb_light if shares is self._lattice else absorb_from_two
+        backend.pointwise(take, shares, self.deposit, reduce=("sum",), columns=self.columns)

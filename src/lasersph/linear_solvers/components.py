@@ -89,7 +89,7 @@ class Components:
         self.backend, self.count = backend, 0
         self.number, self.mask = backend.zeros(count, "index"), backend.zeros(count)
         self._cells = Cells(backend, count, CELL * support, period)
-        self._share = backend.zeros(0)
+        self._share, self._members = backend.zeros(0), None
 
     def find(self, position: Array, mask: Array, boundary_coefficient: Array) -> None:
         """Label the particles with mask 1.
@@ -113,21 +113,24 @@ class Components:
         self.count = int(backend.look(before)[-1])
         fields, out = {"part": self.number}, (self.number, self.mask)
         backend.pointwise(component_of, fields, out, members=members, before=before)
-        self._members = members_of(backend, self.number, self.count + 1)
-        if self._share.shape[0] != self.count + 1:
+        kept = self._members if self._share.shape[0] == self.count + 1 else None
+        self._members = members_of(backend, self.number, self.count + 1, into=kept)
+        if kept is None:
             self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
             self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
         self._sum(share_of, self._share, boundary_coefficient=boundary_coefficient)
 
-    def remove_means(self, values: Array) -> float:
-        """Subtract from each floating component's values their mean; returns the sum of squares."""
+    @property
+    def arrays(self) -> tuple[Array, ...]:
+        """Those that are replaced where the number of components changes."""
+        return self._share, self._members.neighbor
+
+    def remove_means(self, values: Array) -> tuple[float, ...]:
+        """Subtract from each floating component's values their mean; reduces the sum of squares."""
         fields = {"p": values, "component": self.number}
         self._sum(mean_of, self._means, share=self._share, values=values)
-        out = (values, None)
-        (square,) = self.backend.pointwise(
-            without_mean, fields, out, reduce=(None, "sum"), means=self._means
-        )
-        return square
+        out, reduce = (values, None), (None, "sum")
+        return self.backend.pointwise(without_mean, fields, out, reduce=reduce, means=self._means)
 
     def _sum(
         self, function: Callable, out: Array, share: Array | None = None, **arrays: Array

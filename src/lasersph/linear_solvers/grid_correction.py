@@ -153,9 +153,7 @@ class GridCorrection:
         cells.place(position, mask)
         if not self.levels or (self.levels[0].x, self.levels[0].z) != (cells.x, cells.z):
             self._make_levels(cells.x, cells.z)
-        members = members_of(backend, cells.number, cells.count)
-        backend.copy(members.row_start, self._members.row_start)
-        backend.copy(members.neighbor, self._order)
+        members_of(backend, cells.number, cells.count, into=self._members)
         given = (volume, boundary_coefficient)
         if self._set_up and all(a is b for a, b in zip(given, self._set_up_of, strict=True)):
             self._set_up()

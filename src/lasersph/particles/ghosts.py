@@ -137,9 +137,9 @@ def makes_ghost(near, face):
     return face == 0 or near == face or near >= BOTH
 
 
-def is_ghost(k, across, along, crossed_x, crossed_z, size):
+def is_ghost(k, near, across, along, crossed_x, crossed_z, size):
     """1 where the k-th pair of type and particle near a face makes a ghost, type after type."""
-    place = k % size
+    place = near[k % size]
     ghost_type = k // size + 1
     if makes_ghost(across[place], crossed_x[ghost_type]) and makes_ghost(
         along[place], crossed_z[ghost_type]
@@ -207,13 +207,12 @@ class GhostParticles:
             fields["distance"], fields["radius"] = (backend.head(a, count) for a in below)
             backend.pointwise(near_surface, fields, out, **self._near)
         near = self.near = backend.rows_where(self.is_near, 1.0)
-        across, along = (self._gather(face, near) for face in self._faces)
         # which pairs of a type and such a particle make a ghost
         size, others = near.shape[0], self.ghost_types.count - 1
         marks = backend.zeros(others * size)
         fields = {"k": self._numbers_below(others * size)}
-        tables = {"across": across, "along": along, "size": max(size, 1)}
-        backend.pointwise(is_ghost, fields, marks, **tables, **self._crossed)
+        tables = dict(zip(("across", "along"), self._faces, strict=True)) | {"near": near}
+        backend.pointwise(is_ghost, fields, marks, **tables, **self._crossed, size=max(size, 1))
         found = backend.rows_where(marks, 1.0)
         # source and type of each particle and each ghost
         ghosts = found.shape[0]
@@ -233,11 +232,6 @@ class GhostParticles:
     def tables(self, first: str, second: str, values: NDArray[Any]) -> dict[str, Array]:
         """Tables of both components of host values (2, w) by their names."""
         return {first: self.table(values[0]), second: self.table(values[1])}
-
-    def _gather(self, source: Array, order: Array) -> Array:
-        out = self.backend.zeros(order.shape[0], "index")
-        self.backend.gather(source, order, out)
-        return out
 
     def _numbers_below(self, size: int) -> Array:
         """0, 1, ... size - 1, kept on the backend."""

@@ -172,14 +172,22 @@ def search_pairs(
 
 
 def members_of(
-    backend: Backend, key: Array, count: int, position: Array | None = None
+    backend: Backend,
+    key: Array,
+    count: int,
+    position: Array | None = None,
+    into: NeighborList | None = None,
 ) -> NeighborList:
     """The particles of each of `count` keys, in order, as rows of a list.
 
     Args:
         key: (n,) of kind "index"; `count` stands for none. position: (dim, n) [m], where loops
-            read it.
+            read it. into: an earlier list of as many, whose arrays are written; None for new ones.
     """
     start, order = backend.rows_by_key(key, count + 1)
+    if into is not None:
+        backend.copy(backend.head(start, count + 1), into.row_start)
+        backend.copy(order, into.neighbor)
+        return into
     # loops take the number of particles from the length of the supports
     return NeighborList(backend.head(start, count + 1), order, position, key)

@@ -44,6 +44,7 @@ class Particles:
         self.table: dict[str, Field] = {}
         self._arrays: dict[str, Array] = {}
         self._saved: dict[str, Array] = {}
+        self._save = backend.phase(Particles._run_save)
         self.add(*fields)
 
     def add(self, *fields: str | Field) -> None:
@@ -103,9 +104,13 @@ class Particles:
 
     def save(self) -> None:
         """Remember the kept fields, for `go_back`."""
-        for name, array in self.kept.items():
-            if name not in self._saved:
+        if not self._saved.keys() >= self.kept.keys():
+            for name, array in self.kept.items():
                 self._saved[name] = self.backend.zeros(array.shape, self.table[name].storage)
+        self._save(self, reads=tuple(self._saved.values()))
+
+    def _run_save(self) -> None:
+        for name, array in self.kept.items():
             self.backend.copy(array, self._saved[name])
 
     def go_back(self) -> None:

@@ -51,7 +51,7 @@ def test_means_of_floating_components_are_removed(backend):
     boundary_coefficient[7] = 0.5
     components, _ = found(backend, lines(0, 6), boundary_coefficient=boundary_coefficient)
     values = backend.asarray(np.arange(10.0))
-    square = components.remove_means(values)
+    (square,) = components.remove_means(values)
     assert backend.to_host(values).tolist() == [-2.0, -1.0, 0.0, 1.0, 2.0, 5.0, 6.0, 7.0, 8.0, 9.0]
     assert square == 10.0 + 255.0
 

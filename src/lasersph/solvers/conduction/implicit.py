@@ -130,6 +130,9 @@ class ImplicitStep:
         self.size = 0.0
         self.newton = self.linear = 0
         self.forcing = FIRST_FORCING
+        self._sum_residual = backend.phase(ImplicitStep._run_residual)
+        self._move = backend.phase(ImplicitStep._run_move)
+        self._linearize = backend.phase(ImplicitStep._run_linearization)
 
     def advance(self, state: HeatState, step: float, exchanged: float) -> dict[str, float]:
         """Enthalpies after `step` [s] into the particles; returns the energies of the step.
@@ -174,11 +177,8 @@ class ImplicitStep:
 
     def assemble(self, step: float) -> Rows | None:
         """Diagonal C and mask of Newton's matrix; returns the particles on plateaus, if any."""
-        backend = self.body.backend
-        fields = {"h": self.h, "slope": self.slope, "m": self.mass, "dq": self.exchange.slope}
-        out, reduce = (self.C, self.mask), (None, "min")
-        (freest,) = backend.pointwise(linearize, fields, out, reduce=reduce, s=step, **self.T_curve)
-        return backend.rows_where(self.mask, 0.0) if freest == 0.0 else None
+        (freest,) = self._linearize(self, reads=(), s=step)
+        return self.body.backend.rows_where(self.mask, 0.0) if freest == 0.0 else None
 
     def solve(self, step: float, wanted: float) -> None:
         """Newton's change of the potential, (C + s G) dP = r, to the residual wanted [J]."""
@@ -193,9 +193,8 @@ class ImplicitStep:
         """Apply the change, halved until the residual falls; then whatever the last one gives."""
         backend, damping = self.body.backend, 1.0
         backend.copy(self.h, self.start)
-        fields, out = {"h": self.start, "dP": self.solver.solution}, (self.h, self.P, self.slope)
         for _ in range(HALVINGS):
-            backend.pointwise(move, fields, out, damping=damping, **self.curve)
+            self._move(self, reads=(), damping=damping)
             if plateau is not None:
                 self._balance(step, plateau)
             found, energy = self.find_residual(step)
@@ -220,17 +219,25 @@ class ImplicitStep:
             backend.pointwise(interpolate, {"x": self.h}, self.T, rows=rows, **self.nodes)
         absorbed = body.light.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
-        error, walls, self.size = backend.pair_sum(
-            flow,
-            body.pairs.neighbors,
-            self._fields(),
-            (self.r, None, None, None),
-            finish=residual,
-            reduce=(None, "sum", "sum", "sum"),
-            s=step,
-        )
+        pairs, power = body.pairs, self.exchange.power
+        reads = (pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights, power)
+        error, walls, self.size = self._sum_residual(self, reads=reads, s=step)
         surface = {"absorbed": absorbed, "lost": lost * step, "removed": removed * step}
         return error, surface | {"walls": walls * step}
+
+    def _run_residual(self, s: float) -> None:
+        pairs, out, reduce = self.body.pairs.neighbors, (self.r, None, None, None), ("sum",) * 3
+        how = {"finish": residual, "reduce": (None, *reduce)}
+        self.body.backend.pair_sum(flow, pairs, self._fields(), out, **how, s=s)
+
+    def _run_move(self, damping: float) -> None:
+        fields, out = {"h": self.start, "dP": self.solver.solution}, (self.h, self.P, self.slope)
+        self.body.backend.pointwise(move, fields, out, damping=damping, **self.curve)
+
+    def _run_linearization(self, s: float) -> None:
+        fields = {"h": self.h, "slope": self.slope, "m": self.mass, "dq": self.exchange.slope}
+        out, reduce = (self.C, self.mask), (None, "min")
+        self.body.backend.pointwise(linearize, fields, out, reduce=reduce, s=s, **self.T_curve)
 
     def _balance(self, step: float, rows: Rows) -> None:
         """Balance the particles `rows` with their neighbors fixed."""

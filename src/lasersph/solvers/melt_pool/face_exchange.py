@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.particles.faces import PLANE
 from lasersph.solvers.melt_pool.block import Block
@@ -117,39 +117,56 @@ class FaceExchange:
         faces = range(0 if potential is None else len(PLANE))
         names = [f"{name}_{k}" for name in "ab" for k in faces]
         self._sums = {name: backend.zeros(count) for name in names}
+        self._sum_walls = backend.phase(FaceExchange._run_walls)
+        self._sum_heat = backend.phase(FaceExchange._run_heat)
+        self._sum_viscous_forces = backend.phase(FaceExchange._run_viscous_forces)
+        self._sum_pressure = backend.phase(FaceExchange._run_pressure)
 
     def find_walls(self, block: Block) -> None:
         """Sums over the pairs with each face, while weights toward ghosts are not yet set to 0."""
         if self.potential is not None and block.has_walls:
-            fields = {"g_ij": block.weights, "heat_face": block.walls["heat_face"]}
-            self.backend.pair_sum(
-                heat_terms,
-                block.pairs,
-                fields | block.rules,
-                tuple(self._sums.values()),
-                finish=sums_of_row,
-                rows=block.rows_near_faces,
-                closest=block.closest,
-            )
+            self._sum_walls(self, block, reads=block.arrays, rows=(block.rows_near_faces,))
+
+    def _run_walls(self, block: Block) -> None:
+        fields = {"g_ij": block.weights, "heat_face": block.walls["heat_face"]}
+        self.backend.pair_sum(
+            heat_terms,
+            block.pairs,
+            fields | block.rules,
+            tuple(self._sums.values()),
+            finish=sums_of_row,
+            rows=block.rows_near_faces,
+            closest=block.closest,
+        )
 
     def book_heat(self, block: Block, step: float) -> None:
         """Add the heat of a step that has just been taken."""
         if self.potential is not None and block.has_walls:
-            found = self.backend.pointwise(
-                heat_of_row,
-                {"P": self.potential} | self._sums,
-                (None,) * len(PLANE),
-                rows=block.rows_near_faces,
-                reduce=("sum",) * len(PLANE),
-            )
-            add_to(self.heat, found, step)
+            rows = block.rows_near_faces
+            add_to(self.heat, self._sum_heat(self, rows, reads=(), rows=(rows,)), step)
+
+    def _run_heat(self, rows: Rows) -> None:
+        fields, out = {"P": self.potential} | self._sums, (None,) * len(PLANE)
+        reduce = ("sum",) * len(PLANE)
+        self.backend.pointwise(heat_of_row, fields, out, rows=rows, reduce=reduce)
 
     def book_viscous_forces(self, block: Block, flow: Flow, step: float) -> None:
         """Add the momentum of a viscous step that has just been taken."""
         if self.potential is None:
             return
-        fields = {"v": flow.extend_velocity(flow.viscous.velocity), "g_ij": block.viscous_weights}
-        found = self.backend.pair_sum(
+        reads = (flow.stress_jump, block.viscous_weights, *block.arrays)
+        rows = (block.rows_near_faces,)
+        seen = {"step": flow.viscous_step(step)}
+        found = self._sum_viscous_forces(self, block, flow, reads=reads, rows=rows, **seen)
+        factor = step * flow.liquid.density * flow.liquid.viscosity
+        add_to(self.impulse, found[: len(PLANE)], factor)
+        if not flow.has_tangents:
+            add_to(self.pressing, outward(found[len(PLANE) :]), -factor)
+
+    def _run_viscous_forces(self, block: Block, flow: Flow, step: float) -> None:
+        v, weights = flow.extend_velocity(flow.viscous.velocity, step), block.viscous_weights
+        fields = {"v": v, "g_ij": weights}
+        self.backend.pair_sum(
             viscous_terms,
             block.pairs,
             fields | block.walls,
@@ -158,17 +175,26 @@ class FaceExchange:
             rows=block.rows_near_faces,
             reduce=("sum",) * (2 * len(PLANE)),
         )
-        factor = step * flow.liquid.density * flow.liquid.viscosity
-        add_to(self.impulse, found[: len(PLANE)], factor)
-        if not flow.has_tangents:
-            add_to(self.pressing, outward(found[len(PLANE) :]), -factor)
 
     def book_pressure(self, block: Block, flow: Flow, step: float) -> None:
         """Add the momentum of the pressure that has just corrected the velocity."""
         if self.potential is None or flow.pressure_seen is None:
             return
         fields, lowest = flow.pressure_seen
-        found = self.backend.pair_sum(
+        found = self._sum_pressure(
+            self,
+            block,
+            fields,
+            reads=(*fields.values(), *block.arrays),
+            rows=(block.rows_near_faces,),
+        )
+        add_to(self.pressing, outward(found), step)
+        (x_0, x_1), (z_0, z_1) = block.conditions.box
+        width, height = x_1 - x_0, z_1 - z_0
+        add_to(self.pressing, (height, height, width, width), step * lowest)
+
+    def _run_pressure(self, block: Block, fields: dict[str, Array]) -> None:
+        self.backend.pair_sum(
             pressure_terms,
             block.pairs,
             fields | block.walls | {"V": block.volume},
@@ -177,10 +203,6 @@ class FaceExchange:
             rows=block.rows_near_faces,
             reduce=("sum",) * len(PLANE),
         )
-        add_to(self.pressing, outward(found), step)
-        (x_0, x_1), (z_0, z_1) = block.conditions.box
-        width, height = x_1 - x_0, z_1 - z_0
-        add_to(self.pressing, (height, height, width, width), step * lowest)
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step."""

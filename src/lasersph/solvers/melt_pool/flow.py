@@ -120,6 +120,7 @@ class Flow:
         self._correct_kernel = backend.phase(Flow._run_kernel)
         self._find_forces = backend.phase(Flow._run_forces)
         self._find_load = backend.phase(Flow._run_load)
+        self._take_pressure = backend.phase(Flow._run_dummies)
         self._find_lowest = backend.phase(Flow._run_lowest)
         self._accelerate = backend.phase(Flow._run_acceleration)
 
@@ -166,15 +167,10 @@ class Flow:
             return
         block = self.block
         fields = {"v": extended, "m": block.gather(self.relative_viscosity), "C": self._C}
-        self.backend.pair_sum(
-            viscosity.transposed_terms,
-            block.pairs,
-            fields | {"G_ij": block.gradient, "b": self.body_force},
-            self.body_force,
-            finish=viscosity.transposed_force,
-            rows=kinds.fluid_rows,
-            nu=self.liquid.viscosity,
-        )
+        fields |= {"G_ij": block.gradient, "b": self.body_force}
+        how = {"finish": viscosity.transposed_force, "rows": kinds.fluid_rows}
+        terms_of, nu = viscosity.transposed_terms, self.liquid.viscosity
+        self.backend.pair_sum(terms_of, block.pairs, fields, self.body_force, **how, nu=nu)
 
     def correct_kernel(self, rows: Rows) -> None:
         """Correction matrices of some rows at the present positions."""
@@ -187,10 +183,9 @@ class Flow:
     def predict(self, T: Array, kinds: ParticleKinds, step: float) -> None:
         """Velocity after viscous and body forces (68)."""
         backend, block = self.backend, self.block
-        # viscosity at the end of the step; of second order, in its middle, below a moving surface
-        ahead = 0.5 * step if self.has_tangents else step
-        self.wall_pressure.find(block, self.pressure, self._C, ahead)
-        reads, rows = (self.stress_jump, *block.arrays), (kinds.fluid_rows,)
+        ahead, rows = self.viscous_step(step), (kinds.fluid_rows,)
+        self.wall_pressure.find(block, self.pressure, self._C)
+        reads = self.stress_jump, *block.arrays
         self._find_forces(self, T, kinds, reads=reads, rows=rows, step=ahead)
         self.iterations["viscosity"] = self.viscous.advance(
             block, self.velocity, self.body_force, self._extended, kinds, ahead
@@ -213,7 +208,7 @@ class Flow:
             g=liquid.gravity,
             up=upward(2),
         )
-        self._extended = self.extend_velocity(self.velocity)
+        self._extended = self.extend_velocity(self.velocity, step)
         self._add_transposed_stress(self._extended, kinds)
 
     @property
@@ -222,10 +217,15 @@ class Flow:
         beyond = None if self.surface is None else self.surface.ghosts
         return self.ghost_velocity_jump() if beyond is None else beyond.stress_jump
 
-    def extend_velocity(self, v: Array) -> Array:
+    def viscous_step(self, step: float) -> float:
+        """From v^n to what viscosity sees [s]: the end of a step; its middle below a surface that
+        moves, of second order."""
+        return 0.5 * step if self.has_tangents else step
+
+    def extend_velocity(self, v: Array, step: float) -> Array:
         """v (2, n) on the block with ghosts (2, M), as the viscosity of a step sees it [m/s]."""
         extended = self.block.extend_velocity(v, self.stress_jump)
-        return self.wall_pressure.add_to(extended, self.block)
+        return self.wall_pressure.add_to(extended, self.block, step)
 
     def project(self, kinds: ParticleKinds, step: float) -> None:
         """Pressure that makes the velocity free of divergence (69).
@@ -375,16 +375,19 @@ class Flow:
         return self.surface is not None and self.surface.ghosts is not None
 
     def _set_dummy_pressure(self, kinds: ParticleKinds) -> None:
-        """Give dummies the pressure of the edge."""
-        backend, block, head = self.backend, self.block, self.backend.head
-        backend.copy(self._p, head(self.pressure, block.count))
-        if kinds.dummy_rows.shape[0] == 0:
-            return
-        fields = {"p": block.gather(self.pressure), "unknown": block.gather(kinds.unknown)}
-        fields["dummy"], rows = kinds.dummy, kinds.dummy_rows
-        mean, finish = terms.edge_pressure_terms, terms.dummy_pressure
-        backend.pair_sum(mean, block.pairs, fields, self._p, finish=finish, rows=rows)
-        backend.copy(self._p, head(self.pressure, block.count))
+        """Take the pressure of the block; dummies have that of the edge."""
+        self._take_pressure(self, kinds, reads=self.block.arrays, rows=(kinds.dummy_rows,))
+
+    def _run_dummies(self, kinds: ParticleKinds) -> None:
+        backend, block, rows = self.backend, self.block, kinds.dummy_rows
+        pressure = backend.head(self.pressure, block.count)
+        backend.copy(self._p, pressure)
+        if not kinds.is_box:
+            fields = {"p": block.gather(self.pressure), "unknown": block.gather(kinds.unknown)}
+            fields["dummy"], finish = kinds.dummy, terms.dummy_pressure
+            mean = terms.edge_pressure_terms
+            backend.pair_sum(mean, block.pairs, fields, self._p, finish=finish, rows=rows)
+            backend.copy(self._p, pressure)
 
     def stop(self, kinds: ParticleKinds) -> None:
         """Stop everything but the fluid; find the largest speed."""

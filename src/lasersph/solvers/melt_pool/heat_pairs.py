@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from lasersph.compute.array_types import Rows
 from lasersph.compute.splice import PairRows, splice
 from lasersph.compute.vectors import dot
 from lasersph.solvers.conduction.body import Body
@@ -45,6 +46,7 @@ class HeatPairs:
     def __init__(self, body: Body) -> None:
         self.backend, self.body = body.backend, body
         self._renewed = body.particles["has_moving_pairs"]
+        self._weigh = body.backend.phase(HeatPairs._run_weighing)
 
     def even_out_flux(self, block: Block) -> None:
         """Scale the flux through a surface that moves so that all of it enters, however rows lie.
@@ -74,27 +76,11 @@ class HeatPairs:
         all rows are found, as in a box, the list of the block is that of the body. Weights of the
         block become those between particles: 0 toward ghosts beyond a Dirichlet face.
         """
-        backend, body, pairs = self.backend, self.body, self.body.pairs
-        rows = None
+        backend, body, pairs, rows = self.backend, self.body, self.body.pairs, None
         if block.has_row is not None:
             rows = backend.rows_where(backend.head(block.has_row, block.complete_rows), 1.0)
-        fields = {"g_ij": block.weights} | block.rules
-        if block.has_walls:
-            out = (pairs.boundary_coefficient, body.wall_flow, body.wall_heat)
-            near = block.rows_near_faces
-            backend.pointwise(no_walls, {"A": out[0]}, out, rows=rows)
-            backend.pair_sum(
-                wall_terms,
-                block.pairs,
-                fields,
-                out,
-                rows=near,
-                finish=wall_sums,
-                closest=block.closest,
-            )
-            backend.pair_values(inner_weight, block.pairs, fields, block.weights, rows=near)
-        backend.pair_sum(weight_of, block.pairs, {"g_ij": block.weights}, pairs.total, rows=rows)
-        backend.pointwise(one, {"mark": self._renewed}, self._renewed, rows=rows)
+        listed = (block.rows_near_faces,) if rows is None else (block.rows_near_faces, rows)
+        self._weigh(self, block, rows, reads=block.arrays, rows=listed)
         row_start, neighbor = block.pairs.row_start, block.without_ghosts().neighbor
         if rows is None:
             pairs.neighbors = replace(pairs.neighbors, row_start=row_start, neighbor=neighbor)
@@ -110,3 +96,17 @@ class HeatPairs:
             pairs.neighbors, row_start=joined.row_start, neighbor=joined.neighbor
         )
         pairs.weights = joined.values
+
+    def _run_weighing(self, block: Block, rows: Rows | None) -> None:
+        """Terms of walls, weights between particles and their sums."""
+        backend, body, pairs = self.backend, self.body, self.body.pairs
+        fields = {"g_ij": block.weights} | block.rules
+        if block.has_walls:
+            out = (pairs.boundary_coefficient, body.wall_flow, body.wall_heat)
+            near, closest = block.rows_near_faces, block.closest
+            backend.pointwise(no_walls, {"A": out[0]}, out, rows=rows)
+            how = {"rows": near, "finish": wall_sums, "closest": closest}
+            backend.pair_sum(wall_terms, block.pairs, fields, out, **how)
+            backend.pair_values(inner_weight, block.pairs, fields, block.weights, rows=near)
+        backend.pair_sum(weight_of, block.pairs, {"g_ij": block.weights}, pairs.total, rows=rows)
+        backend.pointwise(one, {"mark": self._renewed}, self._renewed, rows=rows)

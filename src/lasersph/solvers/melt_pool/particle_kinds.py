@@ -69,6 +69,7 @@ class ParticleKinds:
         self.fluid, self.unknown = backend.zeros(count), backend.zeros(count)
         self.dummy, self.active = backend.zeros(count), backend.zeros(count)
         self._is_marked = False
+        self._mark_walls = backend.phase(ParticleKinds._run_walls)
 
     def find_fluid(self, melt_fraction: Array) -> float:
         """Mark what flows, all of a box; returns how many particles do."""
@@ -98,6 +99,11 @@ class ParticleKinds:
         """Mark edge and dummies among the particles of a block; a box has none."""
         if self.is_box:
             return
+        listed = () if block.rows is None else (block.rows,)
+        self._mark_walls(self, block, reads=block.arrays, rows=listed)
+        self._find_rows()
+
+    def _run_walls(self, block: Block) -> None:
         backend, count = self.backend, block.count
         marks = (self.kind, self.unknown, self.dummy, self.active)
         for mark in marks:
@@ -113,7 +119,6 @@ class ParticleKinds:
             rows=block.rows,
             edge_distance=near,
         )
-        self._find_rows()
 
     def _find_rows(self) -> None:
         backend = self.backend

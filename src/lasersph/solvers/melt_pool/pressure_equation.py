@@ -130,6 +130,9 @@ class PressureEquation:
         self._correction = GridCorrection(backend, count, support, period)
         self._nothing, self._inner = backend.zeros(count), backend.zeros(0)
         self._launches: tuple[Launch | None, ...] = (None,) * 3
+        self._sum_weights = backend.phase(PressureEquation._run_weights)
+        self._begin = backend.phase(PressureEquation._run_begin)
+        self._remove_means = backend.phase(PressureEquation._run_means)
         self._d, self._b, self._r, self._z, self._s, self._q = (
             backend.zeros(count) for _ in range(6)
         )
@@ -155,13 +158,12 @@ class PressureEquation:
         position = neighbors.position
         assert position is not None
         components.find(position, mask, self._coefficient)
-        fields = {"g_ij": weights, "component": components.number, "a": self._coefficient}
-        backend.pair_sum(inner, neighbors, fields, self._d, finish=total_weight)
         if components.count > 1:
-            if self._inner.shape[0] < weights.shape[0]:
+            if self._inner.shape[0] != weights.shape[0]:
                 self._inner = backend.zeros(weights.shape[0])
             self._weights = self._inner
-            backend.pair_values(inner, neighbors, fields, self._inner)
+        reads = (neighbors.neighbor, weights, self._weights, self._coefficient)
+        self._sum_weights(self, weights, reads=reads)
         self._correction.prepare(position, components.mask, volume, self._coefficient)
 
     def solve(
@@ -176,30 +178,48 @@ class PressureEquation:
         Returns:
             The outcome; with a residual above the tolerance where the iteration ended without.
         """
-        backend, components, nothing = self.backend, self.components, self._nothing
-        mask, p, r, s, q = components.mask, pressure, self._r, self._s, self._q
-        fields = {
-            "p": p,
-            "r": r,
-            "z": self._z,
-            "s": s,
-            "q": q,
-            "d": self._d,
-            "mask": mask,
-            "b": b,
-            "a": self._coefficient,
-            "f": nothing if flux is None else flux,
-            "p_b": nothing if value is None else value,
-            "g_ij": self._weights,
-        }
+        nothing, neighbor = self._nothing, self._neighbors.neighbor
+        given = nothing if value is None else value, nothing if flux is None else flux
+        reads = (b, pressure, *given, neighbor, self._weights, self._coefficient)
+        parts = self.components.arrays
+        square, r_r = self._begin(self, b, pressure, *given, reads=(*reads, *parts))
+        scale, mask = square**0.5, self.components.mask
+        correction = self._correction.correction(self._r, self._d, mask, self._z)
+        wanted, iterations = (self.tolerance * scale) ** 2, 0.0
+        if r_r > wanted:
+            (r_z,) = correction()
+            iterations, _, r_r = self.backend.routine(
+                conjugate_gradients,
+                (*self._steps, correction),
+                1.0,
+                r_z,
+                r_r,
+                wanted,
+                self.max_iterations,
+            )[:3]
+        self._remove_means(self, pressure, reads=(pressure, *parts))
+        return Outcome(int(iterations), r_r**0.5 / scale if scale > 0.0 else 0.0)
+
+    def _run_weights(self, weights: Array) -> None:
+        """Diagonal of the operator, and its weights where there are several components."""
+        backend, neighbors = self.backend, self._neighbors
+        fields = {"g_ij": weights, "component": self.components.number, "a": self._coefficient}
+        backend.pair_sum(inner, neighbors, fields, self._d, finish=total_weight)
+        if self._weights is not weights:
+            backend.pair_values(inner, neighbors, fields, self._inner)
+
+    def _run_begin(self, b: Array, p: Array, p_b: Array, f: Array) -> None:
+        """Prepare the iteration; reduces b b and r r of the first guess."""
+        backend, components = self.backend, self.components
+        r, s, q, mask = self._r, self._s, self._q, components.mask
+        fields = {"p": p, "r": r, "z": self._z, "s": s, "q": q, "d": self._d, "mask": mask}
+        fields |= {"b": b, "a": self._coefficient, "f": f, "p_b": p_b, "g_ij": self._weights}
         backend.pointwise(masked_value, fields, p)
         backend.pointwise(right_side, fields, self._b)
-        scale = components.remove_means(self._b) ** 0.5
+        components.remove_means(self._b)
         given, reduce = fields | {"b": self._b}, (None, "sum")
-        (r_r,) = backend.pair_sum(
-            neighbor_value, self._neighbors, given, (r, None), finish=rest, reduce=reduce
-        )
-        correction = self._correction.correction(r, self._d, mask, self._z)
+        how = {"finish": rest, "reduce": reduce}
+        backend.pair_sum(neighbor_value, self._neighbors, given, (r, None), **how)
         turned, multiplied, advanced = self._launches
         turned = backend.prepare(turn, fields, s, again=turned, beta=0.0)
         multiplied = backend.prepare(
@@ -214,17 +234,7 @@ class PressureEquation:
         out, reduce = (p, r, None, None), (None, None, "sum", "sum")
         advanced = backend.prepare(advance, fields, out, reduce=reduce, again=advanced, alpha=0.0)
         self._launches = turned, multiplied, advanced
-        wanted, iterations = (self.tolerance * scale) ** 2, 0.0
-        if r_r > wanted:
-            (r_z,) = correction()
-            iterations, _, r_r = backend.routine(
-                conjugate_gradients,
-                (Step([turned, multiplied], "beta"), Step([advanced], "alpha"), correction),
-                1.0,
-                r_z,
-                r_r,
-                wanted,
-                self.max_iterations,
-            )[:3]
-        components.remove_means(p)
-        return Outcome(int(iterations), r_r**0.5 / scale if scale > 0.0 else 0.0)
+        self._steps = Step([turned, multiplied], "beta"), Step([advanced], "alpha")
+
+    def _run_means(self, p: Array) -> None:
+        self.components.remove_means(p)

@@ -41,18 +41,18 @@ class WallPressure:
     def __init__(self, backend: Backend, density: float, viscosity: float, relative: Array) -> None:
         self.backend, self.density, self.viscosity = backend, density, viscosity
         self._relative, count = relative, relative.shape[0]
-        self._a, self._step = backend.zeros((2, count)), 0.0
+        self._a = backend.zeros((2, count))
 
-    def find(self, block: Block, pressure: Array, C: Array, step: float) -> None:
+    def find(self, block: Block, pressure: Array, C: Array) -> None:
         """Take the pressure (n,) [Pa] at the present positions.
 
         Args:
-            C: (2, 2, count) corrections of the gradient. step: from v^n to what viscosity sees [s].
+            C: (2, 2, count) corrections of the gradient.
         """
         p = block.pressure_across(pressure) if block.has_still_walls else None
         if p is None:
             return
-        self._step, fields = step, {"p": p, "G_ij": block.gradient, "C": C}
+        fields = {"p": p, "G_ij": block.gradient, "C": C}
         self.backend.pair_sum(
             difference_term,
             block.pairs,
@@ -63,8 +63,12 @@ class WallPressure:
             density=self.density,
         )
 
-    def add_to(self, v: Array, block: Block) -> Array:
-        """Velocities (2, M) with those of ghosts beyond walls as above [m/s]."""
+    def add_to(self, v: Array, block: Block, step: float) -> Array:
+        """Velocities (2, M) with those of ghosts beyond walls as above [m/s].
+
+        Args:
+            step: from v^n to what viscosity sees [s].
+        """
         if block.has_still_walls:
-            block.add_at_walls(v, self._a, self._relative, self._step, self.viscosity)
+            block.add_at_walls(v, self._a, self._relative, step, self.viscosity)
         return v
