@@ -7,9 +7,12 @@ python benchmarks/one_change.py --only cells       speed of steel by `clip` over
 python benchmarks/one_change.py --only gradients   mean |dT/dx| and outward layer at 57 ns, by place
 python benchmarks/one_change.py --only zones       fine rows of Table 5 beside recorded pools
 python benchmarks/one_change.py --only norms       eq. (33) over particles and times; eq. (37)
+python benchmarks/one_change.py --only weights     errors at 1 and 0.25 um with corrected weights
+python benchmarks/one_change.py --only depths      crater by rule of leaving, reflectivity, spacing
 
-The last is of [Alshaer2017] and stands in the README of `pulsed-heating`; the others are of
-[Demuth2020] and stand in those of `dlip-tables` (zones) and `dlip-figures`.
+The last three are of [Alshaer2017] and stand in the README of `pulsed-heating` and, depths, of
+`ablation-column`; the others are of [Demuth2020] and stand in those of `dlip-tables` (zones) and
+`dlip-figures`.
 """
 
 from __future__ import annotations
@@ -28,9 +31,10 @@ from lasersph.observers.flow_extrema import local_maxima
 from lasersph.observers.interpolation import interpolate
 from lasersph.observers.surface_speed import zero_of
 from lasersph.output import Run
+from lasersph.validation.ablation_depth.column import Column
 from lasersph.validation.dlip_figures.rows import PRINTED, details, speed_of
 from lasersph.validation.pulsed_heating.light import Light
-from lasersph.validation.pulsed_heating.rows import lattice
+from lasersph.validation.pulsed_heating.rows import lattice, surface
 from lasersph.validation.study import Study
 
 HEATED = (
@@ -60,6 +64,13 @@ BELOW, SUPPORTS = 20, 2 * 3.75 * 3.97
 published spacing, which our own fine rows hold below the pool."""
 PRINTED_ERROR, PRINTED_ORDER = -0.0086, 1.12
 """Eqs. (36) and (35) of [Alshaer2017]."""
+DEPTHS = (
+    ("published", 0.80, 0.2),
+    ("enthalpy", 0.80, 0.2),
+    ("enthalpy", 0.75, 0.2),
+    ("enthalpy", 0.75, 0.05),
+)
+"""Rule of leaving, reflectivity, spacing [um] of a column that is ablated: one change at a time."""
 
 
 class Surface(NamedTuple):
@@ -293,7 +304,39 @@ def error_norms(one: Run, light: Light, spacing: float) -> dict[str, float]:
     return norms
 
 
-TABLES = (heat, rises, cells, gradients, zones, norms)
+def weights(study: Study) -> None:
+    """Error of particle 1 at the end of the pulse, which falls by a printed 85 % to 0.25 um."""
+    heating = Study("pulsed-heating", study.folder, threads=1)
+    light = Light(heating.plan.intensity, heating.plan.duration)
+    exact = float(light.temperature(0.0, light.duration))
+    for dimension in (1, 3):
+        for kind in ("plain", "second-moment"):
+            errors = []
+            for spacing in (1.0, 0.25):
+                settings = (*lattice(dimension, spacing), f"solver.weights={kind}")
+                label = f"weights-{dimension}-{kind}-{spacing}"
+                end = "time.end=100 ns", "output.snapshots.interval=100 ns"
+                errors.append(exact - float(surface(heating.run(label, *settings, *end))[-1]))
+            fall = 100.0 * (1.0 - errors[1] / errors[0])
+            text = f"{errors[0]:.1f} K at 1 um, {errors[1]:.1f} K at 0.25 um"
+            print(f"{dimension}-D, {kind}: {text}, -{fall:.1f} %", flush=True)
+
+
+def depths(study: Study) -> None:
+    """Depth after one pulse of 10 J/cm2: printed is 0.6 um."""
+    ablation = Study("ablation-column", study.folder, threads=1)
+    column = [setting for setting in ablation.plan.column if not setting.startswith("ejection.")]
+    for model, R, spacing in DEPTHS:
+        settings = [f"ejection.model={model}", f"particles.spacing={spacing} um"]
+        settings.append(f"domain.width={8.0 * spacing} um")
+        # the preset has R = 0.80
+        rule = "ejection.preset=timeline" if model == "published" else f"laser.reflectivity={R}"
+        one = ablation.run(f"depth-{model}-{R}-{spacing}", *column, *settings, rule)
+        depth = Column.of(one).smooth
+        print(f"{model} rule, R = {R}, {spacing} um: {depth:.2f} um", flush=True)
+
+
+TABLES = (heat, rises, cells, gradients, zones, norms, weights, depths)
 
 
 def main() -> None:
