@@ -215,6 +215,11 @@ class Launch:
         return bool(self.reductions)
 
     @property
+    def precision(self) -> str:
+        """Of its real numbers."""
+        return "float64" if self.numbers[0].typecode == "d" else "float32"
+
+    @property
     def threads(self) -> int:
         """Threads that take part."""
         return self._frame[2]

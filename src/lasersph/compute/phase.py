@@ -53,6 +53,7 @@ class Phase:
         self._seen: list[Any] = []
         self._replay: Replay | None = None
         self._numbers: dict[str, float] = {}
+        self._rows: list[Any] = []
         self._start = list_function(loops.precision) if loops.launcher.rebinds else None
 
     def __call__(
@@ -81,11 +82,14 @@ class Phase:
                 refuse_change(before, found, numbers)
             elif start is not None:
                 self._replay, self._numbers = replay_of(found, rows, numbers), numbers
+                self._rows = [unwrap(one) for one in rows]
             return found.results
-        for chosen, launches in zip(rows, replay.listed, strict=True):
-            host = unwrap(chosen)
-            for launch in launches:
-                launch.take_rows(host)
+        chosen = [unwrap(one) for one in rows]
+        for one, last, launches in zip(chosen, self._rows, replay.listed, strict=True):
+            if one is not last:
+                for launch in launches:
+                    launch.take_rows(one)
+        self._rows = chosen
         if numbers != self._numbers:
             self._numbers = numbers
             for launch, names in replay.numbered:

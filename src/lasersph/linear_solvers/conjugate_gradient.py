@@ -118,8 +118,10 @@ class ConjugateGradient:
         self.solution, self.residual = self._v["x"], 0.0
         v = self._v
         out, reduce = (v["x"], v["r"], v["z"], None, None), (None, None, None, "sum", "sum")
-        self._advance = backend.prepare(advance, v, out, reduce=reduce, alpha=0.0)
+        advanced = backend.prepare(advance, v, out, reduce=reduce, alpha=0.0)
         self._turn: Launch | None = None
+        self._steps = Step([]), Step([advanced], "alpha"), Step([])
+        self._start = backend.phase(ConjugateGradient._run_start)
         self._multigrid: Multigrid | None = None
         self._is_set_up = False
         # held no longer than the operator has them: as much memory as the pairs in use
@@ -148,16 +150,9 @@ class ConjugateGradient:
         v, operator = self._v, self.operator
         if self._given and not are_same((operator.neighbors, operator.weights), self._given):
             self._given, self.factors = (), None
-        fields = {
-            "C": C,
-            "S": operator.total,
-            "a": operator.boundary_coefficient,
-            "mask": mask,
-            "b": b,
-        }
-        out = (*[v[name] for name in VECTORS], None, None, None)
-        reduce = (None,) * len(VECTORS) + ("sum", "sum", "max")
-        rz, error, stiffest = self.backend.pointwise(start, fields, out, reduce=reduce, s=s)
+        fields = {"C": C, "S": operator.total, "a": operator.boundary_coefficient}
+        fields |= {"mask": mask, "b": b}
+        rz, error, stiffest = self._start(self, fields, reads=tuple(fields.values()), s=s)
         factors = self._factored() if stiffest <= FACTORED and error > residual else None
         if factors:
             iterations, self.residual = factors.solve(
@@ -171,14 +166,14 @@ class ConjugateGradient:
             return iterations
         turned = self._bind()
         multigrid = self._prepared(C, mask, s) if stiffest > STIFF else None
-        precondition = Step([])
+        turns, advances, precondition = self._steps
         if multigrid:
             precondition = multigrid.correction(v["r"], v["z"], mask)
             (rz,) = precondition()
         turned.set({"s": s})
         iterations, _, self.residual = self.backend.routine(
             conjugate_gradients,
-            (Step([turned], "beta"), Step([self._advance], "alpha"), precondition),
+            (turns, advances, precondition),
             float(bool(multigrid)),
             rz,
             error,
@@ -186,6 +181,11 @@ class ConjugateGradient:
             max_iterations,
         )[:3]
         return int(iterations)
+
+    def _run_start(self, fields: dict[str, Array], s: float) -> None:
+        out = (*[self._v[name] for name in VECTORS], None, None, None)
+        reduce = (None,) * len(VECTORS) + ("sum", "sum", "max")
+        self.backend.pointwise(start, fields, out, reduce=reduce, s=s)
 
     def _factored(self) -> IncompleteFactors | None:
         """Incomplete factors of the pairs that the solver was made with, while they stay."""
@@ -213,7 +213,7 @@ class ConjugateGradient:
             return self._turn
         self._bound = now
         used.neighbors, used.weights = operator.neighbors, self._weights()
-        self._turn = self.backend.prepare(
+        turned = self.backend.prepare(
             neighbor,
             v | {"g_ij": used.weights},
             (v["p"], v["q"], None),
@@ -224,7 +224,9 @@ class ConjugateGradient:
             beta=0.0,
             s=0.0,
         )
-        return self._turn
+        if turned is not self._turn:
+            self._turn, self._steps = turned, (Step([turned], "beta"), *self._steps[1:])
+        return turned
 
     def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
         """Multigrid for this matrix; levels are built when first needed, from the first pairs,

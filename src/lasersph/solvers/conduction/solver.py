@@ -65,6 +65,7 @@ class Conduction:
         backend: Backend = body.backend
         self.recession = Recession(body) if recedes else None
         self._before = backend.zeros(body.count)
+        self._update_temperature = backend.phase(Conduction._run_temperature)
         if settings.scheme == "explicit":
             self.scheme: ExplicitStep | ImplicitStep = ExplicitStep(body, self.exchange)
             self._stable = self.scheme.stable_step()
@@ -194,21 +195,23 @@ class Conduction:
             state.energy["removed"] += self.recession.advance()
         energy = self.scheme.advance(state, step, self._exchanged())
         discarded = self._discard()
-        body.update_temperature()
+        (state.temperature_change,) = self._update_temperature(self, reads=())
         if self.settings.evaporates:
             self.exchange.accumulate(particles["evaporated_mass"], step)
         if self.recession is not None:
             state.recession = self.recession.speed(self.exchange.mass_flux)
         self._account(energy, discarded)
-        fields = {"T": temperature, "T_old": self._before}
-        (state.temperature_change,) = backend.pointwise(
-            temperature_change, fields, (None,), reduce=("max",)
-        )
         if self.laser is not None and self.laser.pulse.active(state.time, state.time + step):
             state.lit_until = state.time + step
         state.time_step_before = state.time_step
         state.time, state.time_step = state.time + step, step
         state.unclipped_step = step if unclipped_step is None else unclipped_step
+
+    def _run_temperature(self) -> None:
+        """Temperatures and fractions; reduces the largest change of temperature [K]."""
+        self.body.update_temperature()
+        fields = {"T": self.particles["temperature"], "T_old": self._before}
+        self.backend.pointwise(temperature_change, fields, (None,), reduce=("max",))
 
     def _exchanged(self) -> float:
         """Energy that the tolerance of a step refers to [J]."""
