@@ -18,7 +18,7 @@ from lasersph.compute import cuda_device
 
 TESTS, ASSEMBLY = Path(__file__).parent, "assembly.json"
 FILES = ("unit/compute/test_strict_arrays.py", "unit/compute/test_pair_loops.py",
-         "unit/compute/test_search.py", "unit/compute/test_splice.py",
+         "unit/compute/test_search.py", "unit/compute/test_splice.py", "unit/compute/test_phase.py",
          "unit/compute/test_looking.py", "unit/compute/test_connected.py",
          "unit/particles/test_ghosts.py", "unit/solvers/melt_pool/test_near_melt.py",
          "unit/particles/test_cell_grid.py", "unit/particles/test_relative_displacement.py",
