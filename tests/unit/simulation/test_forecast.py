@@ -21,7 +21,7 @@ def test_counts_are_those_of_the_layers() -> None:
     found = forecast(case)
     assert found.particles == layers.particle_count
     assert found.layers == layers.thickness.size
-    assert found.memory > 300 * 2**20 + 400 * found.particles
+    assert found.memory > 330 * 2**20 + 400 * found.particles
     assert found.binding == "light"
     assert found.limits["light"] == pytest.approx(50e-12)
 
@@ -84,9 +84,9 @@ def test_flow_of_a_pool() -> None:
     ],
 )
 def test_memory_by_solver(name, settings, each, pair) -> None:
-    """300 MiB and 400 B a particle, more where a melt flows than where nothing is kept."""
+    """330 MiB and 400 B a particle, more where a melt flows than where nothing is kept."""
     found = forecast(load_case(name, settings))
-    expected = 300.0 * 2**20 + each * found.particles + pair * found.pairs
+    expected = 330.0 * 2**20 + each * found.particles + pair * found.pairs
     assert found.memory == pytest.approx(expected)
 
 
