@@ -175,7 +175,7 @@ TABLES_AT_THE_TOP_SAYS = """\
 :6: beam: unknown key; do you mean "laser.beam"?
 :10: pulse: unknown key; do you mean "laser.pulse"?
 :14: domain.width: missing for 3-D; write e.g. width = "5 um"
-:18: particles.spacing: about 2.5e+11 particles, 300 TiB of memory, more than lasersph can number; take a coarser spacing or a smaller domain
+:18: particles.spacing: about 2.5e+11 particles, 196 TiB of memory, more than lasersph can number; take a coarser spacing or a smaller domain
 :20: solver.sound_speed: missing; write sound_speed = "1000 m/s"
 :24: time.end: "100" has no unit; write e.g. "10 ns"
 """

@@ -80,7 +80,7 @@ def test_flow_of_a_pool() -> None:
     [
         ("dlip-steel", ["solver.kind=conduction"], 400.0, 36.0),
         ("dlip-steel", [], 1200.0, 64.0),
-        ("dam-break", [], 400.0, 24.0),
+        ("dam-break", [], 400.0, 12.0),
     ],
 )
 def test_memory_by_solver(name, settings, each, pair) -> None:

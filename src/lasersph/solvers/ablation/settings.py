@@ -17,8 +17,9 @@ class AblationSettings(SolverSettings):
     """Weakly compressible flow with heat, melting and ejection of the surface."""
 
     reads: ClassVar[frozenset[str]] = frozenset({"traces"})
-    bytes_per_neighbor: ClassVar[int] = 24
-    """Nothing is assembled."""
+    bytes_per_neighbor: ClassVar[int] = 12
+    """A list alone, of 4 B a pair: with the thickest skin, 0.3, 2.2 times the pairs in the support
+    in 3-D, and room for a quarter more."""
 
     kind: Literal["ablation"] = "ablation"
     dimensions: Literal[1, 2, 3] = Field(
