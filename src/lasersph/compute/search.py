@@ -70,8 +70,7 @@ class Room:
         """The neighbors of so many pairs and a few places more, which name particle 0: an array
         that stays while the number of pairs changes a little."""
         given = self._given
-        stays = given.base is self.neighbor and pairs <= given.size <= pairs + pairs // SPARE
-        if not stays:
+        if given.base is not self.neighbor or not pairs <= given.size <= 2 * pairs:
             self._given = self.neighbor[: pairs + pairs // (2 * SPARE)]
         self._given[pairs:] = 0
         return self._given

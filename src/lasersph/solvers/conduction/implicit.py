@@ -21,11 +21,15 @@ added to the enthalpies, so that no energy is lost with it, and its sum is booke
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.launch import Launch
 from lasersph.compute.vectors import interpolate, interpolation_slope, same
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
+from lasersph.linear_solvers.multigrid import are_same
 from lasersph.physics.phase_change import balanced_enthalpy, follow_potential, potential_slope
 from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.conduction.state import HeatState
@@ -130,7 +134,8 @@ class ImplicitStep:
         self.size = 0.0
         self.newton = self.linear = 0
         self.forcing = FIRST_FORCING
-        self._sum_residual = backend.phase(ImplicitStep._run_residual)
+        self._residual: Launch | None = None
+        self._bound: tuple[object, ...] = ()
         self._move = backend.phase(ImplicitStep._run_move)
         self._linearize = backend.phase(ImplicitStep._run_linearization)
 
@@ -219,16 +224,21 @@ class ImplicitStep:
             backend.pointwise(interpolate, {"x": self.h}, self.T, rows=rows, **self.nodes)
         absorbed = body.light.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
-        pairs, power = body.pairs, self.exchange.power
-        reads = (pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights, power)
-        error, walls, self.size = self._sum_residual(self, reads=reads, s=step)
+        error, walls, self.size = self._bind_residual()(s=step)
         surface = {"absorbed": absorbed, "lost": lost * step, "removed": removed * step}
         return error, surface | {"walls": walls * step}
 
-    def _run_residual(self, s: float) -> None:
-        pairs, out, reduce = self.body.pairs.neighbors, (self.r, None, None, None), ("sum",) * 3
-        how = {"finish": residual, "reduce": (None, *reduce)}
-        self.body.backend.pair_sum(flow, pairs, self._fields(), out, **how, s=s)
+    def _bind_residual(self) -> Launch:
+        """Sum of the residual over the pairs that the body has now."""
+        pairs, launch = self.body.pairs, self._residual
+        now = (pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights)
+        if launch is None or not are_same(now, self._bound):
+            out, reduce = (self.r, None, None, None), (None, "sum", "sum", "sum")
+            how: dict[str, Any] = {"finish": residual, "reduce": reduce, "again": launch, "s": 0.0}
+            prepare, fields = self.body.backend.prepare, self._fields()
+            launch = prepare(flow, fields, out, neighbors=pairs.neighbors, **how)
+            self._residual, self._bound = launch, now
+        return launch
 
     def _run_move(self, damping: float) -> None:
         fields, out = {"h": self.start, "dP": self.solver.solution}, (self.h, self.P, self.slope)
