@@ -22,7 +22,7 @@ START, STEPS, FIRST = 54e-9, 20, 3
 THREADS = 2
 LINES = (
     "advect", "flow.predict", "flow.project", "flow.correct", "update_positions", "illuminate",
-    "heat.attempt", "shift", "adjust", "_measure", "_keep",
+    "heat.conduct", "rearrange", "_measure", "_keep",
 )  # fmt: skip
 """What `MeltPool.step` calls, in order; the last two serve observers and retries."""
 
