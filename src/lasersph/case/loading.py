@@ -56,6 +56,10 @@ class CaseFile:
 
     def __init__(self, name_or_path: str | os.PathLike[str]) -> None:
         self.document, moved = convert(read_toml(case_file(name_or_path), tolerant=True))
+        if "case" in self.document.data and "particles" not in self.document.data:
+            file = self.document.file
+            right = f"lasersph sweep, calibrate or find {file} computes it"
+            raise CaseError("is a plan for many runs, not a case", right, file=file)
         self._moved = moved
 
     def contents(self, overrides: Sequence[str] = ()) -> CaseContents:
@@ -110,6 +114,8 @@ def write_new_case(name_or_path: str | os.PathLike[str], target: str | os.PathLi
 def write_new_file(text: str, target: str | os.PathLike[str]) -> Path:
     """Write a file that must not exist yet. Raises CaseError."""
     path = Path(target).expanduser()
+    if not path.parent.is_dir():
+        raise CaseError(f"there is no folder {path.parent}", "make it first", file=str(target))
     try:
         with path.open("x", encoding="utf-8") as stream:
             stream.write(text)

@@ -109,7 +109,8 @@ def _described(error: Exception) -> tuple[str, int]:
         text = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
         context = getattr(error, "ctx", None)
         verb = context.command_path if context else "lasersph"
-        return f"{' '.join(text.split()).rstrip('.')}; see {verb} --help", WRONG
+        text = " ".join(text.replace("Value error, ", "").split()).rstrip(".")
+        return f"{text}; see {verb} --help", WRONG
     if type(error).__name__ == "Abort":
         return "interrupted", INTERRUPTED
     from lasersph.compute.cuda_device import NoDevice

@@ -40,7 +40,14 @@ class Document:
                 return self.origins[head], None
             if head in self.lines:
                 return self.file, self.lines[head]
+            if within := self.origin_within(head):
+                return within, None
         return self.file, None
+
+    def origin_within(self, table: KeyPath) -> str:
+        """Where the first key of a table comes from that the file does not have; empty for none."""
+        own = (origin for path, origin in self.origins.items() if path[: len(table)] == table)
+        return next(own, "")
 
     def at(self, path: KeyPath) -> Any:
         """The raw value at a path, or None."""
@@ -143,6 +150,10 @@ def _syntax_error(message: str, text: str, file: str) -> CaseError:
         problem = "a number with a unit is text in TOML" if number else "text needs quotes in TOML"
         hint = f"write {quoted.partition('#')[0].strip()}"
         return CaseError(problem, hint, key=key, file=file, line=line)
+    if content.count('"') % 2 and "=" in content:
+        key, written = content.partition("=")[0].strip(), content.partition("#")[0].rstrip()
+        problem = "text without its closing quotation mark"
+        return CaseError(problem, f'write {written}"', key=key, file=file, line=line)
     what = what[0].lower() + what[1:] if what else "cannot be read"
     return CaseError(f"not valid TOML: {what}", file=file, line=line)
 

@@ -243,7 +243,7 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
     candidates += _named(alike, table, asked) if alike and not is_of_kind else []
     for target in candidates:
         fits = target in schema.places(document.data) and _fits(path, target, asked)
-        if fits and (document.at(target) is None or path in document.origins):
+        if fits and (document.at(target) is None or document.origin_within(path)):
             shown = target[-1] if target[:-1] == table else ".".join(map(str, target))
             return f'do you mean "{shown}"?', target
         if fits:

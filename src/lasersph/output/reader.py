@@ -229,6 +229,9 @@ def open_run(path: str | Path) -> Run:
         OutputError: there is no run in the folder.
     """
     folder = Path(path)
+    if not folder.is_dir():
+        what = "is a file, not the folder of a run" if folder.exists() else "no such folder"
+        raise OutputError(f"{folder}: {what}")
     if not (folder / "resolved.json").exists():
         raise OutputError(f"{folder} is not a run folder: it has no resolved.json")
     return Run(folder)

@@ -42,6 +42,8 @@ from lasersph.output.particle_file import ParticleFile
 from lasersph.output.transaction import rename_damaged
 
 SUMMARY_SCHEMA = 1
+SHOWN_LETTERS = 60
+"""Of two values that differ; longer ones, tables of laws, would fill the line."""
 LEFT_BY_KILL = "resolved.json" + TEMPORARY_SUFFIX
 """All that a run killed before it wrote its case leaves."""
 REQUIRED_KEYS = (
@@ -139,7 +141,7 @@ class RunFolder:
         elif not (folder / "resolved.json").exists():
             raise FolderRefused(f"{folder} is not a run folder: nothing to resume there")
         elif (folder / "summary.json").exists():
-            check_owner(folder, origin.name)
+            check_owner(folder, origin)
             return cls(folder, origin.name, None), None
         else:
             lock = FolderLock(folder, wait=wait)
@@ -362,21 +364,35 @@ def check_folder(folder: Path, origin: Origin) -> list[Path]:
     if not (folder / "summary.json").exists():
         # an earlier version hashed cases in its own way: ask for it first
         checkpoints.refuse_formats(files)
-    check_owner(folder, origin.name)
+    check_owner(folder, origin)
     return files
 
 
-def check_owner(folder: Path, case_hash: str) -> None:
+def check_owner(folder: Path, origin: Origin) -> None:
     """Refuse a folder that holds another case. Raises FolderRefused."""
     path = folder / "resolved.json"
     with clear_errors("read", path, FolderRefused):
         text = path.read_text()
     try:
-        found = json.loads(text)["case_hash"]
+        found = json.loads(text)
+        is_own = found["case_hash"] == origin.name
     except (ValueError, KeyError, TypeError) as error:
         raise FolderRefused(f"{path} is damaged: start the run again in a new folder") from error
-    if found != case_hash:
+    if not is_own:
+        here = json.loads(json.dumps(to_json_values(origin.case)))
+        what = first_difference(found.get("case"), here)
         raise FolderRefused(
-            f"{folder} holds a run of another case: resume it with the case and settings that it"
-            " was started with, or choose another folder"
+            f"{folder} holds a run of another case{what}: resume it with the case and settings "
+            "that it was started with, or choose another folder"
         )
+
+
+def first_difference(there: Any, here: Any, key: str = "") -> str:
+    """The first key that two cases have not alike, with both values if they are short [SI]."""
+    if isinstance(there, Mapping) and isinstance(here, Mapping):
+        name = next((k for k in {**there, **here} if there.get(k) != here.get(k)), None)
+        below = f"{key}.{name}" if key else f"{name}"
+        return "" if name is None else first_difference(there.get(name), here.get(name), below)
+    old, new = json.dumps(there), json.dumps(here)
+    is_short = len(old + new) <= SHOWN_LETTERS
+    return f" ({key} is {old} there, not {new}, SI)" if is_short else f" ({key} is another)"

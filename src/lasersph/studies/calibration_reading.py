@@ -36,7 +36,6 @@ from lasersph.input import (
     QuantityError,
     build,
     parse_quantity,
-    read_toml,
 )
 from lasersph.output import OutputError
 from lasersph.studies.calibration_plan import (
@@ -56,6 +55,7 @@ from lasersph.sweeps.plan_reading import (
     KeyPath,
     Mistakes,
     entries_of,
+    read_plan_file,
     read_template,
     refuse_twice,
 )
@@ -97,7 +97,7 @@ def read_calibration_plan(file: str | PathLike[str]) -> CalibrationPlan:
     Raises:
         CaseError: every mistake of the plan, or of its case, in one line with file and line.
     """
-    document = read_toml(Path(file), tolerant=True)
+    document = read_plan_file(file, "calibrate")
     return _Reader(document, build(PlanEntry, document)).plan()
 
 

@@ -22,7 +22,7 @@ from pathlib import Path
 
 from pydantic import Field
 
-from lasersph.input import QuantityError, build, read_toml
+from lasersph.input import QuantityError, build
 from lasersph.studies.calibration_run import make_or_stop, read_answer
 from lasersph.studies.find_settings import (
     FoundSettings,
@@ -34,7 +34,7 @@ from lasersph.studies.find_settings import (
 from lasersph.studies.run_budget import RunBudget
 from lasersph.sweeps import Engine, LocalEngine, Study, SweepPlan, Table
 from lasersph.sweeps.plan import Sampling, VariedCase, compare_with_case
-from lasersph.sweeps.plan_reading import Mistakes, entries_of
+from lasersph.sweeps.plan_reading import Mistakes, entries_of, read_plan_file
 from lasersph.sweeps.sampling import DIGITS
 
 MOST_DOUBT = 0.05
@@ -72,7 +72,7 @@ def read_find_plan(file: str | PathLike[str]) -> FindPlan:
     Raises:
         CaseError: every mistake of the plan, or of its case, in one line with file and line.
     """
-    document = read_toml(Path(file), tolerant=True)
+    document = read_plan_file(file, "find")
     entry = build(FindEntry, document)
     mistakes, wishes = Mistakes(document), []
     for number, text in enumerate(entry.want):

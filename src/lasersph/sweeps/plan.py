@@ -22,13 +22,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 from os import PathLike
-from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import Field
 
 from lasersph.case.conversion import present_place
-from lasersph.input import CaseError, Count, Document, Model, Problem, build, dotted, read_toml
+from lasersph.input import CaseError, Count, Document, Model, Problem, build, dotted
 from lasersph.input.findings import steps_of
 from lasersph.input.model import did_you_mean
 from lasersph.input.schema import as_toml
@@ -39,6 +38,7 @@ from lasersph.sweeps.plan_reading import (
     KeyPath,
     Mistakes,
     entries_of,
+    read_plan_file,
     read_template,
     refuse_twice,
 )
@@ -153,7 +153,7 @@ def read_plan(file: str | PathLike[str]) -> SweepPlan:
     Raises:
         CaseError: every mistake of the plan, or of its case, in one line with file and line.
     """
-    return _plan_of_file(read_toml(Path(file), tolerant=True))
+    return _plan_of_file(read_plan_file(file, "sweep"))
 
 
 def build_plan(

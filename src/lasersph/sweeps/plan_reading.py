@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from lasersph.case.conversion import present_place
-from lasersph.input import CaseError, Document, Problem, dotted
+from lasersph.input import CaseError, Document, Problem, dotted, read_toml
 from lasersph.input.findings import Finding, steps_of
 from lasersph.sweeps.points import CaseTemplate
 
@@ -43,6 +44,19 @@ class Mistakes:
     def _keep(self, problem: Problem) -> None:
         if problem not in self.found:
             self.found.append(problem)
+
+
+def read_plan_file(file: str | PathLike[str], kind: str) -> Document:
+    """What the file of a plan of a kind ("sweep", "calibrate", "find") holds.
+
+    Raises:
+        CaseError: it cannot be read, or holds a case.
+    """
+    document = read_toml(Path(file), tolerant=True)
+    if "particles" in document.data and "case" not in document.data:
+        right = f"write one for it: lasersph new {file} plan.toml --plan {kind}"
+        raise CaseError("is a case, not a plan", right, file=str(file))
+    return document
 
 
 def entries_of(table: Mapping[str, Any], path: KeyPath) -> list[Entry]:

@@ -191,11 +191,17 @@ def test_pages_of_refusals_are_pages_of_the_docs():
         ([*SURE, "laser.fluence=5%"], '"laser.fluence" is not given in this case'),
         ([*SURE, "material.conductivity=5 K"], "is a temperature, not a conductivity"),
         (["info", "."], "is not a run folder"),
-        (["plot", "none"], "is not a run folder"),
+        (["plot", "none"], "none: no such folder"),
         (["plot", "none", "--set", "time.end=1 ns"], "--set changes a case and belongs to --beams"),
         (["plot", "--beams", "stefan"], "stefan has no laser"),
         (["plot", "--beams", "pulsed-heating"], "a uniform beam without a spot is the same"),
-        (["report", "none"], "is not a run folder"),
+        (["report", "none"], "none: no such folder"),
+        (["new", "stefan", "none/a.toml"], "there is no folder none; make it first"),
+        (
+            ["check", "stefan", "--set", "tyme.end=1 us"],
+            "--set tyme.end=1 us: tyme: unknown key; do you",
+        ),
+        (["run", "stefan", "--backend", "gpu"], "'--backend': 'gpu' is not one of 'cpu', 'cuda'"),
     ],
 )
 def test_wrong_commands(arguments, text, capsys, tmp_path):
@@ -205,6 +211,17 @@ def test_wrong_commands(arguments, text, capsys, tmp_path):
     assert text in error
     assert len(error.splitlines()) == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("verb", ["sweep", "calibrate", "find", "run"])
+def test_a_plan_is_no_case(verb, capsys):
+    """Each is refused in one line where the other belongs, with the command that would be right."""
+    kind = "sweep" if verb == "run" else ""
+    said(capsys, "new", "stefan", "a.toml", *(["--plan", kind] if kind else []))
+    assert main([verb, "a.toml"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    right = f"new a.toml plan.toml --plan {verb}" if not kind else "lasersph sweep, calibrate or"
+    assert right in line
 
 
 def test_light_of_a_data_sheet(capsys):

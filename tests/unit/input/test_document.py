@@ -122,7 +122,7 @@ BAD = [
     (b"[a]\nb=1\n[a]\n", "x.toml:3: [a]: given twice; remove one"),
     (b"s = 8 nm", 'x.toml:1: s: a number with a unit is text in TOML; write s = "8 nm"'),
     (b"s = 5%", 'x.toml:1: s: a number with a unit is text in TOML; write s = "5%"'),
-    (b'a = "', "x.toml:1: not valid TOML: unterminated string"),
+    (b'a = "b', 'x.toml:1: a: text without its closing quotation mark; write a = "b"'),
     (b"a = ", "x.toml:1: not valid TOML: invalid value"),
     (b"a = " + b"[" * 5000, "x.toml: brackets nested too deeply"),
     (b"a = " + b"9" * 5000, "x.toml: not valid TOML: an integer of thousands of digits"),

@@ -124,7 +124,7 @@ def test_two_processes_cannot_share_a_folder(tmp_path):
 def test_another_case_is_refused(tmp_path):
     """A run is only resumed with the case that it was started with."""
     toy_run(tmp_path / "run")
-    with pytest.raises(FolderRefused, match="another case"):
+    with pytest.raises(FolderRefused, match=r"another case .spacing is 8e-09 there, not 4e-09, SI"):
         RunFolder.resume(tmp_path / "run", replace(CASE, case={"spacing": 4e-9}))
 
 
