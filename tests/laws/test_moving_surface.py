@@ -126,7 +126,7 @@ def test_pressure_wave(monkeypatch):
     wave = {"amplitude": 20e3, "period": FILM.period, "end": 20e-9}
     boundaries, drive = {"surface_pressure_wave": wave}, Drive(pressure=20e3, end=20e-9)
     assert error(go(film(boundaries=boundaries), 40e-9), 40e-9, drive) < 0.007
-    monkeypatch.setattr(WallPressure, "add_to", lambda self, v, block: v)
+    monkeypatch.setattr(WallPressure, "add_to", lambda self, v, block, step: v)
     assert error(go(film(boundaries=boundaries), 40e-9), 40e-9, drive) > 0.02
 
 
