@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from lasersph.output.atomic import replace_json, replace_text
-from lasersph.output.errors import FolderRefused, OutputError, clear_errors, read_json
+from lasersph.output.errors import FolderRefused, clear_errors, read_json
 from lasersph.output.folder_lock import FolderLock, is_lock
 from lasersph.sweeps.engine import Event
 from lasersph.sweeps.points import CaseTemplate, Point
@@ -149,9 +149,9 @@ class SweepFolder:
 
 
 def read_points(folder: Path) -> dict[str, Any]:
-    """Content of points.json. Raises OutputError where there is none or it is damaged."""
+    """Content of points.json. Raises FolderRefused without one, OutputError where it is damaged."""
     if not (folder / POINTS).exists():
-        raise OutputError(f"{folder} holds no sweep: it has no {POINTS}")
+        raise FolderRefused(f"{folder} holds no sweep: it has no {POINTS}")
     return read_json(folder / POINTS)
 
 

@@ -191,6 +191,7 @@ def test_pages_of_refusals_are_pages_of_the_docs():
         ([*SURE, "laser.fluence=5%"], '"laser.fluence" is not given in this case'),
         ([*SURE, "material.conductivity=5 K"], "is a temperature, not a conductivity"),
         (["info", "."], "is not a run folder"),
+        (["map", "."], ". holds no sweep: it has no points.json"),
         (["plot", "none"], "none: no such folder"),
         (["plot", "none", "--set", "time.end=1 ns"], "--set changes a case and belongs to --beams"),
         (["plot", "--beams", "stefan"], "stefan has no laser"),
