@@ -143,9 +143,19 @@ def add_speeds(study: Study, runs: Readings) -> None:
         for fluence in (f for f in steel if f in metal):
             ratio = speed_of(metal[fluence]) / speed_of(steel[fluence])
             study.add("times", ratio, fluence=fluence, plateau=plateau)
+        row = "sensitive_clip" if plateau == CLIP else "sensitive"
+        spreads = [float(np.ptp(speeds(found))) for found in (metal, steel)]
+        words = {"plateau": plateau, "metal": spreads[0], "steel": spreads[1]}
+        study.add(row, spreads[0] > spreads[1], **words)
         inner = [f for f, one in steel.items() if risen(one)]
         holds = inner == list(steel)[1:]
         study.add("late", holds, plateau=plateau, lowest=min(inner, default=float("nan")))
+    warmest = [
+        [number(one, "temperature_max_K") for one in runs[label, HOLD].values()]
+        for label in ("aluminium", "steel")
+    ]
+    metal, steel = (float(np.ptp(found)) for found in warmest)
+    study.add("hotter", metal > steel, metal=metal, steel=steel)
 
 
 def speed_of(one: Run) -> float:
