@@ -53,11 +53,13 @@ def test_names_and_titles():
 
 @pytest.mark.parametrize("name", names())
 def test_what_a_validation_says(name):
-    """A question, its source, what is compared and why within these bands."""
+    """A question, its source, what is compared and why within these bands; then what was changed
+    for it, what is not met, and what single changes show of a difference."""
     text = (home_of(name) / "README.md").read_text(encoding="utf-8")
-    heads = [line for line in text.splitlines() if line.startswith("#")]
-    assert heads[1:5] == ["## Source", "## Question", "## Quantities", "## Bands"]
-    assert heads[5:] == [head for head in ("## Parameters", "## Not met") if head in heads]
+    heads = [line for line in text.splitlines() if line.startswith("## ")]
+    assert heads[:4] == ["## Source", "## Question", "## Quantities", "## Bands"]
+    more = ("## Parameters", "## Not met", "## Single changes")
+    assert heads[4:] == [head for head in more if head in heads]
 
 
 def test_every_band_has_its_reason():

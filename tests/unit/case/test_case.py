@@ -234,7 +234,7 @@ def test_new_case_is_the_commented_text(name, tmp_path):
 
 def test_new_case_in_a_folder_that_is_missing(tmp_path):
     """The reason is said."""
-    with pytest.raises(CaseError, match="cannot be written: No such file or directory"):
+    with pytest.raises(CaseError, match=r"there is no folder .*none; make it first"):
         write_new_case("stefan", tmp_path / "none" / "mine.toml")
 
 
