@@ -16,7 +16,7 @@ def summary_keys() -> str:
     for kind in OBSERVERS:
         parts.append(f"### {kind.title[0].upper()}{kind.title[1:]}\n")
         if kind.note:
-            parts.append(f"{kind.note}\n")
+            parts.append(kind.note.replace("<", r"\<") + "\n")
         parts.append(_table(kind.all_results()))
     return "\n".join(parts)
 
