@@ -5,12 +5,13 @@ VENV   ?= .venv
 PIP    := $(VENV)/bin/python -m pip --disable-pip-version-check
 OUT    ?= runs/texture-steel
 
-.PHONY: run test check docs wheel clean help
+.PHONY: run test check docs wheel release clean help
 
 help:
 	@echo "make run    compute the texture of a pulse on steel into $(OUT) and write its figures and report"
 	@echo "make test   run the tests          make check  format, lint, types, tests"
 	@echo "make docs   build docs/_build/html make wheel  build dist/lasersph-*.whl"
+	@echo "make release  checks, wheel and source archive tried in an empty environment, notes: dist/"
 
 # --resume continues an interrupted run, and only says so when the run is finished already.
 run: $(VENV)/.run
@@ -18,6 +19,7 @@ run: $(VENV)/.run
 	@echo "Open $(OUT)/report.html in a browser. Start anew: rm -r $(OUT)"
 
 test: $(VENV)/.test
+	@echo "Tests take some 11 min with 2 cores; longer at first, when loops are compiled."
 	@command -v chromium chromium-browser google-chrome google-chrome-stable >/dev/null || echo \
 	  "No Chromium: the tests of the page are skipped. On Debian: apt-get install chromium" >&2
 	$(VENV)/bin/python -m pytest $(WORKERS) $(PYTEST_ARGS)
@@ -37,6 +39,14 @@ docs: $(VENV)/.docs
 wheel: $(VENV)/.test
 	$(VENV)/bin/python -m build --wheel
 
+# All that a version needs before it is tagged: see "Release" in CONTRIBUTING.md.
+release: check
+	@test -z "$$(git status --porcelain)" || { echo "commit first: the tree has changes" >&2; exit 1; }
+	@mkdir -p dist && $(VENV)/bin/python docs/release_notes.py > dist/notes.md
+	$(VENV)/bin/python -m pytest -m release tests/packaging
+	$(VENV)/bin/python -m build --outdir dist
+	@echo "dist/ holds wheel, source archive and notes.md; next: git tag v$$($(VENV)/bin/lasersph --version | tr -dc '0-9.')"
+
 clean:
 	rm -rf $(VENV) dist docs/_build docs/generated
 
@@ -50,11 +60,9 @@ $(VENV)/bin/python:
 	  || { rm -rf $(VENV); echo "No virtual environment could be made: $(PYTHON) has neither venv nor" \
 	       "pip. On Debian: apt install python3-venv python3-pip" >&2; exit 1; }
 
-# A stamp per set of extras, renewed when the metadata changes. The loops of the case that is run are
-# compiled with the rest, by a coarse copy of it; later runs of any case find them.
+# A stamp per set of extras, renewed when the metadata changes.
 $(VENV)/.run: pyproject.toml | $(VENV)/bin/python
 	$(PIP) install --quiet --editable .
-	$(VENV)/bin/lasersph cache fill texture-steel
 	@touch $@
 
 $(VENV)/.%: pyproject.toml | $(VENV)/bin/python

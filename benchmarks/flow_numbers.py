@@ -1,6 +1,6 @@
 """Numbers of the flow that no paper gives, by what they do to a cavity and a dam break.
 
-    python benchmarks/flow_numbers.py            the tables of docs/methods/numbers.md
+    python benchmarks/flow_numbers.py            the tables of docs/notes/2026-11-flow-numbers.md
     python benchmarks/flow_numbers.py --only cavity, vortices, dam-break or speeds
 
 The cavity under a moving lid at Re 400 with 20 particles a side, its center lines beside finite

@@ -1,12 +1,15 @@
-"""Times of the README and docs/speed.md: runs to repeat, recorded with date, commit and machine.
+"""Times of the README, docs/speed.md and benchmarks/README.md: runs to repeat, and their record.
 
-    python benchmarks/readme_times.py [ROW ...] [--list]
+    python benchmarks/readme_times.py [ROW ...]   run rows, all without names, and write the tables
+    python benchmarks/readme_times.py --list      say which rows there are
+    python benchmarks/readme_times.py --tables    write the tables from the record, run nothing
 
-It runs the named rows (all without names) from the command to the end, figures and report included,
-one after another, and writes what they took into docs/times.json and the table of both pages, which
-is made from that file alone. A row that is not run keeps what it had, with its date and commit.
+It runs rows from the command to the end, figures and report included, one after another, and writes
+what they took, with date, commit and machine, into docs/times.json. The tables of the pages are
+made from that file alone; the commit stays there. A row that is not run keeps what it had.
 Loops are compiled before by a short copy of each run. Nothing else should run on the machine.
-Ratios beside other programs are entered there by hand, as `benchmarks/peers/run.py` prints them.
+Ratios beside other programs and parts of a step are entered there by hand, as
+`benchmarks/peers/run.py` and the other benchmarks print them.
 """
 
 from __future__ import annotations
@@ -24,11 +27,11 @@ from time import perf_counter
 
 ROOT = Path(__file__).resolve().parent.parent
 RECORD = ROOT / "docs" / "times.json"
-PAGES = (ROOT / "README.md", ROOT / "docs" / "speed.md")
+PAGES = tuple(ROOT / name for name in ("README.md", "docs/speed.md", "benchmarks/README.md"))
 MOST_SETTINGS = 3
 """A row with more settings than these does not print them; they stand in the record."""
 BEGIN, END = "<!-- {}: begin -->\n", "<!-- {}: end -->\n"
-"""Marks of the tables "times" and "peers" in a page."""
+"""Marks of the tables "times", "peers" and "parts" in a page."""
 
 
 def lasersph(arguments: list[str]) -> tuple[float, int]:
@@ -83,43 +86,75 @@ def words_of_time(seconds: float) -> str:
 
 
 def table(rows: list[dict]) -> str:
-    """The table of the pages."""
-    lines = ["| `lasersph run` | particles | time | memory | measured |", "|---|---|---|---|---|"]
+    """The table of whole runs: the command comes last, so that narrow pages show the numbers."""
+    lines = [
+        "| run | particles | time | memory | measured | command |",
+        "|---|---|---|---|---|---|",
+    ]
     for row in rows:
         if "seconds" not in row:  # not measured yet
             continue
-        command = " ".join([row["case"], *(f'--set "{s}"' for s in row["set"])])
-        if len(row["set"]) > MOST_SETTINGS:
-            command = f"{row['case']} --set ..."
-        if "verb" in row:
-            command = f"lasersph {row['verb'][0]} {command} {' '.join(row['verb'][1:])}"
         particles = f"{row['particles']:,}".replace(",", " ")
-        when = f"{row['date']}, {row['commit']}" + (f", {row['note']}" if row["note"] else "")
-        memory = f"{row['memory_bytes'] / 2**30:.2g} GiB"
-        time = words_of_time(row["seconds"])
-        lines.append(f"| `{command}`: {row['what']} | {particles} | {time} | {memory} | {when} |")
+        time, memory = words_of_time(row["seconds"]), f"{row['memory_bytes'] / 2**30:.2g} GiB"
+        when = ", ".join(filter(None, (row["date"], row["machine"], row["note"])))
+        numbers = f"{particles} | {time} | {memory} | {when}"
+        lines.append(f"| {row['what']} | {numbers} | `{command_of(row)}` |")
     return "\n".join(lines) + "\n"
 
 
+def command_of(row: dict) -> str:
+    """Command of a row; many settings stand in the record alone."""
+    verb, *options = row.get("verb", ["run"])
+    settings = [f'--set "{one}"' for one in row["set"]]
+    settings = settings if len(settings) <= MOST_SETTINGS else ["--set ..."]
+    return " ".join(["lasersph", verb, row["case"], *settings, *options])
+
+
 def peer_table(peers: list[dict]) -> str:
-    """The table of speeds beside other programs, which `benchmarks/peers/run.py` measures."""
+    """The table of speeds beside other programs that the README shows; the chart shows all."""
     lines = ["| beside | what | times as fast | measured |", "|---|---|---|---|"]
     for one in peers:
-        ends = dict.fromkeys((one["least"], one["largest"]))
-        when = f"{one['date']}, {one['commit']}, {one['machine']}"
-        ratio = " to ".join(f"{x:g}" for x in ends)
-        lines.append(f"| {one['peer']} | {one['what']} | {ratio} | {when} |")
+        if one["headline"]:
+            when = f"{one['date']}, {one['machine']}"
+            lines.append(f"| {one['peer']} | {one['what']} | {words_of_ratio(one)} | {when} |")
+    return "\n".join(lines) + "\n"
+
+
+def words_of_ratio(peer: dict) -> str:
+    """Least and largest ratio, one number where they are the same."""
+    ends = dict.fromkeys((peer["least"], peer["largest"]))
+    return " to ".join(f"{ratio:g}" for ratio in ends)
+
+
+def part_table(parts: list[dict]) -> str:
+    """The table of what each benchmark of a part gave, and what it asks for."""
+    lines = ["| what | measured | asked for | date | command |", "|---|---|---|---|---|"]
+    for one in parts:
+        numbers = f"{one['measured']} | {one['asked']} | {one['date']}"
+        lines.append(f"| {one['what']} | {numbers} | `{one['command']}` |")
     return "\n".join(lines) + "\n"
 
 
 def with_tables(text: str, record: dict) -> str:
     """The text with the tables between its marks made anew."""
-    for name, made in (("times", table(record["runs"])), ("peers", peer_table(record["peers"]))):
+    tables = {
+        "times": table(record["runs"]),
+        "peers": peer_table(record["peers"]),
+        "parts": part_table(record["parts"]),
+    }
+    for name, made in tables.items():
         begin, end = BEGIN.format(name), END.format(name)
         if begin in text:
             before, rest = text.split(begin)
             text = before + begin + made + end + rest.split(end)[1]
     return text
+
+
+def write_tables(record: dict) -> None:
+    """Make the tables of all pages anew."""
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        page.write_text(with_tables(text, record), encoding="utf-8")
 
 
 def main() -> None:
@@ -128,6 +163,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("rows", nargs="*", metavar="ROW", help="default: all")
     parser.add_argument("--list", action="store_true", help="say which rows there are")
+    parser.add_argument("--tables", action="store_true", help="write the tables, run nothing")
     chosen = parser.parse_args()
     unknown = set(chosen.rows) - {row["name"] for row in rows}
     if unknown:
@@ -135,15 +171,16 @@ def main() -> None:
     if chosen.list:
         print("\n".join(f"{row['name']:24} {row['what']}" for row in rows))
         return
+    if chosen.tables:
+        write_tables(record)
+        return
     for number, row in enumerate(rows):
         if not chosen.rows or row["name"] in chosen.rows:
             rows[number] = measure(row)
             RECORD.write_text(
                 json.dumps(record, indent=2, ensure_ascii=False) + "\n", encoding="utf-8"
             )
-            for page in PAGES:
-                text = page.read_text(encoding="utf-8")
-                page.write_text(with_tables(text, record), encoding="utf-8")
+            write_tables(record)
     print(table(rows))
 
 

@@ -3,6 +3,7 @@
 import os
 import shutil
 import sys
+from importlib.metadata import distribution
 from pathlib import Path
 
 import lasersph
@@ -32,7 +33,7 @@ extensions = [
     "docstring_equations",
     "generated_pages",
 ]
-exclude_patterns = ["_build", "generated"]
+exclude_patterns = ["_build", "generated/*.md", "generated/ipython"]
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 bibtex_bibfiles = ["references.bib"]
@@ -45,8 +46,14 @@ nb_execution_raise_on_error = True
 
 html_title = f"lasersph {version}"
 html_theme = "furo"
-html_static_path = ["_static"]
+MATHJAX = distribution("sphinx-mathjax-offline").locate_file(
+    "sphinx-mathjax-offline/static/mathjax"
+)
+"""MathJax as files, of which the one that draws formulas as pictures needs no other."""
+html_static_path = ["_static", f"{MATHJAX}/tex-svg.js"]
 html_css_files = ["page.css"]
+mathjax_path = "tex-svg.js"
+nb_ipywidgets_js = {}  # no widget is shown, and its scripts would come from a network
 
 autodoc_typehints = "description"
 autodoc_typehints_description_target = "documented"

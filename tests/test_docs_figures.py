@@ -6,7 +6,7 @@ import sys
 
 import draw_figures
 import pytest
-from figures import REGISTRY
+from figures import GALLERY, REGISTRY
 
 sys.path.insert(0, str(draw_figures.DOCS / "_extensions"))
 from validation_charts import judged  # pyright: ignore  # the folder is no package
@@ -25,13 +25,14 @@ def test_figure_is_stored_small_and_shown(name):
     assert file.stat().st_size < (LARGEST_MOVIE if figure.kind == "gif" else LARGEST)
     assert set(draw_figures.read_stamps()[name]) == set(figure.sources)
     texts = [page.read_text(encoding="utf-8") for page in PAGES]
-    in_gallery = not name.startswith("methods-")
+    in_gallery = name in {entry.figure.name for entry in GALLERY}
     assert in_gallery or any(f"images/{file.name}" in text for text in texts)
 
 
 def test_every_page_of_methods_shows_a_figure_of_our_own():
-    """One that is drawn by `draw_figures` or a benchmark, or recorded with a validation."""
+    """One that is drawn by `draw_figures`, a benchmark or an extension, or recorded."""
     docs = draw_figures.DOCS
+    extensions = "".join(file.read_text() for file in (docs / "_extensions").glob("*.py"))
     scripts = "".join(file.read_text() for file in (docs.parent / "benchmarks").glob("*.py"))
     drawn = {figure.path(draw_figures.IMAGES) for figure in REGISTRY.values()}
     for page in set((docs / "methods").glob("*.md")) - {docs / "methods" / "index.md"}:
@@ -40,8 +41,10 @@ def test_every_page_of_methods_shows_a_figure_of_our_own():
         files = [(page.parent / image).resolve() for image in images]
         recorded = [one for one in files if docs / "validation" in one.parents and one.is_file()]
         measured = [one for one in files if f"docs/images/{one.name}" in scripts]
+        made = [one for one in files if one.parent.name == "generated"]
+        made = [one for one in made if f'"{one.name}"' in extensions]
         of_run = re.search(r"`figures/[a-z-]+\.png` of this run", text)  # by a command above
-        assert recorded or measured or of_run or drawn & set(files), page.name
+        assert recorded or measured or made or of_run or drawn & set(files), page.name
 
 
 def test_change_of_a_source_makes_a_figure_stale(tmp_path, monkeypatch):

@@ -16,7 +16,7 @@ TEXTS = {
     str(file.relative_to(ROOT)): file.read_text(encoding="utf-8")
     for folder in ("docs", "examples", "src/lasersph/validation")
     for file in sorted((ROOT / folder).rglob("*.md"))
-    if file.parent.name != "generated"
+    if "generated" not in file.parts
 } | {"keys of a summary": summary_keys(), "columns of a history": history_columns()}
 
 

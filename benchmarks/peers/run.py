@@ -4,7 +4,7 @@
     python benchmarks/peers/run.py --quick      small cases, to see that all of it works
 
 Each round times every installed program once, in turn; programs that are not installed are left
-out with a line that says how to install them. `docs/speed.md` says what is compared.
+out with a line that says how to install them. `benchmarks/README.md` says what is compared.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Markdown of docs/papers.md: what both papers print beside what the validations recorded."""
+"""Pages of both papers: what they print beside what the validations recorded.
+
+docs/papers.md has the overview, docs/papers/PAPER.md every figure, table and number of one.
+"""
 
 import tomllib
 from collections import Counter
@@ -8,6 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from validation_table import State, label, number, plain, table
+
+from lasersph.plots import style
 
 TITLES = {
     "ablation": "Alshaer, Rogers & Li 2017: pulsed heating and ablation of aluminum",
@@ -22,6 +27,12 @@ REPRODUCED, DIFFERS, NOT_MET, NOT_GIVEN, OWN, MISSING = (
     "own",
     "missing",
 )
+IN_PART = "in part"
+WHOLES = (REPRODUCED, IN_PART, DIFFERS, NOT_MET, NOT_GIVEN)
+"""Verdicts on a figure, table or section: all of its numbers, some, none, one is not met, no number
+is printed."""
+LOOKS = dict(zip(WHOLES, ("#009E73", "#56B4E9", "#E69F00", "#D55E00", "0.8"), strict=True))
+"""Color of each, of those that color-blind readers tell apart."""
 Part = dict[str, Any]
 """One `[[ablation]]` or `[[texturing]]` of docs/papers.toml."""
 Entry = Mapping[str, Any]
@@ -49,24 +60,84 @@ def row_named(state: State | None, beginning: str) -> Row | None:
     return found[0] if found else None
 
 
-def papers_page(papers: Mapping[str, list[Part]], states: Mapping[str, State]) -> str:
-    """One section a paper: how often which verdict, then a head for each figure or table.
+def part_verdicts(part: Part, states: Mapping[str, State]) -> Counter[str]:
+    """How often which verdict was given on the numbers of a figure, table or section."""
+    counts: Counter[str] = Counter()
+    if part.get("rows"):
+        state = states[part["validation"]]
+        counts.update(verdict(entry, state, states)[0] for entry in entries(part, states))
+    return counts
 
-    states: of all validations by name.
-    """
-    texts = []
+
+def whole_verdict(counts: Counter[str]) -> str:
+    """The verdict on a figure, table or section from those on its numbers."""
+    judged = {word for word in counts if word not in (OWN, NOT_GIVEN)}
+    if not judged:
+        return NOT_GIVEN
+    if NOT_MET in judged or MISSING in judged:
+        return NOT_MET
+    if judged == {REPRODUCED}:
+        return REPRODUCED
+    return IN_PART if REPRODUCED in judged else DIFFERS
+
+
+def overview(papers: Mapping[str, list[Part]], states: Mapping[str, State]) -> str:
+    """How many figures, tables and sections agree, by paper, and the list of them with links."""
+    texts, rows = [], []
     for paper, title in TITLES.items():
-        parts = papers[paper]
-        counts = Counter(
-            verdict(entry, states[part["validation"]], states)[0]
-            for part in parts
-            for entry in entries(part, states)
-        )
-        counts[NOT_GIVEN] += sum("missing" in part for part in parts)
-        said = ", ".join(f"{count} {word}" for word, count in counts.items())
-        texts += [f"## {title}", f"Numbers: {said}."]
-        texts += [text for part in parts for text in section(part, states)]
+        counts = [part_verdicts(part, states) for part in papers[paper]]
+        wholes = Counter(whole_verdict(one) for one in counts)
+        rows.append((f"[{title}](papers/{paper}.md)", *(str(wholes[word]) for word in WHOLES)))
+        texts.append(f"## {title}")
+        lines = [
+            (
+                f"[{plain(part['where'])}](#{anchor(paper, k)})",
+                plain(part["what"]),
+                whole_verdict(one),
+                ", ".join(f"{count} {word}" for word, count in one.items()),
+            )
+            for k, (part, one) in enumerate(zip(papers[paper], counts, strict=True))
+        ]
+        texts.append(table(("place", "what", "verdict", "its numbers"), lines))
+    return "\n\n".join([table(("paper", *WHOLES), rows), *texts]) + "\n"
+
+
+def paper_page(paper: str, parts: list[Part], states: Mapping[str, State]) -> str:
+    """How often which verdict on a number; then a head for each figure, table or section."""
+    counts: Counter[str] = sum((part_verdicts(part, states) for part in parts), Counter())
+    counts[NOT_GIVEN] += sum("missing" in part for part in parts)
+    said = ", ".join(f"{count} {word}" for word, count in counts.items())
+    texts = [f"Numbers: {said}."]
+    for k, part in enumerate(parts):
+        texts += section(part, states, anchor(paper, k))
     return "\n\n".join(texts) + "\n"
+
+
+def anchor(paper: str, k: int) -> str:
+    """Name of the place of a part."""
+    return f"paper-{paper}-{k + 1}"
+
+
+def draw_overview(
+    papers: Mapping[str, list[Part]], states: Mapping[str, State], file: Path
+) -> None:
+    """A bar a paper: its figures, tables and sections by verdict."""
+    figure, (axes,) = style.new_figure(height=2.2)
+    names = [title.partition(":")[0] for title in TITLES.values()]
+    left = [0] * len(names)
+    for word in WHOLES:
+        wholes = [
+            sum(whole_verdict(part_verdicts(part, states)) == word for part in papers[paper])
+            for paper in TITLES
+        ]
+        bars = axes.barh(names, wholes, left=left, color=LOOKS[word], label=word.strip("*"))
+        axes.bar_label(bars, [str(n) if n else "" for n in wholes], label_type="center", fontsize=9)
+        left = [a + b for a, b in zip(left, wholes, strict=True)]
+    axes.invert_yaxis()
+    axes.grid(False, axis="y")
+    style.label(axes, "figures, tables and sections", "")
+    style.legend_above(figure, axes, columns=len(WHOLES))
+    figure.savefig(file)
 
 
 def entries(part: Part, states: Mapping[str, State]) -> list[dict[str, Any]]:
@@ -88,19 +159,21 @@ def entries(part: Part, states: Mapping[str, State]) -> list[dict[str, Any]]:
     return found
 
 
-def section(part: Part, states: Mapping[str, State]) -> list[str]:
-    """Head, command, figure, numbers, and what the paper does not give."""
-    texts = [f"### {plain(part['where'])}", plain(part["what"]) + "."]
+def section(part: Part, states: Mapping[str, State], name: str) -> list[str]:
+    """Head, command, figure, the numbers folded, and what the paper does not give."""
+    texts = [f"({name})=\n## {plain(part['where'])}", plain(part["what"]) + "."]
     state = states[part["validation"]] if "validation" in part else None
     if state is not None:
         texts[-1] += f" Command: `lasersph validate {state.name}`, record {label(state)}."
         files = [f"{name}.png" for name in part.get("figures", ())]
         drawn = state.record["figures"] if state.record else []
         alt = plain(part["where"])
-        texts += [f"![{alt}](validation/{state.name}/{file})" for file in files if file in drawn]
+        texts += [f"![{alt}](../validation/{state.name}/{file})" for file in files if file in drawn]
     if part.get("rows"):
         found = [cells(entry, state, states) for entry in entries(part, states)]
-        texts.append(table(HEAD, found))
+        counts = part_verdicts(part, states)
+        said = ", ".join(f"{count} {word.strip('*')}" for word, count in counts.items())
+        texts += [f"<details><summary>Numbers: {said}</summary>", table(HEAD, found), "</details>"]
     if part.get("missing"):
         texts.append(f"*Not given by the paper*: {prose(part['missing'])}.")
     return texts

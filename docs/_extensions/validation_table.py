@@ -1,10 +1,8 @@
-"""The page of validations, from their records: every one with its state, none left out."""
+"""The overview of validations, from their records: what failed and why, then all with state."""
 
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any
-
-from validation_charts import judged
 
 from lasersph.validation.records import State
 
@@ -14,18 +12,17 @@ CHARTS = """![Every judged number](generated/validation-overview.svg)
 of the line it is met. Statements that hold or not have no distance; they stand in the tables only.
 Points at the left border agree to 1e-4 of the tolerance or better.*"""
 NOT_MET = "## Not met"
-HEAD = ("quantity", "published", "reference", "computed", "tolerance", "verdict")
-VERDICTS = {True: "ok", False: "**FAILED**", None: "shown"}
+UNEXPLAINED = "Why it fails is not explained yet."
 
 
 def validation_table(states: Sequence[State], readmes: Mapping[str, str]) -> str:
-    """An overview, then one section a validation: state, README, remarks, numbers, figures.
+    """Rows that are not met and why, then a table of all validations, each with a link to its page.
 
     readmes: by name of the validation.
     """
     rows = [
         (
-            f"[](#{_anchor(state)})",
+            f"[{state.name}](#{anchor(state)})",
             _title(readmes[state.name]),
             _count(state.record),
             state.record["computed"]["date"] if state.record else "",
@@ -33,46 +30,55 @@ def validation_table(states: Sequence[State], readmes: Mapping[str, str]) -> str
         )
         for state in states
     ]
-    parts = [table(("validation", "question", "numbers", "computed", "state"), rows), CHARTS]
-    for state in states:
-        parts += _section(state, readmes[state.name])
-    return "\n\n".join(part for part in parts if part) + "\n"
+    failed = [state for state in states if state.word == "failed" or _missed(state)]
+    parts = ["## What is not met"]
+    parts += [_not_met(state, readmes[state.name]) for state in failed]
+    parts += [] if failed else ["Every judged number lies within its band."]
+    parts += ["## All validations"]
+    parts += [table(("validation", "question", "numbers", "computed", "state"), rows), CHARTS]
+    pages = "\n".join(f"generated/validation/{state.name}" for state in states)
+    parts += [f"```{{toctree}}\n:hidden:\n\n{pages}\n```"]
+    return "\n\n".join(parts) + "\n"
 
 
-def readme_text(readme: str) -> str:
-    """A README as text of a section: its title as the first line, its heads as first words."""
-    title, _, text = readme.partition("\n")
-    return title.removeprefix("# ") + "\n" + re.sub(r"^## (.+)\n", r"**\1.** ", text, flags=re.M)
+def _not_met(state: State, readme: str) -> str:
+    """A failed validation: its numbers outside their bands, and the first word on the reason."""
+    missed = _missed(state)
+    count = f"{len(missed)} of {_judged_count(state.record)} numbers" if missed else state.text
+    head = f"**[{state.name}](#{anchor(state)})**, {plain(count)}:"
+    listed = "".join(f"- {_missed_words(row)}\n" for row in missed)
+    return f"{head}\n\n{listed}\nWhy: {_reason(readme)}"
 
 
-def _section(state: State, readme: str) -> list[str]:
-    record = state.record
-    head = f"({_anchor(state)})=\n## {state.name}"
-    said = ": ".join(text for text in (label(state), plain(state.text)) if text)
-    parts = [head, said + ".", readme_text(readme)]
-    if state.word == "failed" and NOT_MET not in readme:
-        parts.append("Why it fails is not explained yet.")
-    if record is None:
-        return parts
-    made, notes = record["computed"], _notes(record["rows"])
-    version = f"lasersph {made['lasersph']}" + (f", {made['commit']}" if made["commit"] else "")
-    threads = f"threads: {made['threads'] or 'all'}"
-    parts.append(
-        f"*{_duration(record['seconds'])} on {made['machine']}, {threads}; {version}, "
-        f"{made['date']}.*"
+def _missed(state: State) -> list[dict[str, Any]]:
+    """The judged rows outside their bands, as recorded, also where the record is stale."""
+    rows = state.record["rows"] if state.record else ()
+    return [row for row in rows if row["verdict"] is False and not row["own"]]
+
+
+def _missed_words(row: dict[str, Any]) -> str:
+    """A number that is not met, with what it is judged by."""
+    wanted = row["reference"] if row["reference"] is not None else row["published"]
+    unit = f" {plain(row['unit'])}" if row["unit"] not in ("", "1") else ""
+    if isinstance(wanted, str) or isinstance(row["computed"], str) or wanted is None:
+        return f"{plain(row['quantity'])}: does not hold"
+    return (
+        f"{plain(row['quantity'])} is {number(row['computed'])}{unit}, not {number(wanted)}{unit}"
     )
-    parts.append("\n".join(f"- {plain(remark)}" for remark in record["remarks"]))
-    if judged(record):
-        chart = f"generated/validation-{state.name}.svg"
-        parts.append(f"![{state.name}: difference over tolerance]({chart})")
-    if record["rows"]:
-        parts.append(table(HEAD, [_cells(row, notes) for row in record["rows"]]))
-    parts.append("\n".join(f"- ({k}) {plain(text)}" for text, k in notes.items()))
-    parts += [f"![{state.name}](validation/{state.name}/{file})" for file in record["figures"]]
-    return parts
 
 
-def _anchor(state: State) -> str:
+def _reason(readme: str) -> str:
+    """The first sentence of what a README says under *Not met*, lists and tables left out."""
+    told = readme.partition(NOT_MET)[2].partition("\n## ")[0]
+    for paragraph in told.split("\n\n"):
+        text = " ".join(paragraph.split())
+        if text and not text.startswith("|") and not text.endswith(":"):
+            return text.partition(". ")[0].removesuffix(".") + "."
+    return UNEXPLAINED
+
+
+def anchor(state: State) -> str:
+    """Label of the page of a validation."""
     return f"validation-{state.name}"
 
 
@@ -92,37 +98,13 @@ def _count(record: dict[str, Any] | None) -> str:
     if record is None:
         return ""
     verdicts = [row["verdict"] for row in record["rows"]]
-    judged = len(verdicts) - verdicts.count(None)
+    judged = _judged_count(record)
     return f"{verdicts.count(True)} of {judged} met, {verdicts.count(None)} shown"
 
 
-def _duration(seconds: float | None) -> str:
-    if seconds is None:
-        return "In a time that was not noted"
-    if seconds < 90.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
-
-
-def _note(row: dict[str, Any]) -> str:
-    """Why the band of a row is so wide, and what it was before."""
-    changed = f"Changed: {row['changed']}" if row["changed"] else ""
-    return " ".join(text for text in (row["reason"], changed) if text)
-
-
-def _notes(rows: list[dict[str, Any]]) -> dict[str, int]:
-    """Numbers of the notes to the rows."""
-    texts = dict.fromkeys(note for row in rows if (note := _note(row)))
-    return {text: k for k, text in enumerate(texts, start=1)}
-
-
-def _cells(row: dict[str, Any], notes: dict[str, int]) -> tuple[str, ...]:
-    unit = f" [{row['unit']}]" if row["unit"] not in ("", "1") else ""
-    tolerance = "" if row["tolerance"] is None else f"{row['tolerance']:.3g}"
-    note = f"({notes[_note(row)]})" if _note(row) else ""
-    numbers = (number(row[key]) for key in ("published", "reference", "computed"))
-    verdict = "own" if row["own"] else VERDICTS[row["verdict"]]
-    return plain(row["quantity"] + unit), *numbers, f"{tolerance} {note}".strip(), verdict
+def _judged_count(record: dict[str, Any] | None) -> int:
+    """How many numbers are judged."""
+    return sum(row["verdict"] is not None for row in record["rows"]) if record else 0
 
 
 def number(value: float | str | None) -> str:

@@ -1,4 +1,4 @@
-"""The texture of steel beside an experiment, from the runs of the example's calibration."""
+"""Textures beside an experiment: the figure, and what pages say first of the agreement."""
 
 import json
 import tomllib
@@ -12,6 +12,30 @@ from lasersph.studies.measured_value import read_measured
 from lasersph.validation.drawing import Panel, draw, line, marks
 
 FOLDER = Path(__file__).parents[2] / "examples" / "texture-experiment"
+
+
+def reliefs() -> dict[str, tuple[str, str]]:
+    """By metal the size of the relief at the nominal fluence: computed and measured, with units."""
+    found = {}
+    nominal = tomllib.loads((FOLDER / "nominal.toml").read_text(encoding="utf-8"))
+    for metal, relief in nominal.items():
+        plan = tomllib.loads((FOLDER / relief["plan"]).read_text(encoding="utf-8"))
+        measured, _, error = plan["measured"][0]["values"][relief["number"]].partition(" +- ")
+        unit = error.split()[1].replace("um", "µm")
+        found[metal] = relief["computed"], f"{measured} {unit}"
+    return found
+
+
+def agreement() -> str:
+    """The sentence on the relief, computed and measured, that README.md and the pages hold."""
+    (steel, steel_measured), (aluminum, aluminum_measured) = (
+        (f"{float(computed.split()[0]):.0f} {computed.split()[1]}", measured)
+        for computed, measured in (reliefs()[metal] for metal in ("steel", "aluminum"))
+    )
+    return (
+        f"one pulse leaves a relief {steel} deep in steel, where the experiment found "
+        f"{steel_measured}, and one {aluminum} high on aluminum, where it found {aluminum_measured}"
+    )
 
 
 def draw_experiment(target: Path) -> None:

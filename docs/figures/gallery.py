@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 
+from figures.experiment import agreement
 from figures.stored import StoredFigure, store_animation, store_picture
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -173,7 +174,7 @@ GALLERY = (
     _entry(
         "crater-spot",
         "A crater in three dimensions",
-        "A Gaussian spot of 15 µm on aluminum, colored by temperature.",
+        "A top-hat spot of 15 µm on aluminum, colored by temperature.",
         SPOT,
         "runs/ablation/figures/crater-3d.png",
         *SPOT_FROM,
@@ -200,7 +201,8 @@ GALLERY = (
     _entry(
         "texture-steel-relief",
         "A texture is made",
-        "Steel between two interfering beams: the surface while it is molten, and as it freezes.",
+        "Steel between two interfering beams: the surface while it is molten, and as it freezes. "
+        f"The relief is flatter than [the measured one](texture_experiment.md): {agreement()}.",
         ("lasersph run texture-steel --out runs/one",),
         "runs/one/figures/relief.png",
         *TEXTURE_FROM,

@@ -1,7 +1,5 @@
 """Figures of the pages on methods that need no run: what the formulas give, by the code itself."""
 
-import re
-from collections import Counter
 from itertools import pairwise
 from pathlib import Path
 
@@ -20,11 +18,8 @@ from lasersph.physics.evaporation import (
     saturation_pressure,
     vapor_constants,
 )
-from lasersph.plots import style
 from lasersph.validation.drawing import Panel, draw, line
 
-NUMBERS = Path(__file__).parents[1] / "methods" / "numbers.md"
-KINDS = ("guard", "cost only", "forecast only")
 METALS = ("aluminium", "copper", "steel-304", "titanium", "tungsten")
 
 
@@ -158,22 +153,6 @@ def draw_exact(target: Path) -> None:
     store_figure(draw(panels, height=3.2), target)
 
 
-def draw_numbers(target: Path) -> None:
-    """How many constants there are of each kind."""
-    rows = re.findall(r"^\| `.*\|([^|]*)\|$", NUMBERS.read_text(encoding="utf-8"), flags=re.M)
-    counts = Counter(
-        next((kind for kind in KINDS if kind in reason.lower()), "source or reason")
-        for reason in rows
-    )
-    figure, (axes,) = style.new_figure(height=2.2)
-    names = ["source or reason", *KINDS]
-    bars = axes.barh(names[::-1], [counts[name] for name in names[::-1]], color=style.COLORS[0])
-    axes.bar_label(bars, padding=3, fontsize=9)
-    axes.grid(False, axis="y")
-    style.label(axes, "constants and defaults", "")
-    store_figure(figure, target)
-
-
 METHODS = (
     StoredFigure(
         "methods-heating",
@@ -203,8 +182,5 @@ METHODS = (
             "lasersph.analytic.half_space",
             "lasersph.analytic.stefan",
         ),
-    ),
-    StoredFigure(
-        "methods-numbers", draw_numbers, ("docs/figures/methods.py", "docs/methods/numbers.md")
     ),
 )

@@ -4,6 +4,8 @@ import lasersph
 
 case = lasersph.load_case("dlip-steel", ["laser.fluence=0.8 J/cm^2"])
 result = lasersph.run(case, "runs/steel")
+print(result)  # the main numbers
+lasersph.write_report(result.folder)  # figures and report.html
 run = lasersph.open_run(result.folder)
 run.history["time_s"], run.snapshots[-1]["temperature"]
 """
@@ -16,6 +18,9 @@ if TYPE_CHECKING:
     from lasersph.case import Case, load_case
     from lasersph.input import CaseError
     from lasersph.output import open_run
+    from lasersph.plots import draw_run
+    from lasersph.report import write_report
+    from lasersph.report.run_comparison import compare_runs
     from lasersph.simulation import run
     from lasersph.studies import calibrate, find
     from lasersph.studies import process_map as map
@@ -27,24 +32,30 @@ __all__ = [
     "CaseError",
     "__version__",
     "calibrate",
+    "compare_runs",
+    "draw_run",
     "find",
     "load_case",
     "map",
     "open_run",
     "run",
     "sweep",
+    "write_report",
 ]
 
 _ROOMS = {
     "Case": "lasersph.case",
     "CaseError": "lasersph.input",
     "calibrate": "lasersph.studies",
+    "compare_runs": "lasersph.report.run_comparison",
+    "draw_run": "lasersph.plots",
     "find": "lasersph.studies",
     "load_case": "lasersph.case",
     "map": "lasersph.studies:process_map",
     "open_run": "lasersph.output",
     "run": "lasersph.simulation",
     "sweep": "lasersph.sweeps",
+    "write_report": "lasersph.report",
 }
 """Room of each public name; after a colon its name there, where that is another."""
 

@@ -24,5 +24,11 @@ BAD_ABLATION_CASES = {
     "weightless water": (TIME, "[motion]\nhydrostatic = true\nkind = 'rest'\n\n[time]", ":32: solver.motion.hydrostatic: nothing weighs anything without gravity in [solver]"),
     "walled surface in light": (SURFACE, 'surface = "wall"\nsurface_temperature = "300 K"', ':22: boundaries.surface: a laser heats the surface, "wall" holds its temperature; remove one of the two'),
     "no latent heat": (SOUND, SOUND + "\nphase_change = false", ':30: solver.phase_change: the enthalpy model of ejection is about latent heats; leave it out, or write model = "published" in [solver.ejection]'),
+    "light that goes deep": ('kind = "surface"', 'kind = "beer-lambert"', ':10: laser.absorption.kind: matter that moves takes all light in at what it meets first; write absorption = { kind = "surface" }'),
+    "losses of a walled surface": (SURFACE, 'surface = "wall"\nsurface_temperature = "300 K"\nconvection = "10 W/(m^2 K)"', ':24: boundaries.convection: says nothing where surface = "wall", as no surface lies open; leave it out or write surface = "free"'),
+    "height of walls that are not there": (TIME, '[vessel]\nabove = "1 um"\n\n[time]', ":32: solver.vessel.above: there are no side walls that could be higher; leave it out"),
+    "velocity along y in a section": (TIME, '[motion]\nkind = "uniform"\ny = "1 m/s"\n\n[time]', ":33: solver.motion.y: says nothing in 2-D, which has no y; leave it out or write dimensions = 3 in [solver]"),
+    "trace outside": (TIME, '[[traces]]\nname = "deep"\ndepth = "30 um"\n\n[time]', ":33: traces[1].depth: 30 um lies below the domain of 20 um; place the trace inside"),
+    "traces of one name": (TIME, '[[traces]]\nname = "a"\n\n[[traces]]\nname = "a"\n\n[time]', ':31: traces: 2 traces are named "a"; give each its own name'),
     "box of a melt pool": (TIME, '[flow]\nleft = "no-slip"\n\n[time]', ":31: flow: unknown key; leave it out"),
 }  # fmt: skip

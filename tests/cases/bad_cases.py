@@ -102,7 +102,7 @@ BAD_CASES = {
     "wrong property": (MATERIAL, 'material = { base = "steel-304", density = "3 m" }', ':2: material.density: "3 m" is a length, not a density; write e.g. "2700 kg/m^3"'),
     "hotter than melting": ('"20 degC"', '"2000 K"', ":3: initial_temperature: the initial temperature 2000 K is not below 1673 K, where melting of 'steel-304-demuth' begins"),
     # domain, particles, time
-    "no width": ('width = "5 um"\n', "", ':12: domain.width: missing for 2-D; write e.g. width = "5 um"'),
+    "no width": ('width = "5 um"\n', "", ':12: domain.width: missing for 2-D; write e.g. width = "5 um", a period of the light'),
     "width against period": ('width = "5 um"', 'width = "6 um"', ':14: domain.width: 6 um is no whole number of the pattern\'s periods of 5 um; write width = "5 um"'),
     "thinner than particles": ('depth = "2 um"', 'depth = "200 nm"', ":13: domain.depth: 200 nm holds fewer than 4 particles of 100 nm; give a larger domain or a finer spacing"),
     "absurd number of particles": (SPACING, 'spacing = "1e-15 m"', ":18: particles.spacing: about 5e+18 particles, 8.84e+06 PiB of memory, more than lasersph can number; take a coarser spacing or a smaller domain"),
@@ -113,6 +113,14 @@ BAD_CASES = {
     "temperature of an adiabatic face": (BOTTOM, 'bottom = "adiabatic"\nbottom_temperature = "300 K"', ':22: boundaries.bottom_temperature: says nothing where bottom = "adiabatic"; leave it out, or set bottom to "fixed-temperature" or "wall"'),
     "laser on a held surface": (BOTTOM, 'surface = "wall"\nsurface_temperature = "300 K"', ':21: boundaries.surface: a laser heats the surface, "wall" holds its temperature; remove one of the two'),
     "ambient without loss": (BOTTOM, 'ambient_temperature = "300 K"', ":21: boundaries.ambient_temperature: says nothing without convection or emissivity; give one of them or leave it out"),
+    # keys that would change nothing
+    "ratio of uniform particles": (SPACING, SPACING + "\nratio = 0.8", ':19: particles.ratio: belongs to graded particles; leave it out or write arrangement = "graded"'),
+    "coarsest of uniform particles": (SPACING, SPACING + '\ncoarsest = "2 um"', ':19: particles.coarsest: belongs to graded particles; leave it out or write arrangement = "graded"'),
+    "warm sides of a column": ('width = "5 um"\nextent = "half"\n\n[particles]\nspacing = "100 nm"\n\n[boundaries]\nbottom = "adiabatic"\n\n[solver]\nkind = "conduction"\ndimensions = 2', '\n[particles]\nspacing = "100 nm"\n\n[boundaries]\nsides = "wall"\n\n[solver]\ndimensions = 1', ":19: boundaries.sides: says nothing in 1-D, which has no x; leave it out or write dimensions = 2 in [solver]"),
+    "sides beside left and right": (BOTTOM, BOTTOM + '\nleft = "adiabatic"\nright = "wall"\nsides = "free"', ":24: boundaries.sides: says nothing where left and right are given; leave it out"),
+    "position of uniform light": (BEAM, 'beam = { kind = "uniform" }\nposition = ["1 um", "0 um"]', ":9: laser.position: says nothing of light that is the same everywhere; leave it out"),
+    "position along lines": (BEAM, BEAM + '\nposition = ["0 um", "1 um"]', ':9: laser.position: its y says nothing where the light is the same at all y; write position = ["0 m", "0 m"]'),
+    "snapshot after the end": ("[domain]", '[output.snapshots]\ntimes = ["1 us"]\n\n[domain]', ":13: output.snapshots.times: 1 us is after the end, 200 ns; leave it out or give a later end"),
     # probes
     "probe below the domain": ('depth = "1 um"', 'depth = "3 um"', ":38: probes[2].depth: 3 um lies below the domain of 2 um; place the probe inside"),
     "probe outside": ('x = "1 um"', 'x = "-1 um"', ":39: probes[2].x: -1 um lies outside the domain, which runs from 0 m to 2.5 um; place the probe inside"),

@@ -12,10 +12,11 @@ SPACINGS = (200e-9, 100e-9)
 
 def error(dimensions, spacing, *, scheme="explicit", weights="second-moment", kernel=None):
     """Relative error of the rate of decay, after the amplitude has fallen to 1/e."""
-    settings = ["particles.arrangement=uniform", "solver.phase_change=false", "laser=", "probes=",
+    settings = ["particles.arrangement=uniform", "particles.ratio=", "probes=",
+                "solver.phase_change=false", "laser=",
                 f"domain.depth={DEPTH} m", f"particles.spacing={spacing} m",
                 f"solver.scheme={scheme}", f"solver.weights={weights}",
-                "time.temperature_change=1 K",
+                *(["time.temperature_change=1 K"] if scheme == "implicit" else []),
                 f"solver.dimensions={dimensions}"]  # fmt: skip
     settings += ["domain.extent=full", f"domain.width={WIDTH} m"]
     settings += [f"particles.kernel={kernel}"] if kernel else []

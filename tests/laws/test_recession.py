@@ -12,7 +12,7 @@ COLUMN = (
     *("boundaries.ambient_pressure=0 Pa", 'laser.beam={ kind = "uniform" }', "probes="),
     *("laser.fluence=", 'laser.pulse={ kind = "square", duration = "1 ms" }'),
     *('laser.absorption={ kind = "surface" }', "laser.reflectivity=0", "domain.extent=full"),
-    *("particles.arrangement=uniform", "domain.width="),
+    *("particles.arrangement=uniform", "particles.ratio=", "domain.width="),
 )
 
 

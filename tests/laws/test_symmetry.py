@@ -6,7 +6,8 @@ from law_runs import go, host, solver_of
 
 from lasersph.simulation.layers import lay_out
 
-SETTINGS = ("particles.spacing=125nm", "particles.arrangement=uniform", "domain.depth=4.5um",
+SETTINGS = ("particles.spacing=125nm", "particles.arrangement=uniform", "particles.ratio=",
+            "domain.depth=4.5um",
             "time.step=0.5ns")  # fmt: skip
 END = 7e-8
 

@@ -8,7 +8,7 @@ LATENT = 6.5e6
 DENSITY = 7262.0
 CASE = (
     *("laser.fluence=1.3 J/cm^2", "domain.depth=3 um", "probes="),
-    *("particles.spacing=100 nm", "particles.arrangement=uniform"),
+    *("particles.spacing=100 nm", "particles.arrangement=uniform", "particles.ratio="),
     "material.vaporization.critical_temperature=1e9 K",
 )
 FLAT = {

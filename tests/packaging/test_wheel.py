@@ -91,6 +91,27 @@ def test_wheel_works_outside_the_checkout(wheel, tmp_path):
     works(programs, tmp_path)
 
 
+@pytest.mark.release
+def test_wheel_runs_the_first_case(wheel, tmp_path):
+    """The README's first minute: into an empty environment, then a coarse run with its report."""
+    programs = environment_with(wheel, tmp_path)
+    works(programs, tmp_path)
+    run(
+        *(programs / "lasersph", "run", "dlip-steel", "--quick", "--out", "steel"),
+        cwd=tmp_path,
+        cache=tmp_path / "cache",
+    )
+    assert json.loads((tmp_path / "steel" / "summary.json").read_text())["melt"]["depth_max_m"] > 0
+
+
+@pytest.mark.release
+def test_source_archive_works(tmp_path):
+    """The source archive installs the same as the wheel."""
+    run(sys.executable, "-m", "build", "--sdist", "--outdir", tmp_path, ROOT, cwd=tmp_path)
+    (archive,) = tmp_path.glob("lasersph-*.tar.gz")
+    works(environment_with(archive, tmp_path), tmp_path)
+
+
 @pytest.mark.packaging
 def test_wheel_works_with_oldest_dependencies(wheel, tmp_path):
     """Installed from the package index, every direct dependency at its lower bound."""

@@ -244,12 +244,16 @@ def runs(tmp_path_factory):
     make_run(root / "hot", strength=1.2)
     make_run(root / "cool", strength=0.4)
     make_run(root / "stopped", complete=False)
+    for name, depth in (("hot", 80), ("cool", 20)):
+        rows = "".join(f"{x}e-7,{x - depth}e-9\n" for x in range(1, 25, 2))
+        (root / name / "surface.csv").write_text(f"x_m,height_m\n{rows}")
     (root / "damaged").mkdir()
     (root / "damaged" / "resolved.json").write_text("{")
     write_calibration(root / "map")
     (root / "hot" / "figures").mkdir()
-    figures = {one.name: one.draw(open_run(root / "hot")) for one in DRAWINGS[:2]}
-    for name, figure in figures.items():
+    figures = {one.name: one.draw(open_run(root / "hot")) for one in DRAWINGS}
+    drawn = [(name, figure) for name, figure in figures.items() if figure is not None]
+    for name, figure in drawn[:2]:
         style.save(figure, root / "hot" / "figures" / f"{name}.png")
     return root
 

@@ -1,21 +1,20 @@
 """The page in a real browser, as a reader uses it."""
 
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from accessibility import serious
+from browser_window import LOST, narrow, width_of
 from playwright.sync_api import expect
 from prefix_proxy import PrefixProxy
+from synthetic_run import make_run
 
 pytestmark = pytest.mark.web
 LIVE_RUN = Path(__file__).resolve().parents[1] / "live_run.py"
-PATIENCE = 60_000
-"""For the window to follow [ms], on a busy machine."""
-LOST = "Failed to load resource|ERR_CONNECTION|ERR_FAILED|ERR_EMPTY"
-"""What the console says of requests that a test lets fail."""
 
 
 def names(page):
@@ -28,21 +27,6 @@ def pixels_are_drawn(page):
     canvas = page.locator("canvas[aria-label]").first
     expect(canvas).to_be_visible()
     return len(set(canvas.screenshot())) > 100
-
-
-def width_of(page):
-    """How far the page reaches to the right [pixels]."""
-    return page.evaluate("document.documentElement.scrollWidth")
-
-
-def narrow(page):
-    """Make the window as wide as a telephone; curves follow its size a moment later."""
-    page.set_viewport_size({"width": 390, "height": 844})
-    for _ in range(PATIENCE // 100):
-        if width_of(page) == 390:
-            return
-        page.wait_for_timeout(100)
-    pytest.fail(f"the page is {width_of(page)} pixels wide")
 
 
 def test_list_is_sorted_and_filtered_and_opens_a_run(open_page, address):
@@ -173,11 +157,74 @@ def test_two_runs_are_compared(open_page, address):
     assert legends.first.inner_text() == legends.nth(1).inner_text()
     expect(page.locator(".plot canvas").first).to_be_visible()
     expect(page.locator(".key", has_text="hot").first).to_be_visible()
+    relief = page.get_by_role("img", name="Relief over place")
+    expect(relief).to_have_attribute("aria-label", re.compile("hot -57 nm, cool 3 nm"))
+    temperature = page.get_by_role("img", name=re.compile("^Temperature over time; .*cool"))
+    expect(temperature).to_be_visible()
+    row = page.get_by_role("row", name="largest temperature 3 273 K 2 462 K")
+    expect(row).to_contain_text("−811 K, −25 %")
     page.wait_for_timeout(300)
     assert serious(page) == []
     watched.keep("compare")
     narrow(page)
     watched.keep("narrow-compare")
+
+
+def test_study_is_one_card_and_the_bar_of_a_comparison_stays_in_sight(open_page, serve, tmp_path):
+    """The key that varies has the unit of light; ticks far down the list are answered there."""
+    root = tmp_path / "runs"
+    for fluence in (2250.0, 4406.25):
+        make_run(root / "thr" / f"fluence-{fluence:g}", fluence=fluence)
+    make_run(root / "run-00")
+    for number in range(1, 14):
+        shutil.copytree(root / "run-00", root / f"run-{number:02d}")
+    for width in (1400, 390):
+        watched = open_page(serve(root).address, width=width, expected=[LOST])
+        page = watched.page
+        expect(page.locator(".card")).to_have_count(15)
+        page.get_by_label("Order").select_option("name")
+        bar = page.get_by_role("link", name="Compare")
+        expect(bar).to_be_hidden()
+        for name, words in (
+            ("run-12", "run-12: tick another run"),
+            ("run-13", "run-12 and run-13"),
+            ("run-11", "two can be compared"),
+        ):
+            page.get_by_label(f"Compare {name}").check()
+            expect(page.get_by_text(words)).to_be_in_viewport()
+        page.get_by_label("Compare run-11").uncheck()
+        expect(bar).to_be_in_viewport()
+        assert serious(page) == []
+        page.screenshot(path=tmp_path / f"bar-{width}.png")
+        assert width_of(page) == width
+        page.get_by_role("button", name="Clear").click()
+        expect(bar).to_be_hidden()
+        expect(page.get_by_label("Compare run-12")).not_to_be_checked()
+    card = page.locator(".card.sweep")
+    expect(card).to_contain_text("fluence 0.225 J/cm² to 0.4406 J/cm²")
+    card.get_by_role("link").click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("threshold, made-up steel")
+    expect(page.locator(".axes a")).to_have_count(2)
+    watched.keep("study")
+    page.get_by_role("link", name="fluence-2250", exact=True).click()
+    expect(page.locator(".state")).to_contain_text("complete")
+
+
+def test_ticks_of_an_axis(open_page, address):
+    """At least three, also of a logarithmic axis that covers less than a decade."""
+    page = open_page(address).page
+    ticks = """([low, high, isLogarithmic]) => import("./static/dom.js").then(({ ticksOf }) =>
+      ticksOf({ low, high, isLogarithmic }, "J/m^2")[0].map(([, words]) => words))"""
+
+    def words(*axis):
+        return page.evaluate(ticks, list(axis))
+
+    assert words(9, 1.1e7, True)[:4] == ["0.001", "0.002", "0.005", "0.01"]
+    assert words(3800, 10500, True) == ["0.4", "0.5", "0.7", "1"]
+    assert words(5500, 7900, True) == ["0.55", "0.6", "0.65", "0.7", "0.75"]
+    for low in (1.0, 1.7, 2.3, 4.1, 6.6, 9.2):
+        for factor in (1.05, 1.3, 2.0, 4.0, 9.0, 60.0):
+            assert len(words(low, factor * low, True)) >= 3, (low, factor)
 
 
 def test_sweep_opens_its_runs(open_page, address):
@@ -201,85 +248,6 @@ def test_sweep_opens_its_runs(open_page, address):
     points.nth(5).focus()
     page.keyboard.press("Enter")
     expect(page.get_by_text("Nothing to show")).to_be_visible()  # made up: without a case file
-
-
-def test_run_is_typed_started_stopped_and_resumed(open_page, serve, tmp_path):
-    """The form says what is wrong while one types; the run outlives the server."""
-    (tmp_path / "runs").mkdir()
-    server = serve(tmp_path / "runs", "--allow-run")
-    watched = open_page(server.address, expected=[LOST])
-    page = watched.page
-    page.get_by_role("link", name="New run").click()
-    page.locator("#case").select_option("stefan")
-    expect(page.get_by_role("textbox", name="title")).to_have_value(re.compile("Stefan"))
-    start = page.get_by_role("button", name="Start the run")
-    expect(start).to_be_enabled()
-    heat = page.get_by_role("textbox", name="boundaries.surface_temperature", exact=False).first
-    heat.fill("1333 kg")
-    expect(heat).to_have_attribute("aria-invalid", "true")
-    expect(page.get_by_text("has another dimension")).to_be_visible()
-    expect(start).to_be_disabled()
-    watched.keep("form-wrong")
-    heat.fill("1400 K")
-    expect(start).to_be_enabled()
-    page.locator("#key-time-step").fill("0.01 ns")
-    expect(page.locator(".result")).to_contain_text("about 100000 to 1 us")
-    expect(start).to_be_enabled()
-    assert serious(page) == []
-    watched.keep("form-right")
-    page.get_by_label("name of its folder").fill("hotter")
-    start.click()
-    state = page.locator(".state")
-    expect(state).to_contain_text("running")
-    expect(
-        page.get_by_role("row", name="boundaries.surface_temperature 1333 K 1400 K")
-    ).to_be_visible()
-    server.kill()
-    expect(page.locator("#connection")).to_contain_text("does not answer")
-    server.start()
-    expect(page.locator("#connection")).to_be_empty()
-    page.get_by_role("button", name="Stop").click()
-    expect(state).to_contain_text("stopped")
-    page.get_by_role("button", name="Resume").click()
-    expect(state).to_contain_text("running")
-    page.get_by_role("button", name="Stop").click()
-    expect(state).to_contain_text("stopped")
-    expect(page.locator("pre").last).to_contain_text("resumed at step")
-
-
-def test_list_of_a_case_is_edited_with_the_keyboard(open_page, address):
-    """Rows of cells: the wrong one is marked, rows are added and removed; also on 390 pixels."""
-    watched = open_page(f"{address}#/new/dlip-steel", width=390)
-    page = watched.page
-    start = page.get_by_role("button", name="Start the run")
-    expect(start).to_be_enabled()
-    depth = page.get_by_label("probes depth").nth(1)
-    depth.fill("1 kg")
-    expect(depth).to_have_attribute("aria-invalid", "true")
-    expect(page.locator(".rows [aria-invalid]")).to_have_count(1)
-    expect(page.get_by_text("probes[2].depth: ")).to_be_visible()
-    depth.fill("10 nm")
-    expect(start).to_be_enabled()
-    page.get_by_role("button", name="Add to probes").press("Enter")
-    page.keyboard.type("inside")
-    page.keyboard.press("Tab")
-    with page.expect_request("**/api/check") as asked:
-        page.keyboard.type("0.2 um")
-    assert asked.value.post_data_json["settings"] == [
-        'probes=[{ name = "maximum", depth = "0 nm", method = "even" }, '
-        '{ name = "minimum", depth = "10 nm", x = "2.5 um", method = "even" }, '
-        '{ name = "inside", depth = "0.2 um" }]'
-    ]
-    expect(start).to_be_enabled()
-    assert width_of(page) == 390
-    assert serious(page) == []
-    watched.keep("narrow-form")
-    page.locator("#key-laser-beam-kind").select_option("uniform")  # a table of another kind
-    expect(page.locator("#key-laser-beam-period")).to_have_count(0)
-    expect(page.get_by_label("probes depth")).to_have_count(3)
-    expect(start).to_be_enabled()
-    page.get_by_role("button", name="Remove this row of probes").nth(2).press("Enter")
-    expect(page.get_by_label("probes depth")).to_have_count(2)
 
 
 def test_wrong_token(open_page, address):

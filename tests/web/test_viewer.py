@@ -46,8 +46,18 @@ class Server(http.server.ThreadingHTTPServer):
         if self.frames is not None:
             cut = slice(self.frames)
             found |= {"times": found["times"][cut], "counts": found["counts"][cut]}
-            found["is_complete"] = False
+            found |= {"is_complete": False, "levels": {"melts": synthetic_run.LIQUIDUS}}
+            if self.frames:
+                for one in found["fields"]:
+                    one["range"] = self.range_so_far(one["name"], found)
         return found
+
+    def range_so_far(self, field, index):
+        """Smallest and largest value of a field in the frames that there are."""
+        places = zip(index["blocks"][field], index["counts"], strict=False)
+        names = [f"particles.{field}.{at}.{count}.{index['stamp']}" for at, count in places]
+        blocks = [np.frombuffer(particle_block(self.folder, name), "<f4") for name in names]
+        return [float(min(map(np.min, blocks))), float(max(map(np.max, blocks)))]
 
 
 class Answer(http.server.BaseHTTPRequestHandler):
@@ -260,6 +270,33 @@ def test_live_is_a_state_of_its_own(page, server):
     expect(page.locator("output")).to_have_text("40 ns")
     server.frames = None
     expect(live).to_be_hidden()
+
+
+def test_live_run_shows_its_temperature_from_the_first_frame(page, server, tmp_path):
+    """Of which the first frame has one value: cold metal is gray, on a scale up to melting; what
+    can be shown grows with the run, and a color that the reader chose stays."""
+    server.frames = 1
+    open_viewer(page, server)
+    wait_for_frame(page, 0)
+    expect(page.locator(".legend b")).to_have_text("temperature [K]")
+    expect(page.locator(".bar .level")).to_have_text(["melts 1727"])
+    for pixel in three_pixels(picture(page, tmp_path / "first-frame.png"))[:2]:
+        assert_color(pixel, "#d3d7dc")
+    gates = page.locator(".gate option")
+    expect(gates).to_have_count(2)
+    page.get_by_role("button", name="Live").click()
+    server.frames = 9
+    wait_for_frame(page, 8)
+    expect(page.locator(".bar .level")).to_have_text(["melts 1727"])
+    hot, cold, _ = three_pixels(picture(page))
+    assert np.ptp(hot) > 40 > np.ptp(cold)  # no longer gray
+    expect(gates.nth(1)).to_have_text("any melt")
+    page.get_by_label("Color", exact=True).select_option("melt fraction")
+    wait_for_frame(page, 8, "melt_fraction")
+    page.get_by_label("Show").select_option("any melt")
+    server.frames = None
+    wait_for_frame(page, 20, "melt_fraction")
+    expect(page.get_by_label("Show").locator("option:checked")).to_have_text("any melt")
 
 
 def test_before_the_first_frame(page, server):

@@ -19,28 +19,47 @@ temperature of the step before (steps take at most 1 % of the pulse).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
+FARTHEST = 1e8
+"""To which the last segment of a short curve goes on [J/kg]: ten times what makes metal vapor."""
+Delivered = Callable[[ArrayLike, ArrayLike], Array]
+"""Share of one pulse's energy that arrives between times, or arrays of them [s]."""
 Vapor = Callable[[Array], tuple[Array, Array]]
 """Mass [kg/(m^2 s)] and heat [W/m^2] that leave a surface at temperatures [K]."""
 
 
 @dataclass(frozen=True)
+class SurfaceHistory:
+    """The surface of the columns after each step: `time` (n,) [s], `temperature` [K] and `depth` of
+    the melt below [m], both (n, columns), which are `column_width` [m] wide; None: one column."""
+
+    time: Array
+    temperature: Array
+    depth: Array
+    column_width: float | None
+
+
+@dataclass(frozen=True)
 class MeltEstimate:
     """Depth of the melt [m] (0 where nothing melts), first and last time there is some [s], the
-    highest surface temperature [K]; times are nan where nothing melts, as before any light. And
-    what evaporates, as a depth in the mean of the columns [m], 0 where that was not asked for."""
+    highest surface temperature [K]; times are nan where nothing melts, as before any light. What
+    evaporates, as a depth in the mean of the columns [m], 0 where that was not asked for. What a
+    plateau holds of the heat of vaporization, as the largest depth of metal that it would turn into
+    vapor [m]. And the surface over time, None where there is no light."""
 
     depth: float
     start: float
     end: float
     temperature: float
     evaporated: float = 0.0
+    held: float = 0.0
+    surface: SurfaceHistory | None = field(default=None, repr=False)
 
     @property
     def safe_depth(self) -> float:
@@ -58,11 +77,12 @@ def melt_depth(
     absorption_coefficient: float,
     reflectivity: Callable[[Array], Array] | float,
     fluence: ArrayLike,
-    delivered: Callable[[float, float], float],
+    delivered: Delivered,
     end_time: float,
     column_width: float | None = None,
     level: float = 0.0,
     vapor: Vapor | None = None,
+    boiling: tuple[float, float] | None = None,
 ) -> MeltEstimate:
     """Deepest point where the melt fraction exceeds `level`, over the whole run.
 
@@ -76,6 +96,7 @@ def melt_depth(
         delivered: share of one pulse's energy arriving between two times [s].
         end_time: time to stop at [s]; the run ends earlier when the pool has solidified.
         vapor: what leaves the surface; nothing does by default.
+        boiling: enthalpy at which a plateau begins, and the latent heat of vaporization [J/kg].
 
     Raises:
         ValueError: several columns without a width.
@@ -103,6 +124,7 @@ def melt_depth(
     deepest, start, end, hottest = 0.0, np.nan, np.nan, float(curve.temperature(h[0, 0]))
     lateral_limit = np.inf if column_width is None else 0.4 * column_width**2 / diffusivity
     schedule = _Schedule(times, end_time, lateral_limit)
+    held, steps = 0.0, []
     now = times[0]
     while now < end_time:
         step = schedule.step(now)
@@ -110,15 +132,25 @@ def melt_depth(
         heat = np.outer(absorbed * delivered(now, now + step), absorbed_share)
         h = block.advance(h, heat, step, curve)
         now += step
-        hottest = max(hottest, float(curve.temperature(h[:, 0]).max()))
-        depth = _front(faces, curve.melt_fraction(h), level)
+        surface = curve.temperature(h[:, 0])
+        hottest = max(hottest, float(surface.max()))
+        fronts = _fronts(faces, curve.melt_fraction(h), level)
+        steps.append((now, surface, fronts))
+        if boiling is not None:
+            above = np.maximum(h - boiling[0], 0.0) @ np.diff(faces)
+            held = max(held, float(above.max()) / boiling[1])
+        depth = float(fronts.max())
         if depth > 0.0:
             start = now if np.isnan(start) else start
             deepest, end = max(deepest, depth), now
         elif now >= times[-1]:
             break
     evaporated = float(np.mean(block.evaporated)) / density
-    return MeltEstimate(float(deepest), float(start), float(end), hottest, evaporated)
+    time, temperatures, depths = (np.array(each) for each in zip(*steps, strict=True))
+    history = SurfaceHistory(time, temperatures, depths, column_width)
+    return MeltEstimate(
+        float(deepest), float(start), float(end), hottest, evaporated, held, history
+    )
 
 
 class _Curve:
@@ -127,7 +159,7 @@ class _Curve:
     def __init__(self, enthalpy, temperature, potential, melt_fraction):
         h = np.asarray(enthalpy, float)
         potential = _slanted(np.asarray(potential, float))
-        far = h[-1] + 1e3 * (h[-1] - h[0])
+        far = h[-1] + max(1e3 * (h[-1] - h[0]), FARTHEST)
         self.nodes = np.append(h, far)
         self.columns = {}
         for name, values in (("T", temperature), ("theta", potential), ("f", melt_fraction)):
@@ -135,6 +167,7 @@ class _Curve:
             last = v[-1] + (v[-1] - v[-2]) / (h[-1] - h[-2]) * (far - h[-1])
             self.columns[name] = np.append(v, last if name != "f" else v[-1])
         self.slope = np.diff(self.columns["theta"]) / np.diff(self.nodes)
+        self.heating = np.diff(self.columns["T"]) / np.diff(self.nodes)
 
     def temperature(self, h):
         return np.interp(h, self.nodes, self.columns["T"])
@@ -149,11 +182,11 @@ class _Curve:
         return self.slope[self._segment(h)]
 
     def temperature_slope(self, h):
-        return (np.diff(self.columns["T"]) / np.diff(self.nodes))[self._segment(h)]
+        return self.heating[self._segment(h)]
 
     def _segment(self, h):
         k = np.searchsorted(self.nodes, h, side="right") - 1
-        return np.clip(k, 0, self.slope.size - 1)
+        return np.minimum(np.maximum(k, 0), self.slope.size - 1)
 
 
 def _slanted(potential: Array, share: float = 0.02) -> Array:
@@ -186,7 +219,11 @@ class _Block:
         self.mass = density * np.diff(faces)
         centers = 0.5 * (faces[1:] + faces[:-1])
         self.conductance = 1.0 / np.diff(centers)
+        self.outward = np.append(self.conductance, 0.0) + np.append(0.0, self.conductance)
         self.height, self.width, self.columns = np.diff(faces), width, columns
+        from scipy.linalg import get_lapack_funcs  # loads as long as all else that reads a case
+
+        self.solve_tridiagonal: Any = get_lapack_funcs("gtsv", dtype=np.float64)
 
     def _outflow(self, theta: Array) -> Array:
         """Heat leaving each cell up and down [W/m^2]."""
@@ -205,19 +242,26 @@ class _Block:
             inflow[1:] -= flow
         return inflow
 
-    def _evaporation(self, h: Array, curve: _Curve) -> tuple[Array, Array, Array]:
-        """Mass flux (columns,), power that cells lose by vapor and by the metal that moves up
-        through them (columns, cells) [W/m^2], and its slope in h of the uppermost ones."""
+    def _evaporation(self, h: Array, curve: _Curve) -> tuple[Array, Array]:
+        """Mass flux (columns,), and power that cells lose by vapor and by the metal that moves up
+        through them (columns, cells) [W/m^2]."""
         lost = np.zeros_like(h)
         if self.vapor is None:
-            return lost[:, 0], lost, lost[:, 0]
+            return lost[:, 0], lost
+        m, q = self.vapor(curve.temperature(h[:, 0]))
+        lost[:, :-1] = m[:, None] * (h[:, :-1] - h[:, 1:])
+        lost[:, 0] += q
+        return m, lost
+
+    def _evaporation_slopes(self, h: Array, curve: _Curve) -> tuple[Array, Array]:
+        """Mass flux, and slope in h of the power that the uppermost cells lose, both (columns,)."""
+        if self.vapor is None:
+            return np.zeros(self.columns), np.zeros(self.columns)
         T = curve.temperature(h[:, 0])
         m, q = self.vapor(T)
         m_near, q_near = self.vapor(T + 1.0)
-        lost[:, :-1] = m[:, None] * (h[:, :-1] - h[:, 1:])
-        lost[:, 0] += q
         change = q_near - q + (m_near - m) * (h[:, 0] - h[:, 1])
-        return m, lost, change * curve.temperature_slope(h[:, 0])
+        return m, change * curve.temperature_slope(h[:, 0])
 
     def advance(
         self, h0: Array, heat: Array, step: float, curve: _Curve, halvings: int = 6
@@ -229,7 +273,7 @@ class _Block:
         tolerance = 1e-5 * np.abs(gain).sum() + 1e-9 * np.abs(capacity * h0).sum()
 
         def residual(h):
-            _, lost, _ = self._evaporation(h, curve)
+            _, lost = self._evaporation(h, curve)
             return capacity * (h - h0) + self._outflow(curve.potential(h)) + lost - gain
 
         h, r = h0, residual(h0)
@@ -237,7 +281,7 @@ class _Block:
             size = np.abs(r).sum()
             if size <= tolerance:
                 break
-            m, _, surface = self._evaporation(h, curve)
+            m, surface = self._evaporation_slopes(h, curve)
             change = self._newton_change(curve.potential_slope(h), capacity, r, m, surface)
             for damping in (1.0, 0.5, 0.25, 0.1):
                 trial = h + damping * change
@@ -257,18 +301,17 @@ class _Block:
         self, slope: Array, capacity: Array, r: Array, m: Array, surface: Array
     ) -> Array:
         """Solve (capacity + outflow slope) change = -r, all columns as one tridiagonal system."""
-        zero = np.zeros((self.columns, 1))
-        g = np.broadcast_to(self.conductance, (self.columns, self.conductance.size))
-        diagonal = capacity + slope * (np.hstack([g, zero]) + np.hstack([zero, g]))
-        rising = np.broadcast_to(m[:, None], g.shape)
-        diagonal[:, :-1] += rising
+        g = self.conductance
+        diagonal = capacity + slope * self.outward
+        diagonal[:, :-1] += m[:, None]
         diagonal[:, 0] += surface
-        lower = np.hstack([-g * slope[:, :-1], zero]).ravel()[:-1]
-        upper = np.hstack([-g * slope[:, 1:] - rising, zero]).ravel()[:-1]
-        from scipy.linalg import get_lapack_funcs  # loads as long as all else that reads a case
-
-        solve: Any = get_lapack_funcs("gtsv", dtype=np.float64)
-        *_, change, info = solve(lower, diagonal.ravel(), upper, -r.ravel())
+        # nothing couples the lowest cell of a column with the uppermost of the next
+        lower, upper = np.zeros_like(slope), np.zeros_like(slope)
+        lower[:, :-1] = -g * slope[:, :-1]
+        upper[:, :-1] = -g * slope[:, 1:] - m[:, None]
+        *_, change, info = self.solve_tridiagonal(
+            lower.ravel()[:-1], diagonal.ravel(), upper.ravel()[:-1], -r.ravel()
+        )
         if info != 0:
             raise ArithmeticError(f"tridiagonal solve failed (LAPACK dgtsv info {info})")
         return change.reshape(r.shape)
@@ -293,10 +336,10 @@ class _Schedule:
         return min(step, self.end - now)
 
 
-def _light_times(delivered: Callable[[float, float], float], end_time: float) -> Array:
+def _light_times(delivered: Delivered, end_time: float) -> Array:
     """Times from the first light to the last, about 1 % of the energy (or of the span) apart."""
     grid = np.linspace(0.0, end_time, 4001)
-    energy = np.array([delivered(0.0, t) for t in grid])
+    energy = delivered(0.0, grid)
     share = energy / energy[-1]
     first = max(int(np.searchsorted(share, 1e-4, side="right")) - 1, 0)
     last = int(np.searchsorted(share, 1.0 - 1e-4, side="left"))
@@ -321,13 +364,14 @@ def _cell_faces(light: float, span: float, alpha: float, diffusivity: float, n: 
     return np.concatenate([[0.0], np.cumsum(finest * growth ** np.arange(n))])
 
 
-def _front(faces: Array, fraction: Array, level: float) -> float:
-    """Depth of the deepest cell in which the fraction exceeds the level, that cell by its share."""
-    deepest = 0.0
-    for column in fraction:
+def _fronts(faces: Array, fraction: Array, level: float) -> Array:
+    """(columns,) depth of the deepest cell in which the fraction exceeds the level, that cell by
+    its share [m]."""
+    depths = np.zeros(fraction.shape[0])
+    for number, column in enumerate(fraction):
         molten = np.flatnonzero(column > level)
         if molten.size:
             k = molten[-1]
             share = 1.0 if level > 0.0 else column[k]
-            deepest = max(deepest, float(faces[k] + share * (faces[k + 1] - faces[k])))
-    return deepest
+            depths[number] = faces[k] + share * (faces[k + 1] - faces[k])
+    return depths

@@ -41,8 +41,11 @@ from lasersph.sph.tangential import (
 )
 
 LOWEST, HIGHEST = 1.0, 2.0e4
-"""Range of temperatures of the table of surface tension [K]."""
+"""Range of temperatures of the table of surface tension [K]. Format: it ends far above any metal.
+"""
 NODES = 257
+"""Nodes of that table. Accuracy: 78 K from node to node; a surface tension that is linear is exact.
+"""
 
 
 @dataclass(frozen=True)

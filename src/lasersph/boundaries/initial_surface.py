@@ -15,12 +15,14 @@ from lasersph.input import Length, Model, refusal
 Array = NDArray[np.float64]
 COLUMNS = ("x_m", "height_m")
 STEEPEST = 1.0
-"""Slope up to which the surface is computed: ghosts across steeper tangents meet."""
+"""Slope up to which the surface is computed. Guard: ghosts across tangents steeper than 45 degrees
+meet."""
 FEWEST_ROWS = 3
-"""Thickness of the liquid over the spacing, down to which it is: flow in fewer rows is not seen."""
+"""Thickness of the liquid over the spacing, down to which it is. Guard: fewer rows of a box see no
+profile of the flow."""
 BEYOND = 1.0
-"""Widths of its columns by which a relief may end before the surface does: columns have heights in
-their middle, and those of another run may be wider."""
+"""Widths of its columns by which a relief may end before the surface does. Geometry: columns have
+heights in their middle, and those of another run may be wider."""
 
 
 class InitialSurface(Model):

@@ -43,7 +43,7 @@ DIRICHLET = ("fixed-temperature", "wall")
 NEUMANN = "prescribed-flux"
 """The kind of faces whose heat flux is given."""
 STANDARD_ATMOSPHERE = 101325.0
-"""Of the surroundings [Pa]."""
+"""Pressure of the surroundings [Pa]. Exact: by its definition."""
 KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left", "right": "right"}
 """Each face and how the keys of its temperature and flux begin."""
 
@@ -54,7 +54,9 @@ class SurfaceWave(Model):
     amplitude: float = Field(description="at x = 0")
     period: Annotated[Length, Field(gt=0)] = Field(description="wavelength along x")
     start: Annotated[Time, Field(ge=0)] = Field(default=0.0, description="when it sets in")
-    end: Annotated[Time, Field(gt=0)] | None = Field(default=None, description="default: never")
+    end: Annotated[Time, Field(gt=0)] | None = Field(
+        default=None, description="when it ends; default: never"
+    )
 
     @model_validator(mode="after")
     def _check_times(self) -> SurfaceWave:
@@ -118,22 +120,24 @@ class Boundaries(Model):
     surface_flux: HeatFlux | None = Field(default=None, description="into the body")
     bottom: Face = Field(default="adiabatic", description="at the smallest z")
     bottom_temperature: Temperature | None = Field(
-        default=None, description="default: the initial temperature"
+        default=None, description="where it is given; default: the initial temperature"
     )
     bottom_flux: HeatFlux | None = Field(default=None, description="into the body")
     sides: Face = Field(default="adiabatic", description="at both ends of x and y")
     side_temperature: Temperature | None = Field(
-        default=None, description="default: the initial temperature"
+        default=None, description="where it is given; default: the initial temperature"
     )
     side_flux: HeatFlux | None = Field(default=None, description="into the body")
     left: Face | None = Field(default=None, description="at the smaller x; default: as sides")
     left_temperature: Temperature | None = Field(
-        default=None, description="default: side_temperature, else the initial temperature"
+        default=None,
+        description="where it is given; default: side_temperature, else the initial temperature",
     )
     left_flux: HeatFlux | None = Field(default=None, description="into the body")
     right: Face | None = Field(default=None, description="at the larger x; default: as sides")
     right_temperature: Temperature | None = Field(
-        default=None, description="default: side_temperature, else the initial temperature"
+        default=None,
+        description="where it is given; default: side_temperature, else the initial temperature",
     )
     right_flux: HeatFlux | None = Field(default=None, description="into the body")
     convection: Annotated[HeatTransferCoefficient, Field(ge=0)] = Field(

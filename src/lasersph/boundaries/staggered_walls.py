@@ -19,6 +19,7 @@ from lasersph.particles.faces import face_pairs
 
 Array = NDArray[np.float64]
 LAYERS = 3
+"""Layers of a wall. Geometry: three fill a support of 3 spacings."""
 
 
 def wall_particles(

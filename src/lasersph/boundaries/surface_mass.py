@@ -31,12 +31,17 @@ from lasersph.compute.vectors import vector
 from lasersph.particles.neighbor_lists import members_of
 
 SHARE = 8.0
-"""Depth from which mass is taken, over the thickness that has left: where three spacings have, no
-particle has lost more than half."""
+"""Depth from which mass is taken, over the thickness that has left. Derived: a share of 1 / S of
+the depth reached leaves with each further thickness, so that after g spacings the smallest particle
+keeps (1.5 / (e S g))^(1/S) of its volume: with 8 it has 0.6 (`WORN`, where layouts are renewed)
+after 4 spacings, with 4 after one; 0.62 after three (tested)."""
 CATCH_UP = 0.05
-"""How much more a step takes, over its share, of what longer steps before it have evaporated."""
+"""How much more a step takes, over its share, of what longer steps before it have evaporated.
+Study: the least that ends a delay; with 0.1 steps of a third of the length change the temperature
+of steel under 1e11 W/m2 by 2.6 K, with 0.05 by 1.2 K."""
 LEAST_ROW = 0.2
-"""Part of its volume that a particle keeps in a step in which mass leaves, at least."""
+"""Part of its volume that a particle keeps in a step in which mass leaves, at least. Guard: mass
+that leaves takes less than a thousandth of a row in a step."""
 
 
 def recede(

@@ -19,11 +19,13 @@ from numpy.typing import NDArray
 from lasersph.boundaries.surface_line import End, SurfaceLine
 
 FEWEST = 12
-"""Columns of a part that moves, with those of its image; fewer show no curvature and are held."""
+"""Columns of a part that moves, with those of its image. Accuracy: two smoothing lengths of six
+columns; fewer show no curvature and are held."""
 
 ADVANCE = 0.5
 """Height of melt over the solid beside its last column, over the width of a column, above which it
-advances: 45 degrees from the pin at the side of that column to its middle."""
+advances. Study: 45 degrees from the pin at the side of that column to its middle, the steepest
+slope of a wave; 1 changes a relief of 410 nm by 1 %."""
 
 
 class Segment(NamedTuple):

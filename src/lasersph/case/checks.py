@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
-from lasersph.boundaries.settings import DIRICHLET
+from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.flow_checks import flow_problems
-from lasersph.case.motion_checks import motion_problems
+from lasersph.case.motion_checks import motion_problems, no_axis
 from lasersph.case.pulse_checks import pulse_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
@@ -20,18 +20,26 @@ from lasersph.case.size import (
     memories,
     size_of,
 )
-from lasersph.case.solver_choice import SELECTIVE_KEYS, reader_of
+from lasersph.case.solver_choice import SELECTIVE_KEYS, computes_flow, reader_of
 from lasersph.case.surface_checks import surface_problems
-from lasersph.input import CaseError, format_quantity
+from lasersph.input import CaseError, Model, format_quantity
 from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
 from lasersph.materials import NoOptics
 from lasersph.output.settings import SnapshotSchedule
+from lasersph.solvers.solver_settings import SolverSettings
 
 if TYPE_CHECKING:
     from lasersph.case.contents import CaseContents
 
 FEWEST_LAYERS = 4
 LARGEST_COST_SHARE = 0.9
+USUAL_WIDTH = 5e-6
+"""Width that a message names where the light has no period [m]. Display: that of the examples."""
+IMPLICIT_STEPS = ("temperature_change", "cooling", "growth")
+IMPLICIT_SOLUTION = ("tolerance", "iteration")
+"""Keys of [time] and [solver] that implicit steps alone read."""
+GRADED = ("fine_depth", "coarsest", "ratio")
+"""Keys of [particles] that graded ones alone read."""
 
 
 def problems_of(case: CaseContents) -> list[tuple[str, str]]:
@@ -43,12 +51,13 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         *_material(case),
         *_laser(case),
         *_unread_keys(case),
+        *_idle_keys(case),
+        *_points(case),
         *flow_problems(case),
         *surface_problems(case),
         *pulse_problems(case),
         *motion_problems(case),
         *_size(case),
-        *_probes(case),
         *_snapshots(case),
     ]
 
@@ -84,10 +93,30 @@ def _unread_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
             )
 
 
+def _idle_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Keys whose values would change nothing, where they are not the default."""
+    if case.solver.is_explicit:
+        why = "says nothing where steps are explicit, as stability limits them; leave it out"
+        yield from ((f"time.{key}", why) for key in _changed(case.time, IMPLICIT_STEPS))
+        yield from ((f"solver.{key}", why) for key in _changed(case.solver, IMPLICIT_SOLUTION))
+    if case.particles.arrangement == "uniform":
+        why = 'belongs to graded particles; leave it out or write arrangement = "graded"'
+        yield from ((f"particles.{key}", why) for key in _changed(case.particles, GRADED))
+
+
+def _changed(model: Model, keys: tuple[str, ...]) -> list[str]:
+    """Keys that a model has and that are not their default."""
+    fields = type(model).model_fields
+    return [key for key in keys if key in fields and getattr(model, key) != fields[key].default]
+
+
 def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
     domain, lattice, dimensions = case.domain, case.particles, case.solver.dimensions
     if dimensions > 1 and domain.width is None:
-        yield "domain.width", f'missing for {dimensions}-D; write e.g. width = "5 um"'
+        period = getattr(getattr(case.laser, "beam", None), "lateral_period", None)
+        width = format_quantity(period or USUAL_WIDTH, "m", 10)
+        why = ", a period of the light" if period else ""
+        yield "domain.width", f'missing for {dimensions}-D; write e.g. width = "{width}"{why}'
         return
     if dimensions == 1 and domain.extent == "half":
         yield "domain.extent", 'half of a 1-D column means nothing; write extent = "full"'
@@ -100,11 +129,6 @@ def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
                 f"{format_quantity(length, 'm')} holds fewer than {FEWEST_LAYERS} particles of "
                 f"{format_quantity(lattice.spacing, 'm')}; give a larger domain or a finer spacing",
             )
-    if lattice.fine_depth is not None and lattice.arrangement == "uniform":
-        yield (
-            "particles.fine_depth",
-            'belongs to graded particles; leave it out or write arrangement = "graded"',
-        )
     yield from _faces(case)
 
 
@@ -126,6 +150,12 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
                 "a 1-D column has no sides along x; leave it out or write dimensions = 2 in "
                 "[solver]",
             )
+    has_both = boundaries.left is not None and boundaries.right is not None
+    is_default = boundaries.side_temperature is not None or boundaries.side_flux is not None
+    if dimensions == 1 and boundaries.sides in (*DIRICHLET, NEUMANN):
+        yield "boundaries.sides", no_axis("x", 2, dimensions)
+    elif dimensions == 2 and has_both and not is_default and _changed(boundaries, ("sides",)):
+        yield "boundaries.sides", "says nothing where left and right are given; leave it out"
     if dimensions == 1 and boundaries.surface_temperature_wave is not None:
         yield (
             "boundaries.surface_temperature_wave",
@@ -174,6 +204,11 @@ def _evaporation(case: CaseContents) -> Iterator[tuple[str, str]]:
                 '"flux" needs the temperature above which there is no liquid surface; write e.g. '
                 'critical_temperature = "9250 K" in vaporization of the material',
             )
+    if case.solver.evaporates and not case.solver.phase_change:
+        yield (
+            f"solver.{key}",
+            f'"{getattr(case.solver, key)}" says nothing where phase_change = false; leave it out',
+        )
     if case.boundaries.ambient_pressure is not None and not has_flux:
         yield (
             "boundaries.ambient_pressure",
@@ -226,7 +261,12 @@ def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
             "domain.extent",
             'this beam is not symmetric about x = 0; write extent = "full"',
         )
-    if not isinstance(laser.beam, InterferenceBeam) or holds_spot:
+    yield from _position(laser, dimensions)
+    if not isinstance(laser.beam, InterferenceBeam):
+        return
+    if dimensions == 2 and laser.beam.varies_along_y:
+        yield _pattern_across(laser.beam, case.solver)
+    if holds_spot:
         return
     if laser.beam.shift and not laser.is_even and case.boundaries.kind_of("left") == "adiabatic":
         yield (
@@ -242,6 +282,37 @@ def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
         yield from _whole_periods(
             "breadth", domain.breadth or domain.width, laser.beam.lateral_period_y
         )
+
+
+def _position(laser: Laser, dimensions: int) -> Iterator[tuple[str, str]]:
+    """Light that is the same wherever its axis lies."""
+    x, y = laser.position
+    if laser.is_bounded or (x, y) == (0.0, 0.0):
+        return
+    if isinstance(laser.beam, UniformBeam):
+        right = "leave it out" if laser.spot is None else "write spot.place instead"
+        yield "laser.position", f"says nothing of light that is the same everywhere; {right}"
+    elif dimensions == 2 and y != 0.0:
+        yield (
+            "laser.position",
+            "its y says nothing where the light is the same at all y; write "
+            f'position = ["{format_quantity(x, "m")}", "0 m"]',
+        )
+
+
+def _pattern_across(beam: InterferenceBeam, solver: SolverSettings) -> tuple[str, str]:
+    """The refusal of a pattern that no plane section shows."""
+    key, right = "beams", "beams = 2"
+    if beam.waves:
+        key, right = "waves", "waves whose azimuths are all 0 or 180 deg"
+    period = beam.lateral_period_y
+    every = "" if period is None else f", every {format_quantity(period, 'm', 4)}"
+    solid = ' with solver.kind = "conduction"' if computes_flow(solver) else ""
+    return (
+        f"laser.beam.{key}",
+        f"the pattern varies along y{every}, but a 2-D run is a section with the same light at all "
+        f"y; write {right}, or solver.dimensions = 3{solid}",
+    )
 
 
 def _whole_periods(
@@ -276,32 +347,43 @@ def _size(case: CaseContents) -> Iterator[tuple[str, str]]:
         )
 
 
-def _probes(case: CaseContents) -> Iterator[tuple[str, str]]:
-    for name, count in Counter(probe.name for probe in case.probes).items():
-        if count > 1:
-            yield "probes", f'{count} probes are named "{name}"; give each its own name'
-    bounds = case.domain.lateral(case.solver.dimensions)
-    for index, probe in enumerate(case.probes, start=1):
-        if probe.depth > case.domain.depth:
-            yield (
-                f"probes[{index}].depth",
-                f"{format_quantity(probe.depth, 'm')} lies below the domain of "
-                f"{format_quantity(case.domain.depth, 'm')}; place the probe inside",
-            )
-        for axis, (low, high) in zip("xy", bounds, strict=False):
-            place = getattr(probe, axis)
-            if not low <= place <= high:
+def _points(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Probes and traces: each of one name, inside the domain."""
+    dimensions = case.solver.dimensions
+    bounds = dict(zip("xy", case.domain.lateral(dimensions), strict=False))
+    for key, points in (("probes", case.probes), ("traces", case.traces)):
+        what = key.removesuffix("s")
+        for name, count in Counter(point.name for point in points).items():
+            if count > 1:
+                yield key, f'{count} {key} are named "{name}"; give each its own name'
+        for index, point in enumerate(points, start=1):
+            if point.depth > case.domain.depth:
                 yield (
-                    f"probes[{index}].{axis}",
-                    f"{format_quantity(place, 'm')} lies outside the domain, which runs from "
-                    f"{format_quantity(low, 'm')} to {format_quantity(high, 'm')}; place the probe "
-                    "inside",
+                    f"{key}[{index}].depth",
+                    f"{format_quantity(point.depth, 'm')} lies below the domain of "
+                    f"{format_quantity(case.domain.depth, 'm')}; place the {what} inside",
                 )
+            for axis, (low, high) in bounds.items():  # others are not used, see `NamedPoint`
+                place = getattr(point, axis)
+                if not low <= place <= high:
+                    yield (
+                        f"{key}[{index}].{axis}",
+                        f"{format_quantity(place, 'm')} lies outside the domain, which runs from "
+                        f"{format_quantity(low, 'm')} to {format_quantity(high, 'm')}; place the "
+                        f"{what} inside",
+                    )
 
 
 def _snapshots(case: CaseContents) -> Iterator[tuple[str, str]]:
     if case.end_of_pulse <= 0.0:  # which `pulse_problems` tells
         return
+    late = [time for time in case.output.snapshots.times if time > case.end_of_pulse]
+    if late:
+        yield (
+            "output.snapshots.times",
+            f"{format_quantity(late[0], 's')} is after the end, "
+            f"{format_quantity(case.end_of_pulse, 's')}; leave it out or give a later end",
+        )
     try:
         SnapshotSchedule(case.output.snapshots, case.end_of_pulse)
     except ValueError as error:

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, ValidationInfo, field_validator
 
 from lasersph.boundaries import Boundaries, FlowConditions, InitialMotion, Vessel
 from lasersph.boundaries.initial_surface import InitialSurface
 from lasersph.case.material_choice import MaterialChoice
-from lasersph.case.solver_choice import SolverChoice
+from lasersph.case.solver_choice import (
+    SolverChoice,
+    has_pool,
+    surface_moves,
+    with_vaporization,
+)
 from lasersph.input import Model, Temperature
 from lasersph.lasers import Laser
 from lasersph.output.settings import OutputSettings, Probe, Trace
 from lasersph.particles import Domain, Lattice
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
+from lasersph.solvers.solver_settings import SolverSettings
 from lasersph.solvers.time_settings import TimeSettings
 
 SCHEMA_VERSION = 2
@@ -35,19 +41,34 @@ class CaseContents(Model):
     initial_temperature: Annotated[Temperature, Field(gt=0)] = Field(
         default=298.15, description="of all particles; enthalpies count from it"
     )
-    domain: Domain
-    particles: Lattice
-    boundaries: Boundaries = Boundaries.model_validate({})
-    laser: Laser | None = None
-    solver: SolverChoice = ConductionSettings.model_validate({})
-    time: TimeSettings
+    domain: Domain = Field(description="size of the block")
+    particles: Lattice = Field(description="their spacing and arrangement")
+    boundaries: Boundaries = Field(
+        default=Boundaries.model_validate({}), description="what holds at each side"
+    )
+    laser: Laser | None = Field(default=None, description="the light; none: nothing is lit")
+    solver: SolverChoice = Field(
+        default=ConductionSettings.model_validate({}),
+        validate_default=True,
+        description="what is computed: heat, flow of the melt, ablation",
+    )
+    time: TimeSettings = Field(description="how long, and in which steps")
     probes: tuple[Probe, ...] = Field(
         default=(), description="places whose temperature is recorded"
     )
     traces: tuple[Trace, ...] = Field(
         default=(), description="only where matter moves (ablation): particles that are followed"
     )
-    output: OutputSettings = OutputSettings.model_validate({})
+    output: OutputSettings = Field(
+        default=OutputSettings.model_validate({}), description="what is stored, and how often"
+    )
+
+    @field_validator("solver")
+    @classmethod
+    def _say_vaporization(cls, solver: SolverSettings, info: ValidationInfo) -> SolverSettings:
+        """Fill the default in that depends on the metal, where that could be read."""
+        material = info.data.get("material")
+        return solver if material is None else with_vaporization(solver, material)
 
     @property
     def flow(self) -> FlowConditions | None:
@@ -58,15 +79,12 @@ class CaseContents(Model):
     @property
     def has_pool(self) -> bool:
         """Whether `solver.flow` only names the surface of a pool in a metal that melts."""
-        flow = getattr(self.solver, "flow", None)
-        melts = self.material.melting is not None and getattr(self.solver, "phase_change", False)
-        return flow is not None and flow.names_surface_only and melts
+        return has_pool(self.solver, self.material)
 
     @property
     def surface_moves(self) -> bool:
         """Whether the surface of a flow moves."""
-        flow = getattr(self.solver, "flow", None)
-        return flow is not None and flow.surface.kind == "moving"
+        return surface_moves(self.solver)
 
     @property
     def initial_surface(self) -> InitialSurface | None:

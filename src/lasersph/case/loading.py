@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TypeVar
 
 from lasersph.case.case import Case
 from lasersph.case.contents import SCHEMA_VERSION, CaseContents
 from lasersph.case.conversion import convert
-from lasersph.case.other_words import OTHER_WORDS
 from lasersph.case.overrides import moved_settings, override
 from lasersph.case.quick import quick_settings
 from lasersph.input import CaseError, build, nearest, read_toml
+from lasersph.input.document import with_settings
 
 M = TypeVar("M", bound=CaseContents)
 LIBRARY = Path(__file__).parent / "cases"
@@ -75,12 +75,19 @@ class CaseFile:
         case = self._built(Case, overrides)
         moved = [*self._moved, *moved_settings(overrides)]
         note = f"read as schema version {SCHEMA_VERSION}: {', '.join(moved)}" if moved else ""
-        settings = "".join(f"# --set {setting}\n" for setting in overrides)
-        return case.named(Path(self.document.file).stem, settings + self.document.text, note)
+        text = with_settings(self.document.text, overrides)
+        return case.named(Path(self.document.file).stem, text, note)
 
     def _built(self, model: type[M], overrides: Sequence[str]) -> M:
         document = override(self.document, overrides)
-        return build(model, document, {"folder": Path(document.file).parent}, OTHER_WORDS)
+        return build(model, document, {"folder": Path(document.file).parent}, _other_words)
+
+
+def _other_words() -> Mapping[str, str]:
+    """Words of other programs for the keys of a case; loaded where a message needs it."""
+    from lasersph.case.other_words import OTHER_WORDS
+
+    return OTHER_WORDS
 
 
 def load_case(

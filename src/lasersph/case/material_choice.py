@@ -169,16 +169,31 @@ class _MaterialSchema:
     ) -> dict[str, Any]:
         """Quantities may be text or a table with their law, so that they have no type."""
         whole = Material.model_json_schema()
-        keys: dict[str, Any] = {"base": {"type": "string", "examples": ["steel-304"]}}
+        keys: dict[str, Any] = {
+            "base": {
+                "type": "string",
+                "description": "metal whose numbers hold where none is given here",
+                "default": None,
+                "examples": ["steel-304"],
+            }
+        }
         for name, part in whole["properties"].items():
             leaf = _resolved(part, whole["$defs"])
             below = leaf.get("properties", {})
             if name in SECTIONS:
                 needed = [key for key in leaf.get("required", ()) if key != "source"]
-                found = {key: _told(below[key], below[key], whole["$defs"]) for key in below}
-                keys[name] = {"type": "object", "properties": found, "required": needed}
+                found = {key: _told(below[key], whole["$defs"], key in needed) for key in below}
+                keys[name] = {
+                    "type": "object",
+                    "description": leaf["description"],
+                    "properties": found,
+                    "required": needed,
+                    "x-needed": False,
+                }
             else:
-                keys[name] = _told(part, below.get("value", leaf), whole["$defs"])
+                keys[name] = _told(
+                    part, whole["$defs"], name in whole["required"] and name != "name"
+                )
         return {
             "anyOf": [
                 {"type": "string", "examples": ["steel-304", "my-alloy.toml"]},
@@ -189,16 +204,26 @@ class _MaterialSchema:
 
 def _resolved(part: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
     """A part of a schema without its null and its reference."""
-    part = next(iter(part.get("anyOf", (part,))))
+    part = part if "x-kind" in part else next(iter(part.get("anyOf", (part,))))
     return definitions[part["$ref"].rpartition("/")[2]] if "$ref" in part else part
 
 
-def _told(
-    part: dict[str, Any], value: dict[str, Any], definitions: dict[str, Any]
-) -> dict[str, Any]:
-    """What a key means, and the unit and an example of the value that may stand there."""
-    leaf = _resolved(value, definitions)
-    found = {key: leaf[key] for key in ("x-unit", "examples") if leaf.get(key)}
+def _told(part: dict[str, Any], definitions: dict[str, Any], is_needed: bool) -> dict[str, Any]:
+    """Meaning of a key, kind, unit and an example of the value that may stand there.
+
+    "x-law" is true where that may be a law of the temperature as well, "x-needed" says whether a
+    material without a base needs the key, "x-default" is the number that it has there otherwise.
+    """
+    leaf = _resolved(part, definitions)
+    value = _resolved(leaf.get("properties", {}).get("value", leaf), definitions)
+    found = {key: value[key] for key in ("x-unit", "x-kind", "examples") if value.get(key)}
+    if value is not leaf:
+        found["x-law"] = True
+    elif "x-kind" not in found:
+        found["x-value"] = "text" if value.get("type") == "string" else "table"
+    found["x-needed"] = is_needed
+    if isinstance(part.get("default"), float):
+        found["x-default"] = part["default"]
     return found | {key: part[key] for key in ("description",) if part.get(key)}
 
 

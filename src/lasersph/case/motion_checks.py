@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.boundaries.initial_motion import Rest, SoundWave
+from lasersph.boundaries.initial_motion import Rest, SoundWave, Uniform
+from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case.solver_choice import moves_matter
 from lasersph.input import format_quantity
 from lasersph.particles.faces import LATERAL, VERTICAL, faces_of
@@ -28,6 +29,7 @@ def motion_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     yield from _particles(case, case.solver)
     yield from _motion(case, case.solver)
     yield from _light(case, case.solver)
+    yield from _idle_keys(case)
 
 
 def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
@@ -128,3 +130,37 @@ def _light(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, 
             "another; leave one of them out, or write leave and leave_distance instead of the "
             "preset",
         )
+
+
+def _idle_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Keys that need an open surface, walls at the sides, or light that goes below a surface."""
+    boundaries = case.boundaries
+    if boundaries.surface in (*DIRICHLET, "periodic"):
+        for key in ("convection", "emissivity"):
+            if getattr(boundaries, key):
+                yield (
+                    f"boundaries.{key}",
+                    f'says nothing where surface = "{boundaries.surface}", as no surface lies '
+                    'open; leave it out or write surface = "free"',
+                )
+    no_walls = case.solver.dimensions == 1 or boundaries.kind_of("left") == "periodic"
+    if case.vessel is not None and case.vessel.above > 0.0 and no_walls:
+        yield "solver.vessel.above", "there are no side walls that could be higher; leave it out"
+    if case.laser is not None and case.laser.absorption.kind == "beer-lambert":
+        yield (
+            "laser.absorption.kind",
+            "matter that moves takes all light in at what it meets first; write absorption = "
+            '{ kind = "surface" }',
+        )
+    if isinstance(case.motion, Uniform):
+        for axis, least in (("x", 2), ("y", 3)):
+            if case.solver.dimensions < least and getattr(case.motion, axis) != 0.0:
+                yield f"solver.motion.{axis}", no_axis(axis, least, case.solver.dimensions)
+
+
+def no_axis(axis: str, least: int, dimensions: int) -> str:
+    """Why a key of an axis says nothing in a run of fewer dimensions than the `least`."""
+    return (
+        f"says nothing in {dimensions}-D, which has no {axis}; leave it out or write dimensions = "
+        f"{least} in [solver]"
+    )

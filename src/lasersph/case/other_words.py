@@ -4,32 +4,16 @@ A key in full, or beginning with a dot inside its own table; several are tried i
 with a semicolon is what to do where lasersph has no such key. Words may name their table first.
 """
 
-OTHER_WORDS = {
+from lasersph.materials.other_words import MATERIAL_WORDS, SLOPES
+
+SLOPE = '; write surface_tension_slope = "-0.4 mN/(m K)" in [material]'
+
+OTHER_WORDS = MATERIAL_WORDS | {
     # material
-    "specific_heat": ".heat_capacity",
-    "specific_heat_capacity": ".heat_capacity",
-    "cp": ".heat_capacity",
-    "c_p": ".heat_capacity",
-    "rho": ".density",
-    "k": ".conductivity",
-    "thermal_conductivity": ".conductivity",
-    "thermal_diffusivity": ".diffusivity",
-    "dynamic_viscosity": ".viscosity",
-    "thermal_expansion": ".expansion",
-    "melting.temperature": ".solidus",
-    "melting_temperature": "material.melting.solidus .solidus",
-    "melting_point": "material.melting.solidus .solidus",
-    "latent_heat_of_fusion": "material.melting.latent_heat .latent_heat",
-    "latent_heat_melting": "material.melting.latent_heat .latent_heat",
-    "heat_of_fusion": "material.melting.latent_heat .latent_heat",
-    "boiling_temperature": "material.vaporization.temperature .temperature",
-    "boiling_point": "material.vaporization.temperature .temperature",
-    "vaporization_temperature": "material.vaporization.temperature .temperature",
-    "latent_heat_of_vaporization": "material.vaporization.latent_heat .latent_heat",
-    "latent_heat_vaporization": "material.vaporization.latent_heat .latent_heat",
     "emissivity": "material.optics.emissivity boundaries.emissivity",
     "absorptivity": "; write reflectivity = 1 - absorptivity in [laser]",
     "absorptance": "; write reflectivity = 1 - absorptance in [laser]",
+    **dict.fromkeys(SLOPES, SLOPE),
     # laser
     "wavelength": "laser.wavelength",
     "energy": "laser.pulse_energy",
@@ -50,6 +34,7 @@ OTHER_WORDS = {
     "spot_diameter": "laser.beam.diameter_1e2",
     "beam_diameter": "laser.beam.diameter_1e2",
     "spot_size": "laser.beam.diameter_1e2 laser.beam.radius",
+    "beam.diameter": "laser.beam.diameter_1e2 laser.beam.radius",
     "diameter": "laser.beam.diameter_1e2",
     "profile": "laser.beam.kind",
     "speed": "laser.path.velocity",

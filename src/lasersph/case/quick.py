@@ -22,7 +22,7 @@ def quick_settings(case: Case) -> list[str]:
     largest = largest_spacing(case)
     spacing = max(case.particles.spacing, min(COARSER * case.particles.spacing, largest))
     settings = [f"particles.spacing={spacing!r} m"]
-    if case.particles.coarsest < spacing:
+    if case.particles.arrangement == "graded" and case.particles.coarsest < spacing:
         settings.append(f"particles.coarsest={spacing!r} m")
     if case.particles.fine_depth is not None and case.particles.fine_depth < spacing:
         settings.append(f"particles.fine_depth={spacing!r} m")

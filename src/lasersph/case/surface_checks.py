@@ -49,7 +49,7 @@ def _tension(case: CaseContents) -> Iterator[tuple[str, str]]:
         yield (
             "material",
             f'"{name}" has no surface_tension, which a surface that moves needs; write e.g. '
-            f'surface_tension = "1.6 N/m" (liquid steel; aluminium "0.87 N/m") {base}in '
+            f'surface_tension = "1.6 N/m" (liquid steel; aluminum "0.87 N/m") {base}in '
             '[material], or surface = "flat" in [solver.flow]',
         )
 

@@ -18,6 +18,16 @@ which takes a twentieth of the start."""
 COMPLETION = "_LASERSPH_COMPLETE"
 """The variable by which a shell asks what could come next, as typer names it."""
 
+OTHER_VERBS = {
+    "list": "cases",
+    "ls": "cases",
+    "materials": "material list",
+    "show": "info",
+    "simulate": "run",
+    "start": "run",
+}
+"""What other programs call our verbs."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; the entry point of `lasersph`.
@@ -49,6 +59,8 @@ def _run(given: Sequence[str]) -> int:
     if verb == "--install-completion" or COMPLETION in os.environ:
         complete_in_shell(given)
         return 0
+    if verb == "help":  # as other programs have it: help run
+        verb, rest = (rest[0], ["--help"]) if rest else ("--help", [])
     if verb in ("-h", "--help"):
         print(top_help())
         return 0
@@ -58,7 +70,9 @@ def _run(given: Sequence[str]) -> int:
     if not any(verb in verbs for verbs in VERBS.values()):
         from lasersph.input import did_you_mean
 
-        near = did_you_mean(verb, [name for verbs in VERBS.values() for name in verbs])
+        names = [name for verbs in VERBS.values() for name in verbs]
+        other = OTHER_VERBS.get(verb)
+        near = f' (do you mean "{other}"?)' if other else did_you_mean(verb, names)
         raise WrongCommand(f'no verb "{verb}"{near}; see lasersph --help')
     code = command_of(verb)(rest)
     return code if isinstance(code, int) else 0

@@ -52,7 +52,7 @@ VERBS = {
         ),
         "compare": (
             "measured.compare",
-            "Level and align a measured profile or height map, and say how ours differs from it.",
+            "Say how a run or texture differs from a measured profile or height map, or a run.",
         ),
         "export": (
             "results.export",

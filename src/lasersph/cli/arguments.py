@@ -47,8 +47,17 @@ Out = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder t
 Resume = Annotated[
     bool, typer.Option("--resume", help="Continue what DIR holds, or start where it holds nothing.")
 ]
+Overwrite = Annotated[
+    bool, typer.Option("--overwrite", help="Replace the run that DIR holds, if the case is right.")
+]
 Quick = Annotated[
     bool, typer.Option("--quick", help="Up to four times coarser, to see that it works.")
+]
+Anyway = Annotated[
+    bool,
+    typer.Option(
+        "--anyway", help="Start what `check` refuses as too large for this machine all the same."
+    ),
 ]
 Threads = Annotated[
     int | None, typer.Option("--threads", min=1, metavar="N", help="Default: all processors.")

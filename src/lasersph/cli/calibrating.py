@@ -12,12 +12,21 @@ import typer
 from lasersph.cli.arguments import Out
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
-from lasersph.cli.sweeping import DryRun, forecast_rows, tell_refused
+from lasersph.cli.sweeping import (
+    DryRun,
+    count_words,
+    forecast_rows,
+    refused_words,
+    say_forecast,
+    tell_refused,
+    tell_warnings,
+)
 from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
     from lasersph.studies.calibration_plan import CalibrationPlan
     from lasersph.studies.find_runs import FindPlan
+    from lasersph.sweeps import Point
 
 PlanName = Annotated[
     Path,
@@ -59,6 +68,7 @@ def calibrate(
     from lasersph.studies import calibration_run
     from lasersph.studies.calibration_answer import answer_lines
     from lasersph.studies.calibration_reading import read_calibration_plan
+    from lasersph.sweeps import Table
 
     loaded = read_calibration_plan(plan)
     if dry_run:
@@ -66,6 +76,9 @@ def calibrate(
         return
     folder = out or Path("runs") / plan.stem
     chosen = engine.engine()
+    points, most = _first_points(loaded)
+    more = ", and two checks" * loaded.runs.check
+    say_forecast(points, engine, folder, loaded.study, most, more)
     with StopSignals() as signals:
         try:
             found = calibration_run.calibrate(
@@ -73,6 +86,7 @@ def calibrate(
             )
         except Stopped as error:
             raise _stopped(error, signals.code, "calibrate", plan, folder, engine) from None
+    tell_warnings(Table.read(folder))
     for line in answer_lines(found):
         print(line)
     content, points = calibration_run.read_answer(folder)
@@ -92,12 +106,11 @@ def find(
 ) -> None:
     """Find settings of a sweep that reach wanted values inside limits, and how probably."""
     from lasersph.cli.stop_signals import StopSignals
-    from lasersph.input import CaseError, QuantityError
+    from lasersph.input import CaseError, QuantityError, format_quantity
     from lasersph.output import OutputError
     from lasersph.simulation.time_loop import Stopped
     from lasersph.studies import find_runs
     from lasersph.sweeps import Table
-    from lasersph.sweeps.table import name_with_unit
 
     folder = place if place.is_dir() else out or Path("runs") / place.stem
     if place.is_dir() and (out is not None or engine.words() or dry_run or not want):
@@ -107,9 +120,13 @@ def find(
         )
     if not place.is_dir() and want:
         raise WrongCommand("--want is for the folder of a sweep: a plan says what is wanted")
-    if dry_run:
-        _forecast_find(find_runs.read_find_plan(place), engine)
+    plan = None if place.is_dir() else find_runs.read_find_plan(place)
+    if plan is not None and dry_run:
+        _forecast_find(plan, engine)
         return
+    chosen = engine.engine()
+    if plan is not None:
+        say_forecast(plan.sweep.points(), engine, folder, plan.study, plan.budget.most)
     with StopSignals() as signals:
         try:
             found = find_runs.find(
@@ -117,7 +134,7 @@ def find(
                 folder,
                 want=want or (),
                 under=under,
-                engine=engine.engine(),
+                engine=chosen,
                 report=_say,
                 should_stop=signals.asked,
             )
@@ -130,12 +147,16 @@ def find(
     if not found:
         raise WrongCommand(f"no settings inside the runs of {folder} do all of this")
     table = Table.read(folder)
-    names = [name_with_unit(key, unit) for key, unit in table.units.items()]
+    tell_warnings(table)
+    units = table.shown_units()
     rows = []
     for one in found:
-        numbers = (*one.settings.values(), *one.numbers.values())
-        rows.append([f"{100.0 * one.probability:.3g} %", *(f"{value:.5g}" for value in numbers)])
-    print(text_table(rows, ("probability", *names, *found[0].numbers)))
+        settings = [units[key].text(value) for key, value in one.settings.items()]
+        numbers = [
+            format_quantity(value, table.number_unit(name)) for name, value in one.numbers.items()
+        ]
+        rows.append([f"{100.0 * one.probability:.3g} %", *settings, *numbers])
+    print(text_table(rows, ("probability", *found[0].settings, *found[0].numbers)))
     if found[0].probability < 0.5:
         _say("note: none of these is likelier than not; more runs near them may help")
 
@@ -148,26 +169,35 @@ def _stopped(
     return StoppedBySignal(f"{error}; continue with: {shlex.join(words)}", code)
 
 
-def _forecast_calibration(plan: CalibrationPlan, engine: EngineOptions) -> None:
+def _first_points(plan: CalibrationPlan) -> tuple[list[Point], int]:
+    """The first runs of a calibration, or the cells of its first spots, and how many at most."""
     from lasersph.studies.calibration import first_settings
 
-    settings, most, spot = first_settings(plan), plan.runs.most, plan.spot
-    points = [plan.template.point(dict(one)) for one in settings]
-    if spot is not None:
-        cells = {point.hash: point for one in settings for point in spot.points(one)}
-        points = list(cells.values())
-        most *= spot.count if len(spot.cell_units) > 1 else 0
-    (name, count), times = forecast_rows(points, engine, most)
-    rows = zip(plan.keys, plan.units.values(), *plan.box(), strict=True)
+    settings, spot = first_settings(plan), plan.spot
+    if spot is None:
+        return [plan.template.point(dict(one)) for one in settings], plan.runs.most
+    cells = {point.hash: point for one in settings for point in spot.points(one)}
+    return list(cells.values()), plan.runs.most * spot.count if len(spot.cell_units) > 1 else 0
+
+
+def _forecast_calibration(plan: CalibrationPlan, engine: EngineOptions) -> None:
+    from lasersph.input.shown_unit import units_written
+
+    points, most = _first_points(plan)
+    count = count_words(points, most) + refused_words(points) + ", and two checks" * plan.runs.check
+    box, shown = zip(plan.keys, *plan.box(), strict=True), units_written(plan.text, plan.units)
     print(
         text_table(
             [
                 ("unknown", ", ".join(one.name for one in plan.unknowns)),
                 ("measured values", str(sum(len(one.values) for one in plan.conditions))),
                 ("profiles", str(sum(one.profile is not None for one in plan.conditions))),
-                *((key, f"{low:.6g} to {high:.6g} {unit}") for key, unit, low, high in rows),
-                ("cells" if spot else name, count + ", and two checks" * plan.runs.check),
-                *times,
+                *(
+                    (key, f"{shown[key].text(low, 6)} to {shown[key].text(high, 6)}")
+                    for key, low, high in box
+                ),
+                ("cells" if plan.spot else "runs", count),
+                *forecast_rows(points, engine, most),
             ]
         )
     )
@@ -175,11 +205,13 @@ def _forecast_calibration(plan: CalibrationPlan, engine: EngineOptions) -> None:
 
 
 def _forecast_find(plan: FindPlan, engine: EngineOptions) -> None:
-    points = plan.sweep.points()
-    counts, times = forecast_rows(points, engine, plan.budget.most)
-    wanted = ", ".join(dict.fromkeys(one.column for one in plan.wishes))
-    varied = ", ".join(plan.sweep.choices)
-    print(text_table([("wanted", wanted), ("varied", varied), counts, *times]))
+    points, most = plan.sweep.points(), plan.budget.most
+    rows = [
+        ("wanted", ", ".join(dict.fromkeys(one.column for one in plan.wishes))),
+        ("varied", ", ".join(plan.sweep.choices)),
+        ("runs", count_words(points, most) + refused_words(points)),
+    ]
+    print(text_table([*rows, *forecast_rows(points, engine, most)]))
     tell_refused(points)
 
 

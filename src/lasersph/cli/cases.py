@@ -17,7 +17,7 @@ from lasersph.cli.arguments import (
     say_what_moved,
 )
 from lasersph.cli.failures import WrongCommand
-from lasersph.cli.light import light_rows
+from lasersph.cli.light import heating_rows, light_rows
 from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
@@ -81,18 +81,15 @@ def check(
     backend: Backend = "cpu",
 ) -> None:
     """Say what a run would need, before anything runs: particles, memory, steps, warnings."""
-    from lasersph.case import load_case, refuse_if_too_large
-    from lasersph.case.size import Size
+    from lasersph.case import load_case
     from lasersph.compute.threads import chosen
-    from lasersph.simulation import forecast
+    from lasersph.simulation.acceptance import accepted_forecast
 
     refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
     say_what_moved(loaded)
-    refuse_if_too_large(loaded, backend)
     count = chosen(threads)
-    expected = forecast(loaded, threads=count)
-    refuse_if_too_large(loaded, backend, Size(expected.particles, expected.memory))
+    expected = accepted_forecast(loaded, backend, threads=count)
     print(text_table(_rows(loaded, expected, count, backend)))
     for warning in expected.warnings:
         print(f"warning: {warning}")
@@ -111,10 +108,11 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
         ("material", case.material.title or case.material.name),
         ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {case.solver.scheme_text}"),
         *([] if case.laser is None else light_rows(case.laser)),
+        *([] if expected.heating is None else heating_rows(case, expected.heating)),
         ("particles", f"{expected.particles} in {expected.layers} layers"),
         (
             "finest spacing",
-            f"{format_quantity(expected.spacing, 'm')} down to "
+            f"{format_quantity(expected.spacing, 'm')} in the top "
             f"{format_quantity(expected.fine_depth, 'm')}",
         ),
         ("memory", ", ".join([f"about {in_words(expected.memory)}", *there])),
@@ -129,7 +127,7 @@ def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tu
     rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
     if expected.flow is not None:
         rows.append(("viscosity of the melt", viscosity_text(case.material)))
-        rows.append(("expected speed", f"about {expected.flow.speed:.2g} m/s"))
+        rows.append(("expected speed", f"up to about {expected.flow.speed:.2g} m/s"))
     for name, length in (
         ("moving layer", expected.flow.layer if expected.flow else None),
         ("absorption length", expected.absorption_length),

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from math import isnan
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from lasersph.case import Case
     from lasersph.lasers import Laser
+    from lasersph.simulation.heating import HeatingForecast
 
 
 def light_rows(laser: Laser) -> list[tuple[str, str]]:
@@ -55,6 +58,56 @@ def light_rows(laser: Laser) -> list[tuple[str, str]]:
         apart = f"{format_quantity(way, 'm')} apart, overlap {100.0 * local.overlap(way):.3g} %"
         rows.append(("pulses per spot", f"{local.diameter / way:.3g}, {apart}"))
     return rows
+
+
+def heating_rows(case: Case, heating: HeatingForecast) -> list[tuple[str, str]]:
+    """Rows of `lasersph check` about what the light does to the surface."""
+    from lasersph.case.solver_choice import chooses_vaporization
+    from lasersph.input import format_quantity
+
+    cold, hot, (R, hot_R) = heating.cold, heating.temperature, heating.reflectivity
+    rows = []
+    if heating.sideways and case.solver.dimensions == 2:
+        rows.append(
+            ("section", "through the axis of the spot, its light the same at all y: a line focus")
+        )
+    beside = "" if isnan(hot) or hot_R == R else f", {hot_R:.3g} at {hot:.0f} K"
+    rows.append(("reflectivity", f"{R:.3g} at {cold:.0f} K{beside}"))
+    if isnan(hot):
+        return rows
+    rows.append(
+        ("absorbed fluence", f"{_absorbed(heating)}, with the reflectivity at {cold:.0f} K")
+    )
+    rows.append(("highest temperature", _highest(case, heating)))
+    if heating.boils and case.solver.evaporates:
+        gone = format_quantity(heating.evaporated, "m", 2)
+        rows.append(("vapor", f"leaves the surface, about {gone} of metal in a pulse"))
+    elif heating.boils and chooses_vaporization(case.solver):
+        rows.append(("vapor", "none: the surface keeps its boiling temperature"))
+    return rows
+
+
+def _absorbed(heating: HeatingForecast) -> str:
+    """The fluence that the surface takes in: of a spot where it is brightest."""
+    peak = _fluence(heating.absorbed_peak)
+    if heating.sideways:
+        return f"at most {peak}"
+    mean = _fluence(heating.absorbed_mean)
+    return mean if heating.absorbed_peak == heating.absorbed_mean else f"{mean}, at most {peak}"
+
+
+def _highest(case: Case, heating: HeatingForecast) -> str:
+    """The highest temperature of the surface, and whether metal melts and boils there."""
+    melting, metal = case.material.melting, case.material.vaporization
+    critical = None if metal is None else metal.critical_temperature
+    words = [f"{'at most ' if heating.sideways else ''}about {heating.temperature:.0f} K"]
+    if critical is not None and heating.temperature > critical:
+        words = [f"above the critical temperature of {critical:.0f} K"]
+    if melting is not None and heating.melts is not None:
+        words.append(f"{'melts' if heating.melts else 'does not melt'} ({melting.solidus:.0f} K)")
+    if metal is not None and heating.boils is not None:
+        words.append(f"{'boils' if heating.boils else 'does not boil'} ({metal.temperature:.0f} K)")
+    return ", ".join(words)
 
 
 def _fluence(value: float) -> str:

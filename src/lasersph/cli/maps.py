@@ -80,7 +80,7 @@ def draw_map(
 
 def sensitivity(folder: SweepFolder, of: Of = "melt.depth_half_max_m") -> None:
     """Tell how much each key of a sweep changes a number: Sobol indices, or effects of Morris."""
-    from lasersph.report.map_page import in_field_units
+    from lasersph.input import in_field_units
     from lasersph.report.tables import unit_of
     from lasersph.studies.sensitivity import assess_sensitivity
 
@@ -94,9 +94,10 @@ def sensitivity(folder: SweepFolder, of: Of = "melt.depth_half_max_m") -> None:
         for key, s, ds, t, dt in zip(found.keys, *columns, strict=True):
             rows.append([key, f"{s:.3f} +- {ds:.3f}", f"{t:.3f} +- {dt:.3f}"])
         print(text_table(rows, ("key", "first order", "total")))
-        lost = 100.0 * (1.0 - (found.predictivity or 0.0))
+        known = 100.0 * (found.predictivity or 0.0)
         print(
-            f"from {found.runs} runs; the others predict each but for {lost:.2g} % of the variance"
+            f"from {found.runs} runs; left out one at a time and predicted from the others, "
+            f"{known:.3g} % of how they differ is explained"
         )
     if found.screening is not None:
         rows, one, unit = [], found.screening, unit_of(of)
@@ -121,12 +122,17 @@ def _title(folder: Path) -> str:
 
 
 def _say(found: ProcessMap) -> None:
-    """The notes, and where the lines run, in the units of the field."""
-    from lasersph.report.map_page import in_field_units
+    """The notes, where events begin, and where the line of the wanted value runs."""
+    from lasersph.input import in_field_units
 
     for note in found.notes:
         print(f"note: {note}")
+    for event, text in found.onset_words():
+        print(f"{event}{', ' if len(found.axes) == 2 else ': '}{text}")
+    in_words = {one.event for one in found.onsets}
     for name, parts in found.lines.items():
+        if name in in_words:
+            continue
         points = [point for part in parts for point in part]
         ends: Sequence = (min(points, key=tuple), max(points, key=tuple))
         said = [

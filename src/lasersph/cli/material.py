@@ -9,6 +9,7 @@ import typer
 
 from lasersph.cli.app import HELP
 from lasersph.cli.arguments import completion_of
+from lasersph.cli.failures import WrongCommand
 from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
@@ -27,6 +28,10 @@ Name = Annotated[
         autocompletion=completion_of("materials", "available_materials"),
     ),
 ]
+Word = Annotated[
+    str,
+    typer.Argument(metavar="[WORD]", help="Of a name, symbol, standard or composition."),
+]
 Plot = Annotated[
     Path | None,
     typer.Option("--plot", metavar="FILE", help="Draw all properties, e.g. into steel.png."),
@@ -34,11 +39,16 @@ Plot = Annotated[
 
 
 @app.command("list")
-def list_materials() -> None:
-    """List the materials that a case can name."""
-    from lasersph.materials import available_materials, load_material
+def list_materials(word: Word = "") -> None:
+    """List the materials that a case can name, all or those that a word finds."""
+    from lasersph.materials import available_materials
+    from lasersph.materials.loading import materials_like
 
-    print(text_table([(name, load_material(name).title) for name in available_materials()]))
+    found = materials_like(word)
+    if not found:
+        known = ", ".join(available_materials())
+        raise WrongCommand(f'no material has "{word}" in its name or composition; known: {known}')
+    print(text_table([(name, one.title) for name, one in found.items()]))
 
 
 @app.command()

@@ -1,4 +1,4 @@
-"""`lasersph compare`: a measured profile or height map beside ours."""
+"""`lasersph compare`: a measured profile or height map, or another run, beside ours."""
 
 from __future__ import annotations
 
@@ -17,12 +17,17 @@ Ours = Annotated[
 ]
 Profile = Annotated[
     Path,
-    typer.Argument(metavar="PROFILE", help="A measured profile or height map: csv, x3p, sdf."),
+    typer.Argument(
+        metavar="PROFILE|RUN",
+        help="A measured profile or height map: csv, x3p, sdf; or the folder of another run.",
+    ),
 ]
 
 
 def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
-    """Level and align a measured profile or height map, and say how ours differs from it."""
+    """Say how a run or texture differs from a measured profile or height map, or a run."""
+    if profile.is_dir():
+        return _compare_runs(folder, profile, out)
     from lasersph.output import OutputError
     from lasersph.output.atomic import replace_json, replace_text
     from lasersph.output.errors import clear_errors
@@ -64,3 +69,19 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
     print(content["sentence"])
     title = f"{profile.name} beside {relief.name}"
     print(write_comparison(target / "comparison.html", content, file, title, maps))
+
+
+def _compare_runs(first: Path, second: Path, out: Path | None) -> None:
+    """Print what two runs differ in, and write their figures and page."""
+    from lasersph.output import OutputError
+    from lasersph.report.run_comparison import compare_runs
+
+    try:
+        found = compare_runs(first, second)
+    except OutputError as error:
+        raise WrongCommand(str(error)) from None
+    if found.settings:
+        print(text_table([list(row) for row in found.settings], ("setting", *found.names)))
+        print()
+    print(text_table([list(row) for row in found.rows], ("", *found.names, "difference")))
+    print(found.write(out or first / f"compare-{second.resolve().name}"))

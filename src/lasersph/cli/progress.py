@@ -6,9 +6,12 @@ import shutil
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import inf
 from typing import TYPE_CHECKING, Generic, Protocol, Self, TypeVar
 
 if TYPE_CHECKING:
+    from lasersph.compute.compiling import Compiling
     from lasersph.simulation import RunProgress
 
 LINES = 10
@@ -17,6 +20,12 @@ BAR = 24
 """Characters of the bar."""
 REDRAW = 0.1
 """Shortest time between two drawings of the line [s]: terminals are slow."""
+USUAL_LOOPS = 150
+"""Loops of a melt pool whose surface moves, which has most of them: 147 were counted."""
+LOOPS_OF_A_LINE = 25
+"""Loops from one line about them to the next, where there is no terminal."""
+STILL_COMPILING = 20
+"""Steps after which no further loop is expected: the first steps of a phase need new ones."""
 CLEAR = "\r\x1b[K"
 
 
@@ -62,10 +71,6 @@ class ProgressDisplay(Generic[S]):
         else:
             self._print(status)
 
-    def compiling(self) -> None:
-        """The first loop that no earlier run has left is about to be compiled."""
-        self.say("compiling loops as they are needed, about a minute in all; later runs find them")
-
     def say(self, text: str) -> None:
         """Show a line above the progress."""
         _write(f"{CLEAR if self._line else ''}{text}\n{self._line}")
@@ -89,19 +94,71 @@ class ProgressDisplay(Generic[S]):
             _write(f"{self._describe(status)}\n")
 
 
-def describe(status: RunProgress) -> str:
-    """Part of the work, simulated time, steps, highest temperature, and the time left if known."""
-    from lasersph.input import format_duration, format_quantity
+class RunDisplay(ProgressDisplay["RunProgress"]):
+    """Shows the progress of a run, and the compiling of its loops as what it is.
 
-    left = status.remaining_s
-    return ", ".join(
-        [
-            f"{100 * min(status.work_done, 1.0):3.0f} %  {format_quantity(status.time, 's')}",
-            f"step {status.steps}",
-            f"{status.hottest:.0f} K",
-            *([] if left is None else [f"{format_duration(left)} left"]),
-        ]
-    )
+    While loops are compiled nothing is said of the time that is left to compute.
+    """
+
+    def __init__(self, *, is_terminal: bool | None = None) -> None:
+        super().__init__(str, is_terminal=is_terminal)
+        self._steps_since_compiling: float = inf
+
+    def __call__(self, status: RunProgress) -> None:
+        """Show how far the run is."""
+        self._steps_since_compiling += 1
+        if self._steps_since_compiling <= STILL_COMPILING:
+            status = replace(status, remaining_s=None)
+        super().__call__(status)
+
+    def compiling(self) -> None:
+        """The first loop that no earlier run has left is about to be compiled."""
+        self.say("compiling loops as they are needed, a minute or two in all; later runs find them")
+
+    def compiled(self, compiling: Compiling) -> None:
+        """Another loop is: how many now, and how long the rest may take."""
+        self._steps_since_compiling = 0
+        count, took = compiling.loops, compiling.seconds
+        rest = max(USUAL_LOOPS - count, 0) * took / count
+        text = (
+            f"compiled {count} loops of up to {USUAL_LOOPS} in {took:.0f} s, {rest:.0f} s more "
+            "at most"
+        )
+        if self.is_terminal:
+            self._line = text[: shutil.get_terminal_size().columns - 1]
+            _write(CLEAR + self._line)
+        elif count % LOOPS_OF_A_LINE == 0:
+            _write(f"{text}\n")
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """How many figures of a run are looked at, of how many, and which is next."""
+
+    count: int
+    total: int
+    name: str
+
+    @property
+    def work_done(self) -> float:
+        """Part that is done, 0 to 1."""
+        return self.count / self.total
+
+
+class WarningsOnce:
+    """Shows each kind of warning of a command once, however many of its runs have it, each with
+    other numbers."""
+
+    def __init__(self) -> None:
+        self._shown: set[str] = set()
+
+    def show(self, text: str, say: Callable[[str], None]) -> None:
+        """Hand a warning to what shows lines, unless one of its kind was shown before."""
+        from lasersph.sweeps.run_warnings import warning_kind
+
+        if (kind := warning_kind(text)) not in self._shown:
+            self._shown.add(kind)
+            say(f"warning: {text}")
 
 
 def _write(text: str) -> None:

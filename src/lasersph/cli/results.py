@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -54,13 +54,17 @@ def info(folder: RunFolder) -> None:
     """Show what a run folder holds: the case, how far it is, the main numbers."""
     from lasersph.input import format_quantity
     from lasersph.report.headline import light_text
+    from lasersph.report.summary_text import warning_texts
+    from lasersph.report.tables import summary_rows
 
     found = opened(folder)
-    words = light_text(found.case.get("laser") or {}).strip()
+    computed = found.summary.get("laser") if found.is_complete else None
+    words = light_text(found.case.get("laser") or {}, computed).strip().rstrip(",")
     light = [("light", words)] if words else []
     if found.is_complete:
         rows = summary_rows(found.summary, found.uncertainty)
         _print_tables([rows[0], *light, *rows[1:]], _curves(found))
+        _print_warnings(warning_texts(found.summary, found.events))
         print(f"{folder}: complete")
         return
     times = [float(time) for time in found.history.get("time_s", ())]
@@ -68,6 +72,7 @@ def info(folder: RunFolder) -> None:
     now = format_quantity(times[-1] if times else 0.0, "s")
     known = [("case", found.case["title"]), *light, ("history", f"up to {now} of {end}")]
     _print_tables(known, _curves(found))
+    _print_warnings(warning_texts(None, found.events))
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
 
 
@@ -78,11 +83,18 @@ def _print_tables(numbers: list[tuple[str, str]], curves: list[tuple[str, str]])
         print(text_table(curves))
 
 
+def _print_warnings(texts: Sequence[str]) -> None:
+    for text in texts:
+        print(f"warning: {text}")
+
+
 def _curves(run: Run) -> list[tuple[str, str]]:
     """Temperature and depth of the melt over time, each as a line of characters."""
     from lasersph.input import format_quantity
+    from lasersph.output.last_pulse import last_pulse
 
-    history = run.history
+    shown = last_pulse(run)
+    history, number = shown.history, "" if shown is run else ", last pulse"
     curves = {"temperature over time": ("temperature_max_K", "K")}
     curves["melt depth over time"] = ("melt_depth_half_m", "m")
     rows = []
@@ -90,7 +102,7 @@ def _curves(run: Run) -> list[tuple[str, str]]:
         values = [float(value) for value in history.get(column, ())]
         if values and max(values) > 0.0:
             line = sparkline([float(time) for time in history["time_s"]], values)
-            rows.append((name, f"{line} up to {format_quantity(max(values), unit)}"))
+            rows.append((name + number, f"{line} up to {format_quantity(max(values), unit)}"))
     return rows
 
 
@@ -158,22 +170,6 @@ def opened(folder: Path) -> Run:
         return open_run(folder)
     except OutputError as error:
         raise WrongCommand(str(error)) from None
-
-
-def summary_rows(
-    summary: dict[str, Any], uncertainty: dict[str, Any] | None = None
-) -> list[tuple[str, str]]:
-    """The main numbers of summary.json, with units, and with errors where there are any."""
-    from lasersph.input import format_duration, format_quantity
-    from lasersph.report.tables import main_numbers
-
-    return [
-        ("case", str(summary.get("title") or summary["case"])),
-        ("particles", str(summary["particles"])),
-        ("time", f"{format_quantity(summary['time_s'], 's')} in {summary['steps']} steps"),
-        ("computed in", format_duration(summary["wall_time_s"])),
-        *main_numbers(summary, uncertainty),
-    ]
 
 
 def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> None:

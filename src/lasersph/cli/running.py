@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from lasersph.cli.arguments import (
+    Anyway,
     Backend,
     CaseName,
     Out,
+    Overwrite,
     Quick,
     Resume,
     Settings,
@@ -28,6 +30,7 @@ from lasersph.cli.stop_signals import StopSignals
 
 if TYPE_CHECKING:
     from lasersph.case import Case
+    from lasersph.cli.progress import WarningsOnce
     from lasersph.simulation import Result
     from lasersph.studies import Input
 
@@ -74,6 +77,7 @@ def run(
     out: Out = None,
     settings: Settings = None,
     resume: Resume = False,
+    overwrite: Overwrite = False,
     quick: Quick = False,
     threads: Threads = None,
     precision: Precision = "float64",
@@ -82,17 +86,20 @@ def run(
     uncertain: Uncertain = None,
     workers: Workers = None,
     figures: Figures = True,
+    anyway: Anyway = False,
     until_stdin_closes: UntilStdinCloses = False,
 ) -> None:
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
     from lasersph.case import load_case
-    from lasersph.case.quick import what_is_not_shown
+    from lasersph.cli.progress import WarningsOnce
 
     refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
     say_what_moved(loaded)
-    if not_shown := what_is_not_shown(loaded):
-        print(f"warning: {not_shown}", file=sys.stderr)
+    if resume and overwrite:
+        raise WrongCommand(
+            "--resume goes on with the run in DIR, --overwrite replaces it: give one"
+        )
     engine = EngineOptions(workers, threads)
     if engine.at_once > 1 and not uncertainty:
         raise WrongCommand(
@@ -109,17 +116,24 @@ def run(
     command += ["--uncertainty"] if uncertainty else []
     command += [word for given in uncertain or () for word in ("--uncertain", given)]
     command += ["--workers", str(workers)] if engine.at_once > 1 else []
-    options = {"threads": threads, "precision": precision, "backend": backend}
+    command += ["--anyway"] if anyway else []
+    options = {"threads": threads, "precision": precision, "backend": backend, "anyway": anyway}
     options |= {"wait": LONGEST_WAIT if until_stdin_closes else 0.0}
+    warnings = WarningsOnce()
 
     def make(case: Case, path: Path) -> Result:
-        again = resume or path != folder  # companions lie in our own folder
+        is_own = path == folder
+        again = resume or not is_own  # companions lie in our own folder
         with StopSignals(until_stdin_closes=until_stdin_closes) as signals:
-            return _compute(case, path, signals, shlex.join(command), {**options, "resume": again})
+            given = {**options, "resume": again, "overwrite": overwrite and is_own}
+            return _compute(case, path, signals, warnings, shlex.join(command), given)
 
     if uncertainty:
+        from lasersph.cli.costs import say_cost
         from lasersph.studies import assess_uncertainty
+        from lasersph.studies.uncertainty import runs_of_assessment
 
+        say_cost(runs_of_assessment(loaded, inputs), engine, backend, folder)
         prepare = preparation(engine, shlex.join(command))
         assess_uncertainty(loaded, folder, inputs=inputs, run=make, prepare=prepare, report=_say)
     else:
@@ -149,19 +163,29 @@ def _uncertain_inputs(case: Case, given: Sequence[str], *, wanted: bool) -> list
 
 
 def _compute(
-    case: Case, folder: Path, signals: StopSignals, again: str, options: dict[str, Any]
+    case: Case,
+    folder: Path,
+    signals: StopSignals,
+    warnings: WarningsOnce,
+    again: str,
+    options: dict[str, Any],
 ) -> Result:
     """Run with progress; a signal ends it with a checkpoint and the way to go on."""
     from lasersph import simulation
-    from lasersph.cli.progress import ProgressDisplay, describe
+    from lasersph.cli.progress import RunDisplay
     from lasersph.compute.compiling import Compiling
     from lasersph.simulation.time_loop import Stopped
 
-    with ProgressDisplay(describe) as progress:
+    with RunDisplay() as progress:
         try:
-            with Compiling(progress.compiling) as compiling:
+            with Compiling(progress.compiling, progress.compiled) as compiling:
                 result = simulation.run(
-                    case, folder, progress=progress, should_stop=signals.asked, **options
+                    case,
+                    folder,
+                    progress=progress,
+                    warn=lambda text: warnings.show(text, progress.say),
+                    should_stop=signals.asked,
+                    **options,
                 )
         except Stopped as stopped:
             raise StoppedBySignal(f"{stopped}; continue with: {again}", signals.code) from None
@@ -174,9 +198,9 @@ def _compute(
 
 def _tell(folder: Path) -> None:
     """The main numbers of a finished run."""
-    from lasersph.cli.results import summary_rows
     from lasersph.input.text_table import text_table
     from lasersph.output import open_run
+    from lasersph.report.tables import summary_rows
 
     found = open_run(folder)
     print(text_table(summary_rows(found.summary, found.uncertainty)))
@@ -184,6 +208,16 @@ def _tell(folder: Path) -> None:
 
 
 def _draw(folder: Path) -> None:
+    """Draw figures and report; their time grows with the particles and frames."""
+    from lasersph.cli.progress import Drawn, ProgressDisplay
     from lasersph.report import write_report
 
-    print(f"open {write_report(folder)} in a browser")
+    _say("drawing figures and report")
+    with ProgressDisplay[Drawn](lambda one: f"drawing {one.name}") as display:
+
+        def show(name: str, count: int, total: int) -> None:
+            if display.is_terminal:
+                display(Drawn(count, total, name))
+
+        path = write_report(folder, begun=show)
+    print(f"open {path} in a browser")

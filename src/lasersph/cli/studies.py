@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -23,6 +23,10 @@ from lasersph.cli.failures import StoppedBySignal, WrongCommand
 from lasersph.cli.side_by_side import preparation, refuse_workers
 from lasersph.cli.stop_signals import StopSignals
 from lasersph.input.text_table import text_table
+
+if TYPE_CHECKING:
+    from lasersph.lasers import Laser
+    from lasersph.studies.fluence_threshold import Threshold
 
 Spacings = Annotated[
     str, typer.Option("--spacing", metavar="A,B,C", help="Three or more, e.g. 32nm,16nm,8nm.")
@@ -45,6 +49,8 @@ Fluences = Annotated[
         "--fluence", metavar="A,B,...", help="Peak fluences, e.g. 5J/cm2,10J/cm2,20J/cm2."
     ),
 ]
+FLUENCES = {"mean": ", mean over a period,", "peak": ", peak,"}
+"""Words after a fluence, by `laser.fluence_kind`."""
 AGAIN = "the same command and --resume"
 Json = Annotated[
     Path | None, typer.Option("--json", metavar="FILE", help="Write the answer as JSON as well.")
@@ -65,6 +71,9 @@ def converge(
     """Run a case at several spacings: order and uncertainty of every number of its summary."""
     from lasersph import studies
     from lasersph.case import load_case
+    from lasersph.cli.costs import say_cost
+    from lasersph.output.study_mark import StudyMark
+    from lasersph.studies.variation import changed
 
     options = _options(engine, backend)
     wanted = read_quantities("--spacing", spacing, "length")
@@ -73,6 +82,10 @@ def converge(
     loaded = load_case(case, settings or ())
     _refuse_missing_folder(json_file)
     folder = _folder(out or Path("runs") / f"{loaded.name}-converge", resume)
+    cases = [changed(loaded, "particles.spacing", one) for one in sorted(set(wanted))]
+    say_cost(cases, engine, backend, folder)
+    title = f"{loaded.name} at several spacings"
+    StudyMark("converge", title, "particles.spacing", "m").write(folder)
     found = studies.converge(loaded, wanted, folder, **options)
     print(text_table(*found.table()))
     _write(json_file, found.as_dict())
@@ -96,6 +109,12 @@ def threshold(
 
     from lasersph import studies
     from lasersph.case import load_case
+    from lasersph.cli.costs import say_cost
+    from lasersph.input import KINDS
+    from lasersph.lasers.laser import AMOUNTS
+    from lasersph.output.study_mark import StudyMark
+    from lasersph.studies.fluence_threshold import usual_runs
+    from lasersph.sweeps.points import find_key
 
     options = _options(engine, backend)
     loaded = load_case(case, settings or (), quick=quick)
@@ -108,10 +127,18 @@ def threshold(
         raise WrongCommand(f"{loaded.name} computes no phase change to {of}, so no threshold")
     _refuse_missing_folder(json_file)
     folder = _folder(out or Path("runs") / f"{loaded.name}-threshold", resume)
+    runs = usual_runs(tolerance) * [loaded]
+    more = " or more, where the threshold is further than twice or half the energy of the case"
+    quicker = "" if quick else "--quick makes coarser ones, in less time"
+    say_cost(runs, engine, backend, folder, more=more, instead=quicker)
+    key = next(f"laser.{name}" for name in AMOUNTS if getattr(loaded.laser, name) is not None)
+    unit = KINDS[find_key(loaded, key)[1]].unit
+    StudyMark("threshold", f"threshold of {loaded.name} to {of}", key, unit).write(folder)
     found = studies.threshold(
         loaded, of, folder, tolerance=tolerance, at_once=engine.at_once, **options
     )
-    print(_answer(found))
+    print(_answer(found, loaded.laser))
+    print(f"runs of all fluences: {folder}")
     _write(json_file, asdict(found))
 
 
@@ -130,8 +157,11 @@ def spot(
     """Ablate with a Gaussian spot at several fluences: threshold from D^2 over ln F, efficiency."""
     from lasersph import studies
     from lasersph.case import load_case
+    from lasersph.cli.costs import say_cost
+    from lasersph.output.study_mark import StudyMark
     from lasersph.plots import style
     from lasersph.plots.spot_threshold import spot_threshold_figure
+    from lasersph.studies.variation import changed
 
     options = _options(engine, backend)
     wanted = read_quantities("--fluence", fluence, "fluence")
@@ -139,6 +169,10 @@ def spot(
     if reason := studies.no_spot(loaded, wanted):
         raise WrongCommand(f"{loaded.name}: {reason}")
     folder = _folder(out or Path("runs") / f"{loaded.name}-spot", resume)
+    cases = [changed(loaded, "laser.fluence", one) for one in sorted(set(wanted))]
+    say_cost(cases, engine, backend, folder)
+    title = f"spots of {loaded.name} at several fluences"
+    StudyMark("spot", title, "laser.fluence", "J/m^2").write(folder)
     found = studies.spot_threshold(loaded, wanted, folder, **options)
     print(text_table(*found.table()))
     print(found.answer())
@@ -146,13 +180,14 @@ def spot(
     print(style.save(spot_threshold_figure(found.as_dict()), folder / "spot-threshold.png"))
 
 
-def _answer(found: Any) -> str:
+def _answer(found: Threshold, laser: Laser) -> str:
     from lasersph.studies import show_energy
 
     below, above = (show_energy(found.key, value) for value in (found.below, found.above))
+    kind = FLUENCES.get(laser.fluence_kind or "", "") if laser.fluence is not None else ""
     return (
-        f"{found.key} = {show_energy(found.key, found.value, 4)} +- {100 * found.tolerance:.2g} % "
-        f"to {found.of} (between {below} and {above})"
+        f"{found.key} = {show_energy(found.key, found.value, 4)}{kind} +- "
+        f"{100 * found.tolerance:.2g} % to {found.of} (between {below} and {above})"
     )
 
 
@@ -180,10 +215,14 @@ def _options(engine: EngineOptions, backend: str) -> dict[str, Any]:
 
 
 def _runner(threads: int | None, backend: str) -> Any:
+    from lasersph.cli.progress import WarningsOnce
     from lasersph.simulation import Stopped, run
 
+    warnings = WarningsOnce()
+
     def make(case: Any, folder: Path) -> Any:
-        options = {"resume": True, "threads": threads, "backend": backend}
+        options = {"resume": True, "same_case": True, "threads": threads, "backend": backend}
+        options |= {"warn": lambda text: warnings.show(text, _report)}
         with StopSignals() as signals:
             try:
                 return run(case, folder, should_stop=signals.asked, **options)

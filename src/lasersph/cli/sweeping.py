@@ -17,7 +17,7 @@ from lasersph.cli.failures import DONE, FAILED, StoppedBySignal, WrongCommand
 from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
-    from lasersph.sweeps import Engine, Event, Point, SweepPlan, Table
+    from lasersph.sweeps import Engine, Event, Point, Study, SweepPlan, Table
     from lasersph.sweeps.progress import SweepStatus
 
 PlanName = Annotated[
@@ -66,7 +66,9 @@ def sweep(
     if slurm is not None or slurm_dask is not None:
         return write_scripts(loaded, plan, folder, slurm, slurm_dask)
     words = ["lasersph", "sweep", str(plan), "--out", str(folder), *engine.words()]
-    return tell(make(loaded, folder, engine.engine(), shlex.join(words)))
+    chosen = engine.engine()
+    say_forecast(loaded.points(), engine, folder, loaded.study)
+    return tell(make(loaded, folder, chosen, shlex.join(words)))
 
 
 def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
@@ -139,10 +141,22 @@ def tell(table: Table) -> int:
         print(text_table(shown, ("run", "status", "reason")))
     if len(others) > MOST_SHOWN:
         print(f"and {len(others) - MOST_SHOWN} more, see {table.path / TABLE}")
+    tell_warnings(table)
     failed = next((row for row in others if row.status == "failed"), None)
     if failed is not None:
         print(f"look at one with: lasersph info {table.path / RUNS / failed.run}")
     return FAILED if others else DONE
+
+
+def tell_warnings(table: Table) -> None:
+    """Say how many runs warn, and of what: each kind of warning once, with numbers of one run."""
+    from lasersph.sweeps.run_warnings import warnings_of_runs
+
+    warned, counts = warnings_of_runs(table)
+    if warned:
+        _say(f"{warned} of {table.count('complete')} complete runs warn (numbers of one of them):")
+    for text, count in counts.items():
+        _say(f"warning of {count} run{'s' * (count > 1)}: {text}")
 
 
 def _remake(folder: Path) -> int:
@@ -160,16 +174,60 @@ def _remake(folder: Path) -> int:
 def forecast(plan: SweepPlan, engine: EngineOptions) -> None:
     """Say how many runs there are, how long they take, and which the case refuses."""
     points = plan.points()
-    rows = [("case", Path(plan.template.file.document.file).stem)]
-    counts, times = forecast_rows(points, engine)
-    print(text_table([*rows, counts, ("varied", ", ".join(plan.choices)), *times]))
+    rows = [
+        ("case", Path(plan.template.file.document.file).stem),
+        ("runs", count_words(points) + refused_words(points)),
+        ("varied", ", ".join(plan.choices)),
+    ]
+    print(text_table([*rows, *forecast_rows(points, engine)]))
     tell_refused(points)
+
+
+def say_forecast(
+    points: Sequence[Point],
+    engine: EngineOptions,
+    folder: Path,
+    study: Study,
+    most: int = 0,
+    more: str = "",
+) -> None:
+    """Say in a line how many runs begin, which are there already, and how long the others take.
+
+    Args:
+        folder, study: of the runs. most: runs at most, where a study adds some to these.
+        more: follows the number of runs.
+
+    Raises:
+        FolderRefused: the folder holds something else.
+    """
+    from lasersph.sweeps.folder import complete_hashes
+
+    there = complete_hashes(folder, study)
+    left = [point for point in points if point.hash not in there]
+    known = len(points) - len(left)
+    words = [f"{count_words(points, most)} runs{more}{refused_words(points)}"]
+    if known:
+        words.append(f"{known} of them complete" if left else "all complete")
+    words += [f"{how}: {time}" for how, time in forecast_rows(left, engine, most - known)]
+    _say(", ".join(words))
+
+
+def count_words(points: Sequence[Point], most: int = 0) -> str:
+    """How many runs there are: 4, or 4 to 6 where a study adds some, `most` in all."""
+    right = sum(point.case is not None for point in points)
+    return f"{right} to {most}" if most > len(points) else f"{right}"
+
+
+def refused_words(points: Sequence[Point]) -> str:
+    """How many points the case refuses; empty where none."""
+    wrong = sum(point.case is None for point in points)
+    return f", and {wrong} points that the case refuses" if wrong else ""
 
 
 def forecast_rows(
     points: Sequence[Point], engine: EngineOptions, most: int = 0
-) -> tuple[tuple[str, str], list[tuple[str, str]]]:
-    """How many runs there are, and how long they take, as rows of a table.
+) -> list[tuple[str, str]]:
+    """How long runs take, as rows of a table; none without runs.
 
     Args:
         most: runs at most, where a study adds some to these.
@@ -179,7 +237,9 @@ def forecast_rows(
     from lasersph.sweeps.forecast import forecast_seconds
 
     right = sum(point.case is not None for point in points)
-    count = min(engine.workers or available(), max(1, right))
+    if not right:
+        return []
+    count = min(engine.workers or available(), right)
     of_each = engine.threads or max(1, available() // count)
     seconds, sampled = forecast_seconds(points, of_each)
     shares = (1.0, most / len(points)) if most > len(points) else (1.0,)
@@ -189,13 +249,11 @@ def forecast_rows(
         return f"roughly {' to '.join(each)}"
 
     source = "" if sampled == right else f", estimated from {sampled} of them"
-    more = f" to {most}" if most > len(points) else ""
-    more += f", and {len(points) - right} points that the case refuses" * (right < len(points))
-    times = [("one after the other", f"{duration(1)}{source}")]
+    rows = [("one after the other", f"{duration(1)}{source}")]
     if not engine.is_distant:
         who = f"{count} workers with {of_each} thread{'s' * (of_each > 1)} each"
-        times.append(("together", f"{duration(count)} by {who}"))
-    return ("runs", f"{right}{more}"), times
+        rows.append(("together", f"{duration(count)} by {who}"))
+    return rows
 
 
 def tell_refused(points: Sequence[Point]) -> None:

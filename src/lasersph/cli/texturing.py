@@ -12,7 +12,7 @@ import typer
 from lasersph.cli.arguments import CaseName, Out, Settings, read_quantity
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import WrongCommand
-from lasersph.cli.sweeping import DryRun, forecast, make
+from lasersph.cli.sweeping import DryRun, forecast, make, say_forecast, tell_warnings
 from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
@@ -67,10 +67,13 @@ def texture(
     words = ["lasersph", "texture", case, *(w for s in settings or () for w in ("--set", s))]
     words += ["--cells", str(cells), "--out", str(folder), *engine.words()]
     again = shlex.join(words + (["--pixel", pixel] if pixel else []))
-    table = make(plan.cells, folder / CELLS, engine.engine(), again)
+    chosen = engine.engine()
+    say_forecast(plan.cells.points(), engine, folder / CELLS, plan.cells.study)
+    table = make(plan.cells, folder / CELLS, chosen, again)
     for row in table.rows:
         if row.status != "complete":
             print(f"lasersph: cell {row.run} {row.status}: {row.reason}", file=sys.stderr)
+    tell_warnings(table)
     if not table.is_complete.all():
         raise OutputError(f"not all cells are complete, so no texture; go on with: {again}")
     try:

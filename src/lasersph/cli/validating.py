@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,9 +16,9 @@ SCHEMA_VERSION = 1
 RUNS = Path("runs") / "validation"
 RECORDS = Path("docs") / "validation"
 Names = Annotated[
-    list[str] | None, typer.Argument(metavar="NAME", help="Default: all of them, in order.")
+    list[str] | None, typer.Argument(metavar="NAME", help="One or several; see --list.")
 ]
-All = Annotated[bool, typer.Option("--all", help="All of them, as without a name.")]
+All = Annotated[bool, typer.Option("--all", help="All of them, in order: hours.")]
 Json = Annotated[
     Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers as JSON as well.")
 ]
@@ -77,7 +78,30 @@ def validate(
     elif record is not None:
         _record(wanted, folder, out, threads, backend)
     else:
+        cost = _cost(wanted, quick=quick)
+        if not (names or every):
+            raise WrongCommand(
+                f"{cost}; give names (lasersph validate --list) or --all"
+                + ("" if quick else ", or --quick for the shortened forms")
+            )
+        print(cost, file=sys.stderr, flush=True)
         _compute(wanted, out, quick, json_file, threads, backend)
+
+
+def _cost(names: list[str], *, quick: bool) -> str:
+    """How many validations there are and how long they took when they were recorded."""
+    from lasersph.input import format_duration
+    from lasersph.validation.records import recorded_seconds
+
+    known = [recorded_seconds(name, RECORDS, quick=quick) for name in names]
+    seconds = [one for one in known if one is not None]
+    form = "shortened " if quick else ""
+    count = f"{len(names)} {form}validation{'s' * (len(names) > 1)}, one after the other"
+    if not seconds:
+        return count if quick else f"{count}, from seconds to hours each"
+    source = "" if len(seconds) == len(names) else f", {len(seconds)} of them,"
+    took = format_duration(sum(seconds))
+    return f"{count}, which{source} took {took} when they were recorded"
 
 
 def _compute(
@@ -126,10 +150,12 @@ def _record(
     """Compute what is out of date, one after the other, each stored when it is finished."""
     from lasersph.validation.records import make_record, state_of
 
-    for name in names:
-        if state_of(name, folder).is_out_of_date:
-            print(f"{name}: computing", flush=True)
-            make_record(name, folder, out, threads=threads, backend=backend)
+    left = [name for name in names if state_of(name, folder).is_out_of_date]
+    if left:
+        print(_cost(left, quick=False), file=sys.stderr, flush=True)
+    for name in left:
+        print(f"{name}: computing", flush=True)
+        make_record(name, folder, out, threads=threads, backend=backend)
     _say_states(names, folder)
 
 

@@ -16,17 +16,20 @@ import os
 import sys
 import tempfile
 import warnings
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
 from lasersph.compute import machine_code
+from lasersph.compute.compile_lock import compiling_alone
 
 _PREFIX = "loop_"
 SHARED = ("parallel.py", "native.py", "machine_code.py")
 _loaded: dict[str, ModuleType] = {}
 _entries: dict[str, Entry] = {}
+_first_miss: list[Callable[[], None]] = []
 
 
 class Entry(NamedTuple):
@@ -106,14 +109,47 @@ def entry(text: str, *, is_fast: bool = True) -> int:
     name = f"{_PREFIX}{_digest(text)}"
     key = f"{folder}/{name}"
     if key not in _entries:
-        _entries[key] = _read_entry(folder, name) or _make_entry(folder, name, text, is_fast)
+        _entries[key] = _read_entry(folder, name) or _missing_entry(folder, name, text, is_fast)
     return _entries[key].address
+
+
+def at_first_miss(begin: Callable[[], None]) -> Callable[[], None]:
+    """Call `begin` once, when a loop is not found in the folder; returns what forgets it."""
+    _first_miss[:] = [begin]
+    return _first_miss.clear
+
+
+def compile_ahead(text: str) -> None:
+    """Put the function of a text into the folder, unless it lies there or is being compiled."""
+    folder = location()
+    name = f"{_PREFIX}{_digest(text)}"
+    with compiling_alone(folder, _digest(text), waits=False) as is_ours:
+        if is_ours and not _code_file(folder, name).is_file():
+            _make_entry(folder, name, text, is_fast=True)
+
+
+def _missing_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
+    """The function of a text that the folder lacks: compiled here, or by who compiles it now."""
+    from numba.core import event
+
+    while _first_miss:
+        _first_miss.pop()()
+    with (
+        event.trigger_event("numba:compile", data={"name": name}),
+        compiling_alone(folder, name.removeprefix(_PREFIX)),
+    ):
+        return _read_entry(folder, name) or _make_entry(folder, name, text, is_fast)
+
+
+def _code_file(folder: Path, name: str) -> Path:
+    """Where the machine code of a function for this processor lies."""
+    return folder / f"{name}-{machine_code.target()}.o"
 
 
 def _read_entry(folder: Path, name: str) -> Entry | None:
     """The function whose machine code lies in the folder; None where there is none."""
     try:
-        content = (folder / f"{name}-{machine_code.target()}.o").read_bytes()
+        content = _code_file(folder, name).read_bytes()
     except OSError:
         return None
     address = machine_code.address_of(content, name)
@@ -128,7 +164,7 @@ def _make_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
     content = machine_code.compile_function(space["loop"], name, is_fast=is_fast)
     try:
         _write(path, text.encode())
-        _write(folder / f"{name}-{machine_code.target()}.o", content)
+        _write(_code_file(folder, name), content)
     except OSError as error:
         _warn(error)
     address = machine_code.address_of(content, name)

@@ -16,15 +16,17 @@ class Compiling(event.Listener):
     """Counts and times the loops that are compiled inside a `with` block.
 
     Args:
-        begun: called once, before the first of them.
+        begun: called once, before the first of them. done: called after each, with this.
 
     Attributes:
         loops: how many so far. seconds: how long that has taken, by the wall clock [s].
     """
 
-    def __init__(self, begun: Callable[[], None]) -> None:
+    def __init__(
+        self, begun: Callable[[], None], done: Callable[[Compiling], None] = lambda _: None
+    ) -> None:
         self.loops, self.seconds = 0, 0.0
-        self._begun, self._depth, self._start = begun, 0, 0.0
+        self._begun, self._done, self._depth, self._start = begun, done, 0, 0.0
 
     def __enter__(self) -> Self:
         """Listen."""
@@ -54,3 +56,4 @@ class Compiling(event.Listener):
         if self._depth == 0:
             self.loops += 1
             self.seconds += time.perf_counter() - self._start
+            self._done(self)

@@ -12,6 +12,7 @@ from lasersph.input.formatting import (
     format_number,
     format_quantity,
     format_with_error,
+    in_field_units,
 )
 from lasersph.input.model import Model, did_you_mean, nearest, refusal
 from lasersph.input.quantity import KINDS, Kind, QuantityError, parse_quantity
@@ -100,6 +101,7 @@ __all__ = [
     "format_number",
     "format_quantity",
     "format_with_error",
+    "in_field_units",
     "nearest",
     "parse_quantity",
     "parse_toml",

@@ -11,7 +11,7 @@ import copy
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar
 
@@ -24,6 +24,7 @@ from lasersph.input.key_lines import Path
 from lasersph.input.schema import Schema
 
 M = TypeVar("M", bound=BaseModel)
+OtherWords = Callable[[], Mapping[str, str]]
 
 MOST_ROUNDS = 12
 """Checks of one file; hand-written ones take two to five."""
@@ -39,14 +40,15 @@ def build(
     model: type[M],
     document: Document,
     context: dict[str, Any] | None = None,
-    other_words: Mapping[str, str] | None = None,
+    other_words: OtherWords | None = None,
 ) -> M:
     """Validate a document as a model, with units required on every quantity.
 
     Args:
         model: the class to build. document: from `read_toml` or `parse_toml`.
         context: pydantic's validation context, for validators that look beyond the data.
-        other_words: what other programs call the keys; see `findings.Misplaced`.
+        other_words: returns what other programs call the keys, asked where something is wrong; see
+            `findings.Misplaced`.
 
     Raises:
         CaseError: one problem per mistake, with file, line and key.
@@ -59,7 +61,7 @@ def build(
         pass
     except RecursionError:
         raise CaseError("brackets nested too deeply", file=document.file) from None
-    raise CaseError(_all_problems(model, document, context, other_words or {}))
+    raise CaseError(_all_problems(model, document, context, other_words() if other_words else {}))
 
 
 def _all_problems(
@@ -118,7 +120,7 @@ class _Trial:
             if finding.value is not None:
                 return self._write(path, finding.value)
             if finding.problem == "unknown key" or _LEAVE.search(finding.hint):
-                return self._remove(path)
+                return self._remove(path) and self._drop_emptied(finding)
             line = _line_of(finding, isinstance(self.document.at(path), dict))
             if line is not None and self._write(*line):
                 return True
@@ -157,6 +159,14 @@ class _Trial:
             del around[path[-1]]
         except (KeyError, IndexError, TypeError):
             return False
+        return True
+
+    def _drop_emptied(self, finding: Finding) -> bool:
+        """Leave out a table whose only key belongs elsewhere; what it lacks now concerns nobody."""
+        table = finding.path[:-1]
+        if table and finding.hint.startswith("write") and self.document.at(table) == {}:
+            self._written.add(table)
+            self._remove(table)
         return True
 
     def _table(self, path: Path) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,8 @@ from lasersph.input.key_lines import key_lines
 LARGEST_FILE = 16 * 2**20
 MOST_MISTAKES = 100
 """Mistakes of syntax after which a file is given up."""
+SET = "# --set "
+"""Begins the lines above the text of a case that tell the settings of the command."""
 
 
 @dataclass
@@ -114,6 +117,18 @@ def parse_toml(raw: bytes | str, file: str = "", *, tolerant: bool = False) -> D
     if problems and not tolerant:
         raise CaseError(problems)
     return Document(data, file, text, lines, problems=problems)
+
+
+def with_settings(text: str, settings: Iterable[str]) -> str:
+    """The text of a case file below its settings, "laser.fluence=0.8 J/cm^2", a comment each."""
+    return "".join(f"{SET}{setting}\n" for setting in settings) + text
+
+
+def split_settings(case_text: str) -> tuple[list[str], str]:
+    """The settings that a case.toml tells in its first lines, and the text below them."""
+    lines = case_text.splitlines(keepends=True)
+    count = next((k for k, line in enumerate(lines) if not line.startswith(SET)), len(lines))
+    return [line.removeprefix(SET).strip() for line in lines[:count]], "".join(lines[count:])
 
 
 def _decode(raw: bytes, file: str) -> str:

@@ -13,6 +13,7 @@ from lasersph.input.document import Document
 from lasersph.input.errors import CaseError, Problem
 from lasersph.input.key_lines import Path
 from lasersph.input.model import nearest
+from lasersph.input.quantity import KINDS, fits_kind
 from lasersph.input.schema import Schema, as_toml
 
 _BOUNDS = {
@@ -129,6 +130,8 @@ def _say(
     if kind in ("value_error", "assertion_error"):
         text, _, hint = str(context.get("error", error["msg"])).partition("; ")
         return [Finding(path, text, hint)]
+    if _EXPECTED.get(kind) == "a table":
+        return [_no_table(path, given, document, schema)]
     is_one = kind in ("list_type", "tuple_type") and given == "a table" and len(path) == 1
     hint = f"write [[{path[0]}]]" if is_one else ""
     return [Finding(path, _problem_with_value(kind, context, error["msg"], given), hint)]
@@ -159,6 +162,13 @@ def _missing(path: Path, example: Any) -> Finding:
     elif example is not None:
         hint = f"write {path[-1]} = {as_toml(example)}"
     return Finding(path, "missing", hint, value=example)
+
+
+def _no_table(path: Path, given: str, document: Document, schema: Schema) -> Finding:
+    """A value where a table belongs, with the table to write; the value in it where it fits."""
+    example = schema.table_for(path, document.at(path), document.data)
+    hint = f"write {path[-1]} = {as_toml(example)}" if example else ""
+    return Finding(path, f"must be a table, got {given}", hint, value=example or None)
 
 
 def _unknown(path: Path, misplaced: Misplaced) -> Finding:
@@ -243,6 +253,7 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
     candidates += _named(alike, table, asked) if alike and not is_of_kind else []
     for target in candidates:
         fits = target in schema.places(document.data) and _fits(path, target, asked)
+        fits = fits and not _is_of_other_kind(document.at(path), target, asked)
         if fits and (document.at(target) is None or document.origin_within(path)):
             shown = target[-1] if target[:-1] == table else ".".join(map(str, target))
             return f'do you mean "{shown}"?', target
@@ -265,6 +276,16 @@ def _named(key: str, table: Path, asked: Misplaced) -> list[Path]:
     places = asked.schema.places(asked.document.data)
     same = [place for place in places if place[-1] == key and place[:-1] != table]
     return sorted(same, key=lambda place: (place[: len(table)] != table, len(place)))
+
+
+def _is_of_other_kind(value: Any, target: Path, asked: Misplaced) -> bool:
+    """Whether a text is a quantity, but of none of the kinds that a key takes."""
+    parts = asked.schema.parts(target, asked.document.data)
+    is_number = any(part.get("type") == "number" for part in parts)
+    kinds = [part["x-kind"] for part in parts if "x-kind" in part] + ["fraction"] * is_number
+    if not isinstance(value, str) or not kinds or any(fits_kind(value, kind) for kind in kinds):
+        return False
+    return any(fits_kind(value, kind) for kind in KINDS)
 
 
 def _fits(path: Path, target: Path, asked: Misplaced) -> bool:

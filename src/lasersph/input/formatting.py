@@ -13,8 +13,12 @@ PREFIXED = {"m": 1, "m^2": 2, "m^3": 3, "s": 1, "J": 1, "W": 1, "Pa": 1, "Hz": 1
 """Units of one symbol, which take a prefix, with the power of it that counts: 1 um^3 = 1e-18 m^3.
 Temperatures and compound units take none."""
 PREFIXES = ("f", "p", "n", "u", "m", "", "k", "M", "G", "T")
+LARGEST = {1: 1e3, 2: 1e4, 3: 1e6}
+"""Numbers from which the next prefix reads better, by that power: 994773 nm^2 is 0.9948 um^2."""
 WITHOUT_KILO = ("m", "m^2", "m^3", "s")
 """Nobody says kilosecond, and no body here is a kilometer long."""
+LEAST_POWER = {"m": -3}
+"""Of a thousand; nobody measures metal in picometers: an atom is 0.25 nm wide."""
 SMALLEST = 1e-15
 """Lengths [m] and times [s] below this are rounding errors: a proton, a light period."""
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -38,6 +42,20 @@ def format_quantity(
     return f"{format_number(value / scale, digits, typographic=typographic)} {name}".rstrip()
 
 
+def in_field_units(
+    value: float, unit: str, error: float | None = None, *, typographic: bool = True
+) -> str:
+    """A number in SI with the unit in which users think of it: fluences per cm^2.
+
+    Args:
+        error: of the value, SI, which then decides on the digits.
+    """
+    if unit in ("J/m^2", "W/m^2"):
+        value, error = 1e-4 * value, error and 1e-4 * error
+        unit = unit.replace("m^2", "cm^2")
+    return format_with_error(value, error, unit, typographic=typographic)
+
+
 def _fitting_unit(value: float, unit: str, digits: int, *, typographic: bool) -> tuple[str, float]:
     """Unit with the prefix that fits a value, and its size in SI."""
     prefix, scale = "", 1.0
@@ -45,8 +63,8 @@ def _fitting_unit(value: float, unit: str, digits: int, *, typographic: bool) ->
         step = 1000.0 ** PREFIXED[unit]
         power = math.floor(math.log10(abs(value)) / math.log10(step))
         # 999.96 with four digits is 1000, the next prefix's 1
-        power += abs(float(f"{value / step**power:.{digits}g}")) >= step
-        power = max(-5, min(power, 0 if unit in WITHOUT_KILO else 4))
+        power += abs(float(f"{value / step**power:.{digits}g}")) >= LARGEST[PREFIXED[unit]]
+        power = max(LEAST_POWER.get(unit, -5), min(power, 0 if unit in WITHOUT_KILO else 4))
         prefix, scale = PREFIXES[power + 5], step**power
     if typographic:
         prefix = prefix.replace("u", "µ")

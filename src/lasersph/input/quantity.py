@@ -80,6 +80,15 @@ def parse_quantity(text: str, kind: str) -> float:
     return _finite(Fraction(number) * unit.factor + unit.offset, shown)
 
 
+def fits_kind(text: str, kind: str) -> bool:
+    """Whether a text can be read as a quantity of a kind."""
+    try:
+        parse_quantity(text, kind)
+    except QuantityError:
+        return False
+    return True
+
+
 def _finite(exact: Fraction, shown: str) -> float:
     try:
         value = float(exact)

@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from lasersph.input.key_lines import Path
+from lasersph.input.quantity import fits_kind
 
 DEEPEST = 5
 """Steps of a key; no model of lasersph nests deeper, but a schema may refer to itself."""
@@ -97,9 +98,26 @@ class Schema:
         return found
 
     def example(self, path: Path, data: Any) -> Any:
-        """What might stand at a path, None where the schema does not say."""
+        """Line that might stand at a path, None where the schema does not say."""
         parts = self.parts(path, data)
         return self._example(parts[0]) if parts else None
+
+    def table_for(self, path: Path, value: Any, data: Any) -> dict[str, Any]:
+        """Table that might stand at a path; in it, as `kind` or `value`, a value that fits.
+
+        Empty where the schema does not say.
+        """
+        tables = [part for part in self.parts(path, None) if part.get("properties")]
+        if not tables:
+            return {}
+        table = _of_kind(tables, {"kind": value})[0]
+        keys = table["properties"]
+        if not keys.keys() >= {"value", "source"}:
+            return self._example(table)
+        leaves = self._alternatives(keys["value"])
+        fits = any(_is_value_of(leaf, value) for leaf in leaves)
+        shown = value if fits else self._example(leaves[0])
+        return {"value": shown, "source": self._example(keys["source"])}
 
     def _example(self, part: dict[str, Any]) -> Any:
         if "examples" in part:
@@ -135,8 +153,21 @@ class Schema:
         if not branches:
             return [part]
         shown = {key: part[key] for key in ("examples", "description") if part.get(key)}
-        found = [leaf | shown for branch in branches for leaf in self._alternatives(branch)]
+        leaves = [leaf for branch in branches for leaf in self._alternatives(branch)]
+        found = [shown | leaf if _is_one_kind(leaf) else leaf | shown for leaf in leaves]
         return [leaf for leaf in found if leaf.get("type") != "null"]
+
+
+def _is_one_kind(part: dict[str, Any]) -> bool:
+    """Whether a part is one of several kinds of a table: what it is, is said of itself."""
+    return "const" in part.get("properties", {}).get("kind", {})
+
+
+def _is_value_of(leaf: dict[str, Any], value: Any) -> bool:
+    """Whether a text or number may stand where a part of a schema tells of a quantity."""
+    if isinstance(value, str):
+        return leaf.get("type") != "number" and fits_kind(value, leaf.get("x-kind", "fraction"))
+    return leaf.get("type") == "number" and isinstance(value, int | float)
 
 
 def described(part: dict[str, Any]) -> tuple[str, dict[str, str]]:

@@ -17,7 +17,8 @@ from __future__ import annotations
 from math import exp, floor
 
 THIN = 1e-6
-"""Optical thickness below which 1 - exp(-tau) is taken as tau - tau^2 / 2, exact to 1e-12."""
+"""Optical thickness below which 1 - exp(-tau) is taken as tau - tau^2 / 2. Rounding: exact to
+1e-12."""
 
 
 def cell_at_corner(x, depth, size, low, inverse_x, inverse_z, right, lower, columns, levels):

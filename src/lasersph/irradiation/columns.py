@@ -21,11 +21,12 @@ from lasersph.compute.vectors import dot, interpolate
 from lasersph.particles.kinds import LEAVING
 
 ROUNDING = 1e-6
-"""Shares of a column below which a particle does not stand in it."""
+"""Shares of a column below which a particle does not stand in it. Rounding: of positions."""
 LEAST_COVER = 0.125
-"""Share of a column that its highest particle covers at least."""
+"""Share of a column that its highest particle covers at least. Study: craters of turned lattices
+agree within a layer with it (`tests/laws/test_crater.py`)."""
 NOWHERE = -1e30
-"""Height where nothing stands [m]."""
+"""Height where nothing stands [m]. Format: lower than anything."""
 
 
 def column_along(x, axis, low, inverse):

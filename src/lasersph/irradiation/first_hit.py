@@ -40,7 +40,8 @@ from lasersph.particles.kinds import GONE
 from lasersph.particles.neighbor_lists import NeighborList, members_of
 
 BAND = 0.5
-"""Depth over the spacing down to which particles of a column are uppermost."""
+"""Depth over the spacing down to which particles of a column are uppermost. Geometry: particles of
+one layer share the light of a column, those of the next do not."""
 
 
 class Corner(NamedTuple):

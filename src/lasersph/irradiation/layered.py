@@ -39,9 +39,10 @@ from lasersph.particles.filling import Filling
 from lasersph.particles.neighbor_lists import members_of
 
 SMALLEST_SHARE = 1e-30
-"""Share of the light below which a particle is dark; products with smaller ones are not normal."""
+"""Share of the light below which a particle is dark. Format: products with smaller ones are not
+normal numbers."""
 OPAQUE = 37.0
-"""Optical thickness below which rows of cells are dark: exp(-37) is the rounding of 1."""
+"""Optical thickness below which rows of cells are dark. Rounding: exp(-37) is the rounding of 1."""
 
 
 def enter_column(F, T_s, area, R_T, R_R, beyond):

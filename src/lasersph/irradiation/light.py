@@ -14,7 +14,8 @@ from typing import Protocol
 from lasersph.compute.array_types import Array
 
 COLDEST, HOTTEST = 1.0, 2.0e4
-"""Range of surface temperatures of the table of the reflectivity [K]."""
+"""Range of surface temperatures of the table of the reflectivity [K]. Format: it ends far above any
+metal."""
 
 
 class Light(Protocol):

@@ -56,7 +56,9 @@ class TopHatBeam(Model):
     """Constant fluence inside a circle."""
 
     kind: Literal["top-hat"] = "top-hat"
-    radius: PositiveLength = Field(description="of the spot")
+    radius: PositiveLength = Field(
+        description="of the spot, half of its diameter", examples=["40 um"]
+    )
     peak: ClassVar[float] = 1.0
     mean: ClassVar[float] = 1.0
     names_fluence: ClassVar[bool] = True

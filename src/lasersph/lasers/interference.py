@@ -299,6 +299,12 @@ class InterferenceBeam(Model):
             return float(np.sqrt(3.0) * self.lateral_period)
         return _common_period(self.terms[1][1]) if self.count > 2 or self.waves else None
 
+    @property
+    def varies_along_y(self) -> bool:
+        """Whether f(x, y) differs from f(x, 0) anywhere: a wave across x that has not canceled."""
+        c, K, _ = self.terms
+        return bool(np.any((c != 0.0) & (K[1] != 0.0)))
+
     @cached_property
     def extremes(self) -> tuple[float, float] | None:
         """Smallest and largest value of f; None where three or more waves do not repeat."""

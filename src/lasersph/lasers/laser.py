@@ -78,14 +78,14 @@ class Laser(Model):
         description="chooses the optics of a metal that has them for several wavelengths",
         examples=["1064 nm"],
     )
-    beam: Beam = Field(default_factory=UniformBeam)
+    beam: Beam = Field(default=UniformBeam(), description="how the light lies on the surface")
     spot: Spot | None = Field(
         default=None,
         exclude_if=lambda given: given is None,
         description="under which an interference pattern or a uniform beam lies",
     )
-    pulse: Pulse
-    absorption: Absorption
+    pulse: Pulse = Field(description="how the light comes in time")
+    absorption: Absorption = Field(description="how deep the light goes")
     reflectivity: Reflectivity | None = Field(default=None, description="instead of the material's")
     position: tuple[Length, Length] = Field(
         default=(0.0, 0.0), description="x and y of the beam's axis"
@@ -186,8 +186,15 @@ class Laser(Model):
     @model_validator(mode="after")
     def _check_wavelength(self) -> Laser:
         waves = self.beam.wavelength if isinstance(self.beam, InterferenceBeam) else None
-        if None not in (self.wavelength, waves) and self.wavelength != waves:
-            raise refusal(("wavelength", "is not that of [laser.beam]; leave it out here"))
+        if self.wavelength is not None and waves is not None and self.wavelength != waves:
+            own, beams = (format_quantity(one, "m", 6) for one in (self.wavelength, waves))
+            raise refusal(
+                (
+                    "wavelength",
+                    f"is {own}, but that of the waves that interfere, laser.beam.wavelength, is "
+                    f"{beams}; leave it out here, or change both",
+                )
+            )
         return self
 
     @property

@@ -1,18 +1,21 @@
 """Finding and reading material files: shipped ones, the user's folder, a path.
 
 A name is looked up first in the folder named by the environment variable LASERSPH_MATERIALS, then
-among the shipped files; anything that ends in ".toml" or holds a path separator is a path.
+among the shipped files, then among their other names ("Cu", "Ti64"); anything that ends in ".toml"
+or holds a path separator is a path.
 """
 
 from __future__ import annotations
 
 import difflib
 import os
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
 from lasersph.input import CaseError, build, read_toml
 from lasersph.materials.material import Material
+from lasersph.materials.other_names import is_called, metals_of_family, shipped_name
 
 LIBRARY = Path(__file__).parent / "library"
 FOLDER_VARIABLE = "LASERSPH_MATERIALS"
@@ -54,11 +57,24 @@ def material_file(name_or_path: str | os.PathLike[str]) -> Path:
     if text.endswith(".toml") or os.sep in text or isinstance(name_or_path, Path):
         return Path(text).expanduser()
     known = available_materials()
-    if text in known:
-        return known[text]
-    near = difflib.get_close_matches(text, known, n=1, cutoff=NEAR_NAME)
-    hint = f'do you mean "{near[0]}"?' if near else KNOWN.format(", ".join(known))
+    name = text if text in known else shipped_name(text, tuple(known))
+    if name in known:
+        return known[name]
+    near = metals_of_family(text) or difflib.get_close_matches(text, known, n=1, cutoff=NEAR_NAME)
+    meant = " or ".join(f'"{one}"' for one in near)
+    hint = f"do you mean {meant}?" if near else KNOWN.format(", ".join(known))
     raise CaseError(f'no material "{text}"', hint, key="material")
+
+
+def materials_like(word: str) -> dict[str, Material]:
+    """By name the materials whose name, title, composition or other names hold a word."""
+    found = {}
+    for name in available_materials():
+        material = load_material(name)
+        told = f"{name} {material.title} {material.composition}".lower()
+        if word.lower() in told or is_called(name, word):
+            found[name] = material
+    return found
 
 
 def load_material(name_or_path: str | os.PathLike[str]) -> Material:
@@ -74,7 +90,14 @@ def load_material(name_or_path: str | os.PathLike[str]) -> Material:
     return _read(path, status.st_mtime_ns, status.st_size)
 
 
+def _other_words() -> Mapping[str, str]:
+    """Words of other programs for the keys of a material; loaded where a message needs it."""
+    from lasersph.materials.other_words import MATERIAL_WORDS
+
+    return MATERIAL_WORDS
+
+
 @lru_cache(maxsize=64)
 def _read(path: Path, changed: int, size: int) -> Material:
     """Read a file once per state of it: changed [ns] and size [bytes] only tell states apart."""
-    return build(Material, read_toml(path, tolerant=True))
+    return build(Material, read_toml(path, tolerant=True), other_words=_other_words)

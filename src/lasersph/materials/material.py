@@ -75,7 +75,9 @@ class Material(Model):
     )
     density: Property[Density] = Field(description="mass per volume")
     heat_capacity: Property[SpecificHeat] = Field(description="per mass, at constant pressure")
-    conductivity: Property[Conductivity] = Field(description="of heat")
+    conductivity: Property[Conductivity] = Field(
+        description="of heat; in a case a constant diffusivity may stand instead"
+    )
     conductivity_printed: Property[Conductivity] | None = Field(
         default=None, description="what a paper prints: compared, not computed with"
     )
@@ -95,9 +97,9 @@ class Material(Model):
     expansion: Property[Expansion] | None = Field(
         default=None, description="volumetric, of the liquid"
     )
-    melting: Melting | None = None
-    vaporization: Vaporization | None = None
-    optics: Optics | None = None
+    melting: Melting | None = Field(default=None, description="where and with which heat it melts")
+    vaporization: Vaporization | None = Field(default=None, description="the same of boiling")
+    optics: Optics | None = Field(default=None, description="how its surface takes up light")
 
     @model_validator(mode="after")
     def _check_values(self) -> Material:

@@ -84,8 +84,12 @@ class Optics(Sourced):
     Numbers beside `wavelength` hold there; without it at every wavelength.
     """
 
-    reflectivity: Property[Fraction] | None = None
-    absorption_coefficient: AbsorptionCoefficient | None = Field(default=None, gt=0)
+    reflectivity: Property[Fraction] | None = Field(
+        default=None, description="share of the light that does not enter"
+    )
+    absorption_coefficient: AbsorptionCoefficient | None = Field(
+        default=None, gt=0, description="one over the depth in which light falls to 1/e"
+    )
     wavelength: Length | None = Field(default=None, gt=0, description="for which the numbers hold")
     emissivity: Fraction | None = Field(
         default=None, ge=0, le=1, description="total, of the surface"

@@ -49,7 +49,9 @@ class Law(Model, Generic[Quantity]):
     range: tuple[Temperature, Temperature] | None = Field(
         default=None, description="temperatures between which the source gives the law"
     )
-    source: str = Field(default="", description="where the numbers come from")
+    source: str = Field(
+        default="", description="where the numbers come from", examples=["where it is from"]
+    )
     note: str = Field(default="", description="what a reader should know about them")
     uncertainty: Uncertainty | None = Field(
         default=None, exclude=True, description="standard uncertainty, where the source gives one"
@@ -157,8 +159,8 @@ class Law(Model, Generic[Quantity]):
 class Property(Law[Quantity], Generic[Quantity]):
     """A law for everything, or one for the solid and one for the liquid."""
 
-    solid: Law[Quantity] | None = None
-    liquid: Law[Quantity] | None = None
+    solid: Law[Quantity] | None = Field(default=None, description="the law of the solid")
+    liquid: Law[Quantity] | None = Field(default=None, description="the law of the melt")
 
     def _check_count(self, forms: list[str]) -> None:
         phases = [name for name in ("solid", "liquid") if getattr(self, name) is not None]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from lasersph.input import (
     Model,
@@ -23,7 +23,9 @@ GAS_CONSTANT = 8.314462618
 class Sourced(Model):
     """Numbers with their sources: one text for all, or a table with one for each number."""
 
-    source: str | dict[str, str] = Field(description="source of all numbers, or one for each")
+    source: str | dict[str, str] = Field(
+        description="source of all numbers, or one for each", examples=["where they are from"]
+    )
     note: str = Field(default="", description="what a reader should know about the numbers")
     uncertainty: dict[str, Uncertainty] = Field(
         default={}, exclude=True, description="standard uncertainty of each number that has one"
@@ -64,6 +66,11 @@ class Sourced(Model):
         return self.source if isinstance(self.source, str) else self.source.get(name, "")
 
 
+def _make_liquidus_optional(schema: dict[str, Any]) -> None:
+    """Say in the JSON Schema of `Melting` that a solidus alone will do."""
+    schema["required"].remove("liquidus")
+
+
 class Melting(Sourced):
     """Melting range, or melting point where solidus and liquidus are equal."""
 
@@ -76,6 +83,8 @@ class Melting(Sourced):
         examples=["1300 K"],
     )
     latent_heat: SpecificEnergy = Field(gt=0, description="latent heat of fusion")
+
+    model_config = ConfigDict(json_schema_extra=_make_liquidus_optional)
 
     @model_validator(mode="before")
     @classmethod
@@ -100,10 +109,14 @@ class Melting(Sourced):
 class Vaporization(Sourced):
     """Boiling point and what evaporation needs."""
 
-    temperature: Temperature = Field(gt=0, description="boiling temperature at 1 atm")
+    temperature: Temperature = Field(
+        gt=0, description="boiling temperature at 1 atm", examples=["3000 K"]
+    )
     latent_heat: SpecificEnergy = Field(gt=0, description="latent heat at the boiling temperature")
     molar_mass: MolarMass | None = Field(default=None, gt=0, description="molar mass of the vapor")
-    critical_temperature: Temperature | None = Field(default=None, gt=0)
+    critical_temperature: Temperature | None = Field(
+        default=None, gt=0, description="above which liquid and vapor are one"
+    )
 
     @model_validator(mode="after")
     def _check_order(self) -> Vaporization:

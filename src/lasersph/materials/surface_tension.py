@@ -38,7 +38,7 @@ class SulfurAdsorption(Model):
     )
     enthalpy: MolarEnergy = Field(lt=0, description="standard heat of adsorption H")
     source: str = Field(min_length=1, description="where the numbers come from")
-    note: str = ""
+    note: str = Field(default="", description="what a reader should know about the numbers")
 
     def tension_loss(self, temperature: ArrayLike, content: float) -> NDArray[np.float64]:
         """By how much `content` (mass fraction above 0) lowers the surface tension [N/m] at

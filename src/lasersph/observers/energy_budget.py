@@ -88,7 +88,7 @@ class EnergyBudget(Observer):
         Quantity(
             "energy_imbalance_relative",
             "",
-            "energy imbalance",
+            "energy imbalance, over the energy moved",
             largest="energy.imbalance_relative",
             is_main=True,
         ),

@@ -23,9 +23,10 @@ class FlowView:
         flows: (n,) whether a particle flows (f_m = 1).
         surface: (s,) indices of the particles at the surface in order of x, flowing or not; empty
             where a box has no free surface.
-        surface_temperature: (s,) temperature of the surface above them [K].
+        surface_temperature: (s,) temperature of the surface above them [K]; where a surface that
+            moves is solid, that of the particle itself, half a spacing below.
         surface_gradient: (s,) its derivative dT/dx [K/m].
-        surface_velocity: (s,) horizontal velocity extrapolated to the surface [m/s].
+        surface_velocity: (s,) horizontal velocity extrapolated to the surface [m/s], 0 on solid.
         surface_pressure: (s,) dynamic pressure at the surface [Pa].
         divergence_rms, divergence_max: of the velocity of flowing particles after the projection
             [1/s].

@@ -2,19 +2,29 @@
 
 A cell counts as fluid where its melt fraction reaches a level: 1 (completely fluid; the size of
 the pool in the paper), 0.5 (which depends least on the cell size) or anything above 0. The depth
-is that of the lower face of the deepest fluid cell below the original surface; the width is that
-of the surface cells that are connected to the hottest one, doubled where half a period or half
-a spot is computed and the pool lies on its symmetry plane. [Demuth2020, Sec. 5] Surface cells meet
-half way between their particles, also where these move: at rest sizes are whole cells. What has
-been ejected belongs to no pool.
+is where melt of that level ends below the original surface; the width is that of the surface cells
+that are connected to the hottest one, doubled where half a period or half a spot is computed and
+the pool lies on its symmetry plane. [Demuth2020, Sec. 5] Surface cells meet half way between their
+particles, also where these move: at rest widths are whole cells, but at f_m = 0.5, where they are
+interpolated. What has been ejected belongs to no pool.
 
-At f_m = 0.5 both are interpolated. Where melt is deepest the depth lies between the centers of the
-deepest such cell (1) and of the one below (2). The place where f_m falls to 0.5 rests at the face
-while cell 1 is molten and cell 2 still warms up; the place where T falls to the middle of the
-melting range rests at a center while that cell melts. So their mean is taken, which always moves:
+Depths lie between the centers of the hottest cell of the deepest row that is fluid (1) and of the
+one below (2), at the mean of two places; a row is half a cell high, as flow moves its particles.
+That where f_m falls to 0.5 rests at the face while cell 1 is molten and cell 2 still warms up; that
+where T falls to the temperature of the level rests at a center while that cell melts; their mean
+always moves:
 
     z = z_1 + (z_2 - z_1) (s_f + s_T) / 2,   s_f = (f_1 - 1/2) / (f_1 - f_2)
-    s_T = (T_1 - T_m) / (T_1 - T_2),         T_m = (T_solidus + T_liquidus) / 2
+    s_T = (T_1 - T_L) / (T_1 - T_2),         T_L = T_solidus + L (T_liquidus - T_solidus)
+
+with L = 1/2. Fractions do not tell where L = 1 or L = 0 is passed: they are 1 all through the
+liquid and 0 all through the solid. There T alone does, within both places of f_m = 0.5,
+
+    z(1) = (min(z_T1, z_f) + min(z_T1, z_T)) / 2,   z(0) = (max(z_T0, z_f) + max(z_T0, z_T)) / 2
+
+so that fluid metal is never deeper than half molten metal, and this never than any melt. The paper
+takes the lower face of the deepest cell instead, which is half a cell from these at most, and jumps
+by whole cells.
 
 In 3-D the width is taken along x through the hottest surface cell, and the area is that of all
 surface cells that reach the level, of all dots in the domain.
@@ -24,11 +34,13 @@ Left out: pools that wrap around a periodic boundary.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from lasersph.observers.ablation_view import EJECTED
 from lasersph.observers.observer import Observer, Row
-from lasersph.observers.peak import SAME, Span
+from lasersph.observers.peak import Span
 from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View, hottest_surface_cell, largest_depth, lower_faces
 
@@ -41,8 +53,8 @@ LEVELS = {
 """Part of a key, the melt fraction that a fluid cell has at least (any: above 0), and its name."""
 
 
-def sizes(name: str, cells: float) -> tuple[Quantity, ...]:
-    """A size of the pool at each level, and by how many cells it jumps."""
+def sizes(name: str, cells: Mapping[str, float]) -> tuple[Quantity, ...]:
+    """A size of the pool at each level, and by how many cells it jumps there."""
     return tuple(
         Quantity(
             f"melt_{name}{level}_m",
@@ -50,18 +62,19 @@ def sizes(name: str, cells: float) -> tuple[Quantity, ...]:
             f"{name} of {words}",
             largest=f"melt.{name}{level}_max_m",
             is_main=level != "_any",
-            cells=0.5 * cells if level == "_half" else cells,
+            cells=cells[level],
         )
         for level, (_, words) in LEVELS.items()
     )
 
 
-DEPTHS, WIDTHS = sizes("depth", 1.0), sizes("width", 2.0)
+DEPTHS = sizes("depth", {"": 0.5, "_half": 0.5, "_any": 0.5})
+WIDTHS = sizes("width", {"": 2.0, "_half": 1.0, "_any": 2.0})
 AREAS = tuple(
     Quantity(
         f"melt_area{level}_m2",
         "m^2",
-        f"area at the surface of {words}; both halves where one is computed",
+        f"area of {words}",
         largest=f"melt.area{level}_max_m2",
         is_main=level != "_any",
     )
@@ -70,7 +83,7 @@ AREAS = tuple(
 VOLUME = Quantity(
     "melt_volume_m3",
     "m^3",
-    "volume of molten metal, cells with their melt fractions",
+    "volume of molten metal",
     largest="melt.volume_max_m3",
     is_main=True,
 )
@@ -81,9 +94,10 @@ class MeltPool(Observer):
 
     title = "melt pool"
     note = (
-        "Depth: lower face of the deepest such cell below the original surface. Width: full"
-        " width of one pool at the surface. Sizes are whole cells, but those at f_m = 0.5 are"
-        " interpolated between cells."
+        "Depth: below the original surface, interpolated between cells. Width: full width of one"
+        " pool at the surface, in whole cells, at f_m = 0.5 interpolated between them. Area: of the"
+        " surface, both halves where one is computed. Volume: of all cells, each with its melt"
+        " fraction."
     )
     columns = (*DEPTHS, *WIDTHS, *AREAS, VOLUME)
     results = (
@@ -108,13 +122,12 @@ class MeltPool(Observer):
         """Sizes of the pool at this step [m]; 0 where nothing is fluid."""
         fraction = remaining_fraction(view)
         largest = float(np.max(fraction))
-        faces = lower_faces(view) if largest > 0.0 else np.zeros(0)
-        depth, width, area = (dict.fromkeys(LEVELS, 0.0) for _ in range(3))
+        width, area = dict.fromkeys(LEVELS, 0.0), dict.fromkeys(LEVELS, 0.0)
+        depth = pool_depths(view, fraction) if largest > 0.0 else dict.fromkeys(LEVELS, 0.0)
         for level, (least, _) in LEVELS.items():
             exists = largest > 0.0 and largest >= least
             self.span[level].update(exists, view.time)
             if exists:
-                depth[level] = pool_depth(view, fraction, faces, least)
                 width[level] = pool_width(view, least) if self.dimension > 1 else 0.0
                 area[level] = pool_area(view, fraction, least) if self.dimension > 2 else 0.0
         self.end_time = view.time
@@ -152,38 +165,65 @@ def is_fluid(fraction: np.ndarray, least: float) -> np.ndarray:
     return fraction > 0.0 if least == 0.0 else fraction >= least
 
 
-def pool_depth(view: View, fraction: np.ndarray, faces: np.ndarray, least: float) -> float:
-    """Depth of the pool [m]; at f_m = 0.5 below the hottest of the deepest cells, interpolated as
-    the head of this file says.
+def pool_depths(view: View, fraction: np.ndarray) -> dict[str, float]:
+    """Depth of the pool at each of `LEVELS` [m], as the head of this file says; 0 where none is.
 
     Args:
-        fraction: (n,) melt fractions without what has been ejected; one at least is fluid.
-        faces: (n,) depths of the lower faces of the cells [m].
+        fraction: (n,) melt fractions without what has been ejected.
+    """
+    faces = lower_faces(view)
+    ends = {level: melt_ends(view, fraction, faces, least) for level, (least, _) in LEVELS.items()}
+    half = ends["_half"]
+    found = {"_half": 0.5 * sum(half) if half else 0.0}
+    # at 1 and above 0 the temperature tells, within both places of f_m = 0.5
+    for level, nearer in (("", min), ("_any", max)):
+        _, by_temperature = ends[level] or (0.0, 0.0)
+        bounds = half or (by_temperature, by_temperature)
+        found[level] = 0.5 * sum(nearer(by_temperature, bound) for bound in bounds)
+    return {level: max(found[level], 0.0) for level in LEVELS}
+
+
+def melt_ends(
+    view: View, fraction: np.ndarray, faces: np.ndarray, least: float
+) -> tuple[float, float] | None:
+    """Depths at which melt of a level ends [m], by fraction (where it falls to 0.5) and by
+    temperature, below the hottest of its deepest cells; None where no cell is fluid.
+
+    Args:
+        fraction: (n,) melt fractions. faces: (n,) depths of the lower faces of the cells [m].
         least: melt fraction that a fluid cell has at least; 0: any above 0.
     """
     fluid = is_fluid(fraction, least)
+    if not np.any(fluid):
+        return None
     deepest = largest_depth(faces, fluid)
-    if least != HALF:
-        return deepest
-    lowest = np.flatnonzero(fluid & (faces >= deepest * (1.0 - SAME)))
+    half_cell = 0.5 * float(np.min(view.width[-1]))
+    # particles of the lowest row, which flow moves up and down by a part of a cell
+    lowest = np.flatnonzero(fluid & (faces >= max(deepest - half_cell, 0.0)))
     if lowest.size == 0:  # all of it on a rim, above the original surface
-        return 0.0
+        return 0.0, 0.0
     upper = int(lowest[np.argmax(view.enthalpy[lowest])])
-    is_below = (faces > faces[upper]) & ~fluid
+    lower = cell_below(view, faces, upper, ~fluid)
+    if lower is None or view.solidus is None or view.liquidus is None:
+        return float(faces[upper]), float(faces[upper])
+    share = by_fraction = (fraction[upper] - HALF) / (fraction[upper] - fraction[lower])
+    hot, cold = view.temperature[upper], view.temperature[lower]
+    if hot > cold:  # else both are at the melting point, and the fractions alone tell
+        passed = view.solidus + least * (view.liquidus - view.solidus)
+        share = (hot - passed) / (hot - cold)
+    by_temperature = min(max(share, 0.0), 1.0)
+    top, step = view.position[-1, upper], view.position[-1, lower] - view.position[-1, upper]
+    return float(-(top + by_fraction * step)), float(-(top + by_temperature * step))
+
+
+def cell_below(view: View, faces: np.ndarray, upper: int, chosen: np.ndarray) -> int | None:
+    """The highest of some cells (n,) that lies below a cell in its column; None where none does."""
+    is_below = (faces > faces[upper]) & chosen
     for axis in range(view.dimension - 1):
         side = np.abs(view.position[axis] - view.position[axis, upper])
         is_below = is_below & (side < 0.5 * view.width[axis])
     below = np.flatnonzero(is_below)
-    if below.size == 0 or view.solidus is None or view.liquidus is None:
-        return float(faces[upper])
-    lower = int(below[np.argmin(faces[below])])
-    melting = 0.5 * (view.solidus + view.liquidus)
-    share = (fraction[upper] - HALF) / (fraction[upper] - fraction[lower])
-    hot, cold = view.temperature[upper], view.temperature[lower]
-    if hot > cold:  # both at the melting point: the fractions alone tell
-        share = 0.5 * (share + min(max((hot - melting) / (hot - cold), 0.0), 1.0))
-    z = view.position[-1]
-    return float(-(z[upper] + share * (z[lower] - z[upper])))
+    return int(below[np.argmin(faces[below])]) if below.size else None
 
 
 def pool_width(view: View, least: float) -> float:
@@ -215,7 +255,7 @@ def pool_area(view: View, fraction: np.ndarray, least: float) -> float:
     """Area of the surface cells that are fluid [m^2], twice that of half a period.
 
     Args:
-        view: the state in 3-D. fraction, least: as of `pool_depth`.
+        view: the state in 3-D. fraction: (n,) melt fractions. least: as of `pool_width`.
     """
     cells = view.surface[is_fluid(fraction[view.surface], least)]
     area = view.width[0, cells] * view.width[1, cells]

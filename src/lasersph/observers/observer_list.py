@@ -16,6 +16,7 @@ from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.probes import Probes
+from lasersph.observers.pulses import Pulses
 from lasersph.observers.steps import Steps
 from lasersph.observers.surface_pressure import SurfacePressure
 from lasersph.observers.surface_speed import SurfaceSpeed
@@ -29,6 +30,7 @@ from lasersph.output.settings import Probe, Trace
 
 OBSERVERS: tuple[type[Observer], ...] = (
     Steps,
+    Pulses,
     SurfaceTemperature,
     MeltPool,
     Vaporization,
@@ -103,6 +105,11 @@ class Observers:
                 result[name] = {**result[name], **part} if joined else part
         return result
 
+    @property
+    def last(self) -> Row:
+        """The history row of the last step."""
+        return {key: value for member in self.members for key, value in member.last.items()}
+
     def state(self) -> dict[str, Any]:
         """States by class name, for a checkpoint."""
         return {type(member).__name__: member.state() for member in self.members}
@@ -114,12 +121,17 @@ class Observers:
 
 
 def heat_observers(
-    dimension: int, *, probes: Sequence[Probe] = (), iterations: Sequence[str] = ()
+    dimension: int,
+    *,
+    pulses: Pulses | None = None,
+    probes: Sequence[Probe] = (),
+    iterations: Sequence[str] = (),
 ) -> Observers:
     """Observers of every run with heat and melting.
 
     Args:
         dimension: 1, 2 or 3.
+        pulses: of a train; None of a single one or without light.
         probes: points whose temperature is recorded.
         iterations: names of the solver parts that count iterations.
     """
@@ -131,6 +143,7 @@ def heat_observers(
             Vaporization(),
             EnergyBudget(dimension),
             Probes(tuple(probes)),
+            *(() if pulses is None else (pulses,)),
         ]
     )
 
@@ -140,18 +153,20 @@ def flow_observers(
     *,
     box: bool = False,
     topography: Topography | None = None,
+    pulses: Pulses | None = None,
     probes: Sequence[Probe] = (),
     iterations: Sequence[str] = (),
 ) -> Observers:
     """Observers of every run with flow: those of heat, and of the flow.
 
     Args:
-        dimension, probes, iterations: as of `heat_observers`.
+        dimension, pulses, probes, iterations: as of `heat_observers`.
         box: a closed box that is all liquid has no melt pool, but center lines and heat through
             its walls.
         topography: of a surface that moves; None where it is flat.
     """
-    heat = heat_observers(dimension, probes=probes, iterations=iterations).members
+    observed = heat_observers(dimension, pulses=pulses, probes=probes, iterations=iterations)
+    heat = observed.members
     flow: tuple[Observer, ...] = (FlowSpeed(dimension), SurfaceSpeed(), SurfacePressure())
     if topography is not None:
         flow = (*flow, topography)
@@ -164,6 +179,7 @@ def flow_observers(
 def ablation_observers(
     dimension: int,
     *,
+    pulses: Pulses | None = None,
     probes: Sequence[Probe] = (),
     traces: Sequence[Trace] = (),
     axis: tuple[float, float] | None = None,
@@ -173,13 +189,13 @@ def ablation_observers(
     """Observers of every run with ablation.
 
     Args:
-        dimension, probes, iterations: as of `heat_observers`.
+        dimension, pulses, probes, iterations: as of `heat_observers`.
         traces: particles that are followed.
         axis: x and y of the beam's axis [m]; without a beam there is neither crater nor ejecta,
             but the motion of the whole.
         pulse_starts: times at which the pulses begin [s].
     """
-    heat = heat_observers(dimension, probes=probes, iterations=iterations)
+    heat = heat_observers(dimension, pulses=pulses, probes=probes, iterations=iterations)
     members: list[Observer] = [*heat.members]
     if axis is not None:
         crater = Crater(dimension, axis=axis, pulse_starts=tuple(pulse_starts))

@@ -29,6 +29,10 @@ class Probes(Observer):
     """Observes the temperature at probes."""
 
     title = "probes"
+    note = (
+        "A probe above the first particles is extrapolated to its place, unless it takes the"
+        " nearest, and may be hotter than any particle."
+    )
     columns = (
         Quantity(
             "probe_<name>_K",
@@ -36,6 +40,7 @@ class Probes(Observer):
             "temperature",
             largest="probes.<name>.temperature_max_K",
             end="probes.<name>.temperature_end_K",
+            is_main=True,
         ),
     )
     results = (

@@ -6,11 +6,14 @@ the page "Results" of the documentation all derive from these declarations.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 EXTENSIVE = {"J": ("J/m^2", "J/m", "J"), "kg": ("kg/m^2", "kg/m", "kg"), "m^3": ("m", "m^2", "m^3")}
 """Units of amounts in 1-D, 2-D and 3-D: a 1-D run holds a unit area, a 2-D run a unit length."""
+MOMENT = re.compile(r"(?!pulses\.starts)(.*[._])?((start|end)s?|at|time)(_any|_half)?_s")
+"""Keys of times that count from the start of the run; those of lengths of time say otherwise."""
 
 
 @dataclass(frozen=True)

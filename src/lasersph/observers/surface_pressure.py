@@ -25,22 +25,20 @@ from lasersph.observers.view import View
 
 AVERAGED_STEPS = 10.0
 """Full steps of the running mean: one step's jump of 0.5 MPa in steel shows as 0.05 MPa."""
-RECOIL = "recoil pressure 0.54 p_sat(T) of a free surface"
+RECOIL = "recoil pressure of the vapor on a free surface"
 
 
 class SurfacePressure(Observer):
     """Observes the pressure at the surface of the liquid."""
 
-    title = "pressure of the flat surface"
+    title = "pressure of the liquid at its surface"
     note = (
-        "Its mean over the liquid is zero. It drives a return flow that a free surface, which"
-        " would rise or sink instead, does not have."
+        "That of a flat surface has a mean of zero over the liquid and drives a return flow that a"
+        " free surface, which would rise or sink instead, does not have."
     )
     columns = (
-        Quantity("lid_pressure_max_Pa", "Pa", "largest pressure of the flat surface, running mean"),
-        Quantity(
-            "lid_pressure_min_Pa", "Pa", "smallest pressure of the flat surface, running mean"
-        ),
+        Quantity("lid_pressure_max_Pa", "Pa", "largest pressure at the surface, running mean"),
+        Quantity("lid_pressure_min_Pa", "Pa", "smallest pressure at the surface, running mean"),
         Quantity("lid_recoil_max_Pa", "Pa", f"largest {RECOIL}"),
     )
     results = (
@@ -51,7 +49,7 @@ class SurfacePressure(Observer):
                 Quantity(
                     f"lid.pressure_{name}_Pa",
                     "Pa",
-                    f"{text} pressure of the flat surface",
+                    f"{text} pressure at the surface",
                     at=(f"lid.pressure_{name}_at_s", f"lid.pressure_{name}_x_m"),
                 ),
                 Quantity(f"lid.recoil_at_pressure_{name}_Pa", "Pa", f"{RECOIL} there"),

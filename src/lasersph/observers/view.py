@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NoReturn
 
 import numpy as np
 
@@ -70,10 +71,25 @@ class View:
     flow: FlowView | None = None
     ablation: AblationView | None = None
 
+    def __getattr__(self, name: str) -> NoReturn:
+        """Say where a quantity is that belongs to one of the parts. Raises AttributeError."""
+        parts = {"flow": FlowView, "relief": Relief, "ablation": AblationView}
+        found = [f"view.{part}.{name}" for part, kind in parts.items() if name in names_of(kind)]
+        if found:
+            text = f"it is {' or '.join(found)}, where the run has that"
+        else:
+            text = f"it has {', '.join(sorted(names_of(View)))}; see docs/api.md"
+        raise AttributeError(f"a view has no {name!r}: {text}")
+
     @property
     def dimension(self) -> int:
         """Number of space dimensions."""
         return self.position.shape[0]
+
+
+def names_of(kind: type) -> set[str]:
+    """Names of the quantities that a part of a view holds."""
+    return {name for name in (*kind.__annotations__, *vars(kind)) if not name.startswith("_")}
 
 
 def hottest_surface_cell(view: View) -> int:

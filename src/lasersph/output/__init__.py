@@ -11,7 +11,8 @@ if TYPE_CHECKING:
     from lasersph.output.checkpoint import Checkpoint
     from lasersph.output.errors import FolderLocked, FolderRefused, OutputError
     from lasersph.output.reader import Run, Snapshots, open_run
-    from lasersph.output.run_folder import RunFolder, hash_of_case
+    from lasersph.output.run_folder import RunFolder
+    from lasersph.output.run_owner import hash_of_case
 
 __all__ = [
     "Checkpoint",
@@ -33,7 +34,7 @@ _FILES = {
     "Run": "reader",
     "RunFolder": "run_folder",
     "Snapshots": "reader",
-    "hash_of_case": "run_folder",
+    "hash_of_case": "run_owner",
     "open_run": "reader",
 }
 

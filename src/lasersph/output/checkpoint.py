@@ -22,7 +22,7 @@ import numpy as np
 from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_file
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 
-CHECKPOINT_SCHEMA = 16
+CHECKPOINT_SCHEMA = 17
 """Raised whenever names or meaning of what solvers and observers keep change."""
 FIRST_LINE = b"lasersph checkpoint\n"
 NAME = re.compile(r"step-(\d{10})\.checkpoint")
@@ -48,8 +48,8 @@ class Checkpoint:
     meta: Mapping[str, Any] = field(default_factory=dict)
 
 
-def save(folder: Path, checkpoint: Checkpoint) -> Path:
-    """Write a checkpoint and keep the one before it.
+def save(folder: Path, checkpoint: Checkpoint, *, kept: int = KEPT) -> Path:
+    """Write a checkpoint and keep the latest `kept` with it.
 
     Returns:
         The file written.
@@ -89,7 +89,7 @@ def save(folder: Path, checkpoint: Checkpoint) -> Path:
     target = folder / f"step-{checkpoint.step:010d}.checkpoint"
     replace_file(target, write)
     with clear_errors("write", folder):
-        for old in candidates(folder)[KEPT:]:
+        for old in candidates(folder)[kept:]:
             old.unlink()
         for torn in folder.glob("*" + TEMPORARY_SUFFIX):
             torn.unlink()

@@ -22,6 +22,7 @@ import numpy as np
 from lasersph.output.errors import read_json
 from lasersph.output.generation import read_unchanged
 from lasersph.output.particle_file import open_for_reading, value_range
+from lasersph.output.pulse_starts import starts_of_pulses
 
 NAME = re.compile(r"(particles|surface)\.([a-z_]+)\.([0-9]{1,15})\.([0-9]{1,12})\.([0-9a-z-]+)")
 GEOMETRY = ("width",)
@@ -36,12 +37,13 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
     Returns:
         `case`: title. `stamp`: end of all block names. `is_complete`: whether more frames come.
         `dimensions`. `mirrored`: whether x < 0 is the mirror image of what was computed. `levels`:
-        temperatures by name at which the metal melts and boils [K]. `times` [s] and `counts` of
-        particles, one a frame. `start`: frame to begin with, in the middle of the hottest.
-        `bounds`: [smallest, largest] x, y, z of the first frame [m]. `fields`: `name`, `label`,
-        `unit`, `range` over all frames. `blocks`: offset of each frame by name of the field, with
-        `position` and `width`, (count, 3) each. `surface`: `counts` and `blocks` of the line of a
-        surface that moves, else null. Before the first snapshot, times and fields are empty.
+        temperatures by name at which the metal melts and boils [K]. `pulses`: when the clocks of
+        the pulses of a train begin [s]. `times` [s] and `counts` of particles, one a frame.
+        `start`: frame to begin with, in the middle of the hottest. `bounds`: [smallest, largest]
+        x, y, z of the first frame [m]. `fields`: `name`, `label`, `unit`, `range` over all frames.
+        `blocks`: offset of each frame by name of the field, with `position` and `width`,
+        (count, 3) each. `surface`: `counts` and `blocks` of the line of a surface that moves, else
+        null. Before the first snapshot, times and fields are empty.
 
     Raises:
         OutputError: there is no run, or its files are damaged.
@@ -54,11 +56,27 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
         "is_complete": (path / "summary.json").exists(),
         "mirrored": case.get("domain", {}).get("extent") == "half",
         "levels": levels_of(case.get("material") or {}),
+        "pulses": starts_of_pulses(case),
     }
     particles = read_unchanged(path, lambda: frames_of(path / "particles.vtkhdf"))
     surface = read_unchanged(path, lambda: frames_of(path / "surface.vtkhdf"))
-    line = {key: surface[key] for key in ("counts", "blocks")} if surface["times"] else None
+    if not surface["times"]:
+        return {**index, **particles, "surface": None}
+    # while a run writes a frame, its line is not there yet: it waits for it
+    particles = first_frames(particles, len(surface["times"]))
+    line = {key: surface[key] for key in ("counts", "blocks")}
     return {**index, **particles, "surface": line}
+
+
+def first_frames(frames: dict[str, Any], count: int) -> dict[str, Any]:
+    """Frames of one file without those after the first `count`."""
+    return {
+        **frames,
+        "times": frames["times"][:count],
+        "counts": frames["counts"][:count],
+        "start": min(frames["start"], count - 1),
+        "blocks": {name: offsets[:count] for name, offsets in frames["blocks"].items()},
+    }
 
 
 def particle_block(folder: str | Path, name: str) -> bytes:

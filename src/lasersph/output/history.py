@@ -29,6 +29,10 @@ LONGEST_GATHERING = 0.5
 """After this time [s] rows are written, however few: what they say does not depend on when."""
 
 
+WARNING = "warning"
+"""Name of the events that hold a warning as their `message`."""
+
+
 class History:
     """Appends rows to a CSV file whose columns are fixed by the first row."""
 

@@ -1,7 +1,8 @@
 """Maps over a regular grid in one VTKHDF file, which ParaView opens as it is.
 
 The layout is VTKHDF 2.0, type ImageData [VTKHDF]: a plane of nx by ny points at equal steps, and an
-array (1, ny, nx) a map. The file appears whole or not at all.
+array (ny, nx) a map: VTK's reader drops the axis without extent and refuses (1, ny, nx). The file
+appears whole or not at all.
 
 [VTKHDF] VTKHDF format specification, Kitware,
 https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/.
@@ -52,14 +53,14 @@ def write_maps(path: Path, maps: Maps) -> None:
         root.attrs["Direction"] = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
         points = root.create_group("PointData")
         for name, values in maps.fields.items():
-            data = values.astype(np.float32)[None]
+            data = values.astype(np.float32)
             dataset = points.create_dataset(name, data=data, compression="gzip", shuffle=True)
             dataset.attrs["unit"] = maps.units[name]
     replace_file(path, lambda stream: stream.write(content.getvalue()))
 
 
 def read_maps(path: Path) -> Maps:
-    """Maps as `write_maps` wrote them. Raises OutputError."""
+    """Maps as `write_maps` wrote them, or earlier versions as (1, ny, nx). Raises OutputError."""
     import h5py
 
     with clear_errors("read", path):
@@ -68,7 +69,8 @@ def read_maps(path: Path) -> Maps:
                 root: Any = file["VTKHDF"]
                 ends, start, step = (root.attrs[n] for n in ("WholeExtent", "Origin", "Spacing"))
                 points = root["PointData"]
-                fields = {name: np.asarray(one[0], float) for name, one in points.items()}
+                shape = ends[3] + 1, ends[1] + 1
+                fields = {n: np.reshape(one, shape).astype(float) for n, one in points.items()}
                 units = {name: str(one.attrs["unit"]) for name, one in points.items()}
         except (KeyError, IndexError) as error:
             raise OutputError(f"cannot read {path}: it holds no maps ({error})") from None

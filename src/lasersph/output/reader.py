@@ -34,6 +34,12 @@ class Run:
     def __init__(self, path: Path) -> None:
         self.path = path
 
+    def __repr__(self) -> str:
+        """The folder, the case and how far it is, in one line."""
+        title = self.case.get("title") or "a case without a title"
+        state = "complete" if self.is_complete else "not complete"
+        return f"<run {self.path}: {title}, {state}>"
+
     @property
     def is_complete(self) -> bool:
         """Whether the run has reached its end."""

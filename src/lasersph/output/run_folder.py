@@ -20,12 +20,10 @@ back to that, so that it continues as if nothing had happened.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -33,18 +31,26 @@ from typing import Any
 import numpy as np
 
 from lasersph.output import checkpoint as checkpoints
-from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_json, replace_text, to_json_values
+from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_json, replace_text
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 from lasersph.output.folder_lock import FolderLock, is_lock
-from lasersph.output.history import Events, History
+from lasersph.output.history import WARNING, Events, History
+from lasersph.output.overwriting import refuse_other_folders, remove_run
 from lasersph.output.particle_file import ParticleFile
+from lasersph.output.run_owner import (
+    RESOLVED,
+    SUMMARY,
+    Origin,
+    change_origin,
+    check_owner,
+    started_with,
+    write_origin,
+)
 from lasersph.output.transaction import rename_damaged
 
 SUMMARY_SCHEMA = 1
-SHOWN_LETTERS = 60
-"""Of two values that differ; longer ones, tables of laws, would fill the line."""
-LEFT_BY_KILL = "resolved.json" + TEMPORARY_SUFFIX
+LEFT_BY_KILL = RESOLVED + TEMPORARY_SUFFIX
 """All that a run killed before it wrote its case leaves."""
 REQUIRED_KEYS = (
     "case",
@@ -56,26 +62,6 @@ REQUIRED_KEYS = (
     "temperature_max_K",
     "energy",
 )
-
-
-@dataclass(frozen=True)
-class Origin:
-    """What a run begins with.
-
-    Attributes:
-        case_text: the case file as given. case: with all defaults, SI.
-        versions: of the programs that compute. case_hash: which case this is; from `case` if empty.
-    """
-
-    case_text: str
-    case: Mapping[str, Any]
-    versions: Mapping[str, str]
-    case_hash: str = ""
-
-    @property
-    def name(self) -> str:
-        """Short name of the case that the folder belongs to."""
-        return self.case_hash or hash_of_case(self.case)
 
 
 class RunFolder:
@@ -97,10 +83,13 @@ class RunFolder:
         self._lock = lock
 
     @classmethod
-    def create(cls, path: str | Path, origin: Origin, *, wait: float = 0.0) -> RunFolder:
+    def create(
+        cls, path: str | Path, origin: Origin, *, overwrite: bool = False, wait: float = 0.0
+    ) -> RunFolder:
         """Make a new run folder at a path that does not exist or is an empty folder.
 
         Args:
+            overwrite: remove the run that the folder holds, and nothing else.
             wait: how long another process may take to leave the folder [s].
 
         Raises:
@@ -108,10 +97,14 @@ class RunFolder:
                 written; nothing was written.
         """
         folder = Path(path)
-        refuse_if_used(folder)
+        is_replaced = overwrite and folder.is_dir() and not is_untouched(folder)
+        refuse = refuse_other_folders if is_replaced else refuse_if_used
+        refuse(folder)
         lock = make_and_lock(folder, wait)
         with releasing_on_failure(lock):
-            refuse_if_used(folder)
+            refuse(folder)
+            if is_replaced:
+                remove_run(folder)
             return cls._start(folder, origin, lock)
 
     @classmethod
@@ -121,7 +114,8 @@ class RunFolder:
         """Open the folder of an earlier run of the same case and cut it back to its checkpoint.
 
         A folder without a checkpoint is started again from the beginning, a folder that does not
-        exist is made, a complete run is left as it is.
+        exist is made, a complete run is left as it is unless the case has changed where it may
+        (`Origin.changeable`): then it goes on from its end.
 
         Args:
             wait: how long another process may take to leave the folder [s].
@@ -138,18 +132,19 @@ class RunFolder:
         folder = Path(path)
         if is_untouched(folder):
             lock = make_and_lock(folder, wait)
-        elif not (folder / "resolved.json").exists():
+        elif not (folder / RESOLVED).exists():
             raise FolderRefused(f"{folder} is not a run folder: nothing to resume there")
-        elif (folder / "summary.json").exists():
-            check_owner(folder, origin)
-            return cls(folder, origin.name, None), None
+        elif (run := cls.complete(folder, origin)) is not None:
+            return run, None
         else:
             lock = FolderLock(folder, wait=wait)
         with releasing_on_failure(lock):
             if is_untouched(folder):
                 (folder / LEFT_BY_KILL).unlink(missing_ok=True)
                 return cls._start(folder, origin, lock), None
-            files = check_folder(folder, origin)
+            files, changed = check_folder(folder, origin)
+            if changed:
+                change_origin(folder, origin, changed)
             run = cls(folder, origin.name, lock)
             if run.is_complete:  # by the process that was waited for
                 run.close()
@@ -161,28 +156,41 @@ class RunFolder:
             return run, None
 
     @classmethod
+    def complete(cls, path: str | Path, origin: Origin) -> RunFolder | None:
+        """The folder of a complete run of this very case; None where anything is left to compute.
+
+        Raises:
+            FolderRefused: it holds a run of another case.
+        """
+        folder = Path(path)
+        if not (folder / SUMMARY).exists() or check_owner(folder, origin):
+            return None
+        return cls(folder, origin.name, None)
+
+    @classmethod
     def _start(cls, folder: Path, origin: Origin, lock: FolderLock) -> RunFolder:
         """Write what is known before the first step."""
-        resolved = {
-            "schema_version": SUMMARY_SCHEMA,
-            "case_hash": origin.name,
-            "versions": dict(origin.versions),
-            "case": origin.case,
-        }
-        replace_json(folder / "resolved.json", resolved)
-        replace_text(folder / "case.toml", origin.case_text)
+        write_origin(folder, origin, {})
         return cls(folder, origin.name, lock)
+
+    @property
+    def started_with(self) -> dict[str, Any]:
+        """Values that the run began with, by the keys of the case that have others since.
+
+        Raises OutputError.
+        """
+        return started_with(self.path)
 
     @property
     def is_complete(self) -> bool:
         """Whether the run has reached its end."""
-        return (self.path / "summary.json").exists()
+        return (self.path / SUMMARY).exists()
 
     @property
     def summary(self) -> dict[str, Any]:
         """The results of a complete run. Raises OutputError."""
-        with clear_errors("read", self.path / "summary.json"):
-            return json.loads((self.path / "summary.json").read_text())
+        with clear_errors("read", self.path / SUMMARY):
+            return json.loads((self.path / SUMMARY).read_text())
 
     def confirm_lock(self) -> None:
         """Make sure that no other process took the folder over. Raises OutputError."""
@@ -203,6 +211,7 @@ class RunFolder:
         time: float,
         arrays: Mapping[str, np.ndarray],
         scalars: Mapping[str, Any],
+        is_last: bool = False,
     ) -> None:
         """Write a checkpoint after bringing history and events onto the disk.
 
@@ -210,6 +219,7 @@ class RunFolder:
             step, time: number of steps done; seconds.
             arrays: everything the next step reads, float64.
             scalars: numbers and texts it reads, states of observers.
+            is_last: of a run at its end: those before it are removed.
 
         Raises:
             OutputError: the disk is full, ...; the last checkpoint is intact.
@@ -222,7 +232,7 @@ class RunFolder:
             "snapshots": self.particles.steps,
         }
         state = Checkpoint(step, time, self.case_hash, arrays, scalars, marks)
-        checkpoints.save(self.path / "checkpoint", state)
+        checkpoints.save(self.path / "checkpoint", state, kept=1 if is_last else checkpoints.KEPT)
 
     def last_good(self, files: list[Path]) -> Checkpoint:
         """Load the latest checkpoint that is whole, cut the folder back to it.
@@ -241,7 +251,7 @@ class RunFolder:
                 complaints.append((file, str(error)))
                 continue
             for damaged, complaint in complaints:
-                self.warn(found, f"{complaint}; going on from step {found.step}")
+                self.warn(f"{complaint}; going on from step {found.step}", found.time, found.step)
                 damaged.rename(damaged.with_name(damaged.name + ".damaged"))
             self.cut_snapshots(found)
             return found
@@ -259,12 +269,13 @@ class RunFolder:
                 file.cut(found.meta["snapshots"])
             except OutputError as error:
                 aside = rename_damaged(file.path)
-                self.warn(found, f"{error}; it is kept as {aside.name}, snapshots go to a new file")
+                text = f"{error}; it is kept as {aside.name}, snapshots go to a new file"
+                self.warn(text, found.time, found.step)
 
-    def warn(self, found: Checkpoint, message: str) -> None:
-        """Log a warning and record it as an event. Raises OutputError."""
+    def warn(self, message: str, time: float, step: int) -> None:
+        """Log a warning and record it as an event, at a time [s]. Raises OutputError."""
         self.log(f"warning: {message}")
-        self.events.append("warning", time=found.time, step=found.step, message=message)
+        self.events.append(WARNING, time=time, step=step, message=message)
 
     def restart(self) -> None:
         """Drop everything that an earlier attempt computed. Raises OutputError."""
@@ -291,7 +302,7 @@ class RunFolder:
             raise ValueError(f"the summary lacks {', '.join(missing)}")
         self.history.flush(sync=True)
         self.events.flush()
-        replace_json(self.path / "summary.json", {"schema_version": SUMMARY_SCHEMA, **summary})
+        replace_json(self.path / SUMMARY, {"schema_version": SUMMARY_SCHEMA, **summary})
 
     def close(self) -> None:
         """Flush the history and let other processes use the folder."""
@@ -303,12 +314,6 @@ class RunFolder:
         finally:
             self._lock.release()
             self._lock = None
-
-
-def hash_of_case(case: Mapping[str, Any]) -> str:
-    """Short name of a case: equal for equal content, whatever the order of its keys."""
-    text = json.dumps(to_json_values(case), sort_keys=True, ensure_ascii=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def is_untouched(folder: Path) -> bool:
@@ -328,7 +333,7 @@ def refuse_if_used(folder: Path) -> None:
         if folder.is_dir() and not all(is_lock(path) for path in folder.iterdir()):
             raise FolderRefused(
                 f"{folder} is not empty: choose another folder with --out,"
-                " or continue the run in it with --resume"
+                " or continue the run in it with --resume, or replace it with --overwrite"
             )
 
 
@@ -351,48 +356,36 @@ def releasing_on_failure(lock: FolderLock) -> Iterator[None]:
         raise
 
 
-def check_folder(folder: Path, origin: Origin) -> list[Path]:
+def check_folder(folder: Path, origin: Origin) -> tuple[list[Path], dict[str, Any]]:
     """Refuse the folder of another case or another version of this program.
 
     Returns:
-        Its checkpoint files, the latest first.
+        Its checkpoint files, the latest first, and what `check_owner` returns.
 
     Raises:
         FolderRefused: see `check_owner`, `checkpoint.refuse_formats`.
+        OutputError: the case has changed, and no checkpoint can be used to go on from.
     """
     files = checkpoints.candidates(folder / "checkpoint")
-    if not (folder / "summary.json").exists():
+    if not (folder / SUMMARY).exists():
         # an earlier version hashed cases in its own way: ask for it first
         checkpoints.refuse_formats(files)
-    check_owner(folder, origin)
-    return files
+    changed = check_owner(folder, origin)
+    if changed:
+        checkpoints.refuse_formats(files)
+        refuse_damaged(files)
+    return files, changed
 
 
-def check_owner(folder: Path, origin: Origin) -> None:
-    """Refuse a folder that holds another case. Raises FolderRefused."""
-    path = folder / "resolved.json"
-    with clear_errors("read", path, FolderRefused):
-        text = path.read_text()
-    try:
-        found = json.loads(text)
-        is_own = found["case_hash"] == origin.name
-    except (ValueError, KeyError, TypeError) as error:
-        raise FolderRefused(f"{path} is damaged: start the run again in a new folder") from error
-    if not is_own:
-        here = json.loads(json.dumps(to_json_values(origin.case)))
-        what = first_difference(found.get("case"), here)
-        raise FolderRefused(
-            f"{folder} holds a run of another case{what}: resume it with the case and settings "
-            "that it was started with, or choose another folder"
-        )
+def refuse_damaged(files: list[Path]) -> None:
+    """Refuse checkpoints of which none is whole, before anything is given up for them.
 
-
-def first_difference(there: Any, here: Any, key: str = "") -> str:
-    """The first key that two cases have not alike, with both values if they are short [SI]."""
-    if isinstance(there, Mapping) and isinstance(here, Mapping):
-        name = next((k for k in {**there, **here} if there.get(k) != here.get(k)), None)
-        below = f"{key}.{name}" if key else f"{name}"
-        return "" if name is None else first_difference(there.get(name), here.get(name), below)
-    old, new = json.dumps(there), json.dumps(here)
-    is_short = len(old + new) <= SHOWN_LETTERS
-    return f" ({key} is {old} there, not {new}, SI)" if is_short else f" ({key} is another)"
+    Raises OutputError.
+    """
+    for file in files:
+        try:
+            checkpoints.load(file)
+            return
+        except OutputError as error:
+            if file == files[-1]:
+                raise OutputError(f"{error}: there is nothing to go on from") from error

@@ -128,16 +128,20 @@ class SnapshotSchedule:
 
     def due(self, time: float) -> bool:
         """Whether a snapshot is to be written at `time` [s]; the caller then writes it."""
-        reached = time * (1.0 + ROUNDING)
-        if reached < self.next_time:
+        if time * (1.0 + ROUNDING) < self.next_time:
             return False
-        self.written = int(np.searchsorted(self.start + self.times, reached, side="right"))
+        self.written = self._count(time)
         return True
 
     def state(self) -> dict[str, float]:
-        """What `restore` needs."""
-        return {"written": self.written, "start": self.start}
+        """State for `restore`."""
+        return {"start": self.start}
 
-    def restore(self, state: dict[str, float]) -> None:
-        """Continue from a state."""
-        self.written, self.start = int(state["written"]), state["start"]
+    def restore(self, state: dict[str, float], time: float) -> None:
+        """Continue from a state at `time` [s]; it may be that of another plan."""
+        self.start = state["start"]
+        self.written = self._count(time)
+
+    def _count(self, time: float) -> int:
+        """Number of times until `time` [s], which is one of them where a step has hit it."""
+        return int(np.searchsorted(self.start + self.times, time * (1.0 + ROUNDING), side="right"))

@@ -9,7 +9,15 @@ from typing import Any
 from lasersph.output.errors import OutputError, install_hint
 from lasersph.output.frame_blocks import particle_block, particle_index
 
-FILES = ("shaders.js", "scene.js", "sources.js", "viewer_look.js", "viewer.js")
+FILES = (
+    "shaders.js",
+    "scene.js",
+    "sources.js",
+    "moments.js",
+    "viewer_fields.js",
+    "viewer_look.js",
+    "viewer.js",
+)
 
 
 def viewer_module() -> str:

@@ -14,7 +14,7 @@ from __future__ import annotations
 from lasersph.compute.vectors import dot
 
 SOFTENING = 0.01
-"""Share of h^2 added to r_ij^2."""
+"""Share of h^2 added to r_ij^2. Source: [Monaghan1992], as in [Alshaer2017, eq. (24)]."""
 
 
 def closing_speed(v_ij, x_ij, h):

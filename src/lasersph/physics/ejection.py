@@ -29,9 +29,11 @@ from lasersph.physics.evaporation import (
 )
 
 NEXT_LAYER = 1.5
-"""Distance over the spacing within which particles count as covered: the next layer only."""
+"""Distance over the spacing within which particles count as covered: the next layer only. Geometry:
+in a cubic lattice it and its diagonals are 1 to 1.41 spacings away, the one after is at 2."""
 ALIGNMENT = 0.85
-"""Cosine between the path and the direction to a covered particle; diagonals have 0.71."""
+"""Cosine between the path and the direction to a covered particle. Geometry: between 1, right
+behind, and 0.71, the diagonal."""
 
 
 def vapor_speed(T, R_s, is_effusion):

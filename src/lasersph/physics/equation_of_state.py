@@ -12,6 +12,7 @@ and tension of GPa would tear it off. Left out: any dependence on temperature.
 from __future__ import annotations
 
 EXPONENT = 7.0
+"""Exponent of the equation of state. Source: [Alshaer2017, eq. (26)]."""
 
 
 def pressure(rho, rho_0, c_0):

@@ -30,16 +30,20 @@ from math import exp, sqrt
 from lasersph.materials.sections import Vaporization
 
 PI = 3.141592653589793
+"""Circumference of a circle over its diameter. Exact: for loops."""
 STANDARD_ATMOSPHERE = 101325.0
-"""Pressure at the normal boiling point [Pa]."""
+"""Pressure at the normal boiling point [Pa]. Exact: by its definition."""
 NET_EVAPORATION = 0.82
-"""Share of the Hertz-Knudsen flux that does not recondense [Anisimov1968]."""
+"""Share of the Hertz-Knudsen flux that does not recondense. Source: [Anisimov1968]; [Knight1979]
+gives 0.816 (tested)."""
 RECOIL_FACTOR = 0.54
-"""Recoil pressure over saturation pressure [Anisimov1968]."""
+"""Recoil pressure over saturation pressure. Source: [Anisimov1968]; [Knight1979] gives 0.550
+(tested)."""
 WATSON_EXPONENT = 0.38
-"""[Watson1943]."""
+"""Exponent of the latent heat over the distance from the critical point. Source: [Watson1943]."""
 NO_CRITICAL_POINT = 1e12
-"""T_c of a metal that has none in its file: from here on L_v is constant [K]."""
+"""T_c of a metal that has none in its file [K]. Format: so far away that the latent heat changes by
+1e-9 (tested)."""
 
 
 def vapor_constants(metal: Vaporization) -> dict[str, float]:

@@ -18,10 +18,15 @@ from __future__ import annotations
 from math import inf, pi, sqrt
 
 PUBLISHED_ADVECTION, FORCE, PUBLISHED_DIFFUSION, CAPILLARY = 0.25, 0.25, 0.125, 0.25
+"""Shares of l / v, sqrt(l / f), l^2 / nu and sqrt(rho l^3 / (2 pi gamma)). Source: [Demuth2020,
+eqs. (59), (76)], after [Monaghan1992]."""
 ADVECTION = 0.06
-"""Share of l / v."""
+"""Share of l / v. Study: a pressure that acts for a whole step of 0.94 spacings takes 1 % of a
+vortex's energy within a tenth of its turn (`benchmarks/flow_numbers.py --only vortices`)."""
 DIFFUSION, SPLIT = 0.05, 0.2
-"""Share of l^2 / nu that explicit and implicit viscosity are allowed."""
+"""Shares of l^2 / nu that explicit and implicit viscosity are allowed. Stability: forward Euler
+with this Laplacian diverges beyond 0.0575 (von Neumann); the split of viscosity from pressure errs
+within (nu dt)^1/2 of walls, which is 0.45 of a support, 1.7 spacings, at 0.2."""
 
 
 def flow_limits(

@@ -16,7 +16,7 @@ from lasersph.physics.evaporation import (
 from lasersph.physics.knudsen_layer import net_mass_flux
 
 STEFAN_BOLTZMANN = 5.670374419e-8
-"""[W/(m^2 K^4)] (CODATA 2018)."""
+"""Radiation constant [W/(m^2 K^4)]. Source: CODATA 2018."""
 
 
 def surface_loss(T, T_a, h_c, eps):

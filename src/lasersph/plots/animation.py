@@ -17,6 +17,7 @@ import numpy as np
 from lasersph.observers.box_sections import Box
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.errors import clear_errors
+from lasersph.output.last_pulse import last_pulse
 from lasersph.plots import style
 from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.crater_cut import crater_frames
@@ -63,6 +64,8 @@ MARGIN = 0.1
 def animate_run(folder: str | Path, *, format: Format = "gif") -> Path:
     """Write an animation of a run to `figures/animation.gif` or `.mp4`.
 
+    Of a train of pulses with pauses the last pulse is shown.
+
     Args:
         folder: the run folder; the run has at least 3 snapshots and is in the plane, or an
             ablation in 2-D or 3-D.
@@ -77,7 +80,7 @@ def animate_run(folder: str | Path, *, format: Format = "gif") -> Path:
     """
     from matplotlib.animation import FFMpegWriter, PillowWriter
 
-    run = open_run(folder)
+    run = last_pulse(open_run(folder))
     check_snapshots(run)
     if format == "mp4" and not FFMpegWriter.isAvailable():
         raise OutputError("mp4 needs the program ffmpeg, which is not here: take --format gif")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lasersph.input.shown_unit import ShownUnit
 from lasersph.observers.quantity import suffix
 from lasersph.plots import style
 
@@ -44,13 +45,13 @@ def calibration_figure(
         _draw_profile(axes, profile)
     for axes, column in zip(all_axes, columns, strict=False):
         data = [one for one in content["data"] if one["number"] == column]
-        _draw_data(axes, data, content["units"])
+        _draw_data(axes, data, content)
     style.legend(all_axes[0])
     _draw_corner(below, unknowns, points)
     return figure
 
 
-def _draw_data(axes: Axes, data: list[dict[str, Any]], units: dict[str, str]) -> None:
+def _draw_data(axes: Axes, data: list[dict[str, Any]], content: dict[str, Any]) -> None:
     """Measured and computed values of one number over the setting that changes, or in order."""
     settings = [one["settings"] for one in data]
     varied = [key for key in settings[0] if len({one[key] for one in settings}) > 1]
@@ -58,7 +59,11 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], units: dict[str, str]) ->
         [one["settings"][varied[0]] if len(varied) == 1 else one["measurement"] for one in data]
     )
     order = np.argsort(x, kind="stable")
-    x = x[order]
+    x, setting = x[order], ShownUnit("")
+    if len(varied) == 1:
+        shown = content.get("shown_units", {}).get(varied[0])
+        setting = ShownUnit(**shown) if shown else ShownUnit(content["units"].get(varied[0], ""))
+        x = setting.numbers(x)
     names = ("measured", "standard_error", "computed", "emulator_sd", "numerical_sd")
     value, error, mean, emulated, numerical = (
         np.array([one[name] for one in data])[order] for name in names
@@ -79,7 +84,7 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], units: dict[str, str]) ->
                   capsize=3, label="measured")  # fmt: skip
     name = "measurement"
     if len(varied) == 1:
-        name = f"{varied[0]} [{units.get(varied[0]) or '1'}]"
+        name = f"{varied[0]} [{setting.name or '1'}]"
     style.label(axes, name, f"{number.removesuffix(suffix(data[0]['unit']))} [{unit.name}]")
     axes.yaxis.label.set_fontsize(8.5)
 
@@ -102,6 +107,7 @@ def _draw_profile(axes: Axes, profile: np.ndarray) -> None:
 def _draw_corner(figure: SubFigure, unknowns: dict[str, Any], points: np.ndarray) -> None:
     """Histograms of the unknowns on the diagonal, of pairs below it."""
     names, weights = list(unknowns), points[:, -1]
+    units = [unit_of_unknown(one) for one in unknowns.values()]
     grid = figure.subplots(len(names), len(names), squeeze=False)
     for row, below in enumerate(names):
         for column, across in enumerate(names):
@@ -109,19 +115,25 @@ def _draw_corner(figure: SubFigure, unknowns: dict[str, Any], points: np.ndarray
             if column > row:
                 axes.set_visible(False)
                 continue
-            x = points[:, column]
+            x = units[column].numbers(points[:, column])
             if column == row:
                 axes.hist(x, BINS, weights=weights, color=style.COLORS[0], alpha=0.6)
-                for end in ("low_95", "high_95"):
-                    axes.axvline(unknowns[across][end], color=style.GRAY, linestyle=":")
-                axes.axvline(unknowns[across]["mean"], color=style.GRAY)
+                for end, dash in (("low_95", ":"), ("high_95", ":"), ("mean", "-")):
+                    place = units[column].number(unknowns[across][end])
+                    axes.axvline(place, color=style.GRAY, linestyle=dash)
                 axes.set_yticks([])
             else:
-                axes.hist2d(x, points[:, row], BINS, weights=weights, cmap=style.FRACTION_COLORS)
+                y = units[row].numbers(points[:, row])
+                axes.hist2d(x, y, BINS, weights=weights, cmap=style.FRACTION_COLORS)
             is_lowest = row == len(names) - 1
             style.label(axes, _named(across, unknowns) if is_lowest else "",
                         _named(below, unknowns) if column == 0 and row > 0 else "")  # fmt: skip
 
 
 def _named(name: str, unknowns: dict[str, Any]) -> str:
-    return f"{name} [{unknowns[name]['unit'] or '1'}]"
+    return f"{name} [{unit_of_unknown(unknowns[name]).name or '1'}]"
+
+
+def unit_of_unknown(one: dict[str, Any]) -> ShownUnit:
+    """The unit in which an unknown of calibration.json is shown; SI in older files."""
+    return ShownUnit(**one["shown_unit"]) if "shown_unit" in one else ShownUnit(one.get("unit", ""))

@@ -16,12 +16,14 @@ import numpy as np
 from lasersph.output import Run
 from lasersph.plots import style
 from lasersph.plots.curves import (
+    any_above_zero,
     draw_corner_temperatures,
     draw_pulse,
     material_of,
     time_axis,
     where_above_zero,
 )
+from lasersph.plots.relief import lines_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -90,6 +92,38 @@ def surface_speeds(
     axes.set_ylim(bottom=0.0)
     where = "one spacing below the surface" if "below" in column else "at the surface"
     return finish(figure, axes, runs, f"largest speed\n{where} [m/s]", title)
+
+
+def reliefs(runs: Sequence[Run], labels: Labels = None) -> Figure:
+    """Above: the reliefs at the end of two runs. Below: the second less the first where both are,
+    by linear interpolation at the places of the first."""
+    figure, (above, below) = style.new_figure(2, height=5.2, share_x=True)
+    lines = [(x, height[-1]) for _, x, height in map(lines_of, runs)]
+    along = style.fitting_unit("m", max(float(np.max(np.abs(x))) for x, _ in lines))
+    up = style.fitting_unit("m", max(float(np.max(np.abs(z))) for _, z in lines))
+    for (x, z), (_, _, look) in zip(lines, looks(runs, labels), strict=True):
+        above.plot(x * along.factor, z * up.factor, **look)
+    (x, first), (other, second) = lines
+    change = np.interp(x, other, second, left=np.nan, right=np.nan) - first
+    fine = style.fitting_unit("m", float(np.nanmax(np.abs(change), initial=0.0)))
+    below.plot(x * along.factor, change * fine.factor, color=style.GRAY)
+    style.label(above, "", f"height [{up.name}]")
+    style.label(below, f"x [{along.name}]", f"difference [{fine.name}]")
+    style.legend_above(figure, above, columns=2)
+    return figure
+
+
+def figures_of_two(runs: Sequence[Run], labels: Labels = None) -> dict[str, Figure]:
+    """Figures of two runs by name: "relief" where both surfaces move, "temperature" and "melt"
+    where both have them."""
+    found = {}
+    if all(len(run.surface) > 0 for run in runs):
+        found["relief"] = reliefs(runs, labels)
+    if all("temperature_at_maximum_K" in run.history for run in runs):
+        found["temperature"] = surface_temperatures(runs, labels)
+    if all(any_above_zero(run, "melt_depth_half_m") for run in runs):
+        found["melt"] = melt_pools(runs, labels, level="half_")
+    return found
 
 
 def speed_extrema(runs: Sequence[Run], labels: Labels = None, *, title: str = "") -> Figure:

@@ -61,7 +61,8 @@ def ejecta_vectors(run: Run, times: tuple[float, ...] = ()) -> Figure | None:
 
     Args:
         run: the run, 2-D or 3-D.
-        times: seconds; if not given, two: when a third and when all of the volume had left.
+        times: seconds; if not given, two: when a third and when all of the volume had left. Cuts
+            in which nothing flies yet are left out.
 
     Returns:
         The figure; None where nothing was ejected, or in 1-D.
@@ -74,7 +75,10 @@ def ejecta_vectors(run: Run, times: tuple[float, ...] = ()) -> Figure | None:
     if not times:
         moments = (count >= count[-1] / 3.0, count >= count[-1])
         times = tuple(float(run.history["time_s"][np.argmax(one)]) for one in moments)
-    cuts = [plane_cut(run, run.snapshots.nearest(time)) for time in times]
+    # the first snapshot from each time on: the one closest to it may lie before anything left
+    later = np.minimum(np.searchsorted(run.snapshots.times, times), len(run.snapshots) - 1)
+    cuts = [plane_cut(run, run.snapshots[int(number)]) for number in np.unique(later)]
+    cuts = [cut for cut in cuts if cut.ejecta.size]
     frame, largest = cut_frame(run), 0.0
     for cut in cuts:
         largest = max(largest, float(np.max(np.hypot(*cut.velocity), initial=0.0)))

@@ -51,14 +51,14 @@ def crater_view(run: Run, time: float | None = None) -> Figure | None:
     scale = Normalize(*temperature_range(run))
     colors = colormaps[style.TEMPERATURE_COLORS]
     unit = style.unit_for(float(np.ptp(surface.x)), style.LENGTHS)
-    figure = Figure(figsize=(style.WIDTH, 5.4), layout="constrained")
+    figure = Figure(figsize=(style.WIDTH, 4.4), layout="constrained")
     axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
     draw_surface(axes, surface, colors(scale(surface_temperature(step, surface))), unit)
     highest = draw_ejecta(axes, step, colors, scale, unit)
     low = float(np.nanmin(surface.z)) * unit.factor
     across = [float(np.ptp(side)) * unit.factor for side in (surface.x, surface.y)]
     height = max(highest - low, 1e-12)
-    axes.set_box_aspect((across[0], across[1], max(height, FLATTEST * across[0])))
+    axes.set_box_aspect((across[0], across[1], max(height, FLATTEST * across[0])), zoom=1.2)
     axes.view_init(elev=28.0, azim=-60.0)
     for name in ("x", "y", "z"):
         getattr(axes, f"set_{name}label")(f"{name} [{unit.name}]", fontsize=9)
@@ -78,10 +78,14 @@ def draw_surface(axes: Any, surface: HeightMap, colors: np.ndarray, unit: style.
     """The height map as a lit surface."""
     thin = max(1, -(-max(surface.z.shape) // MOST_CELLS))
     x, y = np.meshgrid(surface.x[::thin], surface.y[::thin])
-    z = np.where(np.isnan(surface.z), np.nanmin(surface.z), surface.z)[::thin, ::thin]
+    lowest = float(np.nanmin(surface.z))
+    z = np.where(np.isnan(surface.z), lowest, surface.z)[::thin, ::thin]
+    # sides of the block, which hide the outside of the crater's wall
+    x, y, z = np.pad(x, 1, "edge"), np.pad(y, 1, "edge"), np.pad(z, 1, constant_values=lowest)
+    shown = np.pad(colors[::thin, ::thin], ((1, 1), (1, 1), (0, 0)), "edge")
     look = {"rstride": 1, "cstride": 1, "linewidth": 0.0, "antialiased": False, "shade": False}
     places = (side * unit.factor for side in (x, y, z))
-    axes.plot_surface(*places, facecolors=colors[::thin, ::thin], zorder=1, **look)
+    axes.plot_surface(*places, facecolors=shown, zorder=1, **look)
 
 
 def draw_ejecta(axes: Any, step: Snapshot, colors: Any, scale: Any, unit: style.Unit) -> float:

@@ -72,6 +72,7 @@ class PlaneFlow:
         near = self.inside(frame, 4.0 * float(np.max(self.cells.size[:, self.flows], initial=0.0)))
         velocity = interpolate(near.cells.center, near.velocity, nodes)
         _, closest = KDTree(near.cells.center.T).query(nodes.T)
+        closest = np.asarray(closest)
         velocity[:, ~(near.flows[closest] & near.cells.covers(nodes, closest))] = np.nan
         return x, z, velocity.reshape(2, rows, columns)
 

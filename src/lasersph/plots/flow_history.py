@@ -89,11 +89,11 @@ def layer_history(run: Run) -> Figure | None:
 
 
 def surface_pressure_history(run: Run) -> Figure | None:
-    """Largest and smallest pressure of the flat surface beside the recoil pressure."""
+    """Largest and smallest pressure at the surface beside the recoil pressure."""
     lines = {
-        "lid_pressure_max_Pa": "flat surface, largest",
-        "lid_pressure_min_Pa": "flat surface, smallest",
-        "lid_recoil_max_Pa": "0.54 $p_{sat}(T)$, largest",
+        "lid_pressure_max_Pa": "of the liquid, largest",
+        "lid_pressure_min_Pa": "of the liquid, smallest",
+        "lid_recoil_max_Pa": "recoil of the vapor, largest",
     }
     if not np.any(run.history.get("lid_pressure_max_Pa", 0.0)):
         return None
@@ -115,10 +115,11 @@ def quality_history(run: Run) -> Figure | None:
     energy = where_above_zero(history["flow_kinetic_energy_J"])
     divergence = where_above_zero(history["flow_divergence_relative"])
     spacing = history["flow_spacing_min_m"]
-    all_axes[0].plot(time, energy, color=style.COLORS[0])
+    unit = style.fitting_unit("J/m", float(np.nanmax(energy)))
+    all_axes[0].plot(time, energy * unit.factor, color=style.COLORS[0])
     all_axes[1].semilogy(time, divergence, color=style.COLORS[1])
     all_axes[2].plot(time, spacing / spacing[0], color=style.COLORS[2])
-    style.label(all_axes[0], "", "kinetic energy [J/m]")
+    style.label(all_axes[0], "", f"kinetic energy [{unit.name}]")
     style.label(all_axes[1], "", "relative divergence [1]")
     style.label(all_axes[2], time_label, "distance / first [1]")
     all_axes[2].set_ylim(0.0, 1.1)

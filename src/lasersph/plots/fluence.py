@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+PAIR, SINGLE, LINE = 3.2, 5.3, 0.18
+"""Heights [inch] of two square maps side by side and of one, and of a line of the note above."""
+
+
 class Map(Protocol):
     """Fluence (y, x) [J/m^2] at centers of pixels x and y [m], and what it shows, in words."""
 
@@ -28,7 +32,8 @@ class Map(Protocol):
 
 def fluence_figure(maps: Sequence[Map], note: str) -> Figure:
     """One panel a map with its own scale; `note` says above them what the numbers are."""
-    figure, panels = style.new_figure(1, len(maps), height=3.6 if len(maps) > 1 else 5.6)
+    height = (PAIR if len(maps) > 1 else SINGLE) + LINE * (1 + note.count("\n"))
+    figure, panels = style.new_figure(1, len(maps), height=height)
     for axes, each in zip(panels, maps, strict=True):
         unit = style.unit_for(float(each.x[-1]), style.LENGTHS)
         half = 0.5 * (each.x[1] - each.x[0]), 0.5 * (each.y[1] - each.y[0])

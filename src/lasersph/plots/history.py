@@ -31,18 +31,29 @@ def temperature_history(run: Run) -> Figure:
     history = run.history
     figure, (axes,) = style.new_figure()
     at_maximum, largest = history["temperature_at_maximum_K"], history["temperature_max_K"]
-    lines = {"temperature_at_maximum_K": "surface" + " at x = 0" * ("melt_width_m" in history)}
-    if np.max(np.abs(largest - at_maximum)) > 1e-3 * np.max(largest):
+    # a probe that would hide the line of the surface shares it
+    probes = {name: name.removeprefix("probe_").removesuffix("_K") for name in history}
+    probes = {name: text for name, text in probes.items() if name.startswith("probe_")}
+    shared = [name for name in probes if are_same(history[name], at_maximum)]
+    surface = "surface" + " at x = 0" * ("melt_width_m" in history)
+    words = ", ".join([surface, *(f"probe {probes.pop(name)}" for name in shared)])
+    lines = {"temperature_at_maximum_K": words}
+    if not are_same(largest, at_maximum):
         lines["temperature_max_K"] = "largest anywhere"
     draw_pulse(axes, history)
     draw_columns(axes, run, lines, label="temperature")
-    for k, column in enumerate(name for name in history if name.startswith("probe_")):
-        name = f"probe {column.removeprefix('probe_').removesuffix('_K')}"
+    for k, (column, name) in enumerate(probes.items()):
         color, line = style.COLORS[(k + 2) % 8], style.LINES[k // 6 % 4]
-        axes.plot(time_axis(history)[0], history[column], line, color=color, label=name)
+        axes.plot(time_axis(history)[0], history[column], line, color=color, label=f"probe {name}")
     draw_corner_temperatures(axes, material_of(run))
-    style.legend_above(figure, axes, columns=4)
+    style.legend_above(figure, axes, columns=3)
     return figure
+
+
+def are_same(first: np.ndarray, second: np.ndarray) -> bool:
+    """Whether two curves would hide each other: apart by less than a hundredth of their height on
+    average, which is as wide as a line."""
+    return bool(np.mean(np.abs(first - second)) <= 0.01 * np.max(first))
 
 
 def melt_pool_history(run: Run) -> Figure | None:
@@ -74,12 +85,13 @@ def energy_history(run: Run) -> Figure:
     figure, (above, below) = style.new_figure(2, height=4.6, share_x=True)
     time, time_label = time_axis(history)
     largest = max(float(np.max(history[f"energy_{term}_J"])) for term in ("absorbed", "stored"))
+    unit = style.fitting_unit(summary_of(run).get("energy", {}).get("unit", "J"), largest)
     for k, term in enumerate(("absorbed", "stored", "lost", "removed", "discarded")):
         values = history[f"energy_{term}_J"]
         if k < 2 or np.max(np.abs(values)) > 1e-6 * largest:
+            values = values * unit.factor
             above.plot(time, values, style.LINES[k % 4], color=style.COLORS[k], label=term)
-    unit = summary_of(run).get("energy", {}).get("unit", "J").replace("^2", "$^2$")
-    style.label(above, "", f"energy [{unit}]")
+    style.label(above, "", f"energy [{unit.name}]")
     style.legend(above)
     shown = np.maximum(history["energy_imbalance_relative"], 1e-17)
     below.semilogy(time, shown, color=style.COLORS[6], linewidth=1.0)
@@ -107,7 +119,8 @@ def time_step_history(run: Run) -> Figure:
     for k, reason in enumerate(sorted(set(limit[taken].astype(str)))):
         of_reason, color = taken & (limit == reason), style.COLORS[k % 8]
         x, y = time[of_reason], step[of_reason] * unit.factor
-        all_axes[0].plot(x, y, ".", ms=3.5, color=color, label=reason or "unnamed")
+        look = {"ls": "", "marker": style.MARKERS[k % 8], "ms": 3.0, "color": color}
+        all_axes[0].plot(x, y, **look, label=reason or "unnamed")
     if np.max(step[taken]) > 20.0 * np.min(step[taken]):
         all_axes[0].set_yscale("log")
     else:

@@ -79,7 +79,9 @@ class Cells:
         points = np.array([grid.ravel() for grid in np.meshgrid(across, up)])
         square = np.array([[np.median(self.size[1] / self.size[0])], [1.0]])
         _, cell = KDTree((self.center * square).T).query((points * square).T)
-        return np.where(self.covers(points, cell), self.number[cell], -1).reshape(pixels)
+        return np.where(self.covers(points, np.asarray(cell)), self.number[cell], -1).reshape(
+            pixels
+        )
 
     def covers(self, points: np.ndarray, cell: np.ndarray) -> np.ndarray:
         """Whether points (2, k) lie within the cells (k,) that are closest to them, (k,)."""
@@ -88,7 +90,7 @@ class Cells:
             x, z = points
             return (x > left) & (x < right) & (z > bottom) & (z < top)
         far = np.abs(points - self.center[:, cell]) > OUTSIDE * self.size[:, cell]
-        return ~far.any(axis=0)
+        return np.logical_not(far.any(axis=0))
 
 
 def particle_map(run: Run, time: float | None = None) -> Figure | None:

@@ -3,15 +3,17 @@ boils or is ablated."""
 
 from __future__ import annotations
 
+import dataclasses
 import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.input import format_quantity
+from lasersph.input import format_quantity, in_field_units
+from lasersph.input.shown_unit import ShownUnit
 from lasersph.observers.observer_list import RESULTS
 from lasersph.plots import style
 
@@ -26,24 +28,69 @@ LINE_LOOKS = {
     "ablates": (style.COLORS[3], "-."),
 }
 """Colors and dashes of the outlines that are clear on dark blue and on yellow."""
+EVENTS = {"melts": "melting", "boils": "boiling", "ablates": "ablation"}
+BAND = 0.35
+"""Opacity of the area in which a line lies, over one key."""
+BAND_HATCHES = {"melts": "////", "boils": "\\\\\\\\", "ablates": "||||"}
+"""Of such an area over the colors of two keys: crossed where two of them lie over each other."""
 TARGET_COLOR = "white"
+NO_BREAK = "\u00a0=\u00a0"
 LEVELS = 9
 """About as many steps of color as a reader can tell apart."""
 
 
 @dataclass(frozen=True)
 class MapAxis:
-    """One key: its name, SI unit, places of the field (m,), whether it counts logarithmically."""
+    """One key: its name, SI unit, places of the field (m,), whether it counts logarithmically, the
+    unit in which the plan of the sweep gives its values."""
 
     key: str
     unit: str
     grid: Array
     is_logarithmic: bool
+    shown: ShownUnit
 
     @property
     def words(self) -> str:
         """The key as an axis shows it: laser pulse fwhm."""
         return self.key.replace(".", " ").replace("_", " ")
+
+
+@dataclass(frozen=True)
+class Onset:
+    """Where an event begins along the first key of a map.
+
+    Attributes:
+        event: "melts", "boils", "ablates". at: value of the second key, None where there is one.
+        between: values of the first key between which it begins, SI; where all runs have the
+            event, or none, those of the first and the last of them.
+        known: "measured": interpolated, as surely as `between` says; "bracket": `between` are the
+            last run without and the first with the event; "every", "none": runs that have it.
+        estimate: where it begins most likely, SI; None where the runs do not tell.
+    """
+
+    event: str
+    at: float | None
+    between: tuple[float, float]
+    known: Literal["measured", "bracket", "every", "none"]
+    estimate: float | None = None
+
+    def words(self, unit: str) -> str:
+        """The onset in words, of a first key with this SI unit: between 0.4 and 0.7 J/cm²."""
+        low, high = sorted(self.between)
+        ends = in_field_units(low, unit), in_field_units(high, unit)
+        if self.known in ("every", "none"):
+            return (
+                f"in {'every' if self.known == 'every' else 'no'} run from {ends[0]} to {ends[1]}"
+            )
+        if self.known == "measured" and self.estimate is not None:
+            error = max(high - self.estimate, self.estimate - low)
+            return in_field_units(self.estimate, unit, error)
+        text = f"between {ends[0]} and {ends[1]}"
+        if self.estimate is None:
+            return text
+        near = in_field_units(float(f"{self.estimate:.2g}"), unit)  # no digits that no run tells
+        return f"{text}; as colder runs extrapolate, near {near}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +107,9 @@ class ProcessMap:
         allowed: deviations above this are hatched.
         lines: where a region ends ("melts", "boils", "ablates") or a wanted value is reached
             ("target"): lines (k, 2), or points (k, 1) over one axis.
+        bands: areas in which each of these regions ends: rings (k, 2) around them and around their
+            holes, or stretches (2, 1) of one axis.
+        onsets: the same on each line of a grid of runs, or over one key.
         target: the wanted value.
         notes: what a reader should know, in sentences.
     """
@@ -73,6 +123,8 @@ class ProcessMap:
     status: tuple[str, ...]
     field: Array
     lines: Mapping[str, tuple[Array, ...]]
+    bands: Mapping[str, tuple[Array, ...]] = dataclasses.field(default_factory=dict)
+    onsets: tuple[Onset, ...] = ()
     deviation: Array | None = None
     allowed: float = float("inf")
     target: float | None = None
@@ -94,7 +146,19 @@ class ProcessMap:
         """What a line is, for legends."""
         if name == "target" and self.target is not None:
             return format_quantity(self.target, self.unit, typographic=True)
-        return {"melts": "melting", "boils": "boiling", "ablates": "ablation"}[name]
+        return EVENTS[name]
+
+    def onset_words(self) -> list[tuple[str, str]]:
+        """Each event and where it begins, on each line of the grid: boiling, 10 ns: between ..."""
+        other = self.axes[-1].unit
+        return [
+            (
+                self.line_words(one.event),
+                ("" if one.at is None else f"{in_field_units(one.at, other)}: ")
+                + one.words(self.axes[0].unit),
+            )
+            for one in self.onsets
+        ]
 
 
 def draw_process_map(shown: ProcessMap, levels: tuple[float, ...] = ()) -> Figure:
@@ -136,7 +200,8 @@ def draw_process_map(shown: ProcessMap, levels: tuple[float, ...] = ()) -> Figur
 
 def _value_words(shown: ProcessMap, unit: style.Unit) -> str:
     """The number with its unit, in lines that an axis holds."""
-    return textwrap.fill(f"{shown.words} [{unit.name}]", 40)
+    whole = f"{shown.words} [{unit.name}]".replace(" = ", NO_BREAK)  # f_m = 0.5 stays together
+    return textwrap.fill(whole, 40).replace(NO_BREAK, " = ")
 
 
 def _draw_line(
@@ -152,6 +217,13 @@ def _draw_line(
     good = shown.is_usable
     at = shown.points[good, 0] * units[0].factor
     axes.plot(at, shown.values[good] * unit.factor, "o", color=style.COLORS[6], markersize=4)
+    for name, stretches in shown.bands.items():
+        for k, ends in enumerate(stretches):
+            label = None if name in shown.lines or k else f"{shown.line_words(name)}, between runs"
+            color = LINE_LOOKS[name][0]
+            axes.axvspan(
+                *(ends[:, 0] * units[0].factor), color=color, alpha=BAND, lw=0, label=label
+            )
     for name, lines in shown.lines.items():
         color, dash = LINE_LOOKS.get(name, (style.COLORS[2], ":"))
         for k, place in enumerate(np.concatenate(lines)[:, 0] if lines else ()):
@@ -187,6 +259,7 @@ def _draw_plane(
         axes.contourf(x, y, doubtful, levels=[0.5, 1.5], colors="none", hatches=["//"])
         allowed = format_quantity(shown.allowed, shown.unit, 2, typographic=True)
         axes.fill_between([], [], facecolor="none", hatch="///", label=f"sd above {allowed}")
+    _draw_bands(axes, shown, units)
     for name, lines in shown.lines.items():
         color, dash = LINE_LOOKS.get(name, (TARGET_COLOR, ":"))
         for k, line in enumerate(lines):
@@ -206,6 +279,19 @@ def _draw_plane(
         clip_on=False,
         zorder=5,
     )
+
+
+def _draw_bands(axes: Axes, shown: ProcessMap, units: list[style.Unit]) -> None:
+    """Areas in which an event begins, behind its line."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path as Outline
+
+    for name, rings in shown.bands.items():
+        factors = np.array([unit.factor for unit in units])
+        outline = Outline.make_compound_path(*(Outline(ring * factors) for ring in rings))
+        label = None if name in shown.lines else f"{shown.line_words(name)}, between runs"
+        look = {"edgecolor": LINE_LOOKS[name][0], "hatch": BAND_HATCHES[name], "linewidth": 0.8}
+        axes.add_patch(PathPatch(outline, facecolor="none", label=label, **look))
 
 
 def _plain_ticks(axes: Axes) -> None:

@@ -13,16 +13,16 @@ import numpy as np
 
 from lasersph.input import format_quantity
 from lasersph.output import Run
+from lasersph.output.last_pulse import last_pulse
 from lasersph.plots import style
 from lasersph.plots.curves import draw_columns
 from lasersph.plots.particle_map import cells_of_cut
+from lasersph.plots.pulses import pulses_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PROFILES = 7
-COUNTS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
-"""Of pulses after which a relief is shown beside the last one."""
 SECTION = 1.6
 """The section is shown this many times as deep as the melt was, or as the relief is."""
 
@@ -37,36 +37,22 @@ def lines_of(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return run.surface.times, x, height
 
 
-def starts_after_pauses(run: Run) -> list[float]:
-    """Times at which pulses begin after a pause that was jumped over [s]."""
-    return [float(event["time_s"]) for event in run.events if event["event"] == "pause"]
-
-
-def lines_of_last_pulse(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """As `lines_of`, since the last pause; times count from it."""
-    times, x, height = lines_of(run)
-    start = max(starts_after_pauses(run), default=0.0)
-    since = times >= start
-    return times[since] - start, x, height[since]
-
-
 def relief_after_pulses(run: Run) -> Figure | None:
     """The surface as it froze after 1, 2, 5, 10 ... pulses; None unless a pause was left out."""
-    starts = starts_after_pauses(run)
-    if not starts or len(run.surface) < 2:
+    pulses = pulses_of(run)
+    if len(pulses) < 2 or len(run.surface) < 2:
         return None
-    times, x, height = lines_of(run)
-    ends = np.array([*(np.searchsorted(times, starts) - 1), times.size - 1])
-    shown = np.array([*(count for count in COUNTS if count < ends.size), ends.size])
-    words = ["1 pulse" if count == 1 else f"{count} pulses" for count in shown]
-    return profiles_figure(x, height[ends[shown - 1]], words)
+    _, x, _ = lines_of(run)
+    height = np.array([lines_of(pulse)[2][-1] for pulse in pulses.values()])
+    words = ["1 pulse" if count == 1 else f"{count} pulses" for count in pulses]
+    return profiles_figure(x, height, words)
 
 
 def relief_profiles(run: Run) -> Figure | None:
     """The surface at several times while it moves; None in a run whose surface is flat."""
     if len(run.surface) < 2:
         return None
-    times, x, height = lines_of_last_pulse(run)
+    times, x, height = lines_of(last_pulse(run))
     moves = np.flatnonzero(np.any(np.diff(height, axis=0), axis=1))
     first, last = (moves[0], moves[-1] + 1) if moves.size else (0, times.size - 1)
     shown = np.unique(np.linspace(first, last, PROFILES).round().astype(int))
@@ -92,7 +78,7 @@ def relief_map(run: Run) -> Figure | None:
     """Height of the surface over place and time; None where it stays flat."""
     if len(run.surface) < 3:
         return None
-    times, x, height = lines_of_last_pulse(run)
+    times, x, height = lines_of(last_pulse(run))
     length, time = style.fitting_unit("m", np.max(np.abs(x))), style.fitting_unit("s", times[-1])
     up = style.fitting_unit("m", largest(height))
     figure, (axes,) = style.new_figure(height=3.6)
@@ -118,8 +104,7 @@ def final_relief(run: Run) -> Figure | None:
     if not len(run.surface) or not len(run.snapshots) or run.snapshots.dimension != 2:
         return None
     # particles are laid out anew in a pause: what lies where since then
-    since = run.snapshots.times >= max(starts_after_pauses(run), default=0.0)
-    steps = [run.snapshots[int(number)] for number in np.flatnonzero(since)]
+    steps = list(last_pulse(run).snapshots)
     last = steps[-1]
     if any(step["melt_fraction"].size != last["melt_fraction"].size for step in steps):
         return None

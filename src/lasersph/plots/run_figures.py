@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.errors import clear_errors
+from lasersph.output.last_pulse import last_pulse, starts_after_pauses
 from lasersph.plots import flow_history, history, style
 from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.ablation_history import crater_history, trace_figure
@@ -17,6 +18,7 @@ from lasersph.plots.flow_fields import is_box
 from lasersph.plots.flow_history import center_line_figure
 from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
 from lasersph.plots.particle_map import arrangement, particle_map
+from lasersph.plots.pulses import pulses_compared
 from lasersph.plots.relief import (
     final_relief,
     relief_after_pulses,
@@ -32,11 +34,20 @@ if TYPE_CHECKING:
 
 
 class Drawing(NamedTuple):
-    """A figure of a run: name of its file, caption, what draws it (None: does not apply)."""
+    """A figure of a run.
+
+    Attributes:
+        name: of its file. caption: below it.
+        draw: draws it; None where it does not apply.
+        part: of the report in which it stands.
+        has_all_pulses: whether it shows a whole train; else its last pulse alone.
+    """
 
     name: str
     caption: str
     draw: Callable[[Run], Figure | None]
+    part: Literal["results", "more", "computation"] = "results"
+    has_all_pulses: bool = False
 
 
 def draw_arrangement(run: Run) -> Figure | None:
@@ -63,28 +74,38 @@ def in_one_body(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure 
 
 DRAWINGS = (
     Drawing(
-        "temperature",
-        "Temperature over time. The shade at the foot is the power of the incident light; dashed"
-        " lines mark the melting range and the vaporization temperature.",
-        unless_isothermal(history.temperature_history),
+        "relief-section",
+        "The surface at the end over the metal, colored by how far it has been molten; the height"
+        " is drawn larger than the width. Dashed: the original surface.",
+        final_relief,
     ),
     Drawing(
-        "melt-pool",
-        "Size of the melt pool over time: full width at the surface and depth below the original"
-        " surface, for completely fluid, half molten and any molten material. Each size is drawn"
-        " once, in the middle of the time for which it stood.",
-        history.melt_pool_history,
+        "relief",
+        "The surface at several times. Heights count from the original surface.",
+        relief_profiles,
     ),
     Drawing(
-        "surface-profiles",
-        "Temperature along the surface at several times.",
-        in_one_body(surface_profiles),
+        "relief-pulses",
+        "The surface after 1, 2, 5, 10 ... pulses, as it froze.",
+        relief_after_pulses,
+        has_all_pulses=True,
     ),
     Drawing(
-        "particles",
-        "Temperature and melt fraction of the particles near the surface, at the snapshot closest"
-        " to the deepest melt (without melt: to the largest temperature).",
-        in_one_body(particle_map),
+        "relief-map",
+        "Height of the surface over place and time.",
+        relief_map,
+    ),
+    Drawing(
+        "topography",
+        "Depth of the lowest point and height of the rim over time (above); arithmetic and root"
+        " mean square height of the profile, Pa and Pq (below).",
+        topography_history,
+    ),
+    Drawing(
+        "pulses",
+        "The pulses over each other, each over the time since its own start.",
+        pulses_compared,
+        has_all_pulses=True,
     ),
     Drawing(
         "crater",
@@ -95,16 +116,16 @@ DRAWINGS = (
     ),
     Drawing("crater-3d", "Surface of the crater and ejecta, colored by temperature.", crater_view),
     Drawing(
-        "ejecta",
-        "Velocity of the ejecta in the cut through the crater, when a third and when all of the"
-        " volume had left.",
-        ejecta_vectors,
-    ),
-    Drawing(
         "crater-history",
         "Depth of the crater over time (above; the shade is the power of the light) and where the"
         " absorbed energy went (below).",
         crater_history,
+    ),
+    Drawing(
+        "ejecta",
+        "Velocity of the ejecta in the cut through the crater, when a third of the volume had left"
+        " (where a snapshot shows it) and when all had.",
+        ejecta_vectors,
     ),
     Drawing(
         "traces",
@@ -118,64 +139,6 @@ DRAWINGS = (
         "The melt pool when its surface was fastest: temperature; speed, with arrows whose length"
         " grows with the root of the speed; phase, with streamlines of the liquid.",
         pool_flow_map,
-    ),
-    Drawing(
-        "flow-speed",
-        "Largest speeds over time: of the surface, extrapolated with the stress there; one spacing"
-        " below it; of any particle; and against the outward flow.",
-        flow_history.speed_history,
-    ),
-    Drawing(
-        "flow-extrema",
-        "Extrema of the surface speed over time, told apart: the outer one, there from the onset"
-        " of the flow, and the inner one, closer to the maximum of the light, where it exists.",
-        flow_history.extrema_history,
-    ),
-    Drawing(
-        "surface-flow",
-        "Along the surface at several times: (a) temperature, (b) its gradient, (c) velocity.",
-        surface_flow_profiles,
-    ),
-    Drawing(
-        "flow-layer",
-        "Thickness of the layer that flows outward, below the fastest place of the surface"
-        " (above), and mean gradient of the temperature along the liquid surface (below).",
-        flow_history.layer_history,
-    ),
-    Drawing(
-        "surface-pressure",
-        "Pressure with which the flat surface holds the liquid, whose mean over the liquid is"
-        " zero, beside the recoil pressure that a free surface would feel.",
-        flow_history.surface_pressure_history,
-    ),
-    Drawing(
-        "relief",
-        "The surface at several times, of several pulses during the last. It counts from the"
-        " original surface.",
-        relief_profiles,
-    ),
-    Drawing(
-        "relief-pulses",
-        "The surface after 1, 2, 5, 10 ... pulses, as it froze.",
-        relief_after_pulses,
-    ),
-    Drawing(
-        "relief-section",
-        "The surface at the end over the metal, colored by how far it has been molten, of several"
-        " pulses by the last; the height is drawn larger than the width. Dashed: the original"
-        " surface.",
-        final_relief,
-    ),
-    Drawing(
-        "relief-map",
-        "Height of the surface over place and time, of several pulses during the last.",
-        relief_map,
-    ),
-    Drawing(
-        "topography",
-        "Depth of the lowest point and height of the rim over time (above); arithmetic and root"
-        " mean square height of the profile, Pa and Pq (below).",
-        topography_history,
     ),
     Drawing(
         "box-flow",
@@ -194,15 +157,81 @@ DRAWINGS = (
         flow_history.nusselt_history,
     ),
     Drawing(
+        "temperature",
+        "Temperature over time. The shade at the foot is the power of the incident light; gray"
+        " lines, where in view, mark the melting range and the vaporization temperature.",
+        unless_isothermal(history.temperature_history),
+    ),
+    Drawing(
+        "melt-pool",
+        "Size of the melt pool over time: full width at the surface and depth below the original"
+        " surface, for completely fluid, half molten and any molten material. Each size is drawn"
+        " once, in the middle of the time for which it stood.",
+        history.melt_pool_history,
+    ),
+    Drawing(
+        "particles",
+        "Temperature and melt fraction of the particles near the surface, at the snapshot closest"
+        " to the deepest melt (without melt: to the largest temperature).",
+        in_one_body(particle_map),
+    ),
+    Drawing(
+        "flow-speed",
+        "Largest speeds over time: of the surface, extrapolated with the stress there; one spacing"
+        " below it; of any particle; and against the outward flow.",
+        flow_history.speed_history,
+    ),
+    Drawing(
         "energy",
         "Where the absorbed energy is (above), and the relative error of the energy balance"
         " (below).",
         unless_isothermal(history.energy_history),
     ),
     Drawing(
+        "surface-profiles",
+        "Temperature along the surface at several times.",
+        in_one_body(surface_profiles),
+        part="more",
+    ),
+    Drawing(
+        "surface-flow",
+        "Along the surface at several times: (a) temperature, (b) its gradient, (c) velocity.",
+        surface_flow_profiles,
+        part="more",
+    ),
+    Drawing(
+        "flow-extrema",
+        "Extrema of the surface speed over time, told apart: the outer one, there from the onset"
+        " of the flow, and the inner one, closer to the maximum of the light, where it exists.",
+        flow_history.extrema_history,
+        part="more",
+    ),
+    Drawing(
+        "flow-layer",
+        "Thickness of the layer that flows outward, below the fastest place of the surface"
+        " (above), and mean gradient of the temperature along the liquid surface (below).",
+        flow_history.layer_history,
+        part="more",
+    ),
+    Drawing(
+        "surface-pressure",
+        "Pressure of the liquid at its surface, beside the recoil pressure of the vapor. A flat"
+        " surface holds the liquid with it and feels no recoil; its mean over the liquid is zero.",
+        flow_history.surface_pressure_history,
+        part="more",
+    ),
+    Drawing(
+        "uncertainty",
+        "What the errors of the main results are made of: the numerical part, and the change with"
+        " each input two standard uncertainties up and down, in percent of the result.",
+        tornado_chart,
+        has_all_pulses=True,
+    ),
+    Drawing(
         "time-step",
         "Time step, colored by what limited it, and iterations of each step.",
         history.time_step_history,
+        part="computation",
     ),
     Drawing(
         "flow-quality",
@@ -210,26 +239,35 @@ DRAWINGS = (
         " the projection leaves, relative to the largest speed over the spacing; smallest distance"
         " of two particles, relative to the first.",
         flow_history.quality_history,
-    ),
-    Drawing(
-        "uncertainty",
-        "What the errors of the main results are made of: the numerical part, and the change with"
-        " each input two standard uncertainties up and down, in percent of the result.",
-        tornado_chart,
+        part="computation",
     ),
     Drawing(
         "arrangement",
         "Particles as they lay at the start: the whole body, and a detail at the surface.",
         draw_arrangement,
+        part="computation",
+        has_all_pulses=True,
     ),
 )
 
 
-def draw_run(folder: str | Path, *, kind: str = "png") -> list[Path]:
+Begun = Callable[[str, int, int], None]
+"""Called before something is drawn: its name, how many are drawn, of how many."""
+
+
+def pulse_note(pulses: int) -> str:
+    """Words that a figure of the last of several pulses bears."""
+    return f"pulse {pulses} of {pulses}; times count from its start"
+
+
+def draw_run(
+    folder: str | Path, *, kind: str = "png", begun: Begun = lambda *_: None
+) -> list[Path]:
     """Draw all figures of a run into its folder `figures`.
 
     Args:
         folder: the run folder. kind: "png", "svg" or "pdf".
+        begun: called before each drawing: name, how many are drawn, of how many.
 
     Returns:
         The files written, in reading order.
@@ -244,8 +282,12 @@ def draw_run(folder: str | Path, *, kind: str = "png") -> list[Path]:
     written = []
     with clear_errors("write", target):
         target.mkdir(exist_ok=True)
-        for drawing in DRAWINGS:
-            figure = drawing.draw(run)
+        shown, pulses = last_pulse(run), 1 + len(starts_after_pauses(run))
+        for count, drawing in enumerate(DRAWINGS):
+            begun(drawing.name, count, len(DRAWINGS))
+            figure = drawing.draw(run if drawing.has_all_pulses else shown)
             if figure is not None:
+                if pulses > 1 and not drawing.has_all_pulses:
+                    style.note(figure, pulse_note(pulses))
                 written.append(style.save(figure, target / f"{drawing.name}.{kind}"))
     return written

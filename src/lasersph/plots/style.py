@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#333333", "#B8A800")
 LINES = ("-", "--", "-.", ":")
+MARKERS = ("o", "x", "^", "+", "s", "1", "v", "D")
+"""Of dots, as colors of eight kinds of them are not told apart."""
 TEMPERATURE_COLORS = "inferno"
 FRACTION_COLORS = "cividis"
 SPEED_COLORS = "viridis"
@@ -44,6 +46,10 @@ UNITS = {
     "m^2": (Unit(1e12, "µm$^2$"), Unit(1e6, "mm$^2$"), Unit(1.0, "m$^2$")),
     "m^3": (Unit(1e18, "µm$^3$"), Unit(1e9, "mm$^3$"), Unit(1.0, "m$^3$")),
     "Pa": (Unit(1.0, "Pa"), Unit(1e-3, "kPa"), Unit(1e-6, "MPa"), Unit(1e-9, "GPa")),
+    "J": tuple(Unit(10.0**n, f"{name}J") for n, name in ((12, "p"), (9, "n"), (6, "µ"), (3, "m"))),
+    "J/m": tuple(
+        Unit(10.0**n, f"{name}J/m") for n, name in ((9, "n"), (6, "µ"), (3, "m"), (0, ""))
+    ),
     "K/m": (Unit(1e-6, "K/µm"),),
     "J/m^2": (Unit(1e-4, "J/cm$^2$"),),
     "W/m^2": (Unit(1e-4, "W/cm$^2$"),),
@@ -118,6 +124,11 @@ def legend_above(figure: Figure, axes: Axes, *, columns: int) -> None:
         figure.legend(
             handles, labels, loc="outside upper left", ncols=columns, fontsize=8.5, frameon=False
         )
+
+
+def note(figure: Figure, text: str) -> None:
+    """A line in gray below the whole figure, at its right."""
+    figure.supxlabel(text, x=0.99, ha="right", fontsize=8.5, color=GRAY)
 
 
 def level_line(axes: Axes, value: float, name: str) -> None:

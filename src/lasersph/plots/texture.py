@@ -24,8 +24,9 @@ def texture_figure(maps: Maps, content: dict[str, Any]) -> Figure:
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(style.WIDTH, 6.6), layout="constrained")
-    parts: Any = figure.subfigures(2, 1, height_ratios=(3.2, 3.0))
+    figure = Figure(figsize=(style.WIDTH, 7.8), layout="constrained")
+    # as high as two square maps side by side are, with their color bars
+    parts: Any = figure.subfigures(2, 1, height_ratios=(4.6, 3.2))
     above, below = parts
     left, right = above.subplots(1, 2, sharey=True)
     _draw_map(left, maps, "height", "height", "RdBu_r", is_signed=True)
@@ -43,14 +44,11 @@ def texture_figure(maps: Maps, content: dict[str, Any]) -> Figure:
         sign = 1.0 if name == "height" else -1.0
         axes.plot(maps.x * unit.factor, sign * line * up.factor, color=color, linewidth=0.9)
         error = content["interpolation_error"][name]["largest"] * up.factor
-        axes.fill_between(
-            maps.x * unit.factor,
-            sign * line * up.factor - error,
-            sign * line * up.factor + error,
-            color=color,
-            alpha=0.2,
-            linewidth=0.0,
-        )
+        low, high = sign * line * up.factor - error, sign * line * up.factor + error
+        if name == "melt_depth":  # no melt above the surface, nor where cells tell of none
+            low, high = np.where(line > 0.0, low, 0.0), np.minimum(high, 0.0)
+        places = maps.x * unit.factor
+        axes.fill_between(places, low, high, color=color, alpha=0.2, linewidth=0.0)
         axes.set_xlim(maps.x[0] * unit.factor, maps.x[-1] * unit.factor)
         axes.grid(True, color="0.9", linewidth=0.6)
         is_last = name == "melt_depth"
@@ -79,5 +77,6 @@ def _draw_map(
     look = {"cmap": colors, "vmin": -limit if is_signed else 0.0, "vmax": limit}
     image = style.paint(axes, values * up.factor, edges, length, aspect="equal", **look)
     style.label(axes, f"x [{length.name}]", f"y [{length.name}]")
-    bar = axes.figure.colorbar(image, ax=axes, location="top", pad=0.02, aspect=24.0)
+    above = axes.inset_axes((0.0, 1.03, 1.0, 0.05))  # as wide as the map
+    bar = axes.figure.colorbar(image, cax=above, orientation="horizontal", location="top")
     bar.set_label(f"{words} [{up.name}]", fontsize=10)

@@ -11,8 +11,8 @@ from lasersph.output.atomic import replace_text
 from lasersph.report.page import figure, heading, page, paragraph, table
 
 WORDS = {
-    "shift_x_m": ("shift along x", "m"),
-    "shift_y_m": ("shift along y", "m"),
+    "shift_x_m": ("shift along x, from the middle of the measurement", "m"),
+    "shift_y_m": ("shift along y, from the middle of the measurement", "m"),
     "rotation_rad": ("angle of the measurement to the lines", "rad"),
     "lateral_scale": ("lateral scale of the measurement", ""),
     "fluence_factor": ("factor on the local fluence", ""),
@@ -28,7 +28,15 @@ def unknown_rows(content: dict[str, Any]) -> list[list[str]]:
         value, error = (
             format_quantity(one[k], unit, n) for k, n in (("value", 5), ("standard_error", 2))
         )
-        rows.append([words, value, error, f"{low} to {high}"])
+        interval = f"{low} to {high}"
+        if one["is_at_bound"]:  # the error of an unknown at a bound says nothing of the other side
+            error = "at its bound"
+            interval = f"{low} or more" if value == high else f"{high} or less"
+        rows.append([words, value, error, interval])
+    for name, place in content["origin_in_measurement"].items():
+        axis = name.removesuffix("_m")
+        words = f"our {axis} = 0 lies at this {axis} of the measurement"
+        rows.append([words, format_quantity(place, "m", 5), "", ""])
     return rows
 
 

@@ -24,9 +24,9 @@ LARGE = {
     "temperature_max_K": "highest temperature",
     "melt.depth_max_m": "melt depth",
     "melt.width_max_m": "melt width",
-    "flow.surface_speed_max_m_s": "speed of the surface",
+    "flow.surface_speed_max_m_s": "speed along the surface",
     "ejecta.speed_mean_m_s": "speed of the ejecta",
-    "flow.speed_max_m_s": "highest speed",
+    "flow.speed_max_m_s": "highest speed of a particle",
     "melt.end_s": "melt until",
     "ejecta.mass_kg": "mass of the ejecta",
 }
@@ -45,21 +45,34 @@ def what_was_computed(run: Run) -> str:
     metal = str(material.get("title") or material.get("name") or "a liquid")
     metal = re.split(r", | \(", metal)[0]
     metal = metal[0].lower() + metal[1:] if metal[1:2].islower() else metal
-    effects = EFFECTS.get(case.get("solver", {}).get("kind"), "heating")
-    effects = "flow" if "box" in summary or "melt" not in summary else effects
     size = f"{shown(summary['particles'], 9)} particles"
     if summary.get("spacing_m"):
         size += f", {quantity(summary['spacing_m'], 'm', 3)} apart at the finest"
     end = quantity(summary["time_s"], "s", 3)
     text = (
-        f"This run computes the {effects} of {metal}{light_text(case.get('laser') or {})} over"
-        f" {end}, in {summary.get('dimensions', '–')}-D with {size}."
+        f"This run computes the {effects_of(run)} of {metal}"
+        f"{light_text(case.get('laser') or {}, summary.get('laser'))} over {end},"
+        f" in {summary.get('dimensions', '–')}-D with {size}."
     )
     return UNIT_BEHIND.sub("\u00a0", text)
 
 
-def light_text(laser: dict[str, Any]) -> str:
-    """The light of a case after the name of its metal; empty where there is none."""
+def effects_of(run: Run) -> str:
+    """Physics that a run computes, in words."""
+    summary, kind = run.summary, run.case.get("solver", {}).get("kind")
+    if "box" in summary or (kind == "ablation" and "crater" not in summary):
+        return "flow"
+    if summary.get("material", {}).get("solidus_K") is None:
+        return "heating"
+    return EFFECTS.get(kind, "heating")
+
+
+def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) -> str:
+    """The light of a case after the name of its metal; empty where there is none.
+
+    Args:
+        computed: the table `laser` of a summary, with the fluence that follows from an energy.
+    """
     fluence, pulse, beam = laser.get("fluence"), laser.get("pulse") or {}, laser.get("beam") or {}
     energy, spot = laser.get("pulse_energy"), laser.get("spot") or {}
     if fluence is None and energy is None and laser.get("intensity") is None:
@@ -69,10 +82,17 @@ def light_text(laser: dict[str, Any]) -> str:
     text = " under one pulse" if count == 1 else f" under {count} pulses"
     if lasts:
         text += f" of {quantity(lasts, 's', 3)}"
+    each = "" if count == 1 else " each"
     if fluence is not None:
-        text += f" with {quantity(1e-4 * fluence, 'J/cm^2', 3)}{fluence_kind(laser)}"
+        text += f" with {quantity(1e-4 * fluence, 'J/cm^2', 3)}{each}{fluence_kind(laser)}"
     elif energy is not None:
-        text += f" with {quantity(energy, 'J', 3)} in all"
+        whole = "" if count == 1 else f", {quantity(count * energy, 'J', 3)} in all"
+        whole += "," * (count > 1 and bool(spot.get("diameter")) and not computed)
+        text += f" with {quantity(energy, 'J', 3)}{each}{whole}"
+        if computed:
+            mean = 1e-4 * computed["mean_fluence_J_m2"]
+            kind = " in the mean over a period" * (beam.get("kind") == "interference")
+            text += f", {quantity(mean, 'J/cm^2', 3)}{kind} where it is computed,"
     if spot.get("diameter"):
         text += f" in a spot of {quantity(spot['diameter'], 'm', 3)} ({spot['definition']})"
     if beam.get("kind") in (None, "uniform"):

@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from lasersph.input import format_quantity
+from lasersph.input import format_quantity, in_field_units
+from lasersph.observers.quantity import suffix
 from lasersph.output.atomic import replace_text
 from lasersph.output.errors import clear_errors
 from lasersph.plots import style
 from lasersph.plots.process_map import MapAxis, ProcessMap, draw_process_map
 from lasersph.report.page import figure, heading, page, paragraph
+from lasersph.report.tables import unit_of
 
 RUNS = "runs"
 """Folder of the runs beside the page."""
@@ -38,7 +40,7 @@ def write_map(
     with clear_errors("write", folder):
         files = [style.save(picture, Path(f"{stem}.{kind}")) for kind in ("png", "svg")]
         files.append(_write_rows(Path(f"{stem}.csv"), _field_rows(shown)))
-        if shown.lines:
+        if shown.lines or shown.bands:
             files.append(_write_rows(Path(f"{stem}-lines.csv"), _line_rows(shown)))
         body = _page_body(shown, title, files[0])
         replace_text(Path(f"{stem}.html"), page(title, body))
@@ -46,8 +48,8 @@ def write_map(
 
 
 def name_with_unit(axis: MapAxis) -> str:
-    """Column of a key in CSV files: laser.fluence [J/m^2]."""
-    return f"{axis.key} [{axis.unit}]" if axis.unit else axis.key
+    """Column of a key in CSV files, in the unit of the plan: laser.fluence [J/cm^2]."""
+    return f"{axis.key} [{axis.shown.name}]" if axis.shown.name else axis.key
 
 
 def _write_rows(path: Path, rows: list[list[object]]) -> Path:
@@ -57,22 +59,30 @@ def _write_rows(path: Path, rows: list[list[object]]) -> Path:
 
 
 def _field_rows(shown: ProcessMap) -> list[list[object]]:
-    """Header, and a row for each place of the field; empty where no run tells the number."""
-    head: list[object] = [*map(name_with_unit, shown.axes), shown.column]
-    columns = [*np.meshgrid(*(axis.grid for axis in shown.axes)), shown.field]
+    """Header, and a row for each place of the field, keys in the units of the plan and the number
+    in SI as in table.csv; empty where no run tells the number."""
+    unit = f" [{shown.unit}]" if shown.unit else ""
+    name = shown.column.removesuffix(suffix(unit_of(shown.column))) if unit else shown.column
+    head: list[object] = [*map(name_with_unit, shown.axes), f"{name}{unit}"]
+    columns = [*np.meshgrid(*(axis.shown.numbers(axis.grid) for axis in shown.axes)), shown.field]
     if shown.deviation is not None:
-        head.append("standard deviation")
+        head.append(f"standard deviation{unit}")
         columns.append(shown.deviation)
     rows = np.stack([column.ravel() for column in columns], axis=1)
     return [head, *([f"{one:.6g}" if np.isfinite(one) else "" for one in row] for row in rows)]
 
 
 def _line_rows(shown: ProcessMap) -> list[list[object]]:
-    """Header, and the points of each line; a line of several parts counts them."""
+    """Header, and the points of each line, then of each band; a line of several parts counts
+    them."""
+    outlines = {**shown.lines, **{f"{name}: band": one for name, one in shown.bands.items()}}
     rows: list[list[object]] = [["line", "part", *map(name_with_unit, shown.axes)]]
-    for name, parts in shown.lines.items():
+    for name, parts in outlines.items():
         for number, part in enumerate(parts, start=1):
-            rows += [[name, number, *(f"{one:.6g}" for one in point)] for point in part]
+            keys = [a.shown.numbers(at) for a, at in zip(shown.axes, part.T, strict=True)]
+            rows += [
+                [name, number, *(f"{one:.6g}" for one in at)] for at in zip(*keys, strict=True)
+            ]
     return rows
 
 
@@ -83,6 +93,7 @@ def _page_body(shown: ProcessMap, title: str, picture: Path) -> list[str]:
         paragraph(f"{len(shown.names)} runs over {keys}; each links to its folder", "about"),
         *(paragraph(note, "warning") for note in shown.notes),
         figure(picture, _caption(shown), 1),
+        *_onset_table(shown),
         heading("Runs"),
         _runs_table(shown),
     ]
@@ -97,12 +108,28 @@ def _caption(shown: ProcessMap) -> str:
     if shown.deviation is not None and len(shown.axes) == 2:
         allowed = format_quantity(shown.allowed, shown.unit, 2, typographic=True)
         text += f" Hatched: its standard deviation exceeds {allowed}."
-    events = [shown.line_words(name) for name in shown.lines if name != "target"]
-    if events:
-        text += f" Lines: onset of {', '.join(events)}."
+    if shown.bands:
+        events = ", ".join(map(shown.line_words, shown.bands))
+        how = "Hatched" if len(shown.axes) == 2 else "Shaded"
+        text += f" {how}: where the onset of {events} lies"
+        is_line_missing = not set(shown.bands) <= set(shown.lines)
+        text += "; without a line, only the runs on both sides of it are known." * is_line_missing
+        text += "; lines: where it most likely is." * (not is_line_missing)
     if shown.target is not None:
         text += f" Wanted: {format_quantity(shown.target, shown.unit, typographic=True)}."
     return text
+
+
+def _onset_table(shown: ProcessMap) -> list[str]:
+    """Heading and table of where each event begins, on each line of the grid."""
+    rows = [
+        f"<tr><td>{escape(event)}</td><td>{escape(text)}</td></tr>"
+        for event, text in shown.onset_words()
+    ]
+    head = f"<tr><th>begins</th><th>{escape(shown.axes[0].words)}</th></tr>"
+    return [heading("Where it begins"), "\n".join(["<table>", head, *rows, "</table>"])] * bool(
+        rows
+    )
 
 
 def _runs_table(shown: ProcessMap) -> str:
@@ -119,10 +146,3 @@ def _runs_table(shown: ProcessMap) -> str:
         rest = "".join(f'<td class="number">{escape(cell)}</td>' for cell in cells)
         lines.append(f"<tr><td>{link}</td>{rest}</tr>")
     return "\n".join([*lines, "</table>"])
-
-
-def in_field_units(value: float, unit: str) -> str:
-    """A number with the unit in which users think of it: fluences per cm^2."""
-    if unit in ("J/m^2", "W/m^2") and np.isfinite(value):
-        return format_quantity(1e-4 * value, unit.replace("m^2", "cm^2"), typographic=True)
-    return format_quantity(value, unit, typographic=True)

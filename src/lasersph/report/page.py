@@ -31,8 +31,13 @@ p.lead { font-size: 1.12rem; margin: .2rem 0 1.1rem; }
 @media screen { .top.is-drawn figure { order: 2; margin: 1.2rem 0 0; } }
 p.result { font-size: 1.08rem; background: #eef5fa; border-left: 4px solid #0072b2;
   padding: .8rem 1rem; }
-p.warning { background: #fdf3e4; border-left: 4px solid #d55e00; padding: .5rem 1rem;
-  margin: .5rem 0; }
+.warnings { background: #fdf3e4; border-left: 4px solid #d55e00; padding: .5rem 1rem;
+  margin: .5rem 0; line-height: 1.4; }
+.warnings p { margin: 0; } .warnings summary { color: inherit; }
+.warnings details { margin: 0; }
+.warnings :is(p, summary)::first-letter { text-transform: uppercase; }
+@media screen { .warnings details:not([open]) summary { overflow: hidden; white-space: nowrap;
+  text-overflow: ellipsis; } }
 p.note { background: #f6f8fa; border-left: 4px solid #aab4bf; padding: .5rem 1rem;
   margin: .5rem 0; }
 nav a { margin-right: 1.1rem; color: #0072b2; text-decoration: none; white-space: nowrap; }
@@ -58,7 +63,7 @@ details.subject > summary { font-weight: 600; }
   main { box-shadow: none; padding: 0; max-width: none; }
   h2, summary, tr:has(th) { break-after: avoid; } figure, tr, .numbers, p { break-inside: avoid; }
   figure img { max-height: 120mm; width: auto; } pre { white-space: pre-wrap; }
-  p.warning, p.note, p.result, .numbers div { print-color-adjust: exact; }
+  .warnings, p.note, p.result, .numbers div { print-color-adjust: exact; }
   .numbers { grid-template-columns: repeat(5, 1fr); gap: 3mm; } .numbers dd { font-size: 11.5pt; }
   details.subject { border: 0; padding: 0; }
   details.subject::details-content { content-visibility: visible; height: auto; } }
@@ -125,9 +130,21 @@ def contents(titles: Iterable[str]) -> str:
 
 
 def paragraph(text: str, kind: str = "") -> str:
-    """A paragraph; `kind` is lead, about, result, warning or note. Text is escaped."""
+    """A paragraph; `kind` is lead, about, result or note. Text is escaped."""
     name = f' class="{kind}"' if kind else ""
     return f"<p{name}>{escape(text)}</p>"
+
+
+def warnings_box(texts: Sequence[str]) -> str:
+    """One box of all warnings, empty without any; of several each has a line, whole on a click.
+
+    On paper all are whole. Text is escaped.
+    """
+    if len(texts) < 2:
+        lines = [paragraph(text) for text in texts]
+    else:
+        lines = [f"<details><summary>{escape(text)}</summary></details>" for text in texts]
+    return f'<div class="warnings">{"".join(lines)}</div>' if lines else ""
 
 
 def listing(text: str) -> str:

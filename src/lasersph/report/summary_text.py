@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from lasersph.observers.energy_budget import (
-    IMBALANCE_ALLOWED,
-    IMBALANCE_ALLOWED_WITH_FLOW,
-    NUMERICAL,
-    NUMERICAL_ALLOWED,
-    TERMS,
+from lasersph.observers.run_warnings import (
+    allowed_imbalance,
+    event_warnings,
+    exchanged,
+    found_warnings,
 )
-from lasersph.report.tables import quantity, shown
+from lasersph.report.tables import moment, quantity, shown
 
 
 def verdict(summary: dict[str, Any]) -> str:
@@ -22,54 +21,70 @@ def verdict(summary: dict[str, Any]) -> str:
     melt = summary.get("melt")
     if melt is None:
         melts = summary.get("material", {}).get("solidus_K") is not None
-        parts.append("Nothing melted." if melts else "The material of this case does not melt.")
+        off = "Melting was not computed: switched off, or the material has no melting point."
+        parts.append("Nothing melted." if melts else off)
     elif melt["start_s"] is None:
         parts.append(
             "The metal began to melt at "
-            f"{quantity(melt['start_any_s'], 's')}, but no cell became completely fluid."
+            f"{moment(summary, melt['start_any_s'])}, but no cell became completely fluid."
         )
     else:
-        parts += melting(melt)
+        parts += melting(summary)
     vapor = summary.get("vaporization")
     if vapor is not None and vapor["start_s"] is not None and "crater" not in summary:
-        parts.append(boiling(vapor))
+        parts.append(boiling(summary))
     told = [*parts, *crater(summary), *pool_flow(summary), *balance(summary)]
     return " ".join(told)
 
 
 def hottest(summary: dict[str, Any]) -> str:
     """The largest temperature and when."""
-    at = quantity(summary.get("temperature_max_at_s"), "s")
+    at = moment(summary, summary.get("temperature_max_at_s"))
     return f"The metal reached at most {quantity(summary['temperature_max_K'], 'K')}, at {at}."
 
 
-def melting(melt: dict[str, Any]) -> list[str]:
+def melting(summary: dict[str, Any]) -> list[str]:
     """Life and size of the pool."""
-    end = (
-        "until the end of the run"
-        if melt["molten_at_end"]
-        else f"to {quantity(melt['end_s'], 's')}"
-    )
-    depth = f"at most {quantity(melt['depth_max_m'], 'm')} deep"
-    deep_at = f" (at {quantity(melt['depth_max_at_s'], 's')})"
-    wide = ""
-    if melt["width_max_m"]:
-        wide = f"{quantity(melt['width_max_m'], 'm')} wide"
-        wide += f" (at {quantity(melt['width_max_at_s'], 's')}) and "
-        depth = depth.replace("at most ", "")
-    first = f"Completely fluid metal was there from {quantity(melt['start_s'], 's')} {end}."
-    return [first, f"The pool was {'at most ' if wide else ''}{wide}{depth}{deep_at}."]
+    melt = summary["melt"]
+    if "pulses" in summary:
+        text = f"Completely fluid metal was there {lives(summary['pulses'], 'melt')}."
+    elif melt["molten_at_end"]:
+        start = moment(summary, melt["start_s"])
+        text = f"Completely fluid metal was there from {start} until the end of the run."
+    else:
+        start, end = (moment(summary, melt[f"{name}_s"]) for name in ("start", "end"))
+        text = f"Completely fluid metal was there from {start} to {end}."
+    deep = f"{quantity(melt['depth_max_m'], 'm')} deep"
+    deep += f" (at {moment(summary, melt['depth_max_at_s'])})"
+    if not melt["width_max_m"]:
+        return [text, f"The pool was at most {deep}."]
+    wide = f"{quantity(melt['width_max_m'], 'm')} wide"
+    wide += f" (at {moment(summary, melt['width_max_at_s'])})"
+    return [text, f"The pool was at most {wide} and {deep}."]
 
 
-def boiling(vapor: dict[str, Any]) -> str:
+def lives(pulses: dict[str, Any], name: str) -> str:
+    """After how many pulses of a train something lived, and for how long."""
+    both = zip(pulses[f"{name}_starts_s"], pulses[f"{name}_ends_s"], strict=True)
+    lengths = [end - start for start, end in both if start is not None]
+    begun = len(pulses["starts_s"])
+    whom = "each" if len(lengths) == begun else f"{len(lengths)}"
+    shortest, longest = (quantity(length, "s", 3) for length in (min(lengths), max(lengths)))
+    span = longest if shortest == longest else f"{shortest} to {longest}"
+    return f"after {whom} of {begun} pulses, for {span}"
+
+
+def boiling(summary: dict[str, Any]) -> str:
     """How long the surface was at the vaporization temperature and what came of it."""
-    text = (
-        "The surface was at the vaporization temperature or above from "
-        f"{quantity(vapor['start_s'], 's')} to {quantity(vapor['end_s'], 's')}"
-    )
+    vapor = summary["vaporization"]
+    start, end = (moment(summary, vapor[f"{name}_s"]) for name in ("start", "end"))
+    when = f"from {start} to {end}"
+    if "pulses" in summary:
+        when = lives(summary["pulses"], "boiling")
+    text = f"The surface was at the vaporization temperature or above {when}"
     thickness = vapor["evaporated_thickness_max_m"]
     if thickness:
-        return f"{text}; up to {quantity(thickness, 'm')} evaporated."
+        return f"{text}; up to {quantity(thickness, 'm', 2)} evaporated."
     if vapor["depth_max_m"]:
         return (
             f"{text}; down to {quantity(vapor['depth_max_m'], 'm')} the metal took up its whole "
@@ -93,49 +108,23 @@ def balance(summary: dict[str, Any]) -> list[str]:
     return [f"{text}, which is too much: do not trust this run."]
 
 
-def exchanged(energy: dict[str, Any]) -> float:
-    """Largest of the energies absorbed, stored and lost [J]."""
-    return max(abs(energy[f"{name}_J"]) for name in ("absorbed", "stored", "lost"))
+def warning_texts(summary: dict[str, Any] | None, events: list[dict[str, Any]]) -> list[str]:
+    """Warnings: read them before using the numbers.
 
-
-def allowed_imbalance(summary: dict[str, Any]) -> float:
-    """Largest relative error of the energy balance of a run that can be trusted."""
-    return IMBALANCE_ALLOWED_WITH_FLOW if "flow" in summary else IMBALANCE_ALLOWED
-
-
-def warning_texts(summary: dict[str, Any], events: list[dict[str, Any]]) -> list[str]:
-    """Warnings: read them before using the numbers."""
-    found = [str(e["message"]) for e in events if e["event"] == "warning" and "message" in e]
-    allowed = allowed_imbalance(summary)
-    if summary["energy"]["imbalance_relative"] > allowed:
-        share = "a ten-thousandth" if "flow" in summary else "a millionth"
-        found.append(f"The energy balance does not close within {share} of the energy moved.")
-    whole = exchanged(summary["energy"])
-    for name in NUMERICAL:
-        share = summary["energy"].get(f"{name}_max_J", 0.0) / max(whole, 1e-300)
-        if share > NUMERICAL_ALLOWED:
-            percent = shown(100.0 * share, 3)
-            found.append(f"The {TERMS[name]} is {percent} % of the energy moved.")
-    vapor = summary.get("vaporization", {})
-    if vapor.get("near_critical_start_s") is not None:
-        place = vapor["near_critical_x_m"]
-        where = "" if place is None else f", hottest at x = {quantity(place, 'm')}"
-        found.append(
-            f"The surface was above 0.9 of its critical temperature of {vapor['critical_K']:.0f} K "
-            f"from {quantity(vapor['near_critical_start_s'], 's')} to "
-            f"{quantity(vapor['near_critical_end_s'], 's')}{where}: the curve of vapor pressure "
-            "is an extrapolation there."
-        )
-    return list(dict.fromkeys(found))
+    Args:
+        summary: None of a run that is not complete; one without `warnings` is of a run by an
+            earlier version, what it found follows from its numbers.
+    """
+    if summary is None:
+        return event_warnings(events)
+    if "warnings" in summary:
+        return list(summary["warnings"])
+    return [*event_warnings(events), *found_warnings(summary)]
 
 
 def note_texts(summary: dict[str, Any]) -> list[str]:
     """Notes beside the numbers."""
     found = model_limits(summary)
-    if summary.get("melt", {}).get("molten_at_end"):
-        found.append(
-            "The run ended while metal was still fluid: the end of melting is later than given."
-        )
     requested, used = summary.get("spacing_requested_m"), summary.get("spacing_m")
     if requested and used and abs(used - requested) > 1e-6 * requested:
         found.append(
@@ -144,8 +133,8 @@ def note_texts(summary: dict[str, Any]) -> list[str]:
         )
     if summary.get("surface", {}).get("symmetry_factor") == 2:
         found.append(
-            "Half a period was computed: widths are those of the whole pool, energies those of the"
-            " half."
+            "Only x > 0 was computed, half of what is symmetric about x = 0: widths are those of"
+            " the whole pool, energies those of the half."
         )
     return found
 
@@ -159,26 +148,30 @@ def pool_flow(summary: dict[str, Any]) -> list[str]:
         return ["Nothing flowed."]
     if "surface_speed_max_m_s" not in flow:
         fastest = f"The liquid reached at most {quantity(flow['speed_max_m_s'], 'm/s')}"
-        return [f"{fastest}, at {quantity(flow['speed_max_at_s'], 's')}; its surface did not move."]
+        return [
+            f"{fastest}, at {moment(summary, flow['speed_max_at_s'])}; its surface did not move."
+        ]
     place = quantity(abs(flow["surface_speed_max_x_m"]), "m", 3)
     first = (
         f"The liquid flowed along the surface at up to"
         f" {quantity(flow['surface_speed_max_m_s'], 'm/s', 3)}"
-        f" (at {quantity(flow['surface_speed_max_at_s'], 's')}, {place} from x = 0), in a layer"
+        f" (at {moment(summary, flow['surface_speed_max_at_s'])}, {place} from x = 0), in a layer"
         f" {quantity(flow['layer_thickness_m'], 'm', 3)} thick, and back below it at up to"
         f" {quantity(flow['return_speed_max_m_s'], 'm/s', 3)}."
     )
-    return [first, *extrema(flow.get("extrema"))]
+    return [first, *extrema(summary)]
 
 
-def extrema(found: dict[str, Any] | None) -> list[str]:
+def extrema(summary: dict[str, Any]) -> list[str]:
     """Whether a second extremum of the surface speed appeared."""
+    found = summary["flow"].get("extrema")
     if found is None:
         return []
     if not found["inner_speed_max_m_s"]:
         return ["The surface speed had one extremum on each side at all times."]
+    start, end = (moment(summary, found[f"inner_{name}_s"]) for name in ("start", "end"))
     inner = (
-        f"From {quantity(found['inner_start_s'], 's')} to {quantity(found['inner_end_s'], 's')} an"
+        f"From {start} to {end} an"
         f" inner extremum stood beside or instead of the outer one, with up to"
         f" {quantity(found['inner_speed_max_m_s'], 'm/s', 3)}"
     )
@@ -229,8 +222,8 @@ def crater(summary: dict[str, Any]) -> list[str]:
     share = 100.0 * ejecta["energy_J"] / max(summary["energy"]["absorbed_J"], 1e-300)
     return [
         f"The light left a crater {size}.",
-        f"The ejecta left between {quantity(ejecta['start_s'], 's')} and"
-        f" {quantity(ejecta['end_s'], 's')}, at {quantity(ejecta['speed_mean_m_s'], 'm/s', 3)} on"
+        f"The ejecta left between {moment(summary, ejecta['start_s'])} and"
+        f" {moment(summary, ejecta['end_s'])}, at {quantity(ejecta['speed_mean_m_s'], 'm/s', 3)} on"
         f" average, and carried {shown(share, 3)} % of the absorbed energy away.",
         *hole(summary["energy"]),
     ]

@@ -6,13 +6,16 @@ added appears here by itself.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from lasersph.input import format_duration, format_number, format_quantity, format_with_error
-from lasersph.observers import EnergyBudget, Observer, Quantity
-from lasersph.observers.observer_list import OBSERVERS
-from lasersph.observers.quantity import suffix, unit_in
+from lasersph.observers import EnergyBudget, Quantity
+from lasersph.observers.declared import KEY as OWN_OBSERVERS
+from lasersph.observers.declared import AnyObserver, kinds_of
+from lasersph.observers.quantity import MOMENT, suffix, unit_in
+from lasersph.output.pulse_starts import pulse_at
 
 Rows = list[tuple[str, ...]]
 ENERGY_HEAD = ("energy", "amount", "of the incident")
@@ -33,6 +36,8 @@ MOST_LISTED = 8
 UNITS = ("K/s", "K/m", "m^2/s", "m/s^2", "1/s", "1/m", "W/m^2", "Pa", "m/s", "m^3", "m^2", "m", "s")
 UNITS += ("K", "J", "deg")
 """Units that keys end in, those with two parts first."""
+NOT_NUMBERS = ("warnings", OWN_OBSERVERS)
+"""Parts of a summary that tell of numbers and are none."""
 ESTIMATE_HEAD = ("estimate", "value", "cited")
 LEFT_OUT_HEAD = ("left out", "matters from", "surface that evaporates only")
 CITED_SPEEDS = (
@@ -52,11 +57,11 @@ def value_at(summary: dict[str, Any], key: str) -> Any:
     return found
 
 
-def measured(summary: dict[str, Any], kind: type[Observer], name: str = "") -> Rows:
+def measured(summary: dict[str, Any], kind: AnyObserver, name: str = "") -> Rows:
     """Results of an observer: words, value, and when or where.
 
     Args:
-        summary: content of summary.json. kind: class of the observer.
+        summary: content of summary.json. kind: class of the observer, or its declaration.
         name: of one of several probes or traces.
     """
     rows: Rows = []
@@ -75,8 +80,21 @@ def is_shown(one: Quantity, value: object) -> bool:
     return not (value is None or isinstance(value, dict) or is_unit or is_long)
 
 
+def moment(summary: dict[str, Any], time: float | None, *, typographic: bool = True) -> str:
+    """A time of a run, as "57 ns"; in a train of pulses as "pulse 5 + 57 ns"."""
+    starts = (summary.get("pulses") or {}).get("starts_s")
+    if time is None or not starts:
+        return format_quantity(time, "s", typographic=typographic)
+    pulse = pulse_at(time, starts)
+    since = format_quantity(max(time - starts[pulse], 0.0), "s", typographic=typographic)
+    return f"pulse {pulse + 1} + {since}"
+
+
 def text_of(one: Quantity, value: Any, summary: dict[str, Any], *, typographic: bool = True) -> str:
     """A value of a summary with its unit."""
+    if MOMENT.fullmatch(one.key):
+        times = value if isinstance(value, list) else [value]
+        return ", ".join(moment(summary, time, typographic=typographic) for time in times)
     return in_words(value, unit_in(one.unit, int(summary.get("dimensions", 3))), typographic)
 
 
@@ -86,15 +104,51 @@ def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -
     if value is None:
         return ""
     if key.endswith("_s"):
-        return format_quantity(value, "s", typographic=typographic)
+        return moment(summary, value, typographic=typographic)
     return f"{key[-3]} = {format_quantity(value, 'm', typographic=typographic)}"
 
 
 def main_results(summary: dict[str, Any]) -> list[tuple[Quantity, Any]]:
     """The quantities that `lasersph info` shows, with their values."""
-    wanted = (one for kind in OBSERVERS for one in kind.all_results() if one.is_main)
-    found = ((one, value_at(summary, one.key)) for one in wanted)
+    wanted = (one for kind in kinds_of(summary) for one in kind.all_results() if one.is_main)
+    named = (each for one in wanted for each in each_named(one, summary))
+    found = ((one, value_at(summary, one.key)) for one in named)
     return [(one, value) for one, value in found if is_shown(one, value)]
+
+
+def each_named(one: Quantity, summary: dict[str, Any]) -> list[Quantity]:
+    """The quantity itself, or where it is that of something with a name that of each in a run."""
+    section, *rest = one.key.split(".")
+    if "<name>" not in rest:
+        return [one]
+    return [
+        replace(
+            one,
+            key=one.key.replace("<name>", name),
+            at=tuple(key.replace("<name>", name) for key in one.at),
+            words=f"{one.words} at {section.removesuffix('s')} {name}",
+        )
+        for name in summary.get(section) or {}
+    ]
+
+
+def main_rows(
+    summary: dict[str, Any],
+    uncertainty: dict[str, Any] | None = None,
+    *,
+    typographic: bool = True,
+) -> Rows:
+    """Main results: words, value with its error where that is known, and when."""
+    rows, errors = [], (uncertainty or {}).get("numbers", {})
+    for one, value in main_results(summary):
+        text = text_of(one, value, summary, typographic=typographic)
+        error = errors.get(one.key, {}).get("error")
+        if error is not None:
+            unit = unit_in(one.unit, summary["dimensions"])
+            text = format_with_error(value, error, unit, typographic=typographic)
+        at = place_text(summary, one.at[0], typographic=typographic) if one.at else ""
+        rows.append((one.words, text, at))
+    return rows
 
 
 def main_numbers(
@@ -102,15 +156,24 @@ def main_numbers(
 ) -> list[tuple[str, str]]:
     """Main results for `lasersph info`: words and value, with its error where that is known, as
     plain text."""
-    rows, errors = [], (uncertainty or {}).get("numbers", {})
-    for one, value in main_results(summary):
-        text = text_of(one, value, summary, typographic=False)
-        error = errors.get(one.key, {}).get("error")
-        if error is not None:
-            text = format_with_error(value, error, unit_in(one.unit, summary["dimensions"]))
-        at = place_text(summary, one.at[0], typographic=False) if one.at else ""
-        rows.append((one.words, f"{text} at {at}" if at else text))
-    return rows
+    return [
+        (words, f"{text} at {at}" if at else text)
+        for words, text, at in main_rows(summary, uncertainty, typographic=False)
+    ]
+
+
+def summary_rows(
+    summary: dict[str, Any], uncertainty: dict[str, Any] | None = None
+) -> list[tuple[str, str]]:
+    """Case, size, time and the main results of a run, with units, and errors where there are any,
+    as plain text."""
+    return [
+        ("case", str(summary.get("title") or summary["case"])),
+        ("particles", str(summary["particles"])),
+        ("time", f"{format_quantity(summary['time_s'], 's')} in {summary['steps']} steps"),
+        ("computed in", format_duration(summary["wall_time_s"])),
+        *main_numbers(summary, uncertainty),
+    ]
 
 
 def computation(summary: dict[str, Any]) -> Rows:
@@ -180,6 +243,8 @@ def flat(value: Any, name: str = "", unit: str = "J") -> Rows:
         unit = str(value.get("unit", unit))
         rows: Rows = []
         for key, item in value.items():
+            if key in NOT_NUMBERS:
+                continue
             rows += flat(item, f"{name}.{key}" if name else str(key), unit)
         return rows
     return [(name, entry(name, value, unit))]
@@ -198,6 +263,10 @@ def unit_of(key: str) -> str:
     return next((unit for unit in UNITS if key.endswith(suffix(unit))), "")
 
 
+READABLE = {"J/m^2": (1e-4, "J/cm^2"), "K/m": (1e-6, "K/um")}
+"""Factor and unit in which an engineer writes what SI writes otherwise."""
+
+
 def in_words(value: Any, unit: str, typographic: bool = True) -> str:
     """A truth, a text, a number with its unit, a list of them, or nothing."""
     if value is None:
@@ -208,7 +277,9 @@ def in_words(value: Any, unit: str, typographic: bool = True) -> str:
         return "yes" if value else "no"
     if isinstance(value, str):
         return value
-    return format_quantity(float(value), unit, typographic=typographic)
+    factor, name = READABLE.get(unit, (1.0, unit))
+    name = name.replace("um", "µm") if typographic else name
+    return format_quantity(factor * float(value), name, typographic=typographic)
 
 
 def estimates(summary: dict[str, Any]) -> Rows:

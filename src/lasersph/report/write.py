@@ -8,29 +8,41 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from lasersph.observers import Crater, EnergyBudget, Observer, Steps, Vaporization
-from lasersph.observers.observer_list import OBSERVERS
+from lasersph.input.document import split_settings
+from lasersph.observers import Crater, EnergyBudget, Probes, Steps, Vaporization
+from lasersph.observers.declared import AnyObserver, kinds_of
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.atomic import replace_text
 from lasersph.output.errors import clear_errors
+from lasersph.output.last_pulse import last_pulse, starts_after_pauses
 from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.animation import LEAST_FRAMES, animate_run
 from lasersph.plots.flow_fields import has_flow
-from lasersph.plots.run_figures import DRAWINGS, draw_run
+from lasersph.plots.run_figures import DRAWINGS, Begun, draw_run, pulse_note
 from lasersph.report import tables, uncertainty_tables
 from lasersph.report.headline import STILLS, large_numbers, what_was_computed
-from lasersph.report.page import contents, details, figure, heading, listing, page, paragraph, table
+from lasersph.report.page import (
+    contents,
+    details,
+    figure,
+    heading,
+    listing,
+    page,
+    paragraph,
+    table,
+    warnings_box,
+)
 from lasersph.report.scene import scene
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
 
 ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
-SET = "# --set "
-"""Begins the lines above the text of case.toml that tell its overrides."""
 GIVEN = "given: "
 """Begins the source of an uncertainty that the command gave."""
 
 
-def write_report(folder: str | Path, *, with_scene: bool = True) -> Path:
+def write_report(
+    folder: str | Path, *, with_scene: bool = True, begun: Begun = lambda *_: None
+) -> Path:
     """Draw the figures of a complete run and write its report.html.
 
     The page holds its images and needs no other file.
@@ -38,6 +50,7 @@ def write_report(folder: str | Path, *, with_scene: bool = True) -> Path:
     Args:
         with_scene: whether it holds the viewer too, with the particles of at most 24 snapshots and
             5 MB; a browser without WebGL shows the figures alone.
+        begun: called before each drawing: name, how many are drawn, of how many.
 
     Returns:
         Path of the report.
@@ -51,9 +64,11 @@ def write_report(folder: str | Path, *, with_scene: bool = True) -> Path:
             f"{run.path}: the run is not complete, so there is nothing to report yet;"
             " go on with --resume"
         )
-    images = draw_run(folder)
+    images = draw_run(folder, begun=begun)
     if is_moving(run):
+        begun("animation", len(DRAWINGS), len(DRAWINGS))
         images.append(animate_run(folder))
+    begun("report", len(DRAWINGS), len(DRAWINGS))
     path = run.path / "report.html"
     with clear_errors("read", run.path):
         text = report_page(run, images, scene(run) if with_scene else "")
@@ -63,7 +78,7 @@ def write_report(folder: str | Path, *, with_scene: bool = True) -> Path:
 
 def is_moving(run: Run) -> bool:
     """Whether a run has something to animate: a flow in the plane, or a crater."""
-    if len(run.snapshots) < LEAST_FRAMES:
+    if len(last_pulse(run).snapshots) < LEAST_FRAMES:
         return False
     return has_flow(run) or (has_ablation(run) and run.snapshots.dimension > 1)
 
@@ -79,12 +94,13 @@ def report_page(run: Run, images: list[Path], viewer: str = "") -> str:
         default=None,
     )
     images = sorted(images, key=lambda image: image != still)
-    captions = {drawing.name: drawing.caption for drawing in DRAWINGS} | {"animation": ANIMATION}
-    drawn = [figure(image, captions[image.stem], k) for k, image in enumerate(images, start=1)]
+    figures = figures_by_part(run, images)
+    top, *drawn = figures["results"] or [""]
     parts = {
-        "Figures": drawn[1:],
-        "Results": results(summary),
+        "Results": results(run),
+        "Figures": [*drawn, *folded("More figures", figures["more"])],
         "How sure": uncertainty_tables.how_sure(summary, run.uncertainty),
+        "How it was computed": computation(summary, figures["computation"]),
         "Case": case_as_read(run),
         "Reproduce": reproduce(run, versions),
     }
@@ -92,10 +108,10 @@ def report_page(run: Run, images: list[Path], viewer: str = "") -> str:
     body = [
         f"<h1>{escape(name)}</h1>",
         paragraph(what_was_computed(run), "lead"),
-        f'<div class="top">{viewer}{"".join(drawn[:1])}<div>{large_numbers(run)}</div></div>',
+        warnings_box(warning_texts(summary, run.events)),
+        f'<div class="top">{viewer}{top}<div>{large_numbers(run)}</div></div>',
         paragraph(verdict(summary), "result"),
     ]
-    body += [paragraph(text, "warning") for text in warning_texts(summary, run.events)]
     body += [paragraph(text, "note") for text in note_texts(summary)]
     body.append(contents(parts))
     for title, part in parts.items():
@@ -103,27 +119,62 @@ def report_page(run: Run, images: list[Path], viewer: str = "") -> str:
     return page(f"{name} – lasersph", body)
 
 
-def results(summary: dict[str, Any]) -> list[str]:
-    """A folded table for each observer that found something, then energy, estimates, computation
-    and all numbers."""
-    body = []
-    for kind in OBSERVERS:
+def figures_by_part(run: Run, images: list[Path]) -> dict[str, list[str]]:
+    """The figures of each part of the report as HTML, with their captions, numbered through."""
+    drawings = {drawing.name: drawing for drawing in DRAWINGS}
+    pulses = 1 + len(starts_after_pauses(run))
+    found: dict[str, list[str]] = {"results": [], "more": [], "computation": []}
+    wanted: dict[str, list[tuple[Path, str]]] = {part: [] for part in found}
+    for image in images:
+        drawing = drawings.get(image.stem)
+        caption = ANIMATION if drawing is None else drawing.caption
+        if pulses > 1 and not (drawing and drawing.has_all_pulses):
+            caption += f" Here {pulse_note(pulses)}."
+        wanted["results" if drawing is None else drawing.part].append((image, caption))
+    number = 0
+    for part, pairs in wanted.items():
+        for image, caption in pairs:
+            number += 1
+            found[part].append(figure(image, caption, number))
+    return found
+
+
+def folded(title: str, body: list[str]) -> list[str]:
+    """A part that opens on a click; nothing without anything in it."""
+    return [details(title, "".join(body), prints=True)] if body else []
+
+
+def results(run: Run) -> list[str]:
+    """The main results in a table, then a folded one for each observer that found something."""
+    summary = run.summary
+    body = [table(tables.main_rows(summary, run.uncertainty), ("result", "value", "at"))]
+    if "probes" in summary:
+        body.append(paragraph(Probes.note))
+    for kind in kinds_of(summary):
         body += measured(summary, kind)
     energy = table(tables.energy(summary), tables.ENERGY_HEAD) + paragraph(EnergyBudget.note)
     body.append(details("Energy", energy, prints=True))
     for title, rows, head in (
         ("Estimates", tables.estimates(summary), tables.ESTIMATE_HEAD),
         ("What the model leaves out", tables.left_out(summary), tables.LEFT_OUT_HEAD),
-        ("Dimensionless numbers", tables.dimensionless(summary), ()),
-        ("Computation", tables.computation(summary), ()),
     ):
         if rows:
             body.append(details(title, table(rows, head), prints=True))
-    body.append(details("All numbers of summary.json", table(tables.flat(summary))))
     return body
 
 
-def measured(summary: dict[str, Any], kind: type[Observer]) -> list[str]:
+def computation(summary: dict[str, Any], figures: list[str]) -> list[str]:
+    """How the run was computed: numbers and figures for who judges the computation, folded."""
+    numbers = tables.dimensionless(summary)
+    return [
+        details("Computation", table(tables.computation(summary)), prints=True),
+        *([details("Dimensionless numbers", table(numbers), prints=True)] if numbers else []),
+        *folded("Steps, iterations, particles", figures),
+        details("All numbers of summary.json", table(tables.flat(summary))),
+    ]
+
+
+def measured(summary: dict[str, Any], kind: AnyObserver) -> list[str]:
     """What an observer found, folded: a table, or one for each of its probes or traces, and its
     note."""
     if kind in (Steps, EnergyBudget) or (kind is Vaporization and "crater" in summary):
@@ -173,10 +224,7 @@ def reproduce(run: Run, versions: dict[str, str]) -> list[str]:
 def command_of(run: Run) -> str:
     """The command that repeats the run, with what was set beside the case file."""
     words = ["lasersph", "run", "case.toml", "--out", "again"]
-    for line in run.case_text.splitlines():
-        if not line.startswith(SET):
-            break
-        words += ["--set", line.removeprefix(SET)]
+    words += [word for one in split_settings(run.case_text)[0] for word in ("--set", one)]
     if run.uncertainty is not None:
         words.append("--uncertainty")
         for key, one in run.uncertainty["inputs"].items():

@@ -2,6 +2,6 @@
 
 from lasersph.simulation.forecast import Forecast, forecast
 from lasersph.simulation.progress import RunProgress
-from lasersph.simulation.time_loop import Result, Stopped, run
+from lasersph.simulation.time_loop import Result, RunWarning, Stopped, run
 
-__all__ = ["Forecast", "Result", "RunProgress", "Stopped", "forecast", "run"]
+__all__ = ["Forecast", "Result", "RunProgress", "RunWarning", "Stopped", "forecast", "run"]

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import sqrt
 from typing import Any
 
 from lasersph.case import Case
-from lasersph.case.quick import what_is_not_shown
 from lasersph.case.size import active_share, memory_of, neighbor_count
-from lasersph.input import format_quantity
-from lasersph.particles.layers import Layers
+from lasersph.simulation.case_warnings import absorption_length, penetration_depth, run_warnings
+from lasersph.simulation.heating import HeatingForecast, heating_forecast
 from lasersph.simulation.progress import Span
 from lasersph.simulation.recipes import FlowForecast, Recipe, StepForecast, recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 PAIRS_PER_SECOND = 2.0e8
-"""Of one thread; for the expected time only."""
+"""Pairs of one thread [1/s]. Forecast: the expected time only."""
 SECONDS_PER_STEP = 3e-3
-"""Besides the products: calls of loops, observers, files."""
+"""Besides the products [s]: calls of loops, observers, files. Forecast:
+`benchmarks/small_steps.py`."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,8 @@ class Forecast:
         limits: time-step limits [s] while the light is on. binding: name of the smallest.
         steps: estimate. wall_time: rough estimate [s] on `threads` threads.
         absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
-        warnings: what a user should think about. flow: of what flows, if anything does.
+        warnings: what a user should think about, a sentence each. flow: of what flows, if anything
+            does. heating: what the light does to the surface, if there is any.
     """
 
     particles: int
@@ -48,15 +48,20 @@ class Forecast:
     penetration: float | None
     warnings: tuple[str, ...] = field(default=())
     flow: FlowForecast | None = None
+    heating: HeatingForecast | None = None
 
 
-def forecast(case: Case, *, threads: int = 1) -> Forecast:
-    """Forecast of a case, without allocating its particles."""
-    recipe = recipe_of(case)
+def forecast(case: Case, *, threads: int = 1, recipe: Recipe[Any, Any] | None = None) -> Forecast:
+    """Forecast of a case, without allocating its particles.
+
+    Args:
+        recipe: of the case, where there is one already: its estimates are not made again.
+    """
+    recipe = recipe_of(case) if recipe is None else recipe
     layers, steps = recipe.layers, recipe.step_forecast()
     spacing, count = layers.spacing, layers.particle_count
     pairs = active_pairs(recipe)
-    length, penetration = _lengths(case)
+    heating = heating_forecast(case, recipe.heating)
     is_fine = layers.thickness <= spacing * (1.0 + 1e-9)
     return Forecast(
         particles=count,
@@ -69,10 +74,11 @@ def forecast(case: Case, *, threads: int = 1) -> Forecast:
         binding=binding_limit(steps.limits)[0],
         steps=steps.steps,
         wall_time=sum(span.seconds for span in spans_of(recipe, steps, threads)),
-        absorption_length=length,
-        penetration=penetration,
-        warnings=(*_warnings(case, layers, length, penetration), *recipe.warnings()),
+        absorption_length=None if case.laser is None else absorption_length(case),
+        penetration=None if case.laser is None else penetration_depth(case),
+        warnings=(*run_warnings(case, layers, recipe.curve, heating), *recipe.warnings()),
         flow=recipe.flow,
+        heating=heating,
     )
 
 
@@ -91,48 +97,3 @@ def spans_of(recipe: Recipe[Any, Any], steps: StepForecast, threads: int) -> tup
         Span(phase.name, phase.end, phase.steps * (phase.products * product + SECONDS_PER_STEP))
         for phase in steps.phases
     )
-
-
-def _lengths(case: Case) -> tuple[float | None, float | None]:
-    """Absorption length and thermal penetration of a pulse [m] [Alshaer2017, eq. (34)]."""
-    if case.laser is None:
-        return None, None
-    alpha = case.laser.absorption_coefficient(case.material)
-    duration = case.laser.pulse.on_time or 100.0 * case.laser.pulse.resolution
-    return 1.0 / alpha, sqrt(case.material.diffusivity_reference * duration)
-
-
-def _warnings(
-    case: Case, layers: Layers, length: float | None, penetration: float | None
-) -> list[str]:
-    found = [text] if (text := what_is_not_shown(case)) else []
-    spacing = layers.spacing
-    if abs(spacing - case.particles.spacing) > 1e-2 * case.particles.spacing:
-        found.append(
-            f"spacing {format_quantity(case.particles.spacing, 'm')} is rounded to "
-            f"{format_quantity(spacing, 'm')} so that whole cells fill the domain"
-        )
-    if penetration is not None and spacing > penetration / 3.0:
-        found.append(
-            f"the heat of a pulse reaches {format_quantity(penetration, 'm', 3)}, less than 3 "
-            f"spacings of {format_quantity(spacing, 'm', 3)}: take a finer spacing"
-        )
-    if length and spacing > length:
-        found.append(
-            f"the light is absorbed within {format_quantity(length, 'm', 3)}, less than one"
-            f" spacing of {format_quantity(spacing, 'm', 3)}: its profile is not resolved, though"
-            " its energy is exact"
-        )
-    if penetration is not None and layers.thickness.sum() < 5.0 * penetration:
-        found.append("the domain is thinner than 5 penetration depths: the bottom will be felt")
-    if case.laser is not None and not case.laser.pulse.delivered(0.0, case.time.end) > 0.0:
-        found.append("no light falls before time.end: nothing will be heated")
-    changes = case.solver.phase_change and (case.laser is not None or case.material.melting)
-    if changes and case.material.vaporization is None:
-        found.append(
-            f'"{case.material.name}" has no boiling point: its temperature rises without limit; '
-            "give temperature and latent_heat in [material.vaporization]"
-        )
-    if case.time.is_fixed:
-        found.append("the time step is fixed: it may be unstable")
-    return found

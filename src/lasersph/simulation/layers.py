@@ -14,9 +14,13 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers, stack
 
 ESTIMATE_COLUMNS = 8
+"""Columns of the 1-D estimate of the melt depth. Forecast: it tells the fine depth."""
 LEAST_FINE_LAYERS = 8
+"""Finest layers at least. Geometry: two supports of 3.75 spacings, so that surface and the first
+graded layer do not meet."""
 ABSORPTION_LENGTHS = 12.0
-"""Depth of the finest layers in units of 1/alpha, at least: light of exp(-12) goes deeper."""
+"""Depth of the finest layers in units of 1/alpha, at least. Accuracy: exp(-12) = 6e-6 of the light
+goes deeper."""
 
 
 def caloric_curve(case: Case) -> CaloricCurve:
@@ -56,8 +60,17 @@ def expected_melt(case: Case, vapor: Vapor | None = None) -> MeltEstimate | None
     Args:
         vapor: what leaves the surface, to be told how much evaporates; layers do not count on it.
     """
+    melts = case.solver.phase_change and case.material.melting is not None
+    return expected_heating(case, vapor) if melts else None
+
+
+def expected_heating(case: Case, vapor: Vapor | None = None) -> MeltEstimate | None:
+    """How hot light will make the surface, of metals that do not melt as well; None without light.
+
+    Where a plateau holds the boiling temperature it also says how much metal that keeps.
+    """
     laser = case.laser
-    if laser is None or not case.solver.phase_change or case.material.melting is None:
+    if laser is None:
         return None
     if case.pause != "compute":
         laser = laser.first_pulse
@@ -84,8 +97,17 @@ def expected_melt(case: Case, vapor: Vapor | None = None) -> MeltEstimate | None
         absorption_coefficient=laser.absorption_coefficient(case.material),
         reflectivity=lambda surface: np.interp(surface, T, R),
         fluence=fluence,
-        delivered=lambda start, end: float(laser.pulse.delivered(start, end)),
+        delivered=laser.pulse.delivered,
         end_time=case.end_of_pulse,
         column_width=column_width,
         vapor=vapor,
+        boiling=_start_of_boiling(curve),
     )
+
+
+def _start_of_boiling(curve: CaloricCurve) -> tuple[float, float] | None:
+    """Enthalpy at which a plateau holds the boiling temperature, and latent heat of vaporization
+    [J/kg]; None where none does."""
+    if curve.vaporization is None or curve.plateau == "evaporate":
+        return None
+    return float(curve.enthalpy_at(curve.vaporization)), curve.latent_heats[1]

@@ -7,17 +7,24 @@ itself; kinds that have not been met yet are corrected as those that have.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from lasersph.input import format_duration, format_quantity
+
 FORGET = 0.99
-"""What counts of earlier steps, at each step: a pool grows, and so does the cost of its steps."""
+"""What counts of earlier steps, at each step: a pool grows, and so does the cost of its steps.
+Display: the time that is left is told from the last hundred."""
 OUTLIER = 5.0
-"""Times the usual that a step may count: loops are compiled or loaded in steps that take longer."""
+"""Times the usual that a step may count. Display: loops are compiled or loaded in steps that take
+longer."""
+LINES = 10
+"""Lines of a whole run. Display: what a log can be read at a glance."""
 LEAST_STEPS = 5
-"""Steps before anything is said of the time that remains."""
+"""Steps before anything is said of the time that remains. Display: the first ones compile loops."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +43,32 @@ class RunProgress:
     hottest: float
     work_done: float
     remaining_s: float | None = None
+
+    def __str__(self) -> str:
+        """Part of the work, simulated time, steps, highest temperature, time left if known."""
+        left = self.remaining_s
+        return ", ".join(
+            [
+                f"{100 * min(self.work_done, 1.0):3.0f} %  {format_quantity(self.time, 's')}",
+                f"step {self.steps}",
+                f"{self.hottest:.0f} K",
+                *([] if left is None else [f"{format_duration(left)} left"]),
+            ]
+        )
+
+
+class ProgressLines:
+    """Prints how far a run is on standard error, in some lines over all of it."""
+
+    def __init__(self) -> None:
+        self._shown = 0
+
+    def __call__(self, status: RunProgress) -> None:
+        """Print a line where the next part of the run is done."""
+        parts = int(LINES * min(status.work_done, 1.0))
+        if parts > self._shown:
+            self._shown = parts
+            print(status, file=sys.stderr, flush=True)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from math import isclose
 from lasersph.case import Case
 
 SAME = 1e-9
-"""Share of the width by which an axis may miss the edge."""
+"""Share of the width by which an axis may miss the edge. Rounding: of lengths."""
 
 
 def halves_spot(case: Case) -> tuple[bool, bool]:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import platform
 import time as clock
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -18,22 +19,30 @@ import numpy as np
 
 from lasersph import __version__, compute
 from lasersph.case import Case
-from lasersph.case.checks import refuse_if_too_large
 from lasersph.input import format_quantity
+from lasersph.input.text_table import text_table
 from lasersph.observers import Observer, Observers, numerical_sd
+from lasersph.observers.declared import KEY as OWN_OBSERVERS
+from lasersph.observers.declared import declarations
+from lasersph.observers.run_warnings import event_warnings, found_warnings
 from lasersph.observers.snapshots import UNITS, snapshot_fields
 from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
-from lasersph.output.run_folder import Origin
+from lasersph.output.history import read_events
+from lasersph.output.run_owner import END as END_OF_CASE
+from lasersph.output.run_owner import Origin
 from lasersph.output.settings import SnapshotSchedule
+from lasersph.simulation.acceptance import accepted_forecast
 from lasersph.simulation.forecast import spans_of
-from lasersph.simulation.progress import RemainingTime, RunProgress
+from lasersph.simulation.known_loops import compiling_ahead
+from lasersph.simulation.progress import ProgressLines, RemainingTime, RunProgress
 from lasersph.simulation.recipes import Recipe, recipe_of
 from lasersph.solvers.step_control import PAUSE, Solver, StepFailed, choose_step
 
 PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
 END = 1.0 - 1e-12
+"""Share of the end of a run from which it has been reached. Rounding: of sums of steps."""
 
 
 Progress = Callable[[RunProgress], None]
@@ -42,14 +51,32 @@ Progress = Callable[[RunProgress], None]
 
 @dataclass(frozen=True)
 class Result:
-    """What a run leaves: its folder and the numbers of summary.json."""
+    """A run at its end: its folder and the numbers of summary.json; printed, the main ones."""
 
     folder: Path
-    summary: dict[str, Any]
+    summary: dict[str, Any] = field(repr=False)
+
+    def __str__(self) -> str:
+        """The main numbers as a table, warnings, and the folder."""
+        from lasersph.report.tables import summary_rows
+
+        told = [f"warning: {text}" for text in self.summary.get("warnings", ())]
+        return "\n".join(
+            [text_table(summary_rows(self.summary)), *told, f"{self.folder}: complete"]
+        )
 
 
 class Stopped(Exception):
     """The run was asked to stop; its checkpoint is written."""
+
+
+class RunWarning(UserWarning):
+    """Read it before the numbers of a run are used."""
+
+
+def show_warning(text: str) -> None:
+    """Show a warning where `run` is called, as Python shows warnings."""
+    warnings.warn(text, RunWarning, stacklevel=4)
 
 
 def run(
@@ -57,58 +84,113 @@ def run(
     out: str | Path,
     *,
     resume: bool = False,
+    same_case: bool = False,
+    overwrite: bool = False,
     wait: float = 0.0,
     threads: int | None = None,
     precision: str = "float64",
     backend: str = "cpu",
     recipe: type[Recipe[Any, Any]] | None = None,
     observers: Sequence[Observer] = (),
-    progress: Progress | None = None,
+    progress: Progress | bool = False,
+    warn: Callable[[str], None] | None = show_warning,
+    anyway: bool = False,
     should_stop: Callable[[], bool] = lambda: False,
 ) -> Result:
     """Compute a case into a run folder.
 
     Args:
-        out: folder of the run; must be new or empty unless `resume`.
-        resume: continue from the last checkpoint in `out`; from the start where there is none.
+        out: folder of the run; must be new or empty unless `resume` or `overwrite`.
+        resume: continue from the last checkpoint in `out`; from the start where there is none. The
+            case may have a later end, and write its output at other times: a run that is complete
+            then goes on from its end.
+        same_case: refuse to resume with any change, for runs whose numbers are compared.
+        overwrite: replace the run that `out` holds, once the case is found right.
         wait: how long another process that computes in `out` may take to leave it [s].
         threads: None takes all processors. precision: "float64" or "float32".
         backend: "cpu", or "cuda" for a graphics card. Either continues what the other began.
         recipe: a class of one's own in place of that of the case's solver, with terms, boundaries
             or a solver of one's own. observers: of one's own, beside those of the recipe.
+        progress: True prints ten lines on standard error, with the time that is left; a function
+            is called with a `RunProgress` after each step.
+        warn: called with each warning, before the first step and at the end; None where it is
+            enough that run.log and the summary hold them.
+        anyway: start what needs more memory than there is; a warning says so.
         should_stop: asked after each step; True writes a checkpoint and raises `Stopped`.
 
     Raises:
         CaseError: too large for this machine or its card. ValueError: two observers with
-            the same column. FolderRefused, OutputError: see `output`.
+            the same column; both `resume` and `overwrite`.
+        FolderRefused, OutputError: see `output`.
         NoDevice: no graphics card for backend "cuda".
         StepFailed: a step does not converge however small; the last checkpoint is kept.
     """
-    refuse_if_too_large(case, backend)
+    if resume and overwrite:
+        raise ValueError("a run is resumed or overwritten, not both")
     Observers(observers)  # refuses them before anything is written
     device = compute.cuda(precision) if backend == "cuda" else compute.cpu(threads, precision)
     chosen = recipe_of(case) if recipe is None else recipe(case)
     own = "" if recipe is None else f"-{recipe.__name__}"
     origin = _origin(case, precision + own)
+    if same_case:
+        origin = replace(origin, changeable=())
+    if resume and (done := RunFolder.complete(out, origin)) is not None:
+        _say_each(done.summary.get("warnings", ()), warn)
+        return Result(done.path, done.summary)
+    expected = accepted_forecast(case, backend, recipe=chosen, anyway=anyway).warnings
     if resume:
         folder, checkpoint = RunFolder.resume(out, origin, wait=wait)
     else:
-        folder, checkpoint = RunFolder.create(out, origin, wait=wait), None
+        folder = RunFolder.create(out, origin, overwrite=overwrite, wait=wait)
+        checkpoint = None
     try:
-        if folder.is_complete:
+        if folder.is_complete:  # by the process that was waited for
+            _say_each(folder.summary.get("warnings", ()), warn)
             return Result(folder.path, folder.summary)
-        loop = _Loop(case, chosen, chosen.build(device), folder, observers)
-        loop.begin(checkpoint)
-        loop.go(progress, should_stop)
-        return Result(folder.path, loop.finish())
+        expected = (*expected, *_keep_layers(chosen, folder))
+        _say_each(expected, warn)
+        with compiling_ahead(case):
+            loop = _Loop(case, chosen, chosen.build(device), folder, observers)
+            loop.begin(checkpoint, expected)
+            loop.go(ProgressLines() if progress is True else progress or None, should_stop)
+        summary = loop.finish()
+        _say_each((text for text in summary["warnings"] if text not in expected), warn)
+        return Result(folder.path, summary)
     finally:
         folder.close()
+
+
+def _say_each(texts: Iterable[str], warn: Callable[[str], None] | None) -> None:
+    """Hand on warnings to who shows them."""
+    if warn is not None:
+        for text in texts:
+            warn(text)
 
 
 def _origin(case: Case, variant: str) -> Origin:
     versions = {"lasersph": __version__, "python": platform.python_version()}
     versions |= {name: version(name) for name in PACKAGES}
-    return Origin(case.text, case.resolved(), versions, f"{case.hash()}-{variant}")
+    # where pauses are jumped over, the end says how long each pulse is computed
+    changeable = ("output", END_OF_CASE) if case.pause == "compute" else ("output",)
+    case_hash = f"{case.hash()}-{variant}"
+    return Origin(case.text, case.resolved(), versions, case_hash, changeable)
+
+
+def _keep_layers(recipe: Recipe[Any, Any], folder: RunFolder) -> list[str]:
+    """Give a recipe the layers that a run of another end began with; warnings where they differ."""
+    first, case = folder.started_with.get(END_OF_CASE), recipe.case
+    if first is None:
+        return []
+    time = case.time.model_copy(update={"end": first})
+    layers, usual = type(recipe)(case.model_copy(update={"time": time})).layers, recipe.layers
+    recipe.layers = layers
+    if layers.particle_count == usual.particle_count:
+        return []
+    ends = [format_quantity(end, "s") for end in (first, case.time.end)]
+    return [
+        f"the {layers.particle_count} particles were laid out for an end of {ends[0]}; a run begun "
+        f"with {ends[1]} has {usual.particle_count}, which are fine down to another depth"
+    ]
 
 
 class _Loop:
@@ -131,11 +213,12 @@ class _Loop:
         self.started = clock.monotonic()
         self._remaining: RemainingTime | None = None
 
-    def begin(self, checkpoint: Checkpoint | None) -> None:
-        """Start at rest, or where the checkpoint left off."""
+    def begin(self, checkpoint: Checkpoint | None, expected: Sequence[str]) -> None:
+        """Start at rest, or where the checkpoint left off; note the warnings of the forecast."""
         if checkpoint is None:
             self.folder.log(f"{self.case.name}: {self.solver.particle_count} particles")
             self.folder.events.append("started", time=0.0, step=0, backend=self._backend.name)
+            self._warn(expected, 0.0)
             self._observe()
             return
         scalars = checkpoint.scalars
@@ -143,11 +226,19 @@ class _Loop:
         self.wall_before = scalars["wall_time"]
         self.solver.restore(dict(checkpoint.arrays), scalars["solver"])
         self.observers.restore(scalars["observers"])
-        self.snapshots.restore(scalars["snapshots"])
+        self.snapshots.restore(scalars["snapshots"], checkpoint.time)
         self.folder.log(f"resumed at step {self.steps}, {format_quantity(checkpoint.time, 's')}")
         self.folder.events.append(
             "resumed", time=checkpoint.time, step=self.steps, backend=self._backend.name
         )
+        self._warn(expected, checkpoint.time)
+
+    def _warn(self, expected: Sequence[str], time: float) -> None:
+        """Note the warnings that the folder does not hold yet; `time` in seconds."""
+        known = event_warnings(read_events(self.folder.events.path))
+        for text in expected:
+            if text not in known:
+                self.folder.warn(text, time, self.steps)
 
     def go(self, progress: Progress | None, should_stop: Callable[[], bool]) -> None:
         """Step until the end of the case."""
@@ -232,6 +323,7 @@ class _Loop:
         state = self.solver.state
         if self.solver.is_steady:
             self._snapshot(self._view())
+        self._save(is_last=True)
         summary = {
             "case": self.case.name,
             "title": self.case.title,
@@ -253,6 +345,12 @@ class _Loop:
             **self.recipe.summary(),
         }
         summary["numerical_sd"] = numerical_sd(summary)
+        if own := declarations(self.observers.members):
+            summary[OWN_OBSERVERS] = own
+        found = found_warnings(summary, self.observers.last)
+        for text in found:
+            self.folder.log(f"warning: {text}")
+        summary["warnings"] = [*event_warnings(read_events(self.folder.events.path)), *found]
         relief = self._view().relief
         if relief is not None:
             self.folder.write_profile(relief.x, relief.height)
@@ -279,7 +377,7 @@ class _Loop:
             line = np.array([view.relief.x, view.relief.height])
             self.folder.surface.append(view.time, line, {})
 
-    def _save(self) -> None:
+    def _save(self, *, is_last: bool = False) -> None:
         state, backend = self.solver.state, self._backend
         self.folder.save_checkpoint(
             step=self.steps,
@@ -292,6 +390,7 @@ class _Loop:
                 "observers": self.observers.state(),
                 "snapshots": self.snapshots.state(),
             },
+            is_last=is_last,
         )
 
     def _wall_time(self) -> float:

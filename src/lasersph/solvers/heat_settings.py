@@ -14,21 +14,25 @@ class HeatSettings(SolverSettings):
     """How heat and changes of phase are computed."""
 
     bytes_per_neighbor: ClassVar[int] = 36
-    """Index and weight, and their copies while the list is assembled."""
+    """Memory of a neighbor [B]: index and weight, and their copies while the list is assembled.
+    Forecast: as measured; nothing computed depends on it."""
 
     kind: str
     dimensions: Literal[1, 2, 3] = Field(
         default=2, description="of space: z alone, x and z, or x, y and z"
     )
+    """Dimensions of space. Source: [Demuth2020] computes in 2-D."""
     plateau: Literal["hold", "clip", "evaporate"] = Field(
         default="hold",
         description="at the vaporization temperature: hold it for any enthalpy; clip the enthalpy "
         "at the full latent heat; or no plateau but a surface that evaporates",
     )
-    vaporization: Literal["plateau", "flux"] = Field(
-        default="plateau",
+    vaporization: Literal["plateau", "flux"] | None = Field(
+        default=None,
         description="what holds at the vaporization temperature: the plateau; or none, and vapor "
-        "leaves a surface that may be hotter, against boundaries.ambient_pressure",
+        "leaves a surface that may be hotter, against boundaries.ambient_pressure, and pushes one "
+        "that moves; default: flux where the surface of a pool moves, unless plateau is given, "
+        "else the plateau",
     )
     phase_change: bool = Field(default=True, description="false: neither melting nor vaporization")
     weights: Literal["second-moment", "plain"] = Field(
@@ -38,6 +42,8 @@ class HeatSettings(SolverSettings):
     tolerance: Annotated[float, Field(gt=0, lt=1e-2)] = Field(
         default=1e-8, description="residual of a step over the absorbed energy"
     )
+    """Accuracy: the balance of a run closes to it or better, and the reference program of the
+    texturing cases has the same."""
 
     @model_validator(mode="after")
     def _check_plateau(self) -> HeatSettings:

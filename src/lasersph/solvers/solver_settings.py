@@ -16,7 +16,8 @@ class SolverSettings(Model):
     reads: ClassVar[frozenset[str]] = frozenset()
     """Of the keys of a case that not every solver reads, those that this one does."""
     bytes_per_particle: ClassVar[int] = 400
-    """Fields, what is kept of them for a checkpoint, and vectors of a step [B]."""
+    """Memory of a particle [B]: fields, what is kept of them for a checkpoint, and vectors of a
+    step. Forecast: as measured; nothing computed depends on it."""
     bytes_per_neighbor: ClassVar[int]
     """Most memory that a particle takes for each neighbor with which it is computed [B]."""
 

@@ -23,9 +23,10 @@ TARGETS = ("end", "pulse edge", "snapshot")
 PAUSE = "pause"
 """Limit of a step that jumps over a pause between pulses; a solver names no other beside it."""
 ROUNDING = 1e-9
-"""Share of a step by which it is stretched to hit a time, so that sums of steps may round."""
+"""Share of a step by which it is stretched to hit a time. Rounding: of sums of steps."""
 RETRIES = 8
-"""How often a step is halved before it counts as failed: a 256th of it is the last one tried."""
+"""How often a step is halved before it counts as failed. Guard: a 256th of it is the last one
+tried."""
 
 
 class StepFailed(RuntimeError):

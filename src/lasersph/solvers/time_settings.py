@@ -26,13 +26,18 @@ class TimeSettings(Model):
     temperature_change: Annotated[TemperatureDifference, Field(gt=0)] = Field(
         default=50.0, description="aimed at per step, by the fastest particle (implicit)"
     )
+    """[K]. Accuracy: errors are proportional to it. `dlip-steel` of heat alone (32 nm, `time.step`
+    1 ns) melts 2.579, 2.597, 2.606, 2.610 and 2.612 e-13 m2 with 200, 100, 50, 25 and 12.5 K, 0.3 %
+    too little at 50 K; shipped cases limit the step by a time beside it."""
     cooling: Annotated[float, Field(gt=0, le=1)] = Field(
         default=0.005,
         description="largest step after a pulse, over the time since its light (implicit)",
     )
+    """Accuracy: temperatures fall as t^-1/2, so that 0.5 % of the time is 0.25 % of the rise."""
     growth: Annotated[float, Field(gt=1, le=10)] = Field(
         default=1.25, description="of the step, at most, from one to the next"
     )
+    """Cost: first guesses extrapolate the last two steps, and a smooth course is guessed well."""
 
     pause: Literal["compute", "spread", "remove"] | None = Field(
         default=None,

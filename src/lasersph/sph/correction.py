@@ -28,8 +28,15 @@ from lasersph.compute.vectors import (
 from lasersph.particles.neighbor_lists import NeighborList
 
 LEAST_DETERMINANT, MOST_DETERMINANT = 0.6, 1.6
+"""Range of det M within which C is its inverse. Guard: M grows as the density of the particles, and
+det M as its square, so that the bounds are 0.77 to 1.26 of it. On lattices disturbed by up to 0.3
+spacings det M is 0.69 to 1.28, with particles 1.3 times as dense 1.69; with half of the neighbors
+gone it is 0.34 to 0.37, the inverse would amplify noise, and C = 1 is taken
+(`tests/unit/sph/test_correction_bounds.py`)."""
 MOST_ANISOTROPY = 5.5
-"""Largest (tr M)^2 / det M in 2-D; 4 for M = 1."""
+"""Largest (tr M)^2 / det M in 2-D. Guard: it is 4 for M = 1, 4.2 at most on disturbed lattices, 4.6
+to 5.4 in a strip of two rows; 5.5 is a ratio of 3.2 of the two directions, thinner than that (the
+same test)."""
 
 
 def correction_term(V_j, x_ij, r_ij, dW_ij):

@@ -19,7 +19,8 @@ from lasersph.compute.vectors import dot
 from lasersph.particles.neighbor_lists import NeighborList
 
 SURFACE_THRESHOLD = {1: 0.64, 2: 1.5, 3: 2.4}
-"""Below it a particle of a lattice lies in the top layer, by dimension (cubic spline, h = 1.5 dx);
+"""Below it a particle of a lattice lies in the top layer, by dimension (cubic spline, h = 1.5 dx).
+Geometry: the top and the second layer have 0.494 and 0.790, 1.231 and 1.799, 1.985 and 2.810;
 [Alshaer2017] gives 2.4, which is for 3-D only."""
 
 

@@ -15,8 +15,9 @@ from lasersph.compute.vectors import norm
 from lasersph.sph.divergence import position_term
 
 SMALLEST_NORMAL = 0.02
-"""Length of sum_j V_j grad W_ij times the spacing [1] below which no direction is outward; at a
-flat surface it is 0.4 to 0.5 (cubic spline, h = 1.5 dx)."""
+"""Length of sum_j V_j grad W_ij times the spacing below which no direction is outward. Guard: at a
+flat surface it is 0.4 to 0.5 (cubic spline, h = 1.5 dx); a twentieth of that is a particle alone in
+space."""
 
 
 def surface_terms(V_j, o_j, x_ij, r_ij, dW_ij):

@@ -15,7 +15,8 @@ from __future__ import annotations
 from lasersph.compute.vectors import dot
 
 SMALLEST_CONDUCTIVITY = 1e-30
-"""What a sum of two conductivities is divided by at least [W/(m K)]."""
+"""Least divisor of a sum of two conductivities [W/(m K)]. Format: keeps 0 / 0 from two particles
+that do not conduct."""
 
 
 def diffusion(G_i, G_j, f_i, f_j, V_j, r_ij, dW_ij):

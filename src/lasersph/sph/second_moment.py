@@ -33,7 +33,11 @@ Array = NDArray[np.float64]
 KEPT = 3 * GHOSTS
 """Layers kept of a uniform stretch; the others repeat them."""
 LARGEST_SAMPLE = 4096
+"""Columns over which rows of different width repeat, at most. Geometry: a longer pattern is cut,
+and the conditions hold to 1 / 4096 of a period."""
 PULL = 1e-3
+"""Weight of keeping the factors near 1 against meeting the moments, in the least squares sense.
+Accuracy: 1e-6 in the sum, so that moments are met where they can be."""
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaincc
 
+from lasersph.input import format_quantity
+from lasersph.report.tables import unit_of
 from lasersph.studies.calibration_plan import CalibrationPlan, NoCalibration
 from lasersph.studies.calibration_profile import ProfileFit, reduce_profiles
 from lasersph.studies.emulator import Emulator, box_of, fit_emulator
@@ -120,9 +122,10 @@ class Calibration:
                 one.values[column].sd for one in self.plan.conditions if column in one.values
             )
             if error > least:
+                known, measured = (format_quantity(one, unit_of(column)) for one in (error, least))
                 found.append(
-                    f"runs predict {column} of one another to {error:.3g}, worse than it was "
-                    f"measured ({least:.3g}): allow more runs or narrower bounds"
+                    f"runs predict {column} of one another to {known}, worse than it was "
+                    f"measured ({measured}): allow more runs or narrower bounds"
                 )
         if self.ratio > GOOD_ENOUGH:
             found.append(

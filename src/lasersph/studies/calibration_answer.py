@@ -12,7 +12,10 @@ from numpy.typing import NDArray
 
 from lasersph.case.overrides import override
 from lasersph.input.schema import as_toml
+from lasersph.input.shown_unit import ShownUnit, units_written
+from lasersph.plots.calibration import unit_of_unknown
 from lasersph.studies.calibration import Calibration, Settings
+from lasersph.studies.calibration_plan import CalibrationPlan
 from lasersph.studies.calibration_profile import COMPONENT, ProfileFit
 from lasersph.studies.identifiability import told_apart
 from lasersph.studies.measured_value import unit_of_number
@@ -32,7 +35,7 @@ def answer(found: Calibration) -> dict[str, Any]:
     """Content of calibration.json but for the check."""
     plan, posterior, model = found.plan, found.posterior, found.model
     mean, covariance = posterior.mean, posterior.covariance
-    unknowns = {}
+    unknowns, shown = {}, _shown_units(plan)
     for number, one in enumerate(plan.unknowns):
         quantiles = posterior.quantiles(posterior.unknowns[:, number], list(SHARES.values()))
         known = None if one.known is None else [one.known.value, one.known.sd]
@@ -40,6 +43,7 @@ def answer(found: Calibration) -> dict[str, Any]:
             "key": one.key,
             "relation": one.relation,
             "unit": one.unit,
+            "shown_unit": shown[one.name]._asdict(),
             "mean": float(mean[number]),
             "sd": float(np.sqrt(covariance[number, number])),
             **{name: float(value) for name, value in zip(SHARES, quantiles, strict=True)},
@@ -83,6 +87,9 @@ def answer(found: Calibration) -> dict[str, Any]:
         "schema_version": SCHEMA,
         "case": Path(plan.template.file.document.file).stem,
         "units": dict(plan.units),
+        "shown_units": {
+            key: unit._asdict() for key, unit in units_written(plan.text, plan.units).items()
+        },
         "unknowns": unknowns,
         "covariance": covariance.tolist(),
         "combinations": combinations,
@@ -95,6 +102,16 @@ def answer(found: Calibration) -> dict[str, Any]:
         "runs": len(found.settings),
         "failed_runs": sum(one is None for one in found.numbers),
         "warnings": found.warnings(),
+    }
+
+
+def _shown_units(plan: CalibrationPlan) -> dict[str, ShownUnit]:
+    """Of each unknown the unit in which the plan gives its limits, by its name or its key."""
+    by_name = units_written(plan.text, {one.name: one.unit for one in plan.unknowns})
+    by_key = units_written(plan.text, {one.key: one.unit for one in plan.unknowns})
+    return {
+        one.name: by_name[one.name] if by_name[one.name].name != one.unit else by_key[one.key]
+        for one in plan.unknowns
     }
 
 
@@ -137,10 +154,12 @@ def answer_lines(content: dict[str, Any]) -> list[str]:
     for name, one in content["unknowns"].items():
         if not one["is_fixed_by_data"]:
             continue
-        unit = f" {one['unit']}" if one["unit"] else ""
+        unit = unit_of_unknown(one)
+        mean, low, high = (unit.number(one[part]) for part in ("mean", "low_95", "high_95"))
+        name_of_unit = f" {unit.name}" if unit.name else ""
         lines.append(
-            f"{name} = {one['mean']:.5g} +- {one['sd']:.2g}{unit} (95 %: {one['low_95']:.5g} to "
-            f"{one['high_95']:.5g}{unit}); {100.0 * one['emulators_share_of_variance']:.2g} % of "
+            f"{name} = {mean:.5g} +- {one['sd'] / unit.size:.2g}{name_of_unit} (95 %: {low:.5g} to "
+            f"{high:.5g}{name_of_unit}); {100.0 * one['emulators_share_of_variance']:.2g} % of "
             "the variance is the emulator's"
         )
     for one in content["profiles"]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import ceil, log2
 from pathlib import Path
 from typing import Any, Literal
 
@@ -59,9 +60,9 @@ class Threshold:
 
 
 def show_energy(key: str, value: float, digits: int = 5) -> str:
-    """An energy in SI with the unit in which a user thinks of it."""
+    """An energy in SI with the unit in which a user thinks of it, always to as many digits."""
     unit, factor = UNITS[key.rpartition(".")[2]]
-    return f"{value * factor:.{digits}g} {unit}"
+    return f"{f'{value * factor:#.{digits}g}'.rstrip('.')} {unit}"
 
 
 def threshold(
@@ -121,6 +122,12 @@ def threshold(
     return Threshold(of, search.key, below, above, tuple(search.trials))
 
 
+def usual_runs(tolerance: float) -> int:
+    """Runs of a search whose first guess lies within a factor of 2 of the threshold: two that
+    bracket it, a third of their middle to either side, and halvings."""
+    return 2 + max(0, ceil(log2(1.0 / (3.0 * tolerance))))
+
+
 class _Search:
     """What is known of a threshold, and which value follows from that."""
 
@@ -147,8 +154,10 @@ class _Search:
         return changed(self.case, self.key, value)
 
     def folder(self, value: float) -> Path:
-        """Of the run with this energy."""
-        return self.out / f"{self.key.partition('.')[2]}-{value:.8g}"
+        """Of the run with this energy, in the unit that `show_energy` has."""
+        name = self.key.partition(".")[2]
+        older = self.out / f"{name}-{value:.8g}"  # in SI, until November 2026
+        return older if older.exists() else self.out / f"{name}-{value * UNITS[name][1]:.8g}"
 
     def ends(self, known: Mapping[float, bool]) -> tuple[float | None, float | None]:
         """The highest value without and the lowest with the event; None where none is known."""

@@ -4,7 +4,7 @@ For each number: observed order p, Richardson's value at vanishing spacing and t
 index of the finest run (see `analytic.convergence`; Roache). Three spacings are needed; of more,
 the three finest count. What the case sets and what counts the computation's work is left out.
 
-Sizes of a pool are counted in whole cells and times in steps. Their uncertainty is at least one
+Widths of a pool are counted in whole cells and times in steps. Their uncertainty is at least one
 cell (two for a width of which half is computed) or step of the finest run, however well runs agree.
 """
 
@@ -20,6 +20,7 @@ from typing import Any
 from lasersph.analytic.convergence import Convergence, assess
 from lasersph.input import format_quantity
 from lasersph.observers.energy_budget import NUMERICAL
+from lasersph.report.tables import in_words, unit_of
 from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
 NOT_ANSWERS = re.compile(
@@ -30,7 +31,7 @@ NOT_ANSWERS = re.compile(
     r"|probes\..*\.(depth_m|x_m|y_m|depth_used_m))"
 )
 """Numbers of the summary that the case sets or that belong to the computation."""
-WHOLE_CELLS = re.compile(r"(melt|vaporization)\.(depth|width)(_any)?_max_m")
+WHOLE_CELLS = re.compile(r"(melt\.width|vaporization\.depth)(_any)?_max_m")
 TIMES = re.compile(r".*(?<!_m)(?<!_m2)(?<!_K)_s")
 """Keys whose unit is s, not m/s, m^2/s or K/s."""
 
@@ -65,8 +66,9 @@ class SpacingStudy:
         head, lines = ["number", *spacings, "behavior", "order", "at zero spacing", "GCI"], []
         for row in self.rows:
             c = row.convergence
-            texts = [row.name, *(_shown(v) for v in row.values), c.kind, _shown(c.order, "{:.2f}")]
-            lines.append([*texts, _shown(c.extrapolated), _shown(100.0 * c.gci, "{:.2g} %")])
+            shown = [_in_its_unit(row.name, value) for value in (*row.values, c.extrapolated)]
+            texts = [row.name, *shown[:-1], c.kind, _shown(c.order, "{:.2f}"), shown[-1]]
+            lines.append([*texts, _shown(100.0 * c.gci, "{:.2g} %")])
         return lines, head
 
     def as_dict(self) -> dict[str, Any]:
@@ -185,5 +187,10 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
-def _shown(value: float, form: str = "{:.6g}") -> str:
+def _in_its_unit(name: str, value: float) -> str:
+    """A number of a summary by its key, with its unit."""
+    return "-" if math.isnan(value) else in_words(value, unit_of(name), typographic=False)
+
+
+def _shown(value: float, form: str) -> str:
     return "-" if math.isnan(value) else form.format(value)

@@ -74,10 +74,7 @@ def assess_uncertainty(
     Returns:
         The content of uncertainty.json, see docs/results.md.
     """
-    chosen = list({one.key: one for one in [*inputs_of(case), *inputs]}.values())
-    melt = expected_melt(case)
-    fixed = with_fixed_layers(case, melt)
-    coarser = coarser_cases(fixed, melt)
+    chosen, fixed, coarser = _plan(case, inputs)
     total = 2 * len(chosen) + (0 if isinstance(coarser, str) else len(coarser))
     study = _Companions(folder / "companions", run, report, total)
     if isinstance(coarser, str):  # said before hours of runs, not after
@@ -108,6 +105,21 @@ def assess_uncertainty(
     }
     replace_json(folder / FILE, content)
     return content
+
+
+def runs_of_assessment(case: Case, inputs: Sequence[Input] = ()) -> list[Case]:
+    """Cases that cost what the runs of `assess_uncertainty` cost: the case, those that are coarser,
+    and itself for both sides of each input."""
+    chosen, fixed, coarser = _plan(case, inputs)
+    return [case, *(() if isinstance(coarser, str) else coarser), *(2 * len(chosen) * [fixed])]
+
+
+def _plan(case: Case, inputs: Sequence[Input]) -> tuple[list[Input], Case, list[Case] | str]:
+    """Inputs, each once; the case with fixed layers; its coarser companions, or why not."""
+    chosen = list({one.key: one for one in [*inputs_of(case), *inputs]}.values())
+    melt = expected_melt(case)
+    fixed = with_fixed_layers(case, melt)
+    return chosen, fixed, coarser_cases(fixed, melt)
 
 
 class _Companions:

@@ -37,7 +37,7 @@ def simulate(case: Any, folder: Path) -> Finished:
     """Make the run folder of a case exist: find it complete, continue it, or compute it."""
     from lasersph.simulation import run
 
-    return run(case, folder, resume=True)
+    return run(case, folder, resume=True, same_case=True)
 
 
 def changed(model: M, key: str, value: Any) -> M:

@@ -6,6 +6,7 @@ engine     what computes many runs: tasks, events; local: worker processes on th
 dask_engine   the workers of a Dask scheduler; slurm: scripts for that batch system
 folder     the folder that holds the runs and is the truth
 table      one row a run; always made from the folders
+run_warnings   of what the runs warn, each kind once
 make       `make_runs`, which studies and `lasersph sweep` call
 """
 

@@ -70,15 +70,7 @@ class SweepFolder:
 
     def __init__(self, path: Path, study: Study) -> None:
         self.path = path
-        with clear_errors("read", path, FolderRefused):
-            if path.exists() and not path.is_dir():
-                raise FolderRefused(f"{path} is a file, not a folder: choose another name")
-            is_ours = (path / POINTS).exists()
-            foreign = set() if is_ours or not path.is_dir() else _foreign(path)
-        if foreign:
-            raise FolderRefused(f"{path} is not empty and holds no sweep: choose another folder")
-        if is_ours:
-            _refuse_other(path, read_points(path)["study"], study)
+        refuse_other_content(path, study)
         with clear_errors("write", path, FolderRefused):
             (path / RUNS).mkdir(parents=True, exist_ok=True)
         self.study, self._lock = study, FolderLock(path)
@@ -153,6 +145,30 @@ def read_points(folder: Path) -> dict[str, Any]:
     if not (folder / POINTS).exists():
         raise FolderRefused(f"{folder} holds no sweep: it has no {POINTS}")
     return read_json(folder / POINTS)
+
+
+def refuse_other_content(path: Path, study: Study) -> None:
+    """Raise FolderRefused where a folder holds something else than runs of a study."""
+    with clear_errors("read", path, FolderRefused):
+        if path.exists() and not path.is_dir():
+            raise FolderRefused(f"{path} is a file, not a folder: choose another name")
+        is_ours = (path / POINTS).exists()
+        foreign = set() if is_ours or not path.is_dir() else _foreign(path)
+    if foreign:
+        raise FolderRefused(f"{path} is not empty and holds no sweep: choose another folder")
+    if is_ours:
+        _refuse_other(path, read_points(path)["study"], study)
+
+
+def complete_hashes(folder: Path, study: Study) -> set[str]:
+    """Hashes of the cases whose runs are complete; none where there is no folder yet.
+
+    Raises:
+        FolderRefused: it holds something else.
+    """
+    refuse_other_content(folder, study)
+    finished = (folder / RUNS).glob("*/summary.json")
+    return {summary.parent.name.partition("-")[2] for summary in finished}
 
 
 def last_events(folder: Path) -> dict[str, dict[str, Any]]:

@@ -22,6 +22,7 @@ import lasersph.sweeps
 from lasersph.case.checks import LARGEST_COST_SHARE
 from lasersph.case.size import machine_memory, size_of
 from lasersph.compute.threads import available
+from lasersph.simulation import forecast
 from lasersph.sweeps.engine import STOPPED, Event, Report, Task
 
 POLL = 0.1
@@ -131,9 +132,14 @@ class LocalEngine:
 
 def most_workers(tasks: Sequence[Task]) -> int:
     """As many as there are processors, fewer where that many of the largest case need more memory
-    than this machine has."""
-    largest = max(size_of(task.case).bytes for task in tasks)
-    return max(1, int(min(available(), LARGEST_COST_SHARE * machine_memory() / largest)))
+    than this machine has.
+
+    The estimates, which leave out what graded layers add, choose the largest case; what it needs
+    is its forecast, by which a run is accepted or refused.
+    """
+    largest = max((task.case for task in tasks), key=lambda case: size_of(case).bytes)
+    memory = max(size_of(largest).bytes, forecast(largest).memory)
+    return max(1, int(min(available(), LARGEST_COST_SHARE * machine_memory() / memory)))
 
 
 @dataclass

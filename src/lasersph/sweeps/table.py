@@ -18,9 +18,12 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 
 from lasersph.input.model import did_you_mean
+from lasersph.input.shown_unit import ShownUnit, units_written
+from lasersph.observers.quantity import suffix, unit_in
 from lasersph.output.atomic import replace_text
-from lasersph.output.errors import OutputError, install_hint, read_json
-from lasersph.sweeps.folder import RUNS, TABLE, last_events, read_points
+from lasersph.output.errors import OutputError, clear_errors, install_hint, read_json
+from lasersph.report.tables import unit_of
+from lasersph.sweeps.folder import PLAN, RUNS, TABLE, last_events, read_points
 from lasersph.sweeps.points import Value
 
 if TYPE_CHECKING:
@@ -127,28 +130,53 @@ class Table:
         return self.status.count(status)
 
     def header(self) -> list[str]:
-        """Names of the columns of table.csv; those of varied keys end in the unit."""
+        """Names of the columns of `frame`, all in SI; those of varied keys end in the unit."""
         keys = [name_with_unit(key, unit) for key, unit in self.units.items()]
         return ["run", "status", *keys, *self.columns, "wall_time_s", "hash", "reason"]
 
     def records(self) -> Iterator[list[Value | None]]:
-        """The rows of table.csv; None where there is nothing."""
+        """The rows of `frame`, SI; None where there is nothing."""
         for row in self.rows:
             settings = [row.settings.get(key) for key in self.units]
             numbers = [row.numbers.get(name) for name in (*self.columns, "wall_time_s")]
             yield [row.run, row.status, *settings, *numbers, row.hash, row.reason]
 
+    def shown_units(self) -> dict[str, ShownUnit]:
+        """The unit of each varied key in which the plan gives its values."""
+        plan = self.path / PLAN
+        with clear_errors("read", plan):
+            text = plan.read_text(encoding="utf-8") if plan.exists() else ""
+        return units_written(text, self.units)
+
+    def number_unit(self, column: str) -> str:
+        """SI unit of a number of the summaries in runs of this dimension: of an energy J/m in 2-D;
+        empty for a pure number."""
+        found = (row.numbers["dimensions"] for row in self.rows if "dimensions" in row.numbers)
+        return unit_in(unit_of(column), int(next(found, 3)))
+
     def write(self) -> Path:
-        """Write table.csv into the folder, whole or not at all. Raises OutputError."""
+        """Write table.csv into the folder, whole or not at all: varied keys in the units of the
+        plan, numbers in SI, units in the head. Raises OutputError."""
+        units = self.shown_units()
+        head = [f"{key} [{unit.name}]" if unit.name else key for key, unit in units.items()]
+        for column in (*self.columns, "wall_time_s"):
+            unit = self.number_unit(column)
+            head.append(
+                f"{column.removesuffix(suffix(unit_of(column)))} [{unit}]" if unit else column
+            )
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.header())
-        writer.writerows(["" if one is None else one for one in row] for row in self.records())
+        writer.writerow(["run", "status", *head, "hash", "reason"])
+        for row in self.records():
+            for place, unit in enumerate(units.values(), start=2):
+                if isinstance(value := row[place], float):
+                    row[place] = unit.number(value)
+            writer.writerow("" if one is None else one for one in row)
         replace_text(self.path / TABLE, text.getvalue())
         return self.path / TABLE
 
     def frame(self) -> pandas.DataFrame:
-        """The table for pandas, with the columns of table.csv, indexed by run.
+        """The table for pandas, all in SI, the units at the ends of the names, indexed by run.
 
         Raises:
             OutputError: pandas is not installed.

@@ -69,8 +69,10 @@ def make_run(
                 task.case,
                 task.folder,
                 resume=True,
+                same_case=True,
                 threads=threads,
                 progress=progress,
+                warn=None,
                 should_stop=should_stop,
             )
             return Event(task.run, "complete", exit_code=DONE)

@@ -105,6 +105,19 @@ def state_of(name: str, folder: Path) -> State:
     return State(name, word if record["passed"] else "failed", record, changes)
 
 
+def recorded_seconds(name: str, folder: Path, *, quick: bool = False) -> float | None:
+    """Wall time that a validation took when it was recorded [s]; None where that is not known.
+
+    Args:
+        folder: of the records. quick: that of its shortened form.
+    """
+    file = folder / f"{name}.json"
+    if not file.is_file():
+        return None
+    record = json.loads(file.read_text(encoding="utf-8"))
+    return (record.get("short") or {}).get("seconds") if quick else record.get("seconds")
+
+
 def make_record(
     name: str, folder: Path, out: Path, *, threads: int | None = None, backend: str = "cpu"
 ) -> Entry:

@@ -34,7 +34,7 @@ def run_case(case: Case, folder: Path, *, threads: int | None = None, backend: s
         _remove(folder)
         folder.mkdir(parents=True)
         made_by.write_text(maker, encoding="utf-8")
-    run(case, folder, resume=True, threads=threads, backend=backend)
+    run(case, folder, resume=True, threads=threads, backend=backend, warn=None)
     return open_run(folder)
 
 

@@ -1,7 +1,7 @@
 /** Two runs side by side: what differs, numbers, particles and curves with the same scales and time. */
 
-import { chart, History } from "./charts.js";
-import { chip, h, table } from "./dom.js";
+import { chart, History, reliefChart } from "./charts.js";
+import { chip, h, number, quantity, table } from "./dom.js";
 import { getJson, listen } from "./net.js";
 import { http } from "./sources.js";
 import { mount } from "./viewer.js";
@@ -15,10 +15,13 @@ export async function showComparison(place, signal, head, ...ids) {
   const hosts = runs.map(() => h("div", {}));
   const charts = h("div", { class: "charts row" });
   const keys = [...new Set(runs.flatMap((run) => Object.keys(run.resolved)))].sort();
-  const texts = (key) => runs.map((run) => (key in run.resolved ? JSON.stringify(run.resolved[key]).replace(/^"|"$/g, "") : "–"));
+  const textOf = (run, key) => {
+    const value = run.resolved[key], unit = run.units[key];
+    if (value === undefined || value === null) return "–";
+    return unit && typeof value === "number" ? quantity(value, unit, 6) : JSON.stringify(value).replace(/^"|"$/g, "");
+  };
+  const texts = (key) => runs.map((run) => textOf(run, key));
   const differing = keys.map((key) => [key, ...texts(key)]).filter(([key, one, other]) => key !== "title" && one !== other);
-  const words = [...new Set(runs.flatMap((run) => run.numbers.map((one) => one.words)))];
-  const numbers = words.map((word) => [word, ...runs.map((run) => run.numbers.find((one) => one.words === word)?.text ?? "–")]);
   const names = runs.map((run) => run.name);
 
   place.replaceChildren(
@@ -28,9 +31,9 @@ export async function showComparison(place, signal, head, ...ids) {
       h("h2", { class: `key ink-${k + 1}` }, h("a", { href: `#/run/${run.id}` }, run.name), " ", chip(run.state)),
       h("p", { class: "quiet" }, run.title), hosts[k]))),
     charts,
-    h("h2", {}, "Numbers"), table(numbers, ["", ...names]),
+    h("h2", {}, "Numbers"), numbersOf(runs),
     h("h2", {}, "What differs"),
-    differing.length ? table(differing, ["key, SI", ...names]) : h("p", { class: "quiet" }, "The cases are the same."));
+    differing.length ? h("div", { class: "differing" }, table(differing, ["key", ...names])) : h("p", { class: "quiet" }, "The cases are the same."));
 
   // one scale for each field
   const sources = ids.map((id) => http(`api/run/${id}/`));
@@ -67,6 +70,8 @@ export async function showComparison(place, signal, head, ...ids) {
     for (const kind of ["pointerdown", "keydown", "focusin"]) host.addEventListener(kind, () => { leading = k; }, { capture: true });
   }
 
+  const relief = await reliefChart(runs, signal);
+  if (relief) charts.prepend(relief.element);
   const drawn = new Map();
   const draw = () => {
     const titles = new Map();
@@ -81,7 +86,7 @@ export async function showComparison(place, signal, head, ...ids) {
         old.chart.update();
         continue;
       }
-      const found = chart(title, unit, curves, histories.map((history, k) => ({ history, name: names[k] })), end);
+      const found = chart(title, unit, curves, histories.map((history, k) => ({ history, name: names[k], pulses: runs[k].pulses })), end);
       if (old) {
         old.chart.element.replaceWith(found.element);
         old.chart.destroy();
@@ -91,6 +96,7 @@ export async function showComparison(place, signal, head, ...ids) {
   };
   signal.addEventListener("abort", () => {
     for (const viewer of viewers) viewer.destroy();
+    relief?.destroy();
     for (const { chart } of drawn.values()) chart.destroy();
   }, { once: true });
   for (const [k, id] of ids.entries()) {
@@ -101,4 +107,23 @@ export async function showComparison(place, signal, head, ...ids) {
       });
     }, signal);
   }
+}
+
+/** The results of two runs, and by how much the second differs from the first. */
+function numbersOf(runs) {
+  if (!runs.every((run) => run.results.length)) return h("p", { class: "quiet" }, "They are compared when both runs are complete.");
+  const [first, second] = runs.map((run) => new Map(run.results.map((one) => [one.key, one])));
+  const rows = [...new Set([...first.keys(), ...second.keys()])].map((key) => {
+    const [one, other] = [first.get(key), second.get(key)];
+    return [(one ?? other).words, one?.text ?? "–", other?.text ?? "–", differenceOf(one, other)];
+  });
+  return table(rows, ["number", ...runs.map((run) => run.name), "difference"]);
+}
+
+function differenceOf(one, other) {
+  if (!Number.isFinite(one?.value) || !Number.isFinite(other?.value)) return "–";
+  const more = other.value - one.value, sign = more > 0 ? "+" : "−";
+  if (more === 0) return "none";
+  const share = one.value ? `, ${sign}${number(Math.abs((100 * more) / one.value), 2)} %` : "";
+  return `${sign}${quantity(Math.abs(more), one.unit, 3)}${share}`;
 }

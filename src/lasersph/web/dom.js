@@ -37,12 +37,21 @@ export function table(rows, head = []) {
     h("table", {}, top, h("tbody", {}, body)));
 }
 
+/** One box of all warnings, "" without any; of several each has a line, whole on a click. */
+export function warningsBox(texts) {
+  if (!texts.length) return "";
+  return h("div", { class: "warnings" }, texts.length < 2
+    ? h("p", {}, texts)
+    : texts.map((text) => h("details", {}, h("summary", {}, text))));
+}
+
 const PREFIXED = { m: 1, "m^2": 2, "m^3": 3, s: 1, J: 1, W: 1, Pa: 1, Hz: 1 };
 const PREFIXES = ["f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
 const NO_KILO = ["m", "m^2", "m^3", "s"];
 
 /** Name and size of the unit with the prefix that fits a value in SI: [ "nm", 1e-9 ]. */
 export function fittingUnit(value, unit) {
+  if (unit === "J/m^2" || unit === "W/m^2") return [`${unit[0]}/cm²`, 1e4]; // as light is told everywhere
   const shown = unit.replace("^2", "²").replace("^3", "³");
   if (!(unit in PREFIXED) || !value) return [shown, 1];
   const step = 1000 ** PREFIXED[unit];
@@ -66,24 +75,27 @@ export function number(value, digits = 4) {
 /** A value in SI units as people read it: (8e-9, "m") gives "8 nm". */
 export function quantity(value, unit = "", digits = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  if (unit === "J/m^2" || unit === "W/m^2") return `${number(value * 1e-4, digits)} ${unit[0]}/cm²`;
   const [name, size] = fittingUnit(value, unit);
   return `${number(value / size, digits)} ${name}`.trim();
 }
 
+const DECADES = [[1, 2, 5], [1, 2, 3, 4, 5, 7]]; // numbers of a decade on a logarithmic axis
+const LEAST_TICKS = 4;
+
 /** Ticks of an axis {low, high, isLogarithmic} at round numbers, as [value, words], and the name of their unit. */
 export function ticksOf({ low, high, isLogarithmic }, unit) {
   const most = Math.max(Math.abs(low), Math.abs(high));
-  const [name, size] = unit === "J/m^2" ? ["J/cm²", 1e4] : fittingUnit(most, unit);
-  const found = [];
-  if (isLogarithmic) {
+  const [name, size] = fittingUnit(most, unit);
+  for (const steps of isLogarithmic ? DECADES : []) {
+    const found = [];
     for (let ten = 10 ** Math.floor(Math.log10(low / size)); ten * size <= high; ten *= 10) {
-      for (const one of [1, 2, 5]) if (one * ten * size >= low && one * ten * size <= high) found.push([one * ten * size, number(one * ten)]);
+      for (const one of steps) if (one * ten * size >= low && one * ten * size <= high) found.push([one * ten * size, number(one * ten)]);
     }
-    return [found, name];
+    if (found.length >= LEAST_TICKS) return [found, name];
   }
+  const found = []; // also of a logarithmic axis that covers too little of a decade
   const rough = (high - low) / size / 6 || 1, ten = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].find((one) => one * ten >= rough) * ten;
+  const step = [1, 2, 2.5, 5, 10].find((one) => one * ten >= rough) * ten;
   for (let k = Math.ceil(low / size / step - 1e-9); k * step <= (high / size) * (1 + 1e-9); k += 1) found.push([k * step * size, number(k * step)]);
   return [found, name];
 }

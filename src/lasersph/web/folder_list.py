@@ -14,7 +14,9 @@ from typing import Literal
 
 from lasersph.output import OutputError
 from lasersph.sweeps.folder import POINTS, RUNS
+from lasersph.web.study_folder import kind_of_study
 
+RESOLVED = "resolved.json"
 DEEPEST = 3
 """Levels of folders that are looked through: DIR/series/sweep/runs."""
 
@@ -25,7 +27,8 @@ class Entry:
 
     Attributes:
         id: in addresses. path: its folder. name: path below the folder that is shown.
-        kind: what it is. sweep: id of the sweep that a run belongs to, else empty.
+        kind: what it is. sweep: id of the sweep or study that a run belongs to, else empty.
+        study: kind of the study whose runs lie there; a sweep has none.
     """
 
     id: str
@@ -33,6 +36,11 @@ class Entry:
     name: str
     kind: Literal["run", "sweep"]
     sweep: str = ""
+    study: str = ""
+
+    def runs(self) -> Path:
+        """The folder in which the runs of a sweep or of a study lie."""
+        return self.path if self.study else self.path / RUNS
 
 
 def id_of(name: str) -> str:
@@ -86,19 +94,33 @@ class FolderList:
         names = {one.name for one in inside}
         name = folder.relative_to(self.root).as_posix()
         shown = self.root.name if name == "." else name
-        if "resolved.json" in names:
+        if RESOLVED in names:
             found.append(Entry(id_of(name), folder, shown, "run", sweep))
             return
-        if POINTS in names:
+        is_sweep = POINTS in names
+        inside = [
+            one
+            for one in inside
+            if one.is_dir(follow_symlinks=False) and not one.name.startswith(".")
+        ]
+        study = "" if is_sweep or not depth else _study(folder, [one.name for one in inside])
+        if is_sweep or (study and any((folder / one.name / RESOLVED).exists() for one in inside)):
             sweep = id_of(name)
-            found.append(Entry(sweep, folder, shown, "sweep"))
-            inside = [one for one in inside if one.name == RUNS]
+            found.append(Entry(sweep, folder, shown, "sweep", study=study))
+            inside = [one for one in inside if study or one.name == RUNS]
         if depth == DEEPEST:
             return
         for one in inside:
-            if one.is_dir(follow_symlinks=False) and not one.name.startswith("."):
-                is_part = sweep and one.name == RUNS
-                self._look(folder / one.name, sweep, depth + (not is_part), found)
+            is_part = sweep and one.name == RUNS
+            self._look(folder / one.name, sweep, depth + (not is_part), found)
+
+
+def _study(folder: Path, inside: list[str]) -> str:
+    """The kind of study whose runs lie in a folder; empty where none, or its mark is damaged."""
+    try:
+        return kind_of_study(folder, inside)
+    except OutputError:
+        return ""
 
 
 def refuse_links(folder: Path) -> None:

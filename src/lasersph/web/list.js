@@ -2,6 +2,7 @@
 
 import { ago, chip, h, quantity, sparkline, svg } from "./dom.js";
 import { colorAt } from "./map.js";
+import { moment, partDone } from "./moments.js";
 import { getJson, pause } from "./net.js";
 import { prepareScene } from "./scene.js";
 
@@ -20,7 +21,14 @@ export async function showList(place, signal, head) {
   const cards = new Map();
   const grid = h("div", { class: "cards" });
   const count = h("p", { class: "quiet", role: "status" });
-  const compare = h("a", { class: "button", hidden: true }, "Compare");
+  const compare = h("a", { class: "button primary" }, "Compare");
+  const picks = h("span", { role: "status" });
+  const bar = h("div", { class: "bar", hidden: true }, picks, compare,
+    h("button", { type: "button", onclick: () => {
+      chosen.compared.clear();
+      for (const box of grid.querySelectorAll(".pick input")) box.checked = false;
+      draw();
+    } }, "Clear"));
   let content = { runs: [], sweeps: [] };
 
   const draw = () => {
@@ -45,9 +53,13 @@ export async function showList(place, signal, head) {
       grid.replaceChildren(h("p", { class: "empty" }, "No run lies in this folder yet. Start one: ",
         h("code", {}, `lasersph run dlip-steel --out ${content.folder}/steel`)));
     }
-    const picked = [...chosen.compared].filter((id) => content.runs.some((run) => run.id === id));
+    const picked = content.runs.filter((run) => chosen.compared.has(run.id));
+    bar.hidden = !picked.length;
     compare.hidden = picked.length !== 2;
-    compare.setAttribute("href", `#/compare/${picked.join("/")}`);
+    compare.setAttribute("href", `#/compare/${[...chosen.compared].filter((id) => picked.some((run) => run.id === id)).join("/")}`);
+    const names = picked.map((run) => run.name).join(" and ");
+    const told = picked.length > 2 ? `${picked.length} runs are ticked: two can be compared` : picked.length === 2 ? names : `${names}: tick another run to compare with it`;
+    if (picks.textContent !== told) picks.textContent = told;
   };
 
   const cardOf = (run) => {
@@ -68,8 +80,8 @@ export async function showList(place, signal, head) {
         (value) => { chosen.state = value; draw(); })),
       labeled("Order", options(Object.entries(ORDERS).map(([name, [words]]) => [name, words]), chosen.order,
         (value) => { chosen.order = value; draw(); })),
-      count, compare),
-    grid);
+      count),
+    grid, bar);
 
   for (let isFirst = true; ; isFirst = false) {
     content = await getJson("api/runs", { signal });
@@ -83,7 +95,8 @@ export async function showList(place, signal, head) {
 
 function wordsOf(run) {
   const changes = (run.changes ?? []).map((one) => `${one.key} ${one.now}`).join(" ");
-  return [run.name, run.title, run.case, run.material, run.solver, run.state, changes].join(" ").toLowerCase();
+  const spans = (run.spans ?? []).map((one) => one.key).join(" ");
+  return [run.name, run.title, run.case, run.material, run.solver, run.state, changes, spans].join(" ").toLowerCase();
 }
 
 function labeled(words, field) {
@@ -114,13 +127,14 @@ function runCard(run, changed) {
       h("h2", {}, h("a", { href: `#/run/${run.id}` }, run.name)),
       chip(run.state),
       name !== run.name && h("p", { class: "title" }, name),
-      run.state !== "complete" && h("progress", { value: run.time_s, max: run.end_s, "aria-label": "time reached" }),
+      run.state !== "complete" && h("progress", { value: partDone(run), max: 1, "aria-label": "time reached" }),
       h("ul", { class: "tags", "aria-label": "what was changed" }, run.changes.filter((one) => !/^[[{]/.test(one.now)).slice(0, 4).map((one) =>
         h("li", { title: one.was ? `${one.key}: ${one.was} in the case file` : one.key }, `${one.key.split(".").pop()} ${one.now}`))),
       h("dl", { class: "numbers" }, run.numbers.slice(0, 4).map((one) => [h("dt", {}, one.words), h("dd", {}, one.text)])),
       h("footer", {}, h("span", {}, run.state === "complete"
-        ? `${quantity(run.time_s, "s")} in ${run.took}` : `${quantity(run.time_s, "s")} of ${quantity(run.end_s, "s")}`),
-        h("span", {}, ago(run.modified)), h("label", { class: "pick" }, pick, "compare"))));
+        ? `${quantity(run.time_s, "s")} in ${run.took}` : `${moment(run.time_s, run.pulses, quantity)} of ${run.pulses.length ? `${run.pulses.length} pulses` : quantity(run.end_s, "s")}`),
+        h("span", {}, ago(run.modified)),
+        run.warnings.length > 0 && h("span", { class: "chip warned", title: run.warnings.join("\n") }, `${run.warnings.length} warning${run.warnings.length > 1 ? "s" : ""}`), h("label", { class: "pick" }, pick, "compare"))));
 }
 
 function pictureOf(run) {
@@ -139,6 +153,13 @@ function pointsOf(points) {
     svg("circle", { cx: 12 + 136 * x, cy: 78 - 62 * y, r: points.length > 60 ? 2.2 : 3.4, fill: share === null ? "none" : `rgb(${colorAt(share).join()})`, class: "point" })));
 }
 
+/** What varies between which values: "fluence 0.15 J/cm² to 0.6 J/cm²". */
+function spanOf({ key, unit, ends }) {
+  const words = ends.map((one) => (typeof one === "number" ? quantity(one, unit) : String(one)));
+  const isRange = ends.every((one) => typeof one === "number");
+  return `${key.split(".").pop()} ${[...new Set(words)].join(isRange ? " to " : ", ")}`;
+}
+
 function sweepCard(sweep) {
   if (sweep.state === "damaged") return runCard(sweep);
   const counts = Object.entries(sweep.counts);
@@ -147,8 +168,8 @@ function sweepCard(sweep) {
     h("div", { class: "picture" }, pointsOf(sweep.points), h("span", { class: sweep.points.length ? "what" : "count" }, String(total), h("small", {}, " runs"))),
     h("div", { class: "words" },
       h("h2", {}, h("a", { href: `#/sweep/${sweep.id}` }, sweep.name)), chip(sweep.state),
-      h("p", { class: "title" }, sweep.is_calibration ? `calibration: ${sweep.title}` : sweep.title),
-      h("ul", { class: "tags", "aria-label": "what varies" }, sweep.keys.map((key) => h("li", {}, key))),
+      h("p", { class: "title" }, sweep.title),
+      h("ul", { class: "tags", "aria-label": "what varies" }, sweep.spans.map((span) => h("li", { title: span.key }, spanOf(span)))),
       h("dl", { class: "numbers" }, counts.map(([name, count]) => [h("dt", {}, name), h("dd", {}, String(count))])),
-      h("footer", {}, h("span", {}, "sweep"), h("span", {}, ago(sweep.modified)))));
+      h("footer", {}, h("span", {}, sweep.study || (sweep.is_calibration ? "calibration" : "sweep")), h("span", {}, ago(sweep.modified)))));
 }

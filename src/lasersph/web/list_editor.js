@@ -9,14 +9,33 @@ export function inUnit(unit) {
   return unit && unit !== "1" ? ` [${unit.replace("^2", "²").replace("^3", "³")}]` : "";
 }
 
+function valueOf(text, { is_text: isText, is_number: isNumber }) {
+  const isPlain = ["true", "false"].includes(text) || (isNumber && NUMBER.test(text)) || (!isText && !isNumber);
+  return isPlain ? text : JSON.stringify(text);
+}
+
+function rowText(shape, columns, texts) {
+  const values = texts.map((text, k) => valueOf(text, columns[k]));
+  if (shape === "values") return values[0];
+  if (shape !== "tables") return `[${values.join(", ")}]`;
+  return `{ ${columns.map(({ name }, k) => texts[k] && `${name} = ${values[k]}`).filter(Boolean).join(", ")} }`;
+}
+
+/** A list with rows of texts as TOML in one line; empty for one of a length of which nothing is given. */
+export function listText({ shape, columns }, rows) {
+  if (shape !== "row") return `[${rows.map((texts) => rowText(shape, columns, texts)).join(", ")}]`;
+  const texts = rows[0] ?? [];
+  return texts.every((text) => text === "") ? "" : rowText(shape, columns, texts);
+}
+
 /**
  * The editor of one list, see `form_of`.
  *
- * Returns {element, help, text, fields}: text() gives the list as TOML in one line, empty for a list
- * of a length of which nothing is given; fields(n, name) the inputs of its n-th row, from 1, and of a
- * column, all without these.
+ * Returns {element, help, text, fields}: text() gives the list as TOML in one line, see `listText`;
+ * fields(n, name) the inputs of its n-th row, from 1, and of a column, all without these.
  */
-export function listEditor(key, { shape, columns, rows }, change) {
+export function listEditor(key, list, change) {
+  const { shape, columns, rows } = list;
   const body = h("div", {}), isFixed = shape === "row";
   const lines = () => [...body.children];
   const cells = (line) => [...line.querySelectorAll("input, select")];
@@ -35,21 +54,7 @@ export function listEditor(key, { shape, columns, rows }, change) {
   };
   for (const texts of rows) add(texts);
 
-  const valueOf = (text, { is_text: isText, is_number: isNumber }) => {
-    const isPlain = ["true", "false"].includes(text) || (isNumber && NUMBER.test(text)) || (!isText && !isNumber);
-    return isPlain ? text : JSON.stringify(text);
-  };
-  const textOf = (line) => {
-    const texts = cells(line).map((cell) => cell.value.trim()), values = texts.map((text, k) => valueOf(text, columns[k]));
-    if (shape === "values") return values[0];
-    if (shape !== "tables") return `[${values.join(", ")}]`;
-    return `{ ${columns.map(({ name }, k) => texts[k] && `${name} = ${values[k]}`).filter(Boolean).join(", ")} }`;
-  };
-  const text = () => {
-    if (!isFixed) return `[${lines().map(textOf).join(", ")}]`;
-    const [line] = lines();
-    return cells(line).every((cell) => cell.value.trim() === "") ? "" : textOf(line);
-  };
+  const text = () => listText(list, lines().map((line) => cells(line).map((cell) => cell.value.trim())));
   const fields = (place, name) => {
     const chosen = place && lines()[place - 1] ? [lines()[place - 1]] : lines();
     const found = chosen.flatMap(cells), named = found.filter((cell) => name && cell.dataset.name === name);

@@ -87,6 +87,13 @@ export function drawMap(sweep, { x, y, column }, map) {
       preserveAspectRatio: "none", href: fieldPicture(plane, color) }));
   }
   if (curve) area.push(svg("polyline", { class: "between", points: first.grid.map((at, k) => curve[k] !== null && `${across.at(at)},${up.at(curve[k])}`).filter(Boolean).join(" ") }));
+  const bands = Object.entries(map?.bands ?? {}), events = bands.map(([name]) => name);
+  for (const [name, parts] of bands) {
+    const rings = parts.map((part) => (y ? part.map((at) => [across.at(at[0]), up.at(at[1])])
+      : [[0, TOP], [1, TOP], [1, tall - BOTTOM], [0, tall - BOTTOM]].map(([k, v]) => [across.at(part[k][0]), v])));
+    area.push(svg("path", { d: rings.map((ring) => `M${ring.map((at) => at.map((one) => one.toFixed(1)).join(",")).join("L")}Z`).join(""),
+      "fill-rule": "evenodd", "fill-opacity": y ? 0.2 : 0.35, fill: LINES[name][1], stroke: LINES[name][1] }));
+  }
   const lines = Object.entries(map?.lines ?? {}).filter(([name]) => name in LINES);
   for (const [name, parts] of lines) for (const part of parts) {
     const [, ink, dash] = LINES[name];
@@ -114,8 +121,8 @@ export function drawMap(sweep, { x, y, column }, map) {
     svg("text", { x: wide - RIGHT + 18, y: tall - BOTTOM + 20 }, `[${ticksOf({ low: bottom, high: top }, unit)[1] || "1"}]`)] : [];
   return h("figure", { class: "chart" },
     h("figcaption", {}, h("b", {}, words), h("span", {}, "each point opens its run"),
-      lines.map(([name]) => h("span", {}, svg("svg", { width: 30, height: 8, class: "sample", "aria-hidden": "true" },
-        svg("line", { x1: 0, x2: 30, y1: 4, y2: 4, class: "event edge" }), svg("line", { x1: 0, x2: 30, y1: 4, y2: 4, class: "event", stroke: LINES[name][1], "stroke-dasharray": LINES[name][2] })), LINES[name][0])),
+      events.map((name) => h("span", {}, svg("svg", { width: 30, height: 8, class: "sample", "aria-hidden": "true" },
+        !(name in (map.lines ?? {})) ? svg("rect", { width: 30, height: 8, "fill-opacity": 0.35, fill: LINES[name][1], stroke: LINES[name][1] }) : [svg("line", { x1: 0, x2: 30, y1: 4, y2: 4, class: "event edge" }), svg("line", { x1: 0, x2: 30, y1: 4, y2: 4, class: "event", stroke: LINES[name][1], "stroke-dasharray": LINES[name][2] })]), LINES[name][0], !(name in (map.lines ?? {})) && ", between runs")),
       rows.some((row) => !Number.isFinite(valueOf(row))) && y && h("span", { class: "lost" }, "× no result")),
     svg("svg", { viewBox: `0 0 ${wide} ${tall}`, class: "axes", role: "group", "aria-label": `${words} over ${x}${y ? ` and ${y}` : ""}` },
       xTicks.map(([at, text]) => [svg("line", { x1: across.at(at), x2: across.at(at), y1: TOP, y2: tall - BOTTOM }), svg("text", { x: across.at(at), y: tall - BOTTOM + 20, "text-anchor": "middle" }, text)]),
@@ -123,5 +130,6 @@ export function drawMap(sweep, { x, y, column }, map) {
       svg("text", { x: (LEFT + wide - RIGHT) / 2, y: tall - 12, "text-anchor": "middle" }, `${x} [${xUnit || "1"}]`),
       svg("text", { x: 16, y: (TOP + tall - BOTTOM) / 2, "text-anchor": "middle", transform: `rotate(-90 16 ${(TOP + tall - BOTTOM) / 2})` }, `${y || words} [${yUnit || "1"}]`),
       area, bar, points),
+    map?.onsets?.length > 0 && h("details", { class: "quiet" }, h("summary", {}, `Where it begins, over ${x}`), h("ul", {}, map.onsets.map((text) => h("li", {}, text)))),
     (map?.notes ?? []).map((text) => h("p", { class: "quiet" }, text)));
 }

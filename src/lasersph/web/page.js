@@ -10,6 +10,7 @@ const ADDRESSES = [
   [/^#\/compare\/([0-9a-f]+)\/([0-9a-f]+)$/, async () => (await import("./compare.js")).showComparison],
   [/^#\/sweep\/([0-9a-f]+)$/, async () => (await import("./sweep.js")).showSweep],
   [/^#\/new(?:\/([a-z0-9-]+))?$/, async () => (await import("./form.js")).showForm],
+  [/^#\/again\/([0-9a-f]+)$/, async () => (await import("./form.js")).showAgain],
   [/^(#\/)?$/, () => showList],
 ];
 let shown = null;

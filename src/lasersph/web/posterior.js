@@ -1,6 +1,6 @@
 /** The answer of a calibration: unknowns with their bands, the posterior of each and of each pair, and how well the data fit. */
 
-import { h, number, quantity, svg, table } from "./dom.js";
+import { h, number, quantity, svg, table, warningsBox } from "./dom.js";
 import { fieldPicture } from "./map.js";
 
 const INKS = [[253, 205, 160], [214, 84, 18]]; // where 95 % and 68 % of the posterior lie
@@ -10,7 +10,7 @@ export function calibrationOf(found) {
   const names = Object.keys(found.unknowns);
   return [h("h2", {}, "Calibration"),
     found.sentence ? h("p", { class: "verdict" }, found.sentence) : "",
-    ...found.warnings.map((text) => h("p", { class: "warning" }, text)),
+    warningsBox(found.warnings),
     h("div", { class: "corner" }, names.map((below, row) => h("div", { class: "charts row" },
       names.slice(0, row).map((across, column) => pairOf(found, across, below, column, row)),
       posteriorOf(below, found.unknowns[below], found.posterior[below])))),
@@ -23,13 +23,13 @@ export function calibrationOf(found) {
 function posteriorOf(name, one, { edges, density }) {
   const low = edges[0], high = edges.at(-1), most = Math.max(...density);
   const toX = (value) => (100 * (Math.max(low, Math.min(high, value)) - low)) / (high - low || 1);
-  const text = `${number(one.mean)} ± ${number(one.sd, 2)} ${one.unit}`;
+  const text = `${quantity(one.mean, one.unit)} ± ${quantity(one.sd, one.unit, 2)}`;
   return h("figure", { class: "chart posterior" },
     h("figcaption", {}, h("b", {}, name), h("span", {}, text)),
     svg("svg", { viewBox: "0 0 100 46", preserveAspectRatio: "none", role: "img", "aria-label": `posterior of ${name}: ${text}` },
       svg("rect", { x: toX(one.low_95), width: toX(one.high_95) - toX(one.low_95), y: 0, height: 46, class: "band" }),
       density.map((value, k) => svg("rect", { x: toX(edges[k]), width: toX(edges[k + 1]) - toX(edges[k]) + 0.1, y: 46 - (42 * value) / most, height: (42 * value) / most, class: "bin" }))),
-    h("p", { class: "ends" }, h("span", {}, number(low)), h("span", {}, `95 %: ${number(one.low_95)} to ${number(one.high_95)} ${one.unit}`), h("span", {}, number(high))));
+    h("p", { class: "ends" }, h("span", {}, quantity(low, one.unit)), h("span", {}, `95 %: ${quantity(one.low_95, one.unit)} to ${quantity(one.high_95, one.unit)}`), h("span", {}, quantity(high, one.unit))));
 }
 
 /** Density above which a share of a posterior on cells of one size lies. */
@@ -53,6 +53,6 @@ function pairOf(found, across, below, column, row) {
     svg("svg", { viewBox: "0 0 100 100", preserveAspectRatio: "none", role: "img", "aria-label": `posterior of ${across} and ${below}: ${text}` },
       svg("image", { x: toX(xs[0]), y: toY(ys[1]), width: toX(xs[1]) - toX(xs[0]), height: toY(ys[0]) - toY(ys[1]), preserveAspectRatio: "none", href: picture }),
       svg("path", { d: `M${toX(u.mean)},0V100M0,${toY(v.mean)}H100`, class: "mean" })),
-    h("p", { class: "ends" }, h("span", {}, `${across} ${number(x[0])} to ${number(x.at(-1))} ${u.unit}`), h("span", {}, `up: ${below} ${number(y[0])} to ${number(y.at(-1))} ${v.unit}`),
+    h("p", { class: "ends" }, h("span", {}, `${across} ${quantity(x[0], u.unit)} to ${quantity(x.at(-1), u.unit)}`), h("span", {}, `up: ${below} ${quantity(y[0], v.unit)} to ${quantity(y.at(-1), v.unit)}`),
       h("span", {}, "dark 68 %, light 95 %")));
 }

@@ -13,14 +13,18 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
+from itertools import count
 from pathlib import Path
 from typing import BinaryIO
 
+from lasersph.input.document import split_settings
 from lasersph.output import OutputError
 from lasersph.output.folder_lock import NAME, is_computing, machine, read_owner
-from lasersph.web.run_page import SET
+from lasersph.web.case_source import CaseSource
 
 FOLDER_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
+LONGEST_STEM = 56
+"""Letters of a name before its number."""
 LOOKS, PAUSE = 600, 0.1
 """How often and how long [s] a new process is looked at until it holds its folder or has ended."""
 
@@ -31,9 +35,16 @@ class Processes:
     def __init__(self, root: Path) -> None:
         self._root = root.resolve()
         self._started: dict[Path, tuple[subprocess.Popen[bytes], BinaryIO]] = {}
+        self._sources: dict[Path, CaseSource] = {}  # whose files last as long as they are held here
 
-    def start(self, name: str, case: str, settings: Sequence[str]) -> Path:
-        """Start a shipped case in a new folder.
+    def free_name(self, case: str) -> str:
+        """Name of a folder that a run of a case may get, "steel-2" where "steel-1" is taken."""
+        plain = re.sub(r"[^A-Za-z0-9._-]+", "-", re.sub(r"-[0-9]+$", "", case)).lstrip("._-")
+        names = (f"{plain[:LONGEST_STEM] or 'run'}-{number}" for number in count(1))
+        return next(name for name in names if not os.path.lexists(self._root / name))
+
+    def start(self, name: str, source: CaseSource, settings: Sequence[str]) -> Path:
+        """Start a case in a new folder.
 
         Raises:
             ValueError: the name is no name of a folder, or is taken. OutputError: it did not start.
@@ -43,19 +54,15 @@ class Processes:
         folder = self._root / name
         if folder.exists() or folder.is_symlink():
             raise ValueError(f"{name} is taken: choose another name")
-        self._run(folder, [case, *_options(settings)])
+        self._sources[folder] = source
+        self._run(folder, [str(source.path), *_options(settings)])
         return folder
 
     def resume(self, folder: Path) -> None:
         """Go on with a run that was stopped. Raises OutputError where that did not start."""
         if is_computing(folder):
             raise OutputError("the run is computed already")
-        text = (folder / "case.toml").read_text(encoding="utf-8")
-        settings = []
-        for line in text.splitlines():
-            if not line.startswith(SET):
-                break
-            settings.append(line.removeprefix(SET))
+        settings, _ = split_settings((folder / "case.toml").read_text(encoding="utf-8"))
         self._run(folder, [str(folder / "case.toml"), *_options(settings), "--resume"])
 
     def stop(self, folder: Path) -> None:

@@ -1,7 +1,8 @@
 /** The page of one run: state, numbers, particles, curves, figures, case, log. */
 
-import { chart, History } from "./charts.js";
-import { chip, h, quantity, table } from "./dom.js";
+import { chart, History, reliefChart } from "./charts.js";
+import { chip, h, quantity, table, warningsBox } from "./dom.js";
+import { moment, partDone } from "./moments.js";
 import { ask, getJson, listen } from "./net.js";
 import { http } from "./sources.js";
 import { mount } from "./viewer.js";
@@ -21,7 +22,7 @@ export async function showRun(place, signal, head, id) {
   const below = h("div", { class: "below" });
   const scene = h("div", { class: "scene" });
   const path = h("p", { class: "path" }, h("a", { href: "#/" }, "Runs"));
-  let viewer = null, sizes = null, run = null;
+  let viewer = null, sizes = null, run = null, relief = null;
 
   place.replaceChildren(path, top, note, numbers, h("div", { class: "wide" }, scene, beside), charts, below,
     h("section", {}, h("h2", {}, "Log"), log));
@@ -39,16 +40,18 @@ export async function showRun(place, signal, head, id) {
   };
 
   const drawTop = () => {
-    const done = run.end_s ? Math.min(1, run.time_s / run.end_s) : 0;
+    const done = partDone(run);
+    const end = run.pulses.length ? `${run.pulses.length} pulses` : quantity(run.end_s, "s");
     const state = h("p", { class: "state", "aria-live": "polite" }, chip(run.state), " ",
       run.state === "complete"
         ? `${quantity(run.time_s, "s")} computed in ${run.took}`
-        : `${quantity(run.time_s, "s")} of ${quantity(run.end_s, "s")}, ${Math.floor(100 * done)} %, step ${run.step}`);
+        : `${moment(run.time_s, run.pulses, quantity)} of ${end}, ${Math.floor(100 * done)} %, step ${run.step}`);
     top.replaceChildren(h("h1", {}, run.title || run.name), state,
       run.state !== "complete" ? h("progress", { value: done, max: 1, "aria-label": "time reached" }) : "",
-      run.may_run && ["running", "stopped"].includes(run.state) ? h("p", {}, h("button", { onclick: change }, run.state === "running" ? "Stop" : "Resume")) : "",
+      run.may_run ? h("p", { class: "actions" }, ["running", "stopped"].includes(run.state) && h("button", { onclick: change }, run.state === "running" ? "Stop" : "Resume"),
+        h("a", { class: "button", href: `#/again/${id}` }, "Run again with changes")) : "",
       h("p", { class: "verdict" }, run.verdict ?? [run.solver, run.material].filter(Boolean).join(", ")),
-      ...run.warnings.map((text) => h("p", { class: "warning" }, text)));
+      warningsBox(run.warnings));
     numbers.replaceChildren(...run.numbers.map((one) => h("div", {},
       h("dt", {}, one.words), h("dd", {}, one.text, one.error && h("small", {}, ` ± ${one.error}`)), one.at && h("dd", { class: "at" }, `at ${one.at}`))));
   };
@@ -58,8 +61,16 @@ export async function showRun(place, signal, head, id) {
       h("figure", {}, h("a", { href: `${base}figure/${one.name}` },
         h("img", { src: `${base}figure/${one.name}?${sizes?.figures ?? ""}`, loading: "lazy", alt: one.name.replaceAll("-", " ") })),
       h("figcaption", {}, one.caption))))),
+    run.notes?.length > 0 && h("section", {}, h("h2", {}, "Notes"), ...run.notes.map((text) => h("p", { class: "note" }, text))),
     h("section", {}, h("h2", {}, "Case"), caseOf(run)),
     ...run.tables.map((one) => h("details", {}, h("summary", {}, one.title), table(one.rows, one.head)))].filter(Boolean));
+
+  /** The relief stands first below the particles: it is what stays of a texture. */
+  const drawRelief = async () => {
+    if (relief || !run.has_relief) return;
+    relief = await reliefChart([run], signal);
+    charts.prepend(relief.element);
+  };
 
   const drawCharts = () => {
     for (const [title, unit, curves] of history.charts()) {
@@ -69,7 +80,7 @@ export async function showRun(place, signal, head, id) {
         old.chart.update();
         continue;
       }
-      const found = chart(title, unit, curves, [{ history, name: run.name }], run.end_s);
+      const found = chart(title, unit, curves, [{ history, name: run.name, pulses: run.pulses }], run.end_s);
       if (old) {
         old.chart.element.replaceWith(found.element);
         old.chart.destroy();
@@ -114,6 +125,7 @@ export async function showRun(place, signal, head, id) {
           const figures = run.figures.length, state = run.state;
           run = await getJson(`api/run/${id}`, { signal });
           drawTop();
+          await drawRelief();
           if (!before || run.figures.length !== figures || run.state !== state) drawBelow();
           if (run.state !== state && run.state === "running") viewer.setLive(true); // it ends that itself, with the last frame
         }
@@ -125,6 +137,7 @@ export async function showRun(place, signal, head, id) {
 
   signal.addEventListener("abort", () => {
     viewer?.destroy();
+    relief?.destroy();
     for (const { chart } of drawn.values()) chart.destroy();
   }, { once: true });
   start();

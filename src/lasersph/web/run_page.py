@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-import re
-import tomllib
+import csv
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from lasersph.input import format_duration
+from lasersph.observers.quantity import unit_in
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.folder_lock import is_computing
 from lasersph.output.growing_table import last_row, some_values
+from lasersph.output.pulse_starts import starts_of_pulses
 from lasersph.report import tables
 from lasersph.report.headline import LARGE, MOST_NUMBERS
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
+from lasersph.web.changes import changes, unit_of_key
 from lasersph.web.folder_list import Entry, refuse_links
 
 PICTURES = ("crater", "flow", "particles", "surface-profiles", "crater-3d", "temperature")
@@ -24,9 +26,8 @@ SPARKS = 48
 """Values of the small curve of a card."""
 LOG_TAIL = 1 << 16
 """Bytes of run.log that a page shows."""
-SET = "# --set "
-"""Begins the lines above the text of case.toml that tell its overrides."""
 TEMPERATURE = "temperature_max_K"
+RELIEF = "surface.csv"
 
 
 class Cards:
@@ -65,7 +66,7 @@ def telling_damage(entry: Entry) -> Iterator[None]:
         raise OutputError(f"{entry.name} cannot be read: it is damaged ({error!r})") from error
 
 
-WATCHED = ("resolved.json", "summary.json", "history.csv", "figures", "case.toml")
+WATCHED = ("resolved.json", "summary.json", "history.csv", "events.jsonl", "figures", "case.toml")
 
 
 def _stamp(path: Path) -> tuple[int, int]:
@@ -94,10 +95,12 @@ def _card(run: Run) -> dict[str, Any]:
         "solver": str((case.get("solver") or {}).get("kind", "")),
         "time_s": row.get("time_s", 0.0),
         "end_s": end,
+        "pulses": starts_of_pulses(case),
         "step": int(row.get("step", 0)),
         "modified": (run.path / "resolved.json").stat().st_mtime,
         "changes": changes(run.case_text),
         "picture": next((name for name in PICTURES if name in _figure_files(run.path)), None),
+        "warnings": warning_texts(run.summary if run.is_complete else None, run.events),
         "numbers": [],
         "values": {TEMPERATURE: row.get(TEMPERATURE)},
     }
@@ -152,29 +155,37 @@ def main_numbers(run: Run) -> list[dict[str, str]]:
     return found[:MOST_NUMBERS]
 
 
-def changes(case_text: str) -> list[dict[str, str]]:
-    """What a run changed of its case file: key, value in the file, value that was computed."""
-    settings = []
-    for line in case_text.splitlines():
-        if not line.startswith(SET):
-            break
-        settings.append(line.removeprefix(SET).partition("="))
-    try:
-        given = tomllib.loads(case_text) if settings else {}
-    except tomllib.TOMLDecodeError:
-        given = {}
-    found = []
-    for key, _, now in settings:
-        before = tables.value_at(given, key.strip())
-        was = "" if before is None else str(before)
-        if _letters(was) != _letters(now):
-            found.append({"key": key.strip(), "was": was, "now": now.strip().strip('"')})
-    return found
+def results(summary: dict[str, Any]) -> list[dict[str, Any]]:
+    """The main results with their words, for a table: `value` and `unit` of those that are numbers
+    that can be taken from one another, `text` of all."""
+    dimensions = int(summary.get("dimensions", 3))
+    return [
+        {
+            "key": one.key,
+            "words": one.words,
+            "text": tables.text_of(one, value, summary),
+            "value": value if isinstance(value, int | float) else None,
+            "unit": unit_in(one.unit, dimensions),
+        }
+        for one, value in tables.main_results(summary)
+    ]
 
 
-def _letters(value: str) -> str:
-    """What tells two ways to write one value apart from two values."""
-    return re.sub(r'[\s"^]|\.0\b', "", value)
+def relief(entry: Entry) -> dict[str, list[float]]:
+    """Places and heights of the surface at the end [m], also of the mirror image of half a period.
+
+    Raises:
+        KeyError: the surface did not move, or the run is not at its end. OutputError: the file is
+            damaged.
+    """
+    path = entry.path / RELIEF
+    if not path.is_file():
+        raise KeyError(path.name)
+    with telling_damage(entry), path.open(newline="", encoding="utf-8") as stream:
+        rows = [(float(row["x_m"]), float(row["height_m"])) for row in csv.DictReader(stream)]
+        if open_run(entry.path).symmetry_factor == 2:
+            rows = [*((-x, height) for x, height in reversed(rows) if x > 0.0), *rows]
+    return {"x": [x for x, _ in rows], "height": [height for _, height in rows]}
 
 
 def _figure_files(folder: Path) -> dict[str, Path]:
@@ -210,22 +221,20 @@ def _details(entry: Entry, run: Run) -> dict[str, Any]:
         "started": str(_stamp(entry.path / "resolved.json")[0]),
         "case_hash": resolved.get("case_hash", ""),
         "case_text": run.case_text,
-        "resolved": _flat(run.case),
+        "resolved": (flat := _flat(run.case)),
+        "units": {key: unit for key in flat if (unit := unit_of_key(key))},
         "versions": resolved.get("versions", {}),
         "has_report": (entry.path / "report.html").is_file(),
+        "has_relief": (entry.path / RELIEF).is_file(),
         "has_particles": (entry.path / "particles.vtkhdf").exists(),
         "figures": _captions(files) if files else [],
-        "warnings": [
-            str(event["message"])
-            for event in run.events
-            if event.get("event") == "warning" and "message" in event
-        ],
         "tables": [],
+        "results": [],
     }
     if run.is_complete:
         summary = run.summary
+        found["results"] = results(summary)
         found["verdict"] = verdict(summary)
-        found["warnings"] = warning_texts(summary, run.events)
         found["notes"] = note_texts(summary)
         found["tables"] = [
             {"title": "Energy", "head": tables.ENERGY_HEAD, "rows": tables.energy(summary)},

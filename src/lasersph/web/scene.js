@@ -266,8 +266,8 @@ export class Scene {
     this.attach(program, "corner", "corner", 2, 0);
     this.attach(program, "from", "line", 3, 1);
     this.attach(program, "to", "line", 3, 1, 12);
-    for (const side of this.index.mirrored ? [-1, 1] : [1])
-      for (const [thickness, ink] of [[4.5, [0.05, 0.07, 0.1, 1]], [2, [1, 1, 1, 1]]]) {
+    for (const [thickness, ink] of [[4.5, [0.05, 0.07, 0.1, 1]], [2, [1, 1, 1, 1]]])
+      for (const side of this.index.mirrored ? [-1, 1] : [1]) {
         gl.uniform1f(gl.getUniformLocation(program, "side"), side);
         gl.uniform1f(gl.getUniformLocation(program, "thickness"), thickness * dense);
         gl.uniform4fv(gl.getUniformLocation(program, "ink"), ink);

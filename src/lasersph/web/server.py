@@ -23,10 +23,12 @@ from starlette.responses import FileResponse, JSONResponse, Response, StreamingR
 from starlette.routing import Route
 
 from lasersph import __version__
+from lasersph.input import CaseError
 from lasersph.output import OutputError
 from lasersph.output.growing_table import new_rows
 from lasersph.web import live, run_page
 from lasersph.web.access import Access
+from lasersph.web.case_source import in_words
 from lasersph.web.folder_list import Entry, FolderList, refuse_links
 from lasersph.web.sweep_page import Sweeps
 
@@ -82,6 +84,7 @@ class Pages:
             Route("/api/run/{id}", self.run),
             Route("/api/run/{id}/history", self.history),
             Route("/api/run/{id}/log", self.log),
+            Route("/api/run/{id}/relief", self.relief),
             Route("/api/run/{id}/live", self.live),
             Route("/api/run/{id}/figure/{name}", self.figure),
             Route("/api/run/{id}/report", self.report),
@@ -148,6 +151,10 @@ class Pages:
     def log(self, request: Request) -> Response:
         """The end of run.log."""
         return Response(run_page.log_text(self._entry(request).path), media_type="text/plain")
+
+    def relief(self, request: Request) -> Response:
+        """Height of the surface over the place at the end."""
+        return JSONResponse(run_page.relief(self._entry(request)))
 
     async def live(self, request: Request) -> Response:
         """Events of a run."""
@@ -243,7 +250,7 @@ def _unreadable(request: Request, error: Exception) -> Response:
 
 
 def _wrong(request: Request, error: Exception) -> Response:
-    return _error(400, str(error))
+    return _error(400, in_words(error) if isinstance(error, CaseError) else str(error))
 
 
 def serve(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,8 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
 from lasersph.web import form
-from lasersph.web.folder_list import Entry
+from lasersph.web.case_source import CaseSource, source_of
+from lasersph.web.folder_list import Entry, FolderList
 from lasersph.web.processes import Processes
 from lasersph.web.server import Pages
 
@@ -28,7 +30,7 @@ class StartingPages(Pages):
     def routes(self) -> list[Route]:
         """Those that read, and those that start and stop."""
         return [
-            Route("/api/form/{case}", self.form),
+            Route("/api/form", self.form, methods=["POST"]),
             Route("/api/check", self.check, methods=["POST"]),
             Route("/api/start", self.start, methods=["POST"]),
             Route("/api/run/{id}/stop", self.stop, methods=["POST"]),
@@ -40,24 +42,30 @@ class StartingPages(Pages):
         """What a process of this server said when it failed."""
         return self._processes.note_of(entry.path)
 
-    def form(self, request: Request) -> Response:
-        """Fields of a shipped case, with settings that choose other kinds of its tables."""
-        settings = request.query_params.getlist("set")[: form.MOST_SETTINGS]
-        return JSONResponse(form.form_of(request.path_params["case"], settings))
+    async def form(self, request: Request) -> Response:
+        """Fields of a case, with settings that choose other kinds of its tables."""
+        asked = await self._asked(request)
+        found = await run_in_threadpool(form.form_of, asked.source, asked.settings)
+        return JSONResponse(found | {"folder": self._processes.free_name(asked.source.name)})
 
     async def check(self, request: Request) -> Response:
         """Problems, or the forecast."""
-        case, settings, _ = _asked(await request.json())
-        return JSONResponse(await run_in_threadpool(form.checked, case, settings))
+        asked = await self._asked(request)
+        return JSONResponse(await run_in_threadpool(form.checked, asked.source, asked.settings))
 
     async def start(self, request: Request) -> Response:
         """Start a run whose case is right."""
-        case, settings, name = _asked(await request.json())
-        found = await run_in_threadpool(form.checked, case, settings)
+        asked = await self._asked(request)
+        found = await run_in_threadpool(form.checked, asked.source, asked.settings)
         if found["problems"]:
-            raise ValueError(found["problems"][0]["text"])
-        folder = await run_in_threadpool(self._processes.start, name, case, settings)
+            first = found["problems"][0]
+            raise ValueError(": ".join(filter(None, (first["key"], first["text"]))))
+        start = self._processes.start
+        folder = await run_in_threadpool(start, asked.name, asked.source, asked.settings)
         return JSONResponse({"id": self.folders.run_of(folder)})
+
+    async def _asked(self, request: Request) -> Asked:
+        return await run_in_threadpool(asked_for, await request.json(), self.folders)
 
     def stop(self, request: Request) -> Response:
         """Stop a run with a checkpoint."""
@@ -70,13 +78,25 @@ class StartingPages(Pages):
         return Response(status_code=204)
 
 
-def _asked(content: Any) -> tuple[str, list[str], str]:
-    """Case, settings and name of a run. Raises ValueError."""
+@dataclass(frozen=True)
+class Asked:
+    """A case with settings, and the name of the run that is to be started, empty for none."""
+
+    source: CaseSource
+    settings: list[str]
+    name: str
+
+
+def asked_for(content: Any, folders: FolderList) -> Asked:
+    """Case and settings of a request; those that it leaves out are of the run it begins with.
+
+    Raises ValueError, and what `source_of` raises.
+    """
     if not isinstance(content, dict):
         raise ValueError("a case, settings and a name are wanted")
-    case, name = content.get("case"), content.get("name", "")
-    settings = content.get("settings", [])
+    source, name = source_of(content, folders), content.get("name", "")
+    settings = content.get("settings", list(source.settings))
     is_right = isinstance(settings, list) and len(settings) <= form.MOST_SETTINGS
-    if not (is_right and all(isinstance(one, str) for one in [case, name, *settings])):
-        raise ValueError("case and name are texts, settings a list of KEY=VALUE")
-    return str(case), settings, name
+    if not (is_right and all(isinstance(one, str) for one in [name, *settings])):
+        raise ValueError("the name is a text, settings a list of KEY=VALUE")
+    return Asked(source, settings, name)

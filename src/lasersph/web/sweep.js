@@ -13,13 +13,14 @@ export async function showSweep(place, signal, head, id) {
   const keys = Object.keys(sweep.units);
   const chosen = { x: keys[0], y: keys[1] ?? "", column: sweep.main[0] ?? "" };
   const map = h("div", { class: "map" });
-  const rows = h("div", {});
+  const rows = h("div", {}), warnings = h("div", {});
   const state = h("p", { class: "state", "aria-live": "polite" });
 
   const draw = () => {
     const counts = Object.entries(sweep.counts).filter(([, count]) => count).map(([name, count]) => `${count} ${name}`);
     state.replaceChildren(`${sweep.rows.length} runs: ${counts.join(", ")}`);
     rows.replaceChildren(drawTable(sweep));
+    warnings.replaceChildren(...sweep.warnings.map((one) => h("p", { class: "warning" }, `${one.runs} run${one.runs > 1 ? "s" : ""}: ${one.text}`)));
     drawField().catch((error) => {
       if (!signal.aborted) throw error;
     });
@@ -32,7 +33,7 @@ export async function showSweep(place, signal, head, id) {
     const wanted = `${asked} ${JSON.stringify(sweep.counts)}`, mine = ++last;
     if (drawn === wanted) return;
     if (!drawn.startsWith(`${asked} `)) map.replaceChildren(drawMap(sweep, chosen, null));
-    if (!column) return;
+    if (!column || sweep.study) return;
     const found = await getJson(`api/sweep/${id}/map?${asked}`, { signal });
     if (mine !== last) return;
     drawn = wanted;
@@ -44,9 +45,9 @@ export async function showSweep(place, signal, head, id) {
 
   place.replaceChildren(
     h("p", { class: "path" }, h("a", { href: "#/" }, "Runs"), ` / ${sweep.name}`),
-    h("h1", {}, sweep.title), state,
+    h("h1", {}, sweep.title), state, warnings,
     ...(sweep.calibration ? calibrationOf(sweep.calibration) : []),
-    h("h2", {}, "Map"),
+    h("h2", {}, sweep.study ? "Numbers" : "Map"),
     h("form", { class: "tools", onsubmit: (event) => event.preventDefault() },
       select("Across", keys.map((key) => [key, key]), "x"),
       select("Up", [["", "the number itself"], ...keys.map((key) => [key, key])], "y"),

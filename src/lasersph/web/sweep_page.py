@@ -12,11 +12,15 @@ import numpy as np
 
 from lasersph.observers.observer_list import RESULTS
 from lasersph.output import OutputError
+from lasersph.output.folder_lock import is_computing
 from lasersph.output.reader import read_json
+from lasersph.plots.calibration import unit_of_unknown
 from lasersph.sweeps import Table
-from lasersph.sweeps.folder import POINTS, RUNS, read_points
-from lasersph.web.folder_list import Entry, FolderList, refuse_links
+from lasersph.sweeps.folder import POINTS, read_points
+from lasersph.sweeps.run_warnings import warnings_of_runs
+from lasersph.web.folder_list import RESOLVED, Entry, FolderList, refuse_links
 from lasersph.web.run_page import telling_damage
+from lasersph.web.study_folder import study_table, study_title
 
 CALIBRATION, POSTERIOR = "calibration.json", "posterior.csv"
 BINS = 40
@@ -42,12 +46,19 @@ class Sweeps:
         try:
             with telling_damage(entry):
                 table = self._table(entry)
+                counts = _counts(entry, table)
+                is_over = len(counts) == 1 and counts["complete"]
                 return head | {
-                    "title": _title(entry.path),
-                    "state": "complete" if all(table.is_complete) else "stopped",
-                    "counts": Counter(table.status),
-                    "keys": list(table.varied),
-                    "modified": (entry.path / POINTS).stat().st_mtime,
+                    "title": _title(entry),
+                    "state": "complete"
+                    if is_over
+                    else "running"
+                    if counts["running"]
+                    else "stopped",
+                    "counts": {status: count for status, count in counts.items() if count},
+                    "study": entry.study,
+                    "spans": _spans(table),
+                    "modified": _modified(entry),
                     "is_calibration": (entry.path / CALIBRATION).exists(),
                     "points": _points(table),
                 }
@@ -60,33 +71,41 @@ class Sweeps:
             table = self._table(entry)
             rows = []
             for row in table.rows:
-                folder = entry.path / RUNS / row.run
-                is_there = (folder / "resolved.json").exists()
+                folder = entry.runs() / row.run
+                is_there = (folder / RESOLVED).exists()
+                is_running = row.status == "stopped" and is_computing(folder)
                 rows.append(
                     {
                         "run": row.run,
                         "id": self._folders.run_of(folder) if is_there else "",
-                        "status": row.status,
+                        "status": "running" if is_running else row.status,
                         "settings": row.settings,
                         "numbers": _finite(row.numbers),
                         "reason": row.reason,
                     }
                 )
+            main = _main_numbers(table)
+            columns = list(
+                dict.fromkeys((*table.columns, *main))
+            )  # whatever is shown can be chosen
             return {
                 "id": entry.id,
                 "name": entry.name,
-                "title": _title(entry.path),
+                "title": _title(entry),
+                "study": entry.study,
                 "units": dict(table.units),
-                "columns": list(table.columns),
-                "main": _main_numbers(table),
-                "words": {key: RESULTS[key].words for key in table.columns if key in RESULTS},
-                "counts": Counter(table.status),
+                "columns": columns,
+                "main": main,
+                "words": {key: RESULTS[key].words for key in columns if key in RESULTS},
+                "counts": _counts(entry, table),
                 "rows": rows,
+                "warnings": _warnings(entry, table),
                 "calibration": _calibration(entry.path),
             }
 
     def map(self, entry: Entry, keys: Sequence[str], column: str) -> dict[str, Any]:
-        """What `lasersph map` draws of a number over keys: axes, field between the runs, lines.
+        """Map of a number over keys as `lasersph map` draws it: axes, field between the runs, lines
+        with their bands, and these in words.
 
         Where it cannot be drawn, `refused` says why. Raises OutputError.
         """
@@ -94,6 +113,8 @@ class Sweeps:
 
         with telling_damage(entry):
             table = self._table(entry)
+            if entry.study:
+                return {"refused": "the runs of a study are points"}
             if set(keys) != set(table.varied):
                 return {"refused": f"a map is over all that varies: {', '.join(table.varied)}"}
             try:
@@ -104,27 +125,71 @@ class Sweeps:
                 {"grid": _rounded(one.grid, 9), "is_logarithmic": one.is_logarithmic}
                 for one in shown.axes
             ]
-            lines = {
-                name: [_rounded(part, 6) for part in all_] for name, all_ in shown.lines.items()
-            }
+            lines, bands = (
+                {name: [_rounded(part, 6) for part in parts] for name, parts in found.items()}
+                for found in (shown.lines, shown.bands)
+            )
             values = zip(shown.names, _rounded(shown.values, DIGITS), strict=True)
             return {
                 "axes": axes,
                 "values": dict(values),
                 "field": _rounded(shown.field, DIGITS),
                 "lines": lines,
+                "bands": bands,
+                "onsets": [f"{event}, {text}" for event, text in shown.onset_words()],
                 "notes": list(shown.notes),
             }
 
     def _table(self, entry: Entry) -> Table:
         refuse_links(entry.path)
-        found = Table.read(entry.path, self._known.get(entry.path))
+        read = study_table if entry.study else Table.read
+        found = read(entry.path, self._known.get(entry.path))
         self._known[entry.path] = found
         return found
 
 
-def _title(folder: Path) -> str:
-    return str(read_points(folder).get("study", {}).get("title", folder.name))
+def _title(entry: Entry) -> str:
+    """Title of a sweep; that of a calibration says so itself."""
+    if entry.study:
+        return study_title(entry.path)
+    return str(read_points(entry.path).get("study", {}).get("title", entry.name))
+
+
+def _warnings(entry: Entry, table: Table) -> list[dict[str, Any]]:
+    """Each kind of warning of the runs of a sweep: `text`, of one of them, `runs` that have it."""
+    if entry.study:
+        return []
+    _, counts = warnings_of_runs(table)
+    return [{"text": text, "runs": count} for text, count in counts.items()]
+
+
+def _counts(entry: Entry, table: Table) -> Counter[str]:
+    """How many runs have a state; of those that are begun, what is computed now."""
+    begun = [row.run for row in table.rows if row.status == "stopped"]
+    running = sum(is_computing(entry.runs() / run) for run in begun)
+    counts = Counter[str](table.status)
+    if running:
+        counts += Counter({"running": running})
+        counts -= Counter({"stopped": running})
+    return counts
+
+
+def _spans(table: Table) -> list[dict[str, Any]]:
+    """Key that varies: `key`, SI `unit`, and the smallest and largest value, or the words."""
+    spans = []
+    for key, unit in table.units.items():
+        values = list(dict.fromkeys(row.settings[key] for row in table.rows))
+        numbers = [one for one in values if isinstance(one, int | float)]
+        ends = [min(numbers), max(numbers)] if len(numbers) == len(values) > 0 else values
+        spans.append({"key": key, "unit": unit, "ends": ends})
+    return spans
+
+
+def _modified(entry: Entry) -> float:
+    """When a sweep or the newest run of a study was begun [s since 1970]."""
+    if not entry.study:
+        return (entry.path / POINTS).stat().st_mtime
+    return max(file.stat().st_mtime for file in entry.path.glob(f"*/{RESOLVED}"))
 
 
 def _main_numbers(table: Table) -> list[str]:
@@ -173,13 +238,24 @@ def _calibration(folder: Path) -> dict[str, Any] | None:
     posterior, pairs = {}, {}
     for row, name in enumerate(names):
         density, _ = np.histogram(values[:, row], edges[row], weights=weights, density=True)
-        posterior[name] = {"edges": edges[row].tolist(), "density": density.tolist()}
+        shown = unit_of_unknown(found["unknowns"].get(name, {})).numbers(edges[row])
+        posterior[name] = {"edges": shown.tolist(), "density": density.tolist()}
         for column in range(row):
             across, up = values[:, column], values[:, row]
             bins = [edges[column], edges[row]]
             cells, _, _ = np.histogram2d(across, up, bins, weights=weights)
             pairs[f"{names[column]} {name}"] = _rounded(cells.T / cells.max(), DIGITS)
-    return found | {"posterior": posterior, "pairs": pairs}
+    unknowns = {name: _in_units_of_the_plan(one) for name, one in found["unknowns"].items()}
+    return found | {"unknowns": unknowns, "posterior": posterior, "pairs": pairs}
+
+
+def _in_units_of_the_plan(one: dict[str, Any]) -> dict[str, Any]:
+    """An unknown of calibration.json with its numbers in the unit in which the plan gives it."""
+    if "shown_unit" not in one:  # of an older version
+        return one
+    unit = unit_of_unknown(one)
+    values = {name: unit.number(one[name]) for name in ("mean", "low_95", "high_95")}
+    return one | values | {"sd": one["sd"] / unit.size, "unit": unit.name}
 
 
 def _edges(values: Any) -> Any:

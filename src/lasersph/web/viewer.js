@@ -10,14 +10,15 @@
 // Options: frame (number), field (name), live (true), ranges ({field: [low, high]}, so that two
 // viewers have the same scale), onFrame(number, time) after a frame was drawn.
 import { readyScene } from "./scene.js";
+import { moment } from "./moments.js";
 import { kernel } from "./sources.js";
+import { BEYOND, FREE, gatesOf, gateWords, isFlat, rangeOf, tellingField } from "./viewer_fields.js";
 import { CSS, HTML } from "./viewer_look.js";
 
 // Steps of play [ms], pauses between tries [ms], between two looks at a growing run, memory [bytes]
 const STEP = 120, PAUSE = 300, LONGEST_PAUSE = 8000, LOOK = 1000, KEPT = 3e8;
+const LETTERS = 17; // from a mark of the color bar to the next, at least [pixels]
 const SILENT = "The run does not answer; trying again";
-const BEYOND = 3e38;   // of every number of a field
-const FREE = "limits"; // the choice for which limits are typed
 const PREFIXES = [[1e-12, "p"], [1e-9, "n"], [1e-6, "µ"], [1e-3, "m"], [1, ""], [1e3, "k"],
   [1e6, "M"], [1e9, "G"]];
 
@@ -48,7 +49,8 @@ export function mount(element, source, options = {}) {
     canvas.setAttribute(name, value);
   part(".stage").prepend(canvas);
 
-  let index = null, frame = 0, field = options.field, loaded = null;
+  let index = null, frame = 0, loaded = null;
+  let chosen = options.field, field = null;  // a color for which none was chosen follows the run
   let gate = null;  // what is shown: {field, low, high}; null shows all
   let live = Boolean(options.live), playing = null, generation = 0, gone = false, home = true;
   const kept = new Map();
@@ -84,7 +86,7 @@ export function mount(element, source, options = {}) {
   }
 
   // Draw a frame; errors are tried again with growing pauses until something else is wanted.
-  async function show(number, name = field) {
+  async function show(number, name = chosen) {
     const mine = ++generation;
     for (let pause = PAUSE; !gone; pause = Math.min(2 * pause, LONGEST_PAUSE)) {
       try {
@@ -95,9 +97,7 @@ export function mount(element, source, options = {}) {
           return;
         }
         frame = Math.max(0, Math.min(number ?? index.start, index.times.length - 1));
-        const known = (one) => index.fields.some((info) => info.name === one);
-        field = known(name) ? name : index.fields.find((info) => !isFlat(info.range))?.name
-          ?? index.fields[0].name;
+        field = index.fields.some((info) => info.name === name) ? name : tellingField(index);
         tellFrame();
         const found = await loadFrame(frame, field);
         if (mine !== generation) return;
@@ -142,23 +142,32 @@ export function mount(element, source, options = {}) {
 
   function takeIndex(found) {
     const first = !index || !index.fields.length;
+    const before = first ? "" : gateWords(index);
     index = found;
     slider.max = Math.max(0, index.times.length - 1);
     part(".live").hidden = index.is_complete;
     if (index.is_complete) setLive(false);
-    if (!first || !index.fields.length) return;
+    if (!index.fields.length) return;
+    if (gateWords(index) !== before) offerGates();
+    if (!first) return;
     part(".title").textContent = index.case;
     part(".cuts").hidden = index.dimensions < 3;
     for (const choice of [".field", ".measure"])
       part(choice).replaceChildren(...index.fields.map((one) => new Option(one.label, one.name)));
-    part(".gate").replaceChildren(...gateOptions(index));
+  }
+
+  // What can be shown grows with the run, which melts and boils while it is watched.
+  function offerGates() {
+    const was = part(".gate").value;
+    part(".gate").replaceChildren(...gatesOf(index).map(([words, value]) => new Option(words, value)));
+    if (gatesOf(index).some(([, value]) => value === was)) part(".gate").value = was;
   }
 
   // ----- drawing
 
   function draw() {
     const info = index.fields.find((one) => one.name === field);
-    let [low, high] = options.ranges?.[field] ?? info.range;
+    let [low, high] = options.ranges?.[field] ?? rangeOf(info, index);
     const signed = low < 0 && high > 0;
     if (signed) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
     if (isFlat([low, high])) [low, high] = [low - 1, low + 1];
@@ -187,7 +196,8 @@ export function mount(element, source, options = {}) {
     const marks = levels.map(([word, value]) => [value, word])
       .filter(([value]) => value > low && value <= high);
     const step = niceStep((high - low) * factor / 5) / factor;
-    const far = (value) => marks.every(([mark]) => Math.abs(mark - value) > 0.055 * (high - low));
+    const least = (LETTERS / (bar.clientHeight || 10 * LETTERS)) * (high - low);
+    const far = (value) => marks.every(([mark]) => Math.abs(mark - value) > least);
     for (let k = Math.ceil(low / step - 1e-9); k * step <= high * (1 + 1e-9); k++)
       if (far(k * step)) marks.push([k * step, null]);
     bar.replaceChildren(...marks.map(([value, word]) => {
@@ -200,7 +210,7 @@ export function mount(element, source, options = {}) {
   }
 
   function tellFrame() {
-    const text = quantity(index.times[frame], "s");
+    const text = moment(index.times[frame], index.pulses, quantity);
     slider.value = frame;
     slider.setAttribute("aria-valuetext", text);
     part("output").textContent = text;
@@ -223,7 +233,8 @@ export function mount(element, source, options = {}) {
   }
 
   function setField(name) {
-    return show(frame, name);
+    chosen = name;
+    return show(frame);
   }
 
   function setLive(wanted) {
@@ -321,29 +332,7 @@ export function mount(element, source, options = {}) {
   return { works: true, setFrame, setField, setLive, box: () => scene.box, setBox, destroy };
 }
 
-// What can be shown of a run: all, phases where it melts, what is hotter than its levels, any limits.
-function gateOptions({ fields, levels }) {
-  const options = [new Option("all", "null")];
-  const add = (words, field, low, high) => options.push(new Option(words, JSON.stringify({ field, low, high })));
-  const range = (name) => fields.find((one) => one.name === name)?.range ?? [0, 0];
-  if (range("melt_fraction")[1] > 0) {
-    add("any melt", "melt_fraction", 0.001, BEYOND);
-    add("half molten and more", "melt_fraction", 0.5, BEYOND);
-    add("fluid only", "melt_fraction", 0.999, BEYOND);
-    add("solid and mushy", "melt_fraction", -BEYOND, 0.999);
-  }
-  for (const [word, value] of Object.entries(levels ?? {}))
-    if (range("temperature")[1] >= value) add(`hotter than where it ${word}`, "temperature", value, BEYOND);
-  options.push(new Option("limits …", FREE));
-  return options;
-}
-
 // ----- numbers in words
-
-// Whether a range is that of one value and its rounding.
-function isFlat([low, high]) {
-  return !(high - low > 1e-5 * Math.max(Math.abs(low), Math.abs(high)));
-}
 
 function niceStep(rough) {
   const ten = 10 ** Math.floor(Math.log10(rough));

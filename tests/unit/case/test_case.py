@@ -299,7 +299,7 @@ def test_size_by_hand():
     case = load_case("stefan")
     assert math.isclose(estimate_count(case.domain, case.particles, 1), 200)
     graded = load_case("dlip-steel")
-    uniform = load_case("dlip-steel", ["particles.arrangement=uniform"])
+    uniform = load_case("dlip-steel", ["particles.arrangement=uniform", "particles.ratio="])
     few = estimate_count(graded.domain, graded.particles, 2)
     many = estimate_count(uniform.domain, uniform.particles, 2)
     assert math.isclose(many, 4.6e-6 / 8e-9 * 2.5e-6 / 8e-9)

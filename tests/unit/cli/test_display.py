@@ -1,11 +1,13 @@
 """Tables and progress as text."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
-from lasersph.cli.progress import ProgressDisplay, describe
+from lasersph.cli.progress import STILL_COMPILING, ProgressDisplay, RunDisplay
 from lasersph.input.text_table import text_table
+from lasersph.observers.observer_list import OBSERVERS
 from lasersph.simulation import RunProgress
 
 
@@ -40,12 +42,12 @@ STATUS = RunProgress(time=0.2194, end=1.0, steps=1207, hottest=301.6, work_done=
 )
 def test_words_of_progress(changes, text):
     """Times in a unit that fits them, and the time left once it is known."""
-    assert describe(replace(STATUS, **changes)) == text
+    assert str(replace(STATUS, **changes)) == text
 
 
 def test_plain_progress_off_a_terminal(capsys):
     """One line for each tenth of the work, and no escape codes."""
-    with ProgressDisplay(describe, is_terminal=False) as progress:
+    with ProgressDisplay(str, is_terminal=False) as progress:
         for step in range(1, 101):
             progress(RunProgress(step * 1e-9, 1e-7, step, 300.0 + step, step / 100, 100.0 - step))
     lines = capsys.readouterr().err.splitlines()
@@ -57,7 +59,7 @@ def test_plain_progress_off_a_terminal(capsys):
 
 def test_resumed_run_shows_what_is_new(capsys):
     """What was done before the first step of this process is not said again."""
-    with ProgressDisplay(describe, is_terminal=False) as progress:
+    with ProgressDisplay(str, is_terminal=False) as progress:
         for percent in (50, 55, 60):
             progress(replace(STATUS, work_done=percent / 100))
     assert len(capsys.readouterr().err.splitlines()) == 1
@@ -66,7 +68,7 @@ def test_resumed_run_shows_what_is_new(capsys):
 def test_line_on_a_terminal(capsys, monkeypatch):
     """One line with a bar, drawn over, no wider than the terminal, and left as it ends."""
     monkeypatch.setenv("COLUMNS", "60")
-    with ProgressDisplay(describe, is_terminal=True) as progress:
+    with ProgressDisplay(str, is_terminal=True) as progress:
         progress(replace(STATUS, work_done=0.5))
         progress(replace(STATUS, work_done=1.0, remaining_s=0.0))
     shown = capsys.readouterr().err
@@ -79,11 +81,40 @@ def test_line_on_a_terminal(capsys, monkeypatch):
 
 def test_compiling_is_said(capsys):
     """A line of its own, above the bar where there is one already."""
-    text = "compiling loops as they are needed, about a minute in all; later runs find them\n"
-    with ProgressDisplay(describe, is_terminal=False) as progress:
+    text = "compiling loops as they are needed, a minute or two in all; later runs find them\n"
+    with RunDisplay(is_terminal=False) as progress:
         progress.compiling()
     assert capsys.readouterr().err == text
-    with ProgressDisplay(describe, is_terminal=True) as progress:
+    with RunDisplay(is_terminal=True) as progress:
         progress(STATUS)
         progress.compiling()
     assert f"\r\x1b[K{text}[=====" in capsys.readouterr().err
+
+
+def test_compiling_has_its_own_progress(capsys, monkeypatch):
+    """How many loops and how long; nothing of the time that is left to compute until no further
+    loop has come for some steps."""
+    monkeypatch.setenv("COLUMNS", "100")
+    compiling = SimpleNamespace(loops=50, seconds=20.0)
+    with RunDisplay(is_terminal=True) as progress:
+        progress.compiled(compiling)
+        assert (
+            "compiled 50 loops of up to 150 in 20 s, 40 s more at most" in capsys.readouterr().err
+        )
+        progress(replace(STATUS, remaining_s=7.0))
+        assert " left" not in capsys.readouterr().err
+        monkeypatch.setattr("lasersph.cli.progress.REDRAW", 0.0)
+        for _ in range(STILL_COMPILING):
+            progress(replace(STATUS, remaining_s=7.0))
+        assert "7 s left" in capsys.readouterr().err
+    capsys.readouterr()
+    with RunDisplay(is_terminal=False) as progress:
+        for loops in range(1, 52):
+            progress.compiled(SimpleNamespace(loops=loops, seconds=0.4 * loops))
+    assert len(capsys.readouterr().err.splitlines()) == 2
+
+
+def test_names_of_numbers_leave_room_for_the_numbers():
+    """In a terminal of 80 columns, with an error and a time behind them."""
+    main = [one.words for kind in OBSERVERS for one in kind.all_results() if one.is_main]
+    assert max(map(len, main)) + len("  12.34 +- 0.56 um at 78.9 ns") <= 80

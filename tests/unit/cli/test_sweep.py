@@ -1,5 +1,7 @@
 """`lasersph sweep` and `lasersph new --plan`: what they say and return."""
 
+import json
+
 import pytest
 from sweep_runs import SETTINGS, PretendingEngine
 
@@ -53,6 +55,24 @@ def test_failures_give_exit_code_1_and_are_listed(plan, tmp_path, capsys, monkey
     assert "failed: no step converges" in said.err
     assert "lasersph info" in said.out and "wrong" in said.out
     assert (out / "plan.toml").read_text() == PLAN
+
+
+def test_warnings_of_the_runs_are_told_at_the_end(plan, tmp_path, capsys, monkeypatch):
+    """Each kind once, with the number of runs that have it."""
+    plan.write_text(PLAN.replace(', "10 nm"', ""))
+    pretend(monkeypatch)
+    out = tmp_path / "out"
+    main(["sweep", str(plan), "--out", str(out)])
+    assert "warn" not in capsys.readouterr().err
+    for number, file in enumerate(sorted(out.glob("runs/*/summary.json"))):
+        warnings = [f"light within 14.5 nm of {64 + number} nm"] + ["hot: 3e3 K"] * number
+        file.write_text(json.dumps({"melt": {"depth_max_m": 1e-7}, "warnings": warnings}))
+    main(["sweep", str(out), "--table"])
+    assert capsys.readouterr().err.splitlines() == [
+        "2 of 2 complete runs warn (numbers of one of them):",
+        "warning of 2 runs: light within 14.5 nm of 64 nm",
+        "warning of 1 run: hot: 3e3 K",
+    ]
 
 
 def test_complete_sweep_and_its_table(plan, tmp_path, capsys, monkeypatch):

@@ -169,6 +169,8 @@ def test_pages_of_refusals_are_pages_of_the_docs():
     [
         (["chek"], 'no verb "chek" (do you mean "check"?); see lasersph --help'),
         (["--quick", "run"], 'no verb "--quick"'),
+        (["list"], 'no verb "list" (do you mean "cases"?); see lasersph --help'),
+        (["help", "ryn"], 'no verb "ryn" (do you mean "run"?); see lasersph --help'),
         (["material"], "Missing command; see lasersph material --help"),
         (["check"], "Missing argument 'CASE'; see lasersph check --help"),
         (["run", "stefan", "--threads", "0"], "--threads"),
@@ -264,8 +266,9 @@ def test_run_and_what_follows(capsys):
     said(capsys, *again, "--resume")
     assert main(again) == 2
     assert "--resume" in capsys.readouterr().err
-    assert main([*again, "--resume", "--set", "time.end=300ns"]) == 2
+    assert main([*again, "--resume", "--set", "time.step=4ns"]) == 2
     assert "another case" in capsys.readouterr().err
+    assert "300 ns in " in said(capsys, *again, "--resume", "--set", "time.end=300ns")
 
 
 def test_run_with_its_uncertainty(capsys):
@@ -299,22 +302,23 @@ def test_default_folder_is_named_after_the_case(capsys):
 
 def test_converge(capsys):
     """Order and uncertainty of every number, as a table and as JSON."""
-    text = said(
-        capsys, "converge", "stefan", "--spacing", "1um,2um,4um", "--threads", "1",
-        "--json", "answer.json", "--set", "time.end=200ns", "--set", "time.step=5ns",
-    )  # fmt: skip
+    command = ["converge", "stefan", "--spacing", "1um,2um,4um", "--threads", "1"]
+    command += ["--json", "answer.json", "--set", "time.end=200ns", "--set", "time.step=5ns"]
+    assert main(command) == 0
+    text, first = capsys.readouterr()
     assert "temperature_max_K" in text and "GCI" in text
     assert len(json.loads(Path("answer.json").read_text())["spacings_m"]) == 3
     again = ["converge", "stefan", "--spacing", "1um,2um,4um", "--threads", "1"]
     again += ["--set", "time.end=200ns", "--set", "time.step=5ns"]
     assert main(again) == 2
     assert "go on with --resume" in capsys.readouterr().err
+    assert re.search(r"3 runs, roughly .* in runs/stefan-converge", first)
     finished = Path("runs/stefan-converge/spacing-1000nm/summary.json")
     before = finished.stat().st_mtime_ns
     assert said(capsys, *again, "--resume") == text
     assert finished.stat().st_mtime_ns == before
     assert main([*again, "--resume", "--set", "time.end=300ns"]) == 2
-    assert "another case" in capsys.readouterr().err
+    assert "another end (time.end is" in capsys.readouterr().err
 
 
 def test_cache(capsys):
@@ -394,7 +398,13 @@ def test_validate(monkeypatch, capsys):
     assert said(capsys, "validate", "--list") == "good  A?\nbad   B?\n"
     assert "1 of 1 passed" in said(capsys, "validate", "good", "good", "--quick")
     assert folders == [("runs/validation/short/good", True, None, "cpu")]
-    text = said(capsys, "validate", "--json", "all.json", "--out", "v", "--threads", "1", code=1)
+    for form in ([], ["--quick"]):
+        assert main(["validate", *form]) == 2
+        assert re.search(r"2 (shortened )?validations.*give names", capsys.readouterr().err)
+    assert len(folders) == 1
+    text = said(
+        capsys, "validate", "--all", "--json", "all.json", "--out", "v", "--threads", "1", code=1
+    )
     assert "table of bad" in text and "not passed: bad" in text
     assert folders[1:] == [("v/good", False, 1, "cpu"), ("v/bad", False, 1, "cpu")]
     content = json.loads(Path("all.json").read_text())
@@ -472,3 +482,12 @@ def test_the_readme_names_every_verb():
     """In a command or in the list of the others."""
     text = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
     assert [n for n in VERBS if f"`{n}`" not in text and f"lasersph {n} " not in text] == []
+
+
+@pytest.mark.parametrize("given", [["help"], ["help", "check"]])
+def test_help_as_a_verb(given, capsys):
+    """`help` is --help, of all or of one verb."""
+    assert main(given) == 0
+    said = capsys.readouterr().out
+    assert main([*given[1:], "--help"]) == 0
+    assert said == capsys.readouterr().out

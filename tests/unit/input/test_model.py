@@ -133,7 +133,9 @@ def test_what_hides_behind_another_mistake():
     """An unknown key, a wrong value behind it, and what the model says of both together."""
     text = '[light]\ncount = 9\nfluense = 3\nmode = "peek"\nlight.share = 2'
     with pytest.raises(CaseError) as error:
-        build(Root, parse_toml(text, "x.toml"), None, {"light": "; leave it out: it is here"})
+        build(
+            Root, parse_toml(text, "x.toml"), None, lambda: {"light": "; leave it out: it is here"}
+        )
     assert str(error.value).splitlines() == [
         "x.toml:1: light: too many pulses; write at most 5",
         'x.toml:3: light.fluense: unknown key; do you mean "fluence"?',

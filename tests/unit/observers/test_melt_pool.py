@@ -6,6 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import synthetic_ablation
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from lasersph.observers import MeltPool, View, numerical_sd
 from lasersph.observers.melt_pool import pool_width
@@ -43,10 +46,11 @@ def view_of(fraction, *, cell=10e-9, time=0.0, symmetry=2, dimension=2):
 
 
 def test_sizes_at_the_three_levels():
-    """Lower face of the deepest cell, and twice the half width, at f_m = 1, 0.5 and above 0.
+    """Depth below the hottest cell, and twice the half width, at f_m = 1, 0.5 and above 0.
 
     At 0.5 the surface is fluid to 25 nm + (0.6 - 0.5) / (0.6 - 0.1) 10 nm = 27 nm, and below the
-    hottest cell to 15 nm + (1 - 0.5) / (1 - 0.4) 10 nm, by fraction as by temperature.
+    hottest cell to 15 nm + (1 - 0.5) / (1 - 0.4) 10 nm, by fraction as by temperature; T falls to
+    the liquidus in the cell at 15 nm and to the solidus below the one at 25 nm, which is the last.
     """
     view = view_of(
         [[1.0, 1.0, 0.6, 0.1, 0.0], [1.0, 0.6, 0.2, 0.0, 0.0], [0.4, 0.0, 0.0, 0.0, 0.0]]
@@ -54,7 +58,7 @@ def test_sizes_at_the_three_levels():
     row = MeltPool(2).observe(view)
     assert row == pytest.approx(
         {
-            "melt_depth_m": 20e-9,
+            "melt_depth_m": 15e-9,
             "melt_width_m": 40e-9,
             "melt_width_half_m": 54e-9,
             "melt_depth_any_m": 30e-9,
@@ -72,8 +76,11 @@ def test_depth_between_cells():
     heat = np.array([2000.0, 1800.0, 1680.0, 1500.0])
     view = replace(view, temperature=heat, solidus=1650.0, liquidus=1750.0)
     row = MeltPool(1).observe(view)
-    assert row["melt_depth_m"] == pytest.approx(20e-9)
     assert row["melt_depth_half_m"] == pytest.approx(21.6666667e-9)
+    # to 1750 K by the temperatures 15 + 10 * 5/12, before the fractions say 20 nm
+    assert row["melt_depth_m"] == pytest.approx(19.1666667e-9)
+    # to 1650 K: beyond the center of the last cell that is warmer, but no deeper than molten
+    assert row["melt_depth_any_m"] == pytest.approx(25e-9)
 
 
 def test_depth_between_cells_always_moves():
@@ -93,6 +100,87 @@ def test_depth_between_cells_always_moves():
     assert depths[0] == pytest.approx(12.5e-9)
 
 
+def test_depth_follows_the_hottest_of_the_lowest_row_where_particles_moved():
+    """A cold particle that sank by a fifth of a cell does not tell how deep the pool is."""
+    view = view_of([[1.0, 1.0], [0.9, 0.6], [0.3, 0.0]], symmetry=1)
+    even = MeltPool(2).observe(view)["melt_depth_half_m"]
+    position = view.position.copy()
+    position[1, 3] -= 2e-9
+    moved = MeltPool(2).observe(replace(view, position=position))["melt_depth_half_m"]
+    assert moved == even == pytest.approx(15e-9 + 10e-9 * 0.4 / 0.6)
+
+
+SOLIDUS, LATENT = 1700.0, 300.0
+"""K, and a latent heat in units of the heat of one kelvin."""
+
+
+def state_of(enthalpy, melting_range):
+    """Temperature [K] and melt fraction of enthalpies in units of the heat of one kelvin, with the
+    solidus at 0."""
+    fraction = np.clip(enthalpy / (LATENT + melting_range), 0.0, 1.0)
+    return SOLIDUS + enthalpy - LATENT * fraction, fraction
+
+
+def sizes_of(enthalpy, melting_range, *, cell=10e-9, dimension=1, shift=0.0):
+    """Row of the observer for enthalpies (rows, columns), particles moved by a part of a cell."""
+    temperature, fraction = state_of(np.asarray(enthalpy), melting_range)
+    view = view_of(fraction, cell=cell, dimension=dimension, symmetry=1)
+    view = replace(view, temperature=temperature.ravel(), enthalpy=np.ravel(enthalpy))
+    view = replace(view, position=view.position + shift * cell)
+    view = replace(view, solidus=SOLIDUS, liquidus=SOLIDUS + melting_range)
+    return MeltPool(dimension).observe(view)
+
+
+@settings(max_examples=300, deadline=None)
+@given(
+    enthalpy=arrays(float, (6, 4), elements=st.floats(-900.0, 1500.0, width=32)),
+    shift=arrays(float, (2, 24), elements=st.floats(-0.25, 0.25, width=32)),
+    melting_range=st.sampled_from([0.0, 1.0, 55.0, 400.0]),
+    dimension=st.sampled_from([1, 2]),
+)
+def test_fluid_metal_is_never_deeper_or_wider_than_half_molten(
+    enthalpy, shift, melting_range, dimension
+):
+    """Of any profile and particles wherever they are: f_m = 1 within 0.5 within any melt."""
+    enthalpy = enthalpy[:, :1] if dimension == 1 else enthalpy
+    moved = shift[:, :6].mean(axis=0, keepdims=True) if dimension == 1 else shift
+    row = sizes_of(enthalpy, melting_range, dimension=dimension, shift=moved)
+    for size in ("depth", "width")[:dimension]:
+        full, half, any_melt = (row[f"melt_{size}{level}_m"] for level in ("", "_half", "_any"))
+        assert 0.0 <= full <= half * (1.0 + 1e-12) <= any_melt * (1.0 + 1e-11)
+
+
+def melt_to(front, cells, melting_range):
+    """Row of the observer of 100 nm of metal, completely fluid down to `front` [m], with 10 K/nm
+    in the melt and 5 below it: each cell has the mean enthalpy of its part of the exact profile."""
+    edges = np.linspace(0.0, 100e-9, cells + 1)
+    full, mush = LATENT + melting_range, melting_range / 5e9
+    melt, mushy = np.minimum(edges, front), np.clip(edges - front, 0.0, mush)
+    solid = np.maximum(edges - front - mush, 0.0)
+    held = full * melt + 1e10 * (front * melt - 0.5 * melt**2) - 2.5e9 * solid**2
+    held += full * (mushy - 0.5 * mushy**2 / max(mush, 1e-300))
+    mean = np.diff(held) / np.diff(edges)
+    return sizes_of(mean[:, None], melting_range, cell=100e-9 / cells)
+
+
+@pytest.mark.parametrize("melting_range", [0.0, 55.0])
+def test_depth_of_fluid_metal_converges_and_never_jumps(melting_range):
+    """The error at f_m = 1 falls with the spacing, and the depth creeps with the front."""
+    errors = []
+    for cells in (10, 20, 40):
+        fronts = np.linspace(40e-9, 60e-9, 100 * cells + 1)  # 1/500 of a cell each
+        depths = np.array(
+            [melt_to(front, cells, melting_range)["melt_depth_m"] for front in fronts]
+        )
+        spacing = 100e-9 / cells
+        assert np.min(np.diff(depths)) > -1e-9 * spacing
+        assert np.max(np.diff(depths)) < 0.2 * spacing
+        errors.append(np.max(np.abs(depths - fronts)))
+        assert errors[-1] < 0.75 * spacing
+    assert errors[1] < 0.6 * errors[0]
+    assert errors[2] < 0.6 * errors[1]
+
+
 def test_depth_of_a_block_that_is_all_molten():
     """Nothing lies below the deepest cell: its lower face."""
     row = MeltPool(1).observe(view_of([[1.0], [0.9]], dimension=1))
@@ -100,14 +188,14 @@ def test_depth_of_a_block_that_is_all_molten():
 
 
 def test_numerical_standard_deviations():
-    """A depth in cells of 12 nm lies anywhere within one; a width jumps at both of its ends;
-    interpolation halves both; what is no size in cells, or zero, has none."""
+    """A width in cells of 12 nm jumps at both of its ends; interpolation halves it, and the depths;
+    what is no size in cells, or zero, has none."""
     melt = {"depth_max_m": 1e-7, "width_max_m": 1e-7, "depth_any_max_m": 0.0, "start_s": 1e-9}
     smooth = {"width_half_max_m": 1e-7, "depth_half_max_m": 1e-7, "volume_max_m3": 1e-14}
     found = numerical_sd({"spacing_m": 12e-9, "melt": melt | smooth, "temperature_max_K": 300.0})
     cell = 12e-9 / math.sqrt(12.0)
     assert found == {
-        "melt.depth_max_m": cell,
+        "melt.depth_max_m": 0.5 * cell,
         "melt.width_max_m": 2.0 * cell,
         "melt.width_half_max_m": cell,
         "melt.depth_half_max_m": 0.5 * cell,
@@ -190,11 +278,11 @@ def test_times_and_largest_sizes():
         pool.observe(view_of(fraction, time=float(k)))
     melt = pool.summary()["melt"]
     assert (melt["start_s"], melt["end_s"]) == (1.0, 5.0)
-    assert melt["depth_max_m"] == pytest.approx(20e-9)
+    assert melt["depth_max_m"] == pytest.approx(15e-9)  # where T is 1300 K, the liquidus
     assert melt["depth_max_at_s"] == 3.0
     assert melt["width_max_m"] == pytest.approx(40e-9)
     assert melt["width_max_at_s"] == 3.0
-    assert melt["depth_half_max_m"] == melt["depth_max_m"]
+    assert melt["depth_half_max_m"] == pytest.approx(20e-9)
     assert melt["molten_at_end"] is False
 
 

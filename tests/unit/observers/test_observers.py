@@ -185,7 +185,7 @@ def test_snapshot_times():
     assert schedule.due(0.27)
     assert schedule.next_time == pytest.approx(0.3)
     again = SnapshotSchedule(SnapshotPlan(interval=0.1, times=(0.25,)), 0.5)
-    again.restore(schedule.state())
+    again.restore(schedule.state(), 0.27)
     assert again.written == schedule.written
     assert again.due(0.5)
     assert again.next_time == float("inf")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import synthetic_run
 
-from lasersph.output import OutputError, open_run
+from lasersph.output import OutputError, frame_blocks, open_run
 from lasersph.output.frame_blocks import levels_of, particle_block, particle_index
 
 
@@ -94,6 +94,18 @@ def test_a_file_without_ranges_is_scanned(tmp_path):
     with h5py.File(folder / "particles.vtkhdf", "r+") as file:
         del file["ranges"]
     assert particle_index(folder) == before
+
+
+def test_a_frame_waits_for_its_line(folder, monkeypatch):
+    """Frames whose line of the surface is not written yet are not offered."""
+    whole = frame_blocks.frames_of(folder / "particles.vtkhdf")
+    line = {**whole, "times": whole["times"][:3], "counts": whole["counts"][:3]}
+    files = {"particles.vtkhdf": whole, "surface.vtkhdf": line}
+    monkeypatch.setattr(frame_blocks, "frames_of", lambda path: files[path.name])
+    index = particle_index(folder)
+    assert len(index["times"]) == len(index["counts"]) == len(index["surface"]["counts"]) == 3
+    assert index["start"] < 3
+    assert {len(offsets) for offsets in index["blocks"].values()} == {3}
 
 
 def test_levels_of_a_metal():

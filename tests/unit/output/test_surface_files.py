@@ -116,3 +116,29 @@ def test_damaged_x3p(relief, tmp_path):
             file.writestr(name, content)
     with pytest.raises(OutputError, match="the checksum is another"):
         read_surface(path)
+
+
+@pytest.mark.parametrize(
+    ("head", "scales"),
+    [
+        ("x_m,height_m", (1.0, 1.0)),
+        ("x_m,fluence_J_m2,height_m,melt_depth_m", (1.0, 1.0)),
+        ("x [um],Height [nm]", (1e-6, 1e-9)),
+        ("Distance (µm);Depth [um]", (1e-6, -1e-6)),
+        ("height_nm\tposition_mm", (1e-3, 1e-9)),
+    ],
+)
+def test_names_of_columns(tmp_path, head, scales):
+    """Our own profiles and what microscopes call their columns; a depth counts downward."""
+    separator = next(one for one in ",;\t" if one in head)
+    names = head.split(separator)
+    places = [names.index(n) for n in names if n[0].lower() in "xdp" and "epth" not in n]
+    rows = [
+        [str(0.25 * k + (10 * k if n in places else 0)) for n in range(len(names))]
+        for k in range(5)
+    ]
+    file = tmp_path / "line.csv"
+    file.write_text("\n".join([head, *(separator.join(row) for row in rows)]), encoding="utf-8")
+    found = read_surface(file)
+    np.testing.assert_allclose(found.x, scales[0] * 10.25 * np.arange(5), rtol=1e-12)
+    np.testing.assert_allclose(found.z[0], scales[1] * 0.25 * np.arange(5), rtol=1e-12)

@@ -77,9 +77,9 @@ def test_every_axis_names_its_unit(pool, box):
 def test_figures_of_a_pool(pool, unsaved):
     """Figures of flow among those of heat, in reading order."""
     names = [path.stem for path in draw_run(pool.path)]
-    flow = ["flow", "flow-speed", "flow-extrema", "surface-flow", "flow-layer", "surface-pressure"]
+    flow = ["flow", "flow-speed", "surface-flow", "flow-extrema", "flow-layer", "surface-pressure"]
     assert [name for name in names if name in flow] == flow
-    assert names.index("flow") > names.index("particles")
+    assert names.index("flow") < names.index("temperature") < names.index("flow-speed")
     assert "box-flow" not in names
 
 

@@ -45,9 +45,9 @@ def test_all_figures_of_a_plane_run(folders, tmp_path):
     assert [path.name for path in written] == [
         "temperature.png",
         "melt-pool.png",
-        "surface-profiles.png",
         "particles.png",
         "energy.png",
+        "surface-profiles.png",
         "time-step.png",
         "arrangement.png",
     ]
@@ -85,9 +85,12 @@ def test_every_axis_names_its_unit(run):
 
 
 def test_temperature_curve_is_the_history(run):
-    """The curve holds the numbers of history.csv, time in ns."""
+    """The curve holds the numbers of history.csv, time in ns; a probe there shares its line."""
     figure = over_time.temperature_history(run)
-    line = next(li for li in figure.axes[0].lines if li.get_label() == "surface at x = 0")
+    labels = [line.get_label() for line in figure.axes[0].lines]
+    line = figure.axes[0].lines[0]
+    assert labels[0] == "surface at x = 0, probe surface"
+    assert "probe surface" not in labels
     assert np.array_equal(line.get_ydata(), run.history["temperature_at_maximum_K"])
     assert line.get_xdata()[-1] == pytest.approx(200.0)
 

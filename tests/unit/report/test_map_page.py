@@ -8,8 +8,9 @@ import pytest
 from synthetic_sweep import grid_points, made_up_sweep
 
 from lasersph.cli import main
+from lasersph.input import in_field_units
 from lasersph.plots.process_map import draw_process_map
-from lasersph.report.map_page import in_field_units, write_map
+from lasersph.report.map_page import write_map
 from lasersph.studies import process_map
 
 DEPTH = "melt.depth_max_m"
@@ -33,15 +34,28 @@ def test_files_of_a_map(tmp_path):
         and "1 of 24 runs has no result" in page
         and "0.2 J/cm²" in page
     )
-    assert "onset of melting, boiling" in page and "Wanted: 200 nm" in page
+    assert (
+        "onset of melting, boiling" in page
+        and "Where it begins" in page
+        and "Wanted: 200 nm" in page
+    )
 
     rows = list(csv.reader(files[2].open(encoding="utf-8")))
-    assert rows[0] == ["laser.fluence [J/m^2]", "laser.pulse.fwhm [s]", DEPTH]
+    assert rows[0] == ["laser.fluence [J/cm^2]", "laser.pulse.fwhm [s]", "melt.depth_max [m]"]
+    assert float(rows[1][0]) == pytest.approx(1e-4 * found.axes[0].grid[0])
     assert len(rows) == 1 + found.field.size and rows[1][:2] != ["", ""]
     assert sum(row[2] == "" for row in rows) == np.isnan(found.field).sum()
     lines = list(csv.reader(files[3].open(encoding="utf-8")))
-    assert lines[0][:2] == ["line", "part"]
-    assert {row[0] for row in lines[1:]} == {"melts", "boils", "target"}
+    assert lines[0] == ["line", "part", "laser.fluence [J/cm^2]", "laser.pulse.fwhm [s]"]
+    low, high = 1e-4 * found.axes[0].grid[[0, -1]]
+    assert all(0.999 * low <= float(row[2]) <= 1.001 * high for row in lines[1:])
+    assert {row[0] for row in lines[1:]} == {
+        "melts",
+        "boils",
+        "target",
+        "melts: band",
+        "boils: band",
+    }
 
 
 @pytest.mark.parametrize("keys", [1, 2])
@@ -87,7 +101,10 @@ def test_command(tmp_path, capsys):
     made_up_sweep(tmp_path, grid_points())
     assert main(["map", str(tmp_path), "--show", DEPTH, "--target", "200 nm"]) == 0
     said = capsys.readouterr().out
-    assert "melting: 0.2 J/cm²" in said and "200 nm: " in said
+    assert "melting, 1 ns: in every run from 0.2 J/cm² to 1.2 J/cm²\n" in said
+    assert re.search(r"melting, 13\.57 ns: 0\.4\d+ ± 0\.0\d+ J/cm²\n", said)
+    assert "boiling, 1 ns: between 0.2 J/cm² and 0.4 J/cm²; as colder runs" in said
+    assert "200 nm: " in said
     assert str(tmp_path / f"map-{DEPTH}.html") in said
     assert main(["sensitivity", str(tmp_path), "--of", DEPTH]) == 0
     said = capsys.readouterr().out

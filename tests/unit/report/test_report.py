@@ -1,6 +1,7 @@
 """The report: one file, complete, in plain words with right numbers."""
 
 import base64
+import json
 import re
 import shlex
 import zlib
@@ -13,6 +14,7 @@ import pytest
 import synthetic_run
 
 from lasersph.case import load_case
+from lasersph.observers.run_warnings import found_warnings
 from lasersph.output import OutputError, open_run
 from lasersph.output.frame_blocks import particle_index
 from lasersph.report import scene, write_report
@@ -67,10 +69,12 @@ def test_page_is_well_formed_and_self_contained(page, folder):
 
 
 def test_pictures_come_first(page):
-    """What was computed, the viewer, the pool, five numbers; then figures, tables, versions."""
+    """A sentence, the viewer, the pool, five numbers; then results, figures, and at the end what is
+    for who judges the computation."""
     order = ["<h1>", "This run computes", 'id="viewer"', 'id="particles"', '<dl class="numbers">']
-    order += ["The metal reached at most", 'id="figures"', 'id="temperature"', 'id="results"']
-    order += ["<summary>Melt pool", "<summary>Energy", 'id="case"', 'id="reproduce"', "numpy"]
+    order += ["The metal reached at most", 'id="results"', "<th>result</th>", "<summary>Melt pool"]
+    order += ["<summary>Energy", 'id="figures"', 'id="temperature"', "<summary>More figures"]
+    order += ['id="how-it-was-computed"', 'id="time-step"', 'id="case"', 'id="reproduce"', "numpy"]
     places = [page.index(text) for text in order]
     assert places == sorted(places)
     assert page.count("<dd>") == 5
@@ -143,7 +147,7 @@ def decode(frames, field, number):
         (
             {"pulse_energy": 6e-6, "spot": {"diameter": 5e-5, "definition": "1/e^2"}}
             | {"pulse": {"fwhm": 1e-8}, "beam": {"kind": "interference", "period": 5e-6}},
-            " under one pulse of 10 ns with 6 µJ in all in a spot of 50 µm (1/e^2) of interfering"
+            " under one pulse of 10 ns with 6 µJ in a spot of 50 µm (1/e^2) of interfering"
             " beams (period 5 µm)",
         ),
         (
@@ -155,13 +159,28 @@ def decode(frames, field, number):
         (
             {"fluence": 1e5, "pulse": {"count": 3, "duration": 6e-9}}
             | {"beam": {"kind": "top-hat", "radius": 7.5e-6}},
-            " under 3 pulses of 6 ns with 10 J/cm² in a top-hat beam (radius 7.5 µm)",
+            " under 3 pulses of 6 ns with 10 J/cm² each in a top-hat beam (radius 7.5 µm)",
+        ),
+        (
+            {"pulse_energy": 2e-5, "spot": {"diameter": 6e-5, "definition": "1/e^2"}}
+            | {"pulse": {"count": 5, "fwhm": 6e-9}, "beam": {"kind": "uniform"}},
+            " under 5 pulses of 6 ns with 20 µJ each, 100 µJ in all, in a spot of 60 µm (1/e^2)",
         ),
     ],
 )
 def test_light_in_words(laser, text):
     """The light of a case as a part of a sentence."""
     assert light_text(laser) == text
+
+
+def test_fluence_that_follows_from_an_energy():
+    """It is said where the case gives an energy, and where the summary tells it."""
+    laser = {"pulse_energy": 9e-6, "spot": {"diameter": 4e-5, "definition": "1/e^2"}}
+    laser |= {"pulse": {"count": 10, "fwhm": 1e-8}, "beam": {"kind": "interference"}}
+    assert light_text(laser, {"mean_fluence_J_m2": 14300.0}) == (
+        " under 10 pulses of 10 ns with 9 µJ each, 90 µJ in all, 1.43 J/cm² in the mean over a"
+        " period where it is computed, in a spot of 40 µm (1/e^2) of interfering beams"
+    )
 
 
 def test_large_numbers_have_errors(folder):
@@ -241,7 +260,7 @@ def test_verdict_without_melt(folder):
     """Nothing melted, or material that cannot melt."""
     summary = {k: v for k, v in open_run(folder).summary.items() if k != "melt"}
     assert "Nothing melted." in verdict(summary)
-    assert "does not melt" in verdict({**summary, "material": {"solidus_K": None}})
+    assert "Melting was not computed" in verdict({**summary, "material": {"solidus_K": None}})
 
 
 def test_a_bad_energy_balance_is_shouted(folder):
@@ -252,14 +271,45 @@ def test_a_bad_energy_balance_is_shouted(folder):
     assert any("energy balance" in text for text in warning_texts(bad, []))
 
 
+def test_warnings_share_one_box_above_the_pictures(tmp_path):
+    """Of one its whole text, of several a line each that opens; markup in them is text."""
+    folder = synthetic_run.make_run(tmp_path / "run", dimension=1)
+    content = json.loads((folder / "summary.json").read_text())
+    for texts, line in ((["one & all"], "<p>{}</p>"), (["one & all"] * 3, "<summary>{}</summary>")):
+        (folder / "summary.json").write_text(json.dumps({**content, "warnings": texts}))
+        above = report_page(open_run(folder), []).split('<div class="top">')[0]
+        assert above.count('<div class="warnings">') == 1
+        assert above.count(line.format("one &amp; all")) == len(texts)
+    (folder / "summary.json").write_text(json.dumps({**content, "warnings": []}))
+    assert '<div class="warnings">' not in report_page(open_run(folder), [])
+
+
+STILL = {"imbalance_relative": 0.0, "absorbed_J": 0.0, "stored_J": 0.0, "lost_J": 0.0}
+"""Energies of a run without light."""
+
+
+def test_melt_at_the_end_of_a_train_takes_a_new_run():
+    """Where pauses are jumped over no run goes on to a later end, and the warning says so."""
+    melt = {"molten_at_end": True, "end_any_s": 1e-7}
+    summary = {
+        "melt": melt,
+        "time_s": 1e-7,
+        "energy": STILL,
+        "topography": {},
+    }
+    assert found_warnings(summary)[0].endswith("; go on with a later time.end")
+    summary["topography"] = {"after_pulses_m": [1e-8]}
+    assert found_warnings(summary)[0].endswith("; compute it again with a later time.end")
+
+
 def test_notes(folder):
-    """Rounded spacing and melt left at the end are noted."""
+    """Rounded spacing is noted, melt left at the end is warned of."""
     summary = open_run(folder).summary
     summary = {**summary, "spacing_m": 8.0128e-9, "spacing_requested_m": 8e-9}
     summary["melt"] = {**summary["melt"], "molten_at_end": True}
     notes = note_texts(summary)
     assert any("8 nm was rounded to 8.0128 nm" in text for text in notes)
-    assert any("still fluid" in text for text in notes)
+    assert any("still fluid" in text for text in warning_texts(summary, []))
     assert any("energies those of the half" in text for text in notes)
     whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
     assert not any("of the half" in text for text in note_texts(whole))

@@ -125,11 +125,14 @@ def test_command(plan, tmp_path, capsys, monkeypatch):
     assert main(["calibrate", str(plan), "--out", str(out), "--dry-run"]) == 0
     text = capsys.readouterr().out
     assert "4 to 6, and two checks" in text
-    assert "3500 to 11200 J/m^2" in text
+    assert "0.35 J/cm^2 to 1.12 J/cm^2" in text
     assert not out.exists()
     monkeypatch.setattr("lasersph.sweeps.LocalEngine", lambda *_: FormulaEngine())
     assert main(["calibrate", str(plan), "--out", str(out)]) == 0
-    text = capsys.readouterr().out
+    text, err = capsys.readouterr()
+    first, then, *_ = err.splitlines()
+    assert first.startswith("4 to 6 runs, and two checks, one after the other: roughly ")
+    assert then.startswith("run ")
     assert "factor = 1." in text
     assert "half the spacing shifts it by 0" in text
     assert (out / "calibration.png").stat().st_size > 10_000

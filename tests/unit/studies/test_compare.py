@@ -16,6 +16,7 @@ from lasersph.output.atomic import replace_json
 from lasersph.output.height_map import HeightMap
 from lasersph.output.image_file import Maps, write_maps
 from lasersph.output.particle_file import ParticleFile
+from lasersph.report.comparison_page import unknown_rows
 from lasersph.studies.texture import compare as comparing
 from lasersph.studies.texture import relief
 from lasersph.studies.texture.compare import compare
@@ -83,6 +84,42 @@ def test_end_of_the_cells(ours):
     assert "compute a texture of more pulse energy" in comparing.sentence(found)
 
 
+def test_intervals_end_at_their_bounds(ours):
+    """A factor at the end of what the cells cover has an interval with one end, in file and page;
+    one within lies between two."""
+    hot = Relief("hot", ours.table, ours.x, ours.y, ours.fluence / 0.9, 0.0)
+    found = compare(hot, measurement(ours, 1.0 / 0.9, 3))
+    assert "fluence_factor" in found.at_bound
+    low, high = found.interval("fluence_factor")
+    assert low < high == pytest.approx(found.values["fluence_factor"], rel=1e-9)
+    assert high <= hot.largest_factor * (1.0 + 1e-9)
+    (row,) = (one for one in unknown_rows(comparing.answer(found)) if one[0].startswith("factor"))
+    assert row[2] == "at its bound" and row[3].endswith(" or more")
+    assert f"{low:.4g} or more" in comparing.sentence(found)
+
+
+def test_place_in_coordinates_of_the_measurement(ours):
+    """Our center is told where the measurement's own x has it, wherever its zero is."""
+    surface = measurement(ours, 0.95, 6, scale=1.0)
+    for start in (0.0, 100 * UM):
+        moved = HeightMap(surface.x + start, surface.y, surface.z)
+        content = comparing.answer(compare(ours, moved))
+        assert content["origin_in_measurement"]["x_m"] == pytest.approx(
+            start + 22.7 * UM, abs=0.1 * UM
+        )
+    rows = dict(row[:2] for row in unknown_rows(content))
+    assert rows["our x = 0 lies at this x of the measurement"].startswith("122.")
+
+
+def test_a_period_without_its_last_point(tmp_path):
+    """A profile of a cell that repeats ends one step before the next period; its own export, too,
+    is compared with it."""
+    x = np.arange(100) * PERIOD / 100
+    refuse_odd(HeightMap(x, np.zeros(1), 30 * NM * np.cos(2.0 * np.pi * x / PERIOD)[None]), PERIOD)
+    with pytest.raises(NoComparison, match="shorter than a period"):
+        refuse_odd(HeightMap(x[:-1], np.zeros(1), np.cos(x[:-1])[None] * NM), PERIOD)
+
+
 def test_wrong_model_is_said(ours):
     """Heights twice as large at the same widths are more than noise, and the errors grow."""
     good, wrong = measurement(ours, 1.0, 4), measurement(ours, 1.0, 4, noise=0.0)
@@ -98,12 +135,21 @@ def odd(x_factor=1.0, z_factor=1.0, count=500, width=44 * UM, period=PERIOD):
     return HeightMap(x_factor * x, np.zeros(1), z_factor * z[None, :])
 
 
+def two_hills(period, first=0.4):
+    """A relief whose second wave is stronger than its first one."""
+    x = np.linspace(0.0, 44 * UM, 500)
+    noise = 2 * NM * np.random.default_rng(2).normal(size=x.size)
+    z = first * np.cos(2.0 * np.pi * x / period) + np.cos(4.0 * np.pi * x / period)
+    return HeightMap(x, np.zeros(1), (30 * NM * z + noise)[None, :])
+
+
 REFUSED = {
     "short": (odd(x_factor=1e-3), "shorter than a period of 5 um: is its unit right"),
     "coarse": (odd(count=30), "do not show a period of 5 um"),
     "high": (odd(z_factor=1e6), "is the unit of the heights right"),
     "flat": (odd(z_factor=0.0), "all measured heights are the same"),
     "other period": (odd(period=3 * UM), "the measured period of 2.98"),
+    "two hills a period": (two_hills(3.7 * UM), "the measured period of 3.[67]"),
 }
 
 

@@ -1,5 +1,6 @@
 """Settings for wanted values, from the emulated runs of a made-up sweep."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -36,6 +37,20 @@ def test_wishes():
     assert (wish.low, wish.high) == pytest.approx((190e-9, 210e-9))
     assert read_wish("temperature_max_K<3000 K").high == 3000.0
     assert read_wish("temperature_max_K > 300 K").low == 300.0
+
+
+def test_number_of_runs_and_their_time_are_said_first(tmp_path, capsys, monkeypatch):
+    """Before the first run; the same command again says what is complete."""
+    plan, out = tmp_path / "plan.toml", tmp_path / "out"
+    plan.write_text(PLAN.replace("most = 8", "most = 5"))
+    engine = PretendingEngine(depth=lambda fluence: 1e-11 * fluence)
+    monkeypatch.setattr("lasersph.sweeps.LocalEngine", lambda *_: engine)
+    main(["find", str(plan), "--out", str(out)])
+    first, then, *_ = capsys.readouterr().err.splitlines()
+    assert first.startswith("4 to 5 runs, one after the other: roughly ") and " to " in first
+    assert then.startswith("run ")
+    main(["find", str(plan), "--out", str(out)])
+    assert capsys.readouterr().err.splitlines()[0] == "4 to 5 runs, all complete"
 
 
 @pytest.mark.parametrize(
@@ -95,8 +110,8 @@ def test_command(table, capsys, monkeypatch, tmp_path):
     monkeypatch.setattr("lasersph.sweeps.Table.read", lambda folder: table)
     assert main(["find", str(tmp_path), "--want", "melt.depth_max_m = 200 +- 10 nm"]) == 0
     head, _, first, *_ = capsys.readouterr().out.splitlines()
-    assert "laser.fluence_J_m2" in head
-    assert " %" in first
+    assert "laser.fluence" in head and "laser.fluence_J_m2" not in head
+    assert " %" in first and re.search(r" 0\.\d+ J/cm\^2 .* nm", first)
     assert main(["find", str(tmp_path), "--want", "melt.depth_max_m > 2 um"]) == 2
     assert "no settings" in capsys.readouterr().err
 

@@ -8,6 +8,7 @@ from lasersph.input import Model
 from lasersph.lasers import Laser
 from lasersph.materials import Material, load_material
 from lasersph.studies import threshold
+from lasersph.studies.fluence_threshold import show_energy, usual_runs
 
 STEEL = load_material("steel-304-demuth")
 MELTS, BOILS = 3000.0, 7000.0  # fluences at which the stand-in reaches liquidus and boiling point
@@ -61,8 +62,8 @@ def test_the_cases_own_energy_is_varied(tmp_path):
     )  # fmt: skip
     assert found.key == "laser.intensity"
     assert found.value == pytest.approx(MELTS / 1e-8, rel=0.01)
-    assert folders[:2] == ["intensity-1e+11", "intensity-5e+11"]
-    assert lines[0].startswith("run 1: laser.intensity = 1e+07 W/cm^2: 724.7 K, not reached")
+    assert folders[:2] == ["intensity-10000000", "intensity-50000000"]
+    assert lines[0].startswith("run 1: laser.intensity = 1.0000e+07 W/cm^2: 724.7 K, not reached")
 
 
 @pytest.mark.parametrize("guess", [1e2, 2.9e3, 1e5])
@@ -112,3 +113,19 @@ def test_impossible_events_are_refused_before_any_run(tmp_path):
         threshold(case(fluence=1.0), "burn", tmp_path, run=None)
     with pytest.raises(ValueError, match="tolerance"):
         threshold(case(fluence=1.0), "melt", tmp_path, tolerance=0.0, run=run)
+
+
+def test_usual_runs_are_what_a_near_guess_takes(tmp_path):
+    """Within a factor of 2 of the threshold, for several tolerances."""
+    for tolerance in (0.1, 0.01, 0.001):
+        for guess in (1.6e3, 2.9e3, 5.6e3):
+            folder = tmp_path / f"{tolerance}-{guess}"
+            found = threshold(case(fluence=guess), "melt", folder, tolerance=tolerance, run=run)
+            assert abs(len(found.trials) - usual_runs(tolerance)) <= 1
+
+
+def test_energies_are_shown_to_as_many_digits():
+    """In a column of trials, whatever the last digits are."""
+    shown = [show_energy("laser.fluence", value) for value in (2625.0, 2437.5, 2343.75)]
+    assert shown == ["0.26250 J/cm^2", "0.24375 J/cm^2", "0.23438 J/cm^2"]
+    assert show_energy("laser.pulse_energy", 12345.0) == "12345 J"

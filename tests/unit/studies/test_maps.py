@@ -1,10 +1,13 @@
 """Process maps of made-up sweeps, whose melting and boiling lines are known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.stats import qmc
 from synthetic_sweep import (
+    LIQUIDUS,
     boiling_fluence,
     grid_points,
     made_up_depth,
@@ -41,6 +44,20 @@ def test_lines_of_a_grid(tmp_path):
     assert errors_of_lines(found, "boils", boiling_fluence).max() < 0.03
     assert found.field.shape == (161, 161) and not np.any(np.isnan(found.field))
     assert found.unit == "m" and found.notes == ()
+
+
+def test_a_run_at_its_melting_point_says_only_that_it_is_not_fluid(tmp_path):
+    """Half-molten metal rests at the melting point: where it gets fluid is known to the next run,
+    not to a four hundredth of the way."""
+    points = [(fluence, 1e-8) for fluence in (2e3, 4e3, 6e3, 8e3)]
+    table = made_up_sweep(tmp_path, points)
+    hottest = {"temperature_max_K": LIQUIDUS, "material.liquidus_K": LIQUIDUS}
+    numbers = {k: v for k, v in table.rows[1].numbers.items() if k != "melt.start_s"} | hottest
+    rows = (table.rows[0], replace(table.rows[1], numbers=numbers), *table.rows[2:])
+    found = process_map(replace(table, rows=rows), show=DEPTH)
+    (onset,) = (one for one in found.onsets if one.event == "melts")
+    assert onset.between == (4e3, 6e3) and onset.estimate is None
+    assert onset.known == "bracket" and "melts" not in found.lines
 
 
 def test_nothing_is_interpolated_over_a_failed_run(tmp_path):
@@ -88,7 +105,59 @@ def test_one_key(tmp_path):
     assert_allclose(found.lines["target"][0][:, 0], [6e3], rtol=0.02)
     beyond = process_map(tmp_path, show=DEPTH, target=5e-7)
     assert "target" not in beyond.lines
-    assert beyond.notes == ("500 nm lies nowhere between the runs.",)
+    assert beyond.notes[-1] == "500 nm lies nowhere between the runs."
+
+
+def test_an_event_of_no_run_has_no_line(tmp_path):
+    """Up to 0.8 J/cm2 nothing boils: a word says which runs would tell where boiling begins; above
+    0.5 J/cm2 everything melts."""
+    points = [(fluence, 1e-8) for fluence in np.linspace(5e3, 8e3, 4)]
+    found = process_map(made_up_sweep(tmp_path, points), show=DEPTH)
+    assert not found.lines and not found.bands and not found.onsets
+    assert found.notes == (
+        "Every run melts: colder runs (laser.fluence below 0.5 J/cm²) "
+        "would tell where melting begins.",
+        "No run boils: hotter runs (laser.fluence above 0.8 J/cm²) "
+        "would tell where boiling begins.",
+    )
+
+
+@pytest.mark.parametrize("count", [3, 4, 6, 11])
+def test_bands_hold_the_true_lines(tmp_path, count):
+    """On grids of any fineness the exact melting and boiling fluences lie within their bands, and
+    boiling, of which a bracket alone is known, between the two runs around it."""
+    fluences = np.linspace(2e3, 1.2e4, count)
+    points = [(f, t) for f in fluences for t in np.geomspace(5e-9, 2e-8, 3)]
+    found = process_map(made_up_sweep(tmp_path, points), show=DEPTH)
+    exact = {"melts": melting_fluence, "boils": boiling_fluence}
+    seen = 0
+    for onset in found.onsets:
+        low, high = onset.between
+        true = exact[onset.event](onset.at)
+        if onset.known in ("measured", "bracket"):
+            assert low <= true * (1.0 + 1e-9) and true <= high * (1.0 + 1e-9)
+            assert onset.event in found.bands
+            seen += 1
+        if onset.event == "boils" and onset.known == "bracket":
+            around = np.searchsorted(fluences, true)
+            assert_allclose((low, high), fluences[around - 1 : around + 1], rtol=1e-9)
+    assert seen >= 4
+
+
+def test_no_line_sits_on_a_run(tmp_path):
+    """With one run that does not boil nothing can be extrapolated: the whole cell between the runs
+    is shaded and no line is drawn."""
+    points = [(f, t) for f in (6e3, 1.1e4, 1.6e4) for t in (5e-9, 1e-8)]
+    found = process_map(made_up_sweep(tmp_path, points), show=DEPTH)
+    assert "boils" not in found.lines
+    assert [(one.at, one.known, one.between) for one in found.onsets] == [
+        (5e-9, "bracket", (6e3, 1.1e4)),
+        (1e-8, "bracket", (6e3, 1.1e4)),
+    ]
+    (ring,) = found.bands["boils"]
+    assert_allclose(ring.min(axis=0), (6e3, 5e-9), rtol=0.01)
+    assert_allclose(ring.max(axis=0), (1.1e4, 1e-8), rtol=0.01)
+    assert found.onset_words()[1] == ("boiling", "10 ns: between 0.6 J/cm² and 1.1 J/cm²")
 
 
 def test_keys_in_the_wanted_order(tmp_path):

@@ -67,7 +67,7 @@ def test_number_missing_in_one_run_is_called_incomplete(tmp_path):
     rows, head = study.table()
     assert head[:3] == ["number", "8 nm", "16 nm"]
     assert rows[1] == [
-        "melt.depth_max_m", "1.008e-06", "1.016e-06", "-", "incomplete", "-", "-", "-",
+        "melt.depth_max_m", "1.008 um", "1.016 um", "-", "incomplete", "-", "-", "-",
     ]  # fmt: skip
     plain = json.loads(json.dumps(study.as_dict()))
     assert plain["numbers"]["melt.depth_max_m"]["values"][2] is None
@@ -76,20 +76,21 @@ def test_number_missing_in_one_run_is_called_incomplete(tmp_path):
 
 
 def test_sizes_in_whole_cells_are_never_surer_than_a_cell(tmp_path):
-    """288 nm at 12, 24 and 48 nm: exact by coincidence, and uncertain by 12 (depth), 24 (width)."""
+    """288 nm at 12, 24 and 48 nm: exact by chance, uncertain by 24 (width) and 12 (boiling)."""
 
     def stairs(case, folder):
-        melt = {"depth_max_m": 288e-9, "width_max_m": 288e-9, "width_half_max_m": 288e-9}
-        summary = {"melt": melt, "surface": {"symmetry_factor": 2}, "material": {"solidus_K": 1.0}}
+        melt = {"width_max_m": 288e-9, "width_half_max_m": 288e-9}
+        vapor = {"depth_max_m": 288e-9}
+        summary = {"melt": melt, "vaporization": vapor, "surface": {"symmetry_factor": 2}}
         return SimpleNamespace(summary=summary)
 
     study = converge(CASE, [12e-9, 24e-9, 48e-9], tmp_path, run=stairs)
     assert [row.name for row in study.rows] == [
-        "melt.depth_max_m", "melt.width_max_m", "melt.width_half_max_m",
+        "melt.width_max_m", "melt.width_half_max_m", "vaporization.depth_max_m",
     ]  # fmt: skip
     assert [row.convergence.kind for row in study.rows] == ["exact"] * 3
     gci = [row.convergence.gci for row in study.rows]
-    assert gci == pytest.approx([12 / 288, 24 / 288, 0.0])
+    assert gci == pytest.approx([24 / 288, 0.0, 12 / 288])
 
 
 def test_rounded_spacings_count(tmp_path):

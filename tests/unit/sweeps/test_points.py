@@ -62,12 +62,14 @@ def test_a_wrong_case_is_an_error():
 def test_workers_share_the_memory(tmp_path, monkeypatch):
     """No more of them than fit beside each other, and at least one."""
     from lasersph.case.size import size_of
+    from lasersph.simulation import forecast
     from lasersph.sweeps import local
 
     case = load_case("dlip-steel")
+    needed = max(forecast(case).memory, size_of(case).bytes)
     tasks = [Task("0001-x", case, tmp_path)]
     monkeypatch.setattr(local, "available", lambda: 8)
     for share, workers in ((100.0, 8), (4.0, 3), (0.5, 1)):
-        memory = share * size_of(case).bytes
+        memory = share * needed
         monkeypatch.setattr(local, "machine_memory", lambda memory=memory: memory)
         assert local.most_workers(tasks) == workers

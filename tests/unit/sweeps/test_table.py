@@ -2,6 +2,7 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -45,8 +46,8 @@ def test_csv_is_the_table(tmp_path):
     table = made(tmp_path, [4000, 5000], PretendingEngine(fails={5000.0}))
     text = (tmp_path / "table.csv").read_text()
     first, second = csv.DictReader(text.splitlines())
-    assert first["laser.fluence_J_m2"] == "4000.0" and first["melt.depth_max_m"] == "4e-08"
-    assert first["wall_time_s"] == "2.5" and first["run"] == f"0001-{first['hash']}"
+    assert first["laser.fluence [J/m^2]"] == "4000.0" and first["melt.depth_max [m]"] == "4e-08"
+    assert first["wall_time [s]"] == "2.5" and first["run"] == f"0001-{first['hash']}"
     assert second["status"] == "failed" and second["reason"] == "no step converges"
     assert "is_steady" not in first
     numbers = np.genfromtxt(tmp_path / "table.csv", delimiter=",", names=True)
@@ -54,6 +55,19 @@ def test_csv_is_the_table(tmp_path):
     (tmp_path / "table.csv").unlink()
     assert Table.read(tmp_path).write().read_text() == text
     assert Table.read(tmp_path) == table
+
+
+def test_csv_is_in_the_units_of_the_plan(tmp_path):
+    """0.7 J/cm2 comes back as that, an energy of a 2-D run per length; the frame stays in SI."""
+    plan = build_plan("dlip-steel", {"laser.fluence": ["0.4 J/cm^2", "0.7 J/cm^2"]})
+    table = make_runs(plan.points(), tmp_path, plan.study, engine=PretendingEngine())
+    rows = list(csv.DictReader((tmp_path / "table.csv").read_text().splitlines()))
+    assert [row["laser.fluence [J/cm^2]"] for row in rows] == ["0.4", "0.7"]
+    assert "laser.fluence_J_m2" in table.header()
+    assert table.number_unit("melt.volume_max_m3") == "m^3"  # no run says how many dimensions
+    flat = replace(table.rows[0], numbers={"dimensions": 2.0})
+    assert replace(table, rows=(flat,)).number_unit("melt.volume_max_m3") == "m^2"
+    assert replace(table, rows=(flat,)).number_unit("energy.absorbed_J") == "J/m"
 
 
 def test_a_longer_plan_finds_its_runs(tmp_path):

@@ -1,7 +1,8 @@
-"""The page "Both papers, figure by figure": every number comes from a recorded row."""
+"""The pages "Both papers, figure by figure": every number comes from a recorded row."""
 
 import re
 import sys
+from collections import Counter
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -17,11 +18,14 @@ from papers_page import (  # noqa: E402  (the folder is no package)
     MISSING,
     NOT_GIVEN,
     NOT_MET,
+    draw_overview,
     entries,
-    papers_page,
+    overview,
+    paper_page,
     read_papers,
     row_named,
     verdict,
+    whole_verdict,
 )
 
 PAPERS = read_papers(DOCS / "papers.toml")
@@ -147,11 +151,38 @@ def test_one_entry_stands_for_many_rows():
     assert listed == ["solidus, Table 3", "liquidus, Table 3", "density, Table 3"]
 
 
-def test_page():
-    """Counts, heads, the table and what is not given."""
+def test_pages(tmp_path):
+    """Overview: how many figures agree, and a link to each; of a paper counts, heads, the table and
+    what is not given."""
     part = {"where": "Fig. 1", "what": "Heat", "validation": "stefan", "rows": [{"row": "T"}]}
     papers = {"ablation": [part], "texturing": [{"where": "Fig. 2", "what": "x", "missing": "y"}]}
-    page = papers_page(papers, {"stefan": state(row())})
+    states = {"stefan": state(row())}
+    first = overview(papers, states)
+    assert "(papers/ablation.md) | 1 | 0 | 0 | 0 | 0 |" in first
+    assert "(papers/texturing.md) | 0 | 0 | 0 | 0 | 1 |" in first
+    assert "| [Fig. 1](#paper-ablation-1) | Heat | reproduced | 1 reproduced |" in first
+    page = paper_page("ablation", papers["ablation"], states)
     assert "Numbers: 1 reproduced, 0 not given." in page
+    assert "(paper-ablation-1)=\n## Fig. 1" in page
     assert "| T \\[K\\] | 3 | 3.1 | reproduced: within 0.5 K; a digit |" in page
-    assert "*Not given by the paper*: y." in page
+    other = paper_page("texturing", papers["texturing"], states)
+    assert "*Not given by the paper*: y." in other and "<details>" not in other
+    draw_overview(papers, states, tmp_path / "papers.svg")
+    assert "reproduced" in (tmp_path / "papers.svg").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("numbers", "whole"),
+    [
+        ({"reproduced": 3, "own": 1, NOT_GIVEN: 1}, "reproduced"),
+        ({"reproduced": 3, DIFFERS: 1}, "in part"),
+        ({DIFFERS: 2}, DIFFERS),
+        ({"reproduced": 3, NOT_MET: 1}, NOT_MET),
+        ({"reproduced": 3, MISSING: 1}, NOT_MET),
+        ({NOT_GIVEN: 1}, NOT_GIVEN),
+        ({}, NOT_GIVEN),
+    ],
+)
+def test_verdict_on_a_figure(numbers, whole):
+    """All of its numbers, some, none; one that is not met is told, what is only shown is not."""
+    assert whole_verdict(Counter(numbers)) == whole

@@ -1,4 +1,4 @@
-"""The page of validations: each with its state, none left out."""
+"""The pages of validations: each with its state, none left out; what failed stands first."""
 
 import sys
 from pathlib import Path
@@ -11,7 +11,8 @@ from lasersph.validation.study import home_of
 
 DOCS = Path(__file__).parents[3] / "docs"
 sys.path.insert(0, str(DOCS / "_extensions"))
-from validation_table import NOT_MET, validation_table  # noqa: E402  # pyright: ignore  # the folder is no package
+from validation_pages import validation_page  # noqa: E402  # pyright: ignore  # no package
+from validation_table import NOT_MET, validation_table  # noqa: E402  # pyright: ignore
 
 BAND = Comparison("T", "K", band=0.5, reason="read from a figure", name="T")
 OWN = Comparison("T|2", "K", band=0.5, own=True, changed="was 1 K until May, because ...")
@@ -39,56 +40,103 @@ STATES = (
 )
 
 
-def page():
-    """The page of made-up states."""
-    readmes = {state.name: f"# Is {state.name}?\n\n## Source\nNone.\n" for state in STATES}
-    readmes["bad"] += f"\n{NOT_MET}\nThe wall is too near.\n"
-    return validation_table(STATES, readmes)
+MANY = tuple(
+    Comparison(f"sum {k}", "1", band=1e-6, name=f"sum {k}").row(1.0 + 1e-12 * k, 1.0)
+    for k in range(12)
+)
+"""Identities: twelve numbers that are printed as 1 and judged by 1."""
 
 
-def section(name):
-    """The part of the page about one validation."""
-    return page().partition(f"\n## {name}\n")[2].partition("\n## ")[0]
+def readmes():
+    """Of the made-up states."""
+    found = {state.name: f"# Is {state.name}?\n\n## Source\nNone.\n" for state in STATES}
+    found["bad"] += f"\n{NOT_MET}\nMost of it:\n\n| a | b |\n\nThe wall is too near. It moves.\n"
+    return found
+
+
+def overview():
+    """The overview of made-up states."""
+    return validation_table(STATES, readmes())
+
+
+def page(name, *rows):
+    """The page of one of them, with other rows if given."""
+    (state,) = (state for state in STATES if state.name == name)
+    if rows:
+        state = State(state.name, state.word, record(*rows))
+    return validation_page(state, readmes()[name])
 
 
 def test_every_state_is_shown():
     """The overview has a line of each, and what is not as it should be stands out."""
-    overview = page().partition("\n## ")[0]
     for name, word in (("good", "current"), ("old", "**stale**"),
                        ("bad", "**failed**"), ("worse", "**failed**"),
                        ("sure", "confirmed on 2026-11-21"), ("none", "**missing**")):  # fmt: skip
-        (line,) = [line for line in overview.splitlines() if f"#validation-{name})" in line]
+        lines = overview().splitlines()
+        (line,) = (one for one in lines if one.startswith("|") and f"#validation-{name})" in one)
         date = "" if name == "none" else "2026-11-20"
         assert line.endswith(f"| {date} | {word} |"), line
 
 
-def test_a_stale_section_says_what_changed():
+def test_what_failed_is_said_first_with_its_reason():
+    """Each number outside its band, and the first sentence of the README on it."""
+    first = overview().partition("## All validations")[0]
+    assert (
+        "[bad](#validation-bad)**, 1 of 2 numbers:\n\n- T is 301 K, not 300 K\n\nWhy: The wall"
+        in first
+    )
+    assert "It moves" not in first and "broke off: StepFailed: no more" in first
+    assert "validation-good" not in first
+
+
+def test_a_failed_number_stays_first_where_its_record_is_stale():
+    """Sources that changed since mend nothing."""
+    states = (State("old", "stale", record(GOOD, BAD), ("case steel",)),)
+    assert "T is 301 K, not 300 K" in validation_table(states, {"old": "# Is it?\n"})
+
+
+def test_each_has_a_page():
+    """All of them are listed for the sidebar, under the label that links use."""
+    for state in STATES:
+        assert f"\ngenerated/validation/{state.name}\n" in overview()
+        assert page(state.name).startswith(f"(validation-{state.name})=\n# {state.name}\n")
+
+
+def test_a_stale_page_says_what_changed():
     """The case and the module."""
-    assert "changed since: case steel, lasersph.sph.kernels" in section("old")
+    assert "changed since: case steel, lasersph.sph.kernels" in page("old")
 
 
-def test_a_failed_section_explains():
+def test_a_failed_page_explains():
     """By its README; where that says nothing, the page says so."""
-    assert "1 of 2 judged not met" in section("bad") and "**FAILED**" in section("bad")
-    assert "**Not met.** The wall is too near." in section("bad")
-    assert "broke off: StepFailed: no more" in section("worse")
-    assert "not explained yet" in section("worse") and "not explained" not in section("bad")
+    assert "1 of 2 judged not met" in page("bad") and "**FAILED**" in page("bad")
+    assert "**Not met.** Most of it:" in page("bad")
+    assert "broke off: StepFailed: no more" in page("worse")
+    assert "not explained yet" in page("worse") and "not explained" not in page("bad")
 
 
-def test_rows_figures_and_origin():
+def test_figure_comes_first_then_rows_and_origin():
     """Reason and former band as notes, our own reference as such, time, machine and date."""
-    text = section("good")
+    text = page("good")
+    assert text.index("![good](../../validation/good/f.png)") < text.index("**Source.**")
     assert "| T \\[K\\] |  | 300 | 300.1 | 0.5 (1) | ok |" in text
     assert "| T\\|2 \\[K\\] |  | 1 | 9 | 0.5 (2) | own |" in text
     assert "- (1) read from a figure" in text and "- (2) Changed: was 1 K until May" in text
     assert "2 min on a machine, threads: 1; lasersph 0.1.0, abc, 2026-11-20" in text
-    assert "![good](validation/good/f.png)" in text
+
+
+def test_identities_are_folded():
+    """Numbers that are printed as they are judged; one that fails, or differs, is not."""
+    opened, _, folded = page("good", GOOD, BAD, *MANY).partition("<details>")
+    assert "**FAILED**" in opened and "300.1" in opened and "sum 3" not in opened
+    assert "<summary>12 more numbers, judged and equal in every digit shown</summary>" in folded
+    assert all(f"| sum {k} |" in folded for k in range(12))
+    assert "sum 3" in page("good", *MANY[:5]).partition("<details>")[0]  # a short table stays open
 
 
 def test_the_records_of_the_package():
-    """Every validation stands on the page; one that fails has its explanation."""
-    states = [state_of(name, DOCS / "validation") for name in names()]
-    readmes = {name: (home_of(name) / "README.md").read_text("utf-8") for name in names()}
-    text = validation_table(states, readmes)
-    assert all(f"\n## {name}\n" in text for name in names())
-    assert "not explained yet" not in text
+    """Every validation has its page; one that fails has its explanation."""
+    texts = {name: (home_of(name) / "README.md").read_text("utf-8") for name in names()}
+    for name in names():
+        text = validation_page(state_of(name, DOCS / "validation"), texts[name])
+        assert f"\n# {name}\n" in text and "not explained yet" not in text

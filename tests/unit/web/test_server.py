@@ -12,6 +12,7 @@ from synthetic_sweep import grid_points, made_up_depth, made_up_sweep
 
 from lasersph.output import open_run
 from lasersph.output.folder_lock import FolderLock
+from lasersph.output.study_mark import StudyMark
 from lasersph.web.folder_list import id_of
 from lasersph.web.server import STATIC, Pages, make_app
 
@@ -230,6 +231,63 @@ def test_page_of_a_sweep(root, browser):
     assert browser.get(f"/api/sweep/{id_of('complete')}").status_code == 404
 
 
+def test_what_a_page_shows_first_can_be_chosen(root, browser):
+    """A number that the plan of a sweep does not list as well, with its words."""
+    made_up_sweep(root / "map", grid_points())
+    content = json.loads((root / "map" / "points.json").read_text())
+    content["columns"] = ["temperature_max_K"]
+    (root / "map" / "points.json").write_text(json.dumps(content))
+    found = browser.get(f"/api/sweep/{id_of('map')}").json()
+    assert found["main"][0] == "melt.depth_max_m"
+    assert set(found["main"]) <= set(found["columns"]) and found["words"]["melt.depth_max_m"]
+
+
+def test_a_marked_folder_is_a_study(root, browser):
+    """Whatever its runs are called, and while only one of them has begun."""
+    StudyMark("threshold", "threshold of steel to melt", "laser.fluence", "J/m^2").write(root / "m")
+    make_run(root / "m" / "first", fluence=6000.0)
+    (card,) = (one for one in browser.get("/api/runs").json()["sweeps"] if one["name"] == "m")
+    assert (card["study"], card["title"]) == ("threshold", "threshold of steel to melt")
+    assert card["spans"] == [{"key": "laser.fluence", "unit": "J/m^2", "ends": [6000.0, 6000.0]}]
+    make_run(root / "m" / "second", fluence=3000.0)
+    (root / "m" / "study.json").write_text("{")
+    assert "m" not in {one["name"] for one in browser.get("/api/runs").json()["sweeps"]}
+
+
+def test_runs_of_a_study_are_one_card(root, browser):
+    """A threshold, a convergence: with what varies, and where it lies; their page has the runs."""
+    for fluence in (6000.0, 2250.0, 4406.25):
+        make_run(root / "thr" / f"fluence-{fluence:g}", fluence=fluence)
+    make_run(root / "thr" / "fluence-3000", fluence=3000.0, complete=False)
+    make_run(root / "many" / "spacing-64nm")
+    make_run(root / "mine" / "fluence-6000")
+    make_run(root / "mine" / "own")
+    lock = FolderLock(root / "thr" / "fluence-3000")
+    content = browser.get("/api/runs").json()
+    names = ["complete", "mine/fluence-6000", "mine/own", "series/stopped"]
+    assert sorted(one["name"] for one in content["runs"]) == names
+    found = {one["name"]: one for one in content["sweeps"]}
+    assert set(found) == {"thr", "many"} and found["many"]["study"] == "converge"
+    card = found["thr"]
+    assert (card["study"], card["title"]) == ("threshold", "threshold, made-up steel")
+    assert card["spans"] == [{"key": "laser.fluence", "unit": "J/m^2", "ends": [2250.0, 6000.0]}]
+    assert (card["state"], card["counts"]) == ("running", {"complete": 3, "running": 1})
+    details = browser.get(f"/api/sweep/{id_of('thr')}").json()
+    assert [one["settings"]["laser.fluence"] for one in details["rows"]] == [
+        2250.0,
+        3000.0,
+        4406.25,
+        6000.0,
+    ]
+    assert [one["status"] for one in details["rows"]].count("running") == 1
+    assert browser.get(f"/api/run/{details['rows'][0]['id']}").json()["sweep"] == id_of("thr")
+    assert "points" in browser.get(f"/api/sweep/{id_of('thr')}/map").json()["refused"]
+    lock.release()
+    (root / "thr" / "fluence-3000" / "resolved.json").write_text("{")
+    damaged = {one["name"]: one for one in browser.get("/api/runs").json()["sweeps"]}["thr"]
+    assert damaged["state"] == "damaged" and "thr" in damaged["error"]
+
+
 def test_map_of_a_sweep(root, browser):
     """The field of `lasersph map`, nothing beside a run without a result; or why there is none."""
     made_up_sweep(root / "map", grid_points(), failed=(2,))
@@ -240,7 +298,8 @@ def test_map_of_a_sweep(root, browser):
     assert [axis["is_logarithmic"] for axis in shown["axes"]] == [False, True]
     cold, hot = shown["field"][-1][0], shown["field"][0][-1]
     assert cold is None and hot == pytest.approx(made_up_depth(1.2e4, 1e-9), rel=1e-3)
-    assert set(shown["lines"]) == {"melts", "boils"}
+    assert set(shown["lines"]) == set(shown["bands"]) == {"melts", "boils"}
+    assert any("boiling" in text and "between" in text for text in shown["onsets"])
     for asked, words in (
         (keys | {"show": "melt.depht_max_m"}, "do you mean"),
         (keys | {"y": "laser.fluence", "show": "melt.depth_max_m"}, "over all that varies"),
@@ -301,14 +360,59 @@ def test_page_of_a_run(browser):
     assert "made up" in browser.get(f"{COMPLETE}/log").text
 
 
+def test_relief_of_a_run(root, browser):
+    """Height over place, of half a period with its mirror image; none of a surface that is flat."""
+    assert not browser.get(COMPLETE).json()["has_relief"]
+    assert browser.get(f"{COMPLETE}/relief").status_code == 404
+    file = root / "complete" / "surface.csv"
+    file.write_text("x_m,height_m\n1e-7,-4e-8\n3e-7,2e-8\n")
+    assert browser.get(COMPLETE).json()["has_relief"]
+    assert browser.get(f"{COMPLETE}/relief").json() == {
+        "x": [-3e-7, -1e-7, 1e-7, 3e-7],
+        "height": [2e-8, -4e-8, -4e-8, 2e-8],
+    }
+    file.write_text("x_m,height_m\n1e-7\n")
+    assert browser.get(f"{COMPLETE}/relief").status_code == 422
+
+
+def test_results_and_keys_have_units(browser):
+    """For a table of differences, and to tell keys in the units of light."""
+    found = browser.get(COMPLETE).json()
+    result = {one["key"]: one for one in found["results"]}["temperature_max_K"]
+    assert result["value"] == pytest.approx(3273.0) and result["unit"] == "K"
+    assert result["text"] == "3 273 K" and result["words"]
+    assert found["units"]["laser.fluence"] == "J/m^2" and "title" not in found["units"]
+
+
+def test_warnings_are_told_while_a_run_computes(root, browser):
+    """Those that its events hold, on its card and on its page."""
+    words = "4.0 cells per absorption length"
+    assert cards(browser)["series/stopped"]["warnings"] == [words]
+    page = f"/api/run/{id_of('series/stopped')}"
+    assert browser.get(page).json()["warnings"] == [words]
+    event = {"event": "warning", "time_s": 0.0, "step": 0, "message": "another"}
+    with (root / "series" / "stopped" / "events.jsonl").open("a") as stream:
+        stream.write(json.dumps(event) + "\n")
+    assert cards(browser)["series/stopped"]["warnings"] == [words, "another"]
+    assert browser.get(page).json()["warnings"] == [words, "another"]
+
+
 def test_changes_of_the_case_file(root, browser):
     """The lines that a run writes above its case; the same value in other letters is no change."""
     path = root / "complete" / "case.toml"
     sets = '# --set laser.fluence=0.8 J/cm^2\n# --set time.end="200ns"\n# --set solver.skin=1\n'
-    path.write_text(sets + path.read_text())
+    text = path.read_text()
+    path.write_text(sets + text)
     assert browser.get(COMPLETE).json()["changes"] == [
         {"key": "laser.fluence", "was": "0.6 J/cm^2", "now": "0.8 J/cm^2"},
         {"key": "solver.skin", "was": "", "now": "1"},
+    ]
+    # what a sweep writes in SI is told in the unit of the case file
+    sets = "# --set laser.fluence=8000.0 J/m^2\n# --set time.end=2e-07 s\n"
+    path.write_text(f"{sets}# --set time.step=1e-10 s\n{text}")
+    assert browser.get(COMPLETE).json()["changes"] == [
+        {"key": "laser.fluence", "was": "0.6 J/cm^2", "now": "0.8 J/cm^2"},
+        {"key": "time.step", "was": "", "now": "100 ps"},
     ]
 
 
@@ -357,7 +461,7 @@ def test_page_names_no_other_server_and_no_absolute_address():
             continue
         text = text.replace("http://www.w3.org/2000/svg", "")
         assert "http://" not in text and "https://" not in text, name
-        assert not re.search(r"""["'`]/[\w.]|url\(""", text), name
+        assert not re.search(r"""["'`]/[\w.]|url\((?!#)""", text), name
 
 
 def test_reading_writes_nothing(root, browser):

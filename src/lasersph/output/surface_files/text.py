@@ -1,6 +1,7 @@
 """Heights as text: columns whose names tell their units, and matrices of usual microscopes.
 
-    x [um],z [nm]          a profile; also x_um z_nm, and x_m,y_m,z_m of `lasersph export`
+    x [um],z [nm]          a profile; also x_um z_nm, and Distance [um],Height [nm] or Depth [nm]
+    x_m,height_m,...       the profile of a texture, surface.csv of a run, `lasersph export`
     # Width: 80.0 um       a matrix of Gwyddion with # Width, # Height and # Value units
     "XY calibration","277.78","nm"   a matrix of a Keyence microscope, with its unit
 
@@ -10,6 +11,7 @@ Separators are commas, semicolons, tabs or spaces. Nothing is guessed: without a
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -19,10 +21,21 @@ from lasersph.output.errors import OutputError
 EVEN = 0.1
 """Share of a step by which places may lie beside an even grid: coordinates are rounded where they
 are written, 88.2 nm to 0.0882 um, and a tenth of a step moves no line."""
-NAME = re.compile(r"([xyz])\w*?[ _]*[\[(_ ]\s*([nuµμm]?m)\s*[\])]?$", re.IGNORECASE)
+NAME = re.compile(r"(.*?)[ _]*(?:\[|\(|_| )\s*([nuµμm]?m)\s*[\])]?$", re.IGNORECASE)
+"""The name of a column and its unit of length: Height [nm], z_nm, x (um)."""
+AXES = {
+    "x": ("distance", "position", "lateral", "width"),
+    "y": (),
+    "z": ("height", "surface height", "elevation"),
+    "-z": ("depth",),
+}
+"""Names of columns that count as one of x, y, z, or, of a depth that counts downward, as -z."""
 SEPARATORS = re.compile(r"[,;\t ]+")
 CALIBRATION = re.compile(r"XY.?calibration\D*?([0-9.eE+-]+)\W*([nuµμm]?m)", re.IGNORECASE)
-HINT = 'name columns with their units, e.g. "x [um],z [nm]"'
+HINT = (
+    'name columns with their units of length, e.g. "x [um],z [nm]"; x may be called distance or '
+    "position, z height or depth"
+)
 Grid = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
@@ -46,14 +59,18 @@ def _columns(lines: list[str]) -> Grid:
     names = [one.strip(' "#') for one in re.split(r"[,;\t]", lines[0])]
     if len(names) < 2:
         names = lines[0].strip("# ").split()
-    matches = [NAME.match(name) for name in names]
-    if not all(matches) or [m[1].lower() for m in matches if m] not in (list("xz"), list("xyz")):
+    found: dict[str, tuple[int, float]] = {}
+    for place, name in enumerate(names):
+        if (known := _axis_of(name)) is not None and known[0] not in found:
+            found[known[0]] = place, known[1]
+    if "x" not in found or "z" not in found:
         raise OutputError(f'its first line is "{lines[0][:40]}": {HINT}')
-    units = [_length(f"1 {m[2]}") for m in matches if m]
-    table = _numbers(lines[1:], len(units)) * units
+    axes = [one for one in ("x", "y", "z") if one in found]
+    columns, scales = zip(*(found[one] for one in axes), strict=True)
+    table = _numbers(lines[1:], len(names), columns) * scales
     if table.shape[0] < 3:
         raise OutputError(f"it holds {table.shape[0]} points, too few for a profile")
-    if len(units) == 2:
+    if len(axes) == 2:
         order = np.argsort(table[:, 0], kind="stable")
         x, z = table[order].T
         return _even(x, "x"), np.zeros(1), z[None, :]
@@ -66,6 +83,18 @@ def _columns(lines: list[str]) -> Grid:
     z = np.full((y.size, x.size), np.nan)
     z[rows, columns] = table[:, 2]
     return _even(x, "x"), _even(y, "y"), z
+
+
+def _axis_of(name: str) -> tuple[str, float] | None:
+    """Axis x, y or z that a column holds and meters in its unit, below zero for a depth; None of
+    other columns."""
+    if (match := NAME.match(name)) is None:
+        return None
+    word, scale = match[1].strip().lower(), _length(f"1 {match[2]}")
+    for axis, words in AXES.items():
+        if word in words or re.fullmatch(rf"{axis}\w*", word):
+            return axis[-1], -scale if axis == "-z" else scale
+    return None
 
 
 def _gwyddion(lines: list[str]) -> Grid:
@@ -105,12 +134,15 @@ def _matrix(lines: list[str]) -> np.ndarray:
     return _numbers(lines, count)
 
 
-def _numbers(lines: list[str], count: int) -> np.ndarray:
-    """Numbers (lines, count); a word such as BAD or nan is a height that is missing."""
+def _numbers(lines: list[str], count: int, columns: Sequence[int] | None = None) -> np.ndarray:
+    """Numbers (lines, count), or of some columns only; a word such as BAD or nan is a height that
+    is missing."""
     rows = [[one for one in SEPARATORS.split(line) if one] for line in lines]
     for number, row in enumerate(rows):
         if len(row) != count:
             raise OutputError(f"row {number + 1} holds {len(row)} numbers, not {count}")
+    if columns is not None:
+        rows = [[row[k] for k in columns] for row in rows]
     try:
         return np.array(rows, dtype=float)
     except ValueError:

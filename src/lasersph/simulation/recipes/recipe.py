@@ -18,8 +18,10 @@ from lasersph.case import Case
 from lasersph.compute.backend import Backend
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.observers import Observers
+from lasersph.observers.pulses import Pulses
 from lasersph.observers.view import View
 from lasersph.particles.layers import Layers
+from lasersph.simulation.heating import estimate_with_vapor
 from lasersph.simulation.layers import caloric_curve, expected_melt, lay_out
 from lasersph.simulation.scales import heat_scales
 from lasersph.simulation.spot_edges import halves_spot
@@ -75,11 +77,9 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
 
     Attributes:
         case, settings: of the run; the settings are those of the solver's own type.
-        flow: what is expected of a flow; None where nothing flows.
     """
 
     settings_type: ClassVar[type[SolverSettings]]
-    flow: FlowForecast | None = None
 
     def __init__(self, case: Case) -> None:
         """Raises TypeError where the case has another solver."""
@@ -98,6 +98,17 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
         return expected_melt(self.case)
 
     @cached_property
+    def heating(self) -> MeltEstimate | None:
+        """How hot the light makes the surface, and what evaporates; None without light, and where a
+        spot moves along the surface."""
+        return estimate_with_vapor(self.case, self.melt)
+
+    @property
+    def flow(self) -> FlowForecast | None:
+        """Forecast of a flow; None where nothing flows."""
+        return None
+
+    @cached_property
     def curve(self) -> CaloricCurve:
         """Enthalpy curve of the material."""
         return caloric_curve(self.case)
@@ -114,6 +125,15 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
     def observers(self, iterations: Sequence[str]) -> Observers:
         """What observes a run; `iterations` are the names of what the solver counts."""
 
+    def pulse_observer(self) -> Pulses | None:
+        """Observer of the pulses of a train; None of a single one or without light."""
+        pulse = None if self.case.laser is None else self.case.laser.pulse
+        if pulse is None or pulse.count == 1 or pulse.interval is None:
+            return None
+        starts = (number * pulse.interval for number in range(pulse.count))
+        begun = tuple(start for start in starts if start < self.case.time.end)
+        return Pulses(pulse.count, pulse.interval, begun)
+
     @abstractmethod
     def step_forecast(self) -> StepForecast:
         """Limits, number and cost of the steps."""
@@ -127,8 +147,12 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
         return heat_scales(self.case)
 
     def summary(self) -> dict[str, Any]:
-        """Further sections of the summary."""
-        return {}
+        """Further sections of the summary: the fluence of a pulse where it is computed."""
+        laser = self.case.laser
+        if laser is None:
+            return {}
+        fluences = {"mean": laser.mean_fluence, "peak": laser.peak_fluence}
+        return {"laser": {f"{name}_fluence_J_m2": value for name, value in fluences.items()}}
 
     def fixed_steps(self, name: str, products: float) -> StepForecast | None:
         """The forecast of a study with a fixed step; None elsewhere."""

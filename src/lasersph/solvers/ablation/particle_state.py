@@ -19,7 +19,7 @@ from lasersph.physics.phase_change import state
 from lasersph.solvers.ablation.geometry import Geometry, InitialState
 
 HOTTEST = 5e4
-"""End of the table of conductivities [K]; its last law goes on."""
+"""End of the table of conductivities [K]. Format: far above any metal; its last law goes on."""
 DERIVED = (
     "temperature",
     "melt_fraction",

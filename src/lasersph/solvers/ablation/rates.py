@@ -38,7 +38,8 @@ from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.laplacian import harmonic_flow
 
 LEAST_DENSITY = 0.01
-"""Share of the density at rest below which a step has failed: matter would be torn apart."""
+"""Share of the density at rest below which a step has failed. Guard: a density that fell a
+hundredfold in one step is no solution, matter would be torn apart; the step is halved."""
 
 
 class Moving(Enum):

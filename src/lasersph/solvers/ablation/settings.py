@@ -18,13 +18,14 @@ class AblationSettings(SolverSettings):
 
     reads: ClassVar[frozenset[str]] = frozenset({"traces"})
     bytes_per_neighbor: ClassVar[int] = 12
-    """A list alone, of 4 B a pair: with the thickest skin, 0.3, 2.2 times the pairs in the support
-    in 3-D, and room for a quarter more."""
+    """Memory of a neighbor [B]. Forecast: a list alone, of 4 B a pair, with the thickest skin, 0.3,
+    2.2 times the pairs in the support in 3-D, and room for a quarter more."""
 
     kind: Literal["ablation"] = "ablation"
     dimensions: Literal[1, 2, 3] = Field(
         default=3, description="of space: z alone, x and z, or x, y and z"
     )
+    """Dimensions of space. Source: [Alshaer2017] computes in 3-D."""
     sound_speed: Annotated[Velocity, Field(gt=0)] = Field(
         description="c_0 of the equation of state [Alshaer2017, eq. (26)]; far above all speeds of "
         "condensed matter, and the time step falls with it",
@@ -33,9 +34,11 @@ class AblationSettings(SolverSettings):
     viscosity_solid: Annotated[float, Field(ge=0)] = Field(
         default=5.0, description="alpha of the artificial viscosity [Alshaer2017, eq. (23)]"
     )
+    """Source: [Alshaer2017, eq. (23)]."""
     viscosity_liquid: Annotated[float, Field(ge=0)] = Field(
         default=0.1, description="alpha of what is molten"
     )
+    """Source: [Alshaer2017, eq. (23)]."""
     tension: bool = Field(
         default=False,
         description="whether condensed matter below its density is under tension (P < 0)",
@@ -55,11 +58,13 @@ class AblationSettings(SolverSettings):
         default=0.25,
         description="CFL number of sound and forces [Alshaer2017, eq. (31)]",
     )
+    """Source: [Alshaer2017, eq. (31)]."""
     skin: Annotated[float, Field(gt=0, le=2)] = Field(
         default=0.3,
         description="how much further than their support moving particles look for neighbors at "
         "most, in spacings; a thinner skin serves slow ones",
     )
+    """Cost: how long a list of pairs lasts; the neighbors within the support are the same."""
     active_region: bool = Field(
         default=True,
         description="whether only the region around heat and motion is computed, cold matter at "

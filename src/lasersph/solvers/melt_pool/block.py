@@ -37,7 +37,9 @@ from lasersph.solvers.melt_pool.near_melt import NearMelt
 from lasersph.solvers.melt_pool.pair_geometry import PairGeometry, distance_square
 
 SKIN = 1.02
-"""Search radius over the support radius: positions change a little within a step."""
+"""Search radius over the support radius. Geometry: pairs are found at the advected positions, from
+which the final ones differ by dt/2 times the change of v: two neighbors come 0.02 supports closer
+where both change by a third of the largest speed in a step of 0.06 supports."""
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,13 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.step_control import StepFailed
 
 ROOM = 16
-"""Layers by which a block grows."""
+"""Layers by which a block grows. Cost: how often arrays grow."""
 MARGIN = 8.0
-"""Resting layers below the moving rows, in units of the finest spacing."""
+"""Resting layers below the moving rows, in units of the finest spacing. Geometry: two supports of
+3.75."""
 BELOW = 2.0
-"""Depth of the rows below the deepest melt, in support radii."""
+"""Depth of the rows below the deepest melt, in support radii. Geometry: edge and dummy particles
+lie within the first and second below the melt."""
 
 
 class PoolTooDeep(StepFailed):

@@ -11,11 +11,12 @@ from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.step_control import NotConverged
 
 SHORTEST = 1e-9
-"""Time in which the fastest particle crosses its support, over the time to compute: in a flow that
-takes less its speeds have grown without bound."""
+"""Time in which the fastest particle crosses its support, over the time to compute. Guard: in a
+flow that takes less its speeds have grown without bound."""
 FASTEST = 1000.0
-"""Speed of metal below a surface that moves [m/s], a quarter of that of sound in liquid steel and
-aluminium, some 4 km/s: what flows faster is not incompressible, and no texture flows at 200 m/s."""
+"""Speed of metal below a surface that moves [m/s]. Guard: a quarter of the speed of sound in liquid
+steel and aluminum, some 4 km/s; what flows faster is not incompressible, and no texture flows at
+200 m/s."""
 
 
 def refuse_unstable(flow: Flow, domain: PoolDomain, position: Array, time: float) -> None:

@@ -24,11 +24,13 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.step_control import StepFailed
 
 EVEN = (0.7, 1.4)
-"""Height of particles laid out below a relief over the spacing: more than one row would count as
-that at the surface, which is a spacing thick, or none."""
+"""Height of particles laid out below a relief over the spacing. Geometry: the row at the surface
+lies half a cell below it and counts as far as a spacing, the next 1.5 cells deep; more than one row
+would count as that at the surface, or none."""
 WORN = 0.6
-"""Volume of a particle over that of a cell of the lattice below which the surface recedes: a row of
-it lies as deep as `moving_surface.GAP`. In deep melt four spacings have evaporated then."""
+"""Volume of a particle over that of a cell of the lattice below which the surface recedes.
+Geometry: a row of it lies as deep as `moving_surface.GAP`. In deep melt four spacings have
+evaporated then."""
 
 
 class UnevenRelief(StepFailed):

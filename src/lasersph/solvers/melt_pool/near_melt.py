@@ -16,7 +16,8 @@ from lasersph.compute.vectors import element
 from lasersph.particles.cell_grid import CellGrid, cell_number
 
 AT_ENDS = 5
-"""Columns at either end of a period whose marks are shared: two outside, two of ghosts, one."""
+"""Columns at either end of a period whose marks are shared. Geometry: two outside, two of ghosts,
+one of their own."""
 
 
 def cell_of(x, fluid, least, most, count, low, inverse, shape):

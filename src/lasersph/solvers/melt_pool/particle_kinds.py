@@ -14,10 +14,10 @@ from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.block import Block
 
 MOLTEN = 1.0 - 1e-9
-"""Melt fraction from which a particle is fluid: 1 but for rounding."""
+"""Melt fraction from which a particle is fluid. Rounding: 1 is fluid."""
 EDGE_RATIO = 1.5
-"""Distance of the edge from fluid over the spacing: diagonal neighbors of a lattice are 1.41 apart.
-"""
+"""Distance of the edge from fluid over the spacing. Geometry: diagonal neighbors of a lattice are
+1.41 apart, the next but one 2."""
 
 
 def is_fluid(f_m):

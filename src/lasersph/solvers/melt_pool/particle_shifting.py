@@ -30,9 +30,12 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.sph.shifting import repulsion_terms, shift
 
 LARGEST = 0.1
-"""Largest shift over the spacing."""
+"""Largest shift over the spacing. Guard: a step shifts by at most 0.04 times 0.06 times 3.75, 0.009
+spacings, times the size of R, to which a neighbor at r spacings adds (2.5 / r)^2: 0.1 is one at
+0.75 spacings with none opposite."""
 CLOSEST = 0.3
-"""Least distance from a face over the spacing."""
+"""Least distance from a face over the spacing. Guard: the first row of a lattice is 0.5 spacings
+from a face; closer than 0.3 a particle and its own ghost would be one."""
 
 
 def velocity_terms(v_i, v_j, G_ij):

@@ -17,7 +17,7 @@ from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.layout_renewal import LayoutRenewal
 
 SAME = 1e-9
-"""Rounding of times over the period."""
+"""Difference of two times over the period of a pulse train. Rounding: they are the same."""
 
 
 class Pauses:

@@ -37,6 +37,9 @@ from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.particles.neighbor_lists import NeighborList
 
+MAX_ITERATIONS = 200
+"""Iterations of a solution at most. Guard: 7 to 30 are usual at any size."""
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -121,8 +124,8 @@ class PressureEquation:
         count: int,
         support: float,
         *,
-        tolerance: float = 1e-4,
-        max_iterations: int = 200,
+        tolerance: float,
+        max_iterations: int = MAX_ITERATIONS,
         period: Sequence[float] = (0.0, 0.0),
     ) -> None:
         self.backend, self.tolerance, self.max_iterations = backend, tolerance, max_iterations

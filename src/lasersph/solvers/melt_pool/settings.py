@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.input import Acceleration
@@ -15,13 +15,28 @@ class MeltPoolSettings(HeatSettings):
     """Heat, melting and the incompressible flow of what is molten, or of a closed box."""
 
     bytes_per_particle: ClassVar[int] = 1200
+    """Memory of a particle [B]. Forecast: as measured; nothing computed depends on it."""
     bytes_per_neighbor: ClassVar[int] = 64
-    """28 of a pair of the body: index and weight, twice while rows are renewed, and the weight in
-    single precision; and 74 of a pair that moves, half of them, with room for more: weights of
-    heat, viscosity and pressure, gradient and kernel, and two indices."""
+    """Memory of a neighbor [B]. Forecast: 28 of a pair of the body: index and weight, twice while
+    rows are renewed, and the weight in single precision; and 74 of a pair that moves, half of them,
+    with room for more: weights of heat, viscosity and pressure, gradient and kernel, and two
+    indices."""
 
     kind: Literal["melt-pool"] = "melt-pool"
     dimensions: Literal[2] = Field(default=2, description="of space: x and z")
+    """Dimensions of space. Source: [Demuth2020] computes in 2-D."""
+
+    @field_validator("dimensions", mode="before")
+    @classmethod
+    def _say_why_two(cls, value: Any) -> Any:
+        """Refuse columns and blocks with the reason; the type refuses all else."""
+        if value in (1, 3):
+            raise ValueError(
+                f"must be 2, got {value}: flow is computed in 2-D sections so far; write "
+                'dimensions = 2, or kind = "conduction" for heat and melting alone'
+            )
+        return value
+
     marangoni: bool = Field(
         default=True, description="whether the gradient of surface tension drives the surface"
     )
@@ -33,6 +48,8 @@ class MeltPoolSettings(HeatSettings):
     pressure_tolerance: Annotated[float, Field(gt=0, lt=1)] = Field(
         default=1e-4, description="residual of the pressure equation over its right-hand side"
     )
+    """Study: with 1e-6 instead, speeds, pressure and width of the pool of `dlip-steel --quick`
+    change by less than 1e-7, for half as many iterations again."""
     viscosity: Literal["implicit", "explicit"] = Field(
         default="implicit", description="whether viscous forces are those at the end of a step"
     )
@@ -44,9 +61,11 @@ class MeltPoolSettings(HeatSettings):
         default=0.04,
         description="factor C of the particle shifting [Demuth2020, eq. (73)]; 0 for none",
     )
+    """Study: [Xu2009] takes 0.01 to 0.1; `benchmarks/flow_numbers.py --only cavity`."""
     gravity: Annotated[Acceleration, Field(ge=0)] = Field(
         default=9.81, description="along -z; it acts on differences of density only (Boussinesq)"
     )
+    """[m/s^2]. Source: standard gravity, 9.80665, as [Demuth2020] rounds it."""
     steady: Annotated[float, Field(gt=0, lt=1)] | None = Field(
         default=None,
         description="stop before the end once the flow is steady: range of its kinetic energy over "

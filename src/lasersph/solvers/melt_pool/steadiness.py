@@ -11,6 +11,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 LOOKS = 5
+"""Times that the fastest particle crosses the width between two looks. Accuracy: `solver.steady`
+says by how much the energy may change meanwhile."""
 
 
 class Steadiness:

@@ -48,8 +48,9 @@ MOST_POINTS, START_POINTS = 40_000, 4_000
 """Of a map that are compared, and by which its place is looked for: of finer ones every n-th."""
 LARGEST_TURN = 0.35
 """Angle of a map to the lines [rad]: 20 degrees, beyond what a stage is out of line."""
-NORMAL_95 = 1.959964
-"""Half width of the 95 % interval of a normal distribution in standard deviations."""
+NORMAL_95, NORMAL_95_ONE_SIDED = 1.959964, 1.644854
+"""Half width of the 95 % interval of a normal distribution in standard deviations, and its distance
+to the end of that with one end alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +60,9 @@ class Comparison:
     Attributes:
         x, y: (n,) places in our coordinates [m]. measured: (n,) leveled heights [m].
         ours: (n,) heights [m]. values, errors: of the unknowns by name, with standard errors.
-        at_bound: names of unknowns that ended at a bound. noise: standard deviation from point to
+        bounds: of the unknowns that have some. at_bound: names of those that ended at one.
+        middle: x, y of the middle of the measurement in its own coordinates [m], from which the
+            shifts count. noise: standard deviation from point to
             point [m]. tau: correlation length of the residuals, in points.
         height_factor: measured heights over ours, with its standard error.
         interpolation: rms error of ours [m].
@@ -71,7 +74,9 @@ class Comparison:
     ours: Array
     values: Mapping[str, float]
     errors: Mapping[str, float]
+    bounds: Mapping[str, tuple[float, float]]
     at_bound: tuple[str, ...]
+    middle: tuple[float, float]
     noise: float
     tau: float
     height_factor: tuple[float, float]
@@ -83,9 +88,11 @@ class Comparison:
         return self.measured - self.ours
 
     def interval(self, name: str) -> tuple[float, float]:
-        """95 % interval of an unknown."""
-        value, half = self.values[name], NORMAL_95 * self.errors[name]
-        return value - half, value + half
+        """95 % interval of an unknown, within its bounds; one-sided where it ended at one."""
+        least, most = self.bounds.get(name, (-np.inf, np.inf))
+        value, error = self.values[name], self.errors[name]
+        half = (NORMAL_95_ONE_SIDED if name in self.at_bound else NORMAL_95) * error
+        return max(value - half, least), min(value + half, most)
 
 
 def compare(relief: Relief, surface: HeightMap, scale_error: float = SCALE_ERROR) -> Comparison:
@@ -235,7 +242,9 @@ class _Alignment:
             ours,
             dict(zip(names, unknowns * units, strict=True)),
             dict(zip(names, errors, strict=True)),
+            self.bounds,
             at_bound,
+            (float(np.mean(self.surface.x[[0, -1]])), float(np.mean(self.surface.y[[0, -1]]))),
             self.noise,
             tau,
             (factor, float(np.sqrt(variance * tau / (flat @ flat)))),
@@ -257,6 +266,11 @@ def answer(found: Comparison) -> dict[str, Any]:
     return {
         "schema_version": 1,
         "unknowns": unknowns,
+        "origin_in_measurement": {
+            f"{axis}_m": middle + found.values[f"shift_{axis}_m"]
+            for axis, middle in zip("xy", found.middle, strict=True)
+            if f"shift_{axis}_m" in found.values
+        },
         "points": int(found.x.size),
         "difference": {
             "rms_m": float(np.sqrt(np.mean(found.residual**2))),
@@ -283,9 +297,12 @@ def sentence(found: Comparison) -> str:
         + f" noise and interpolation explain ({1e9 * expected:.3g} nm)"
     )
     if "fluence_factor" in found.at_bound:
+        low, high = found.interval("fluence_factor")
+        is_high = found.values["fluence_factor"] > LOWEST_FACTOR + 0.5 * (high - low)
+        end = f"{low:.4g} or more" if is_high else f"{high:.4g} or less"
         return text + (
-            "; the fluence factor lies at the end of what the cells cover: compute a texture of "
-            "more pulse energy"
+            f"; the factor on the local fluence is {end} and lies at the end of what the cells "
+            f"cover: compute a texture of {'more' if is_high else 'less'} pulse energy"
         )
     if "fluence_factor" in found.values:
         low, high = found.interval("fluence_factor")

@@ -11,8 +11,21 @@ Array = NDArray[np.float64]
 PERIOD_LIMIT, SCALE_LIMIT, OVERTONES = 0.2, 0.05, (2, 3)
 """How far a measured period may be off: of coarse measurements, and by a microscope's lateral scale
 alone, which tells overtones of our period from other ones."""
+LENGTH_ROUNDING = 1e-3
+"""Of places that are written with four digits or more."""
+OUTSTANDS = 10.0
+"""Power of a wave over the median of all above which it is no noise: powers of noise are
+distributed exponentially, and one of a thousand exceeds ten times their median."""
+LEAKAGE = 1e-3
+"""Power beside that of the strongest wave which a Hann window leaves six periods or more away; a
+fundamental wave has more."""
 FEWEST_ROWS = 16
 """Of a map that is thinned: a spot has a shape across the lines as well."""
+FEWEST_PERIODS = 3
+"""Waves in a measurement below which a Hann window does not tell their length."""
+PADDING = 8
+"""Places of a spectrum for each wave more in the measurement: periods are read between whole
+numbers of them."""
 FEWEST_POINTS = 8
 """Of a measurement in a period: fewer do not show its shape."""
 
@@ -85,8 +98,9 @@ def turn_of(surface: HeightMap, period: float, largest: float) -> float:
 
 
 def refuse_odd(surface: HeightMap, period: float) -> None:
-    width = float(np.ptp(surface.x))
-    if width < period:
+    # a sampling that repeats leaves out its last point, that of the next period
+    width = float(np.ptp(surface.x)) + surface.steps[0]
+    if width < period * (1.0 - LENGTH_ROUNDING):
         raise NoComparison(
             f"the measurement is {1e6 * width:.4g} um long, shorter than a period of "
             f"{1e6 * period:.4g} um: is its unit right?"
@@ -105,28 +119,47 @@ def refuse_odd(surface: HeightMap, period: float) -> None:
     z = surface.z - np.nanmean(surface.z)
     if not np.nanmax(np.abs(z)) > 0.0:
         raise NoComparison("all measured heights are the same")
-    measured = dominant_period(surface)
+    # of fewer than three periods the spectrum shows the shape of one, not how they repeat
+    measured = dominant_period(surface) if width > FEWEST_PERIODS * period else None
     waves = 1.0 if measured is None else period / measured
     # two hills a line make its second or third wave the strongest one
     is_overtone = round(waves) in OVERTONES and abs(waves / round(waves) - 1.0) < SCALE_LIMIT
     if measured is not None and abs(1.0 / waves - 1.0) > PERIOD_LIMIT and not is_overtone:
         raise NoComparison(
-            f"the measured period of {1e6 * measured:.4g} um does not fit ours of "
-            f"{1e6 * period:.4g} um"
+            f"the measured period of {1e6 * fundamental_period(surface, measured):.4g} um does not "
+            f"fit ours of {1e6 * period:.4g} um"
         )
 
 
 def dominant_period(surface: HeightMap) -> float | None:
     """Period of the strongest wave along x, of the mean over y [m]; None where none stands out from
     the others by five times, or where fewer than three lie in the measurement."""
+    lowest, power = _spectrum(surface)
+    strongest = lowest + int(np.argmax(power[lowest:]))
+    if strongest <= lowest or power[strongest] < 5.0 * np.mean(power[lowest:]) * 4.0:
+        return None
+    return float(PADDING * surface.x.size * surface.steps[0] / strongest)
+
+
+def fundamental_period(surface: HeightMap, strongest: float) -> float:
+    """Period [m] of which the strongest wave is an overtone: the third or second of a wave that
+    stands out from the noise; where none does, that of the strongest itself."""
+    lowest, power = _spectrum(surface)
+    length = PADDING * surface.x.size * surface.steps[0]
+    least = max(OUTSTANDS * np.median(power[lowest:]), LEAKAGE * power[round(length / strongest)])
+    for overtone in reversed(OVERTONES):
+        place, width = round(length / strongest / overtone), PADDING // 2
+        near = power[max(place - width, lowest) : place + width + 1]
+        if near.size > 2 and 0 < np.argmax(near) < near.size - 1 and near.max() > least:
+            return length / (max(place - width, lowest) + int(np.argmax(near)))
+    return strongest
+
+
+def _spectrum(surface: HeightMap) -> tuple[int, Array]:
+    """The first place of three waves in the measurement, and the power of all along x, of the mean
+    over y, at `PADDING` places a wave more."""
     line = np.nanmean(surface.z, axis=0)
     x = surface.x - surface.x.mean()
     line = np.where(np.isfinite(line), line, 0.0)
     line = (line - np.polyval(np.polyfit(x, line, 1), x)) * np.hanning(x.size)
-    count = 8 * x.size
-    power = np.abs(np.fft.rfft(line, count)) ** 2
-    lowest = int(np.ceil(3.0 * count / x.size))
-    strongest = lowest + int(np.argmax(power[lowest:]))
-    if strongest <= lowest or power[strongest] < 5.0 * np.mean(power[lowest:]) * 4.0:
-        return None
-    return float(count * surface.steps[0] / strongest)
+    return FEWEST_PERIODS * PADDING, np.abs(np.fft.rfft(line, PADDING * x.size)) ** 2

@@ -23,12 +23,13 @@ def solver_of(boundaries, *, end, dimensions=1, cells=20, **settings):
     sideways = any(key.startswith(("left", "right")) for key in boundaries)
     domain = {"depth": short if sideways else DEPTH, "width": DEPTH if sideways else short,
               "breadth": short if dimensions > 2 else None}  # fmt: skip
+    any_change = {} if settings.get("scheme") == "explicit" else {"temperature_change": 1e9}
     case = Case.model_validate(
         {
             "material": MATERIAL, "initial_temperature": 300.0, "domain": domain,
             "particles": {"spacing": DEPTH / cells}, "boundaries": boundaries,
             "solver": {"dimensions": dimensions, **settings},
-            "time": {"end": end, "step": end / 400, "temperature_change": 1e9},
+            "time": {"end": end, "step": end / 400, **any_change},
         }
     )  # fmt: skip
     return case, recipe_of(case).build(compute.cpu(threads=1))

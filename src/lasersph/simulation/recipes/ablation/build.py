@@ -32,7 +32,7 @@ from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.lattice_sums import diffusive_rate, second_moment, surface_threshold, viscous_rate
 
 NEVER = 1e9
-"""Temperature that nothing reaches [K]."""
+"""Temperature that nothing reaches [K]. Format: higher than any table."""
 DEFAULT_EJECTION = EjectionSettings.model_validate({})
 
 

@@ -27,9 +27,10 @@ from lasersph.physics.evaporation import (
     mean_normal_velocity,
     vapor_constants,
 )
+from lasersph.simulation.heating import reflectivity_at
 
 NEARLY_ALL = 0.05
-"""Share of the light that is left where nearly all is absorbed [Alshaer2017, eq. (4)]."""
+"""Share of the light that is left where nearly all is absorbed. Source: [Alshaer2017, eq. (4)]."""
 
 
 def ablation_estimates(case: Case) -> dict[str, Any]:
@@ -37,21 +38,13 @@ def ablation_estimates(case: Case) -> dict[str, Any]:
     laser, material = case.laser, case.material
     if laser is None or material.vaporization is None:
         return {}
-    reflectivity = reflectivity_of(case, laser)
+    reflectivity = reflectivity_at(case, case.initial_temperature)
     return {
         "absorption": absorption(case, laser),
         "conduction": conduction(case, laser, reflectivity),
         "vapor": vapor(case),
         "left_out": left_out(case, laser, reflectivity),
     }
-
-
-def reflectivity_of(case: Case, laser: Laser) -> float:
-    """Reflectivity of the cold surface; that of a preset of the published rule."""
-    if case.ejection is not None and case.ejection.reflectivity is not None:
-        return case.ejection.reflectivity
-    cold = case.initial_temperature
-    return float(laser.reflectivity_table(case.material, cold, cold + 1.0)[1][0])
 
 
 def absorption(case: Case, laser: Laser) -> dict[str, float]:

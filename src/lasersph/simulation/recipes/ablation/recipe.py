@@ -18,7 +18,7 @@ from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.ablation.solver import Ablation
 
 PRODUCTS = 2.0
-"""Cost of a step: rates at its start and in its middle."""
+"""Cost of a step, in sums over all pairs. Forecast: rates at its start and in its middle."""
 
 
 class AblationRecipe(Recipe[AblationSettings, Ablation]):
@@ -40,6 +40,7 @@ class AblationRecipe(Recipe[AblationSettings, Ablation]):
         laser = self.case.laser
         return ablation_observers(
             self.settings.dimensions,
+            pulses=self.pulse_observer(),
             probes=self.case.probes,
             traces=self.case.traces,
             iterations=iterations,
@@ -93,4 +94,4 @@ class AblationRecipe(Recipe[AblationSettings, Ablation]):
 
     def summary(self) -> dict[str, Any]:
         """Estimates beside the numbers of the run."""
-        return {"estimates": ablation_estimates(self.case)}
+        return {**super().summary(), "estimates": ablation_estimates(self.case)}

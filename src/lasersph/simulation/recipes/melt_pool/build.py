@@ -34,9 +34,10 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
 
 TABLE_START = 300.0
-"""Lowest temperature of the table of recoil, at which no metal evaporates [K]."""
+"""Lowest temperature of the table of recoil [K]. Format: no metal evaporates there."""
 TABLE_NODES = 4097
-"""2 K from node to node: the recoil, which doubles in 200 K, is within 1e-5."""
+"""Nodes of that table. Accuracy: 2 K from node to node; the recoil, which doubles in 200 K, is
+within 1e-5."""
 
 
 def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Conduction) -> MeltPool:
@@ -82,7 +83,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
                 _given_temperature(case),
                 case.boundaries.surface_pressure_wave,
                 case.boundaries.surface_mass_flux_wave,
-                _recoil(case),
+                recoil_of(case),
             ),
         )
     elif conditions.flow_kind("surface") in FREE:
@@ -176,7 +177,7 @@ def liquid_of(case: Case, settings: MeltPoolSettings) -> Liquid:
     )
 
 
-def _recoil(case: Case) -> Callable[[NDArray[np.float64]], NDArray[np.float64]] | None:
+def recoil_of(case: Case) -> Callable[[NDArray[np.float64]], NDArray[np.float64]] | None:
     """Gauge recoil [Pa] of the vapor at temperatures [K], where vapor leaves the surface."""
     vapor = case.material.vaporization
     if vapor is None or not case.solver.has_vapor_flux:

@@ -1,19 +1,22 @@
 """What flow adds to the forecast of a case: expected speed, step limits, and how well it resolves.
 
-Speeds are estimates: a wall's or a start's own; a surface of imposed temperature that of slow flow
-(`analytic.thermocapillary_layer`); a box heated at its sides a fifth of g beta dT L under the root
-(natural convection at Ra 1e3 to 1e5 has 0.14 to 0.26 of it); a melt pool the estimate
-delta/eta |dgamma/dT dT/dx| [Demuth2020, eq. (79)] with delta = sqrt(nu t) of the pulse and the
-liquid's range of temperatures over a quarter of the pattern.
+Speeds are estimates: a wall's or a start's own; below a surface of imposed temperature that of
+slow flow (`analytic.thermocapillary_layer`), or of the layer that a moving surface drags along; in
+a box heated at its sides a fifth of g beta dT L under the root (natural convection at Ra 1e3 to 1e5
+has 0.14 to 0.26 of it); in a melt pool under light that of `driven_speed`, from the temperatures
+that light is expected to reach along the surface; in one that its faces heat the estimate
+delta/eta |dgamma/dT dT/dx| [Demuth2020, eq. (79)] with delta = sqrt(nu t) and the liquid's range of
+temperatures over a quarter of the width.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lasersph.analytic.melt_depth import MeltEstimate, SurfaceHistory
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.boundaries.flow_conditions import FREE
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
@@ -22,30 +25,38 @@ from lasersph.boundaries.surface_line import cutoff_of
 from lasersph.boundaries.surface_waves import surface_limits
 from lasersph.case import Case
 from lasersph.input import format_quantity
-from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import GaussianBeam, InterferenceBeam
-from lasersph.materials.sections import Vaporization
 from lasersph.particles.layers import Layers
-from lasersph.physics.evaporation import latent_heat, vapor_constants
 from lasersph.physics.flow_limits import flow_limits
-from lasersph.physics.knudsen_layer import outflow_tables
-from lasersph.physics.losses import evaporation_loss
-from lasersph.simulation.layers import caloric_curve, expected_melt
-from lasersph.simulation.recipes.melt_pool.build import TABLE_NODES, TABLE_START
+from lasersph.simulation.recipes.melt_pool.build import recoil_of
+from lasersph.simulation.recipes.melt_pool.driven_speed import (
+    BELOW_LID,
+    BELOW_MOVING_SURFACE,
+    driven_speed,
+)
 from lasersph.simulation.recipes.recipe import FlowForecast
 from lasersph.solvers.melt_pool.layout_renewal import EVEN
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 BUOYANT_SHARE = 0.2
+"""Share of the speed of free fall that buoyant flow has. Forecast: a guess, on which only the
+expected time depends."""
 MOLTEN_PULSES = 8.0
-"""How long a pool lasts, in durations of the pulse."""
+"""How long a pool lasts, in durations of the pulse. Forecast: those of the texturing cases last 3
+to 5."""
 FEWEST_ROWS = 8
+"""Rows of melt below which there is hardly a flow. Forecast: `lasersph check` says so."""
+SPEED_NODES = 65
+"""Nodes of the means of viscosity and surface tension. Forecast: over the melt's temperatures."""
 ROOM = 1.2
-"""Of the depth that is asked for over the least one, for what the estimate misses."""
+"""Depth of fine layers that is asked for over the least one. Forecast: for what the estimate
+misses."""
 
 
-def flow_forecast(case: Case, solver: MeltPoolSettings, spacing: float) -> FlowForecast:
-    """Forecast of the flow of a melt-pool case; spacing as used [m]."""
+def flow_forecast(
+    case: Case, solver: MeltPoolSettings, spacing: float, heating: MeltEstimate | None
+) -> FlowForecast:
+    """Forecast of the flow of a melt-pool case; spacing as used [m], estimate of its heat."""
     material = case.material
     T = material.flow_temperature
     nu, density = float(material.kinematic_viscosity_at(T)), material.density_liquid
@@ -53,6 +64,8 @@ def flow_forecast(case: Case, solver: MeltPoolSettings, spacing: float) -> FlowF
     if case.flow is None:
         layer, gradient, duration = _pool(case, nu)
         speed = layer / (nu * density) * slope * gradient
+        if heating is not None and heating.surface is not None:
+            speed = _pool_speed(case, solver, heating.surface)
     else:
         layer, gradient, duration = None, _imposed_gradient(case), case.time.end
         speed = _box_speed(case, solver.gravity, nu, density, slope)
@@ -78,6 +91,38 @@ def flow_forecast(case: Case, solver: MeltPoolSettings, spacing: float) -> FlowF
     return FlowForecast(speed, layer, duration, limits, tuple(_warnings(layer, spacing)))
 
 
+def _pool_speed(case: Case, solver: MeltPoolSettings, surface: SurfaceHistory) -> float:
+    """Speed of the surface of a pool under light [m/s], see `driven_speed`."""
+    material, recoil = case.material, recoil_of(case)
+    cold, metal = material.flow_temperature, case.material.vaporization
+    if metal is not None and metal.critical_temperature is not None:  # there is no surface above
+        cooler = np.minimum(surface.temperature, metal.critical_temperature)
+        surface = replace(surface, temperature=cooler)
+    T = np.linspace(cold, max(cold + 1.0, float(surface.temperature.max())), SPEED_NODES)
+    nu = np.array([float(material.kinematic_viscosity_at(t)) for t in T])
+    slope = np.array([_slope(case, t) if solver.marangoni else 0.0 for t in T])
+    return driven_speed(
+        surface,
+        length=0.25 * _pattern_length(case),
+        cold=cold,
+        density=material.density_liquid,
+        viscosity=lambda at: np.interp(at, T, nu),
+        slope=lambda at: np.interp(at, T, slope),
+        pressure=recoil if recoil is not None and case.surface_moves else np.zeros_like,
+        confinement=BELOW_MOVING_SURFACE if case.surface_moves else BELOW_LID,
+    )
+
+
+def _pattern_length(case: Case) -> float:
+    """Length over which the light repeats, or of its spot [m]; without light that of the domain."""
+    beam = None if case.laser is None else case.laser.beam
+    if isinstance(beam, InterferenceBeam) and beam.lateral_period:
+        return beam.lateral_period
+    if isinstance(beam, GaussianBeam):
+        return 2.0 * beam.radius
+    return case.domain.width or case.domain.depth
+
+
 def _slope(case: Case, temperature: float) -> float:
     """d gamma/dT [N/(m K)], 0 where the material has none."""
     try:
@@ -88,20 +133,15 @@ def _slope(case: Case, temperature: float) -> float:
 
 def _pool(case: Case, viscosity: float) -> tuple[float, float, float]:
     """Layer [m], gradient of temperature [K/m] and duration [s] of a pool."""
-    pulse_time, first, length = case.time.end, 0.0, case.domain.width or case.domain.depth
+    pulse_time, first = case.time.end, 0.0
     if case.laser is not None:
         pulse = case.laser.pulse
         pulse_time = pulse.on_time or 100.0 * pulse.resolution
-        beam = case.laser.beam
-        if isinstance(beam, InterferenceBeam) and beam.lateral_period:
-            length = beam.lateral_period
-        elif isinstance(beam, GaussianBeam):
-            length = 2.0 * beam.radius
         marks = pulse.breakpoints(0.0, case.time.end)
         first = min((float(mark) for mark in marks if mark > 0.0), default=0.0)
     layer = min(sqrt(viscosity * pulse_time), case.domain.depth)
     duration = min(MOLTEN_PULSES * pulse_time, max(case.time.end - first, 0.0))
-    return layer, _temperature_range(case) / (0.25 * length), duration
+    return layer, _temperature_range(case) / (0.25 * _pattern_length(case)), duration
 
 
 def _temperature_range(case: Case) -> float:
@@ -140,7 +180,9 @@ def _box_speed(case: Case, gravity: float, viscosity: float, density: float, slo
     wave = case.boundaries.surface_temperature_wave
     if case.flow.surface.kind in FREE and slope:
         eta = viscosity * density
-        if wave is not None:
+        if case.surface_moves:
+            speeds.append(_open_layer_speed(case, slope * _imposed_gradient(case), viscosity, eta))
+        elif wave is not None:
             layer = ThermocapillaryLayer(
                 case.domain.depth, wave.period, wave.amplitude, -slope, eta
             )
@@ -150,50 +192,35 @@ def _box_speed(case: Case, gravity: float, viscosity: float, density: float, slo
     return max(speeds)
 
 
-def recession_warning(case: Case, layers: Layers) -> str:
+def _open_layer_speed(case: Case, stress: float, viscosity: float, eta: float) -> float:
+    """Largest speed of a layer whose surface moves under a stress [Pa]: that of a half space at
+    rest, Stokes' first problem, and no more than steady shear over the bottom [m/s]."""
+    wave, end = case.boundaries.surface_temperature_wave, case.time.end
+    lasting = end if wave is None else min(wave.end or end, end) - wave.start
+    return stress / eta * min(2.0 * sqrt(viscosity * max(lasting, 0.0) / pi), case.domain.depth)
+
+
+def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
     """What is said where the finest layers are too shallow for what light evaporates; else nothing.
 
     All of their particles become lower where the surface recedes, which the run bears down to
-    `layout_renewal.EVEN[0]` of a spacing. Where they could be too shallow if all light that is
-    absorbed made vapor, the depth is estimated, see `analytic.melt_depth`.
+    `layout_renewal.EVEN[0]` of a spacing.
+
+    Args:
+        evaporated: metal that a pulse is expected to evaporate [m].
     """
-    metal, laser = case.material.vaporization, case.laser
-    if not case.surface_moves or not case.solver.has_vapor_flux or metal is None or laser is None:
+    if not case.surface_moves or not case.solver.has_vapor_flux or case.laser is None:
         return ""
-    pulses = laser.pulse.count if case.pause != "compute" else 1
-    bearable = (1.0 - EVEN[0]) * layers.fine_depth / pulses
-    constants, (ratio, flux, _) = vapor_constants(metal), outflow_tables()
-    T = np.linspace(TABLE_START, constants["T_c"], TABLE_NODES)
-    constants |= {"p_e": case.boundaries.pressure_of_surroundings}
-    loss = (evaporation_loss(t, **constants, ratio_nodes=ratio, flux_nodes=flux) for t in T)
-    heat, _, mass = np.array(list(loss)).T
-    _, R = laser.reflectivity_table(case.material, COLDEST, HOTTEST)
-    light = laser.mean_fluence if isinstance(laser.beam, InterferenceBeam) else laser.peak_fluence
-    absorbed = (1.0 - min(R)) * light * float(laser.pulse.delivered(0.0, case.end_of_pulse))
-    if absorbed <= bearable * case.material.density_reference * _least_heat_of_vapor(
-        case, metal, T
-    ):
+    pulses = case.laser.pulse.count if case.pause != "compute" else 1
+    gone, times = pulses * evaporated, 1.0 / (1.0 - EVEN[0])
+    if times * gone <= layers.fine_depth:
         return ""
-    melt = expected_melt(case, lambda at: (np.interp(at, T, mass), np.interp(at, T, heat)))
-    if melt is None or melt.evaporated <= bearable:
-        return ""
-    gone, times = pulses * melt.evaporated, 1.0 / (1.0 - EVEN[0])
     key = "particles.fine_depth" if case.particles.arrangement == "graded" else "domain.depth"
     return (
         f"about {format_quantity(gone, 'm', 2)} will evaporate; the finest layers must be "
         f"{times:.2g} times as deep, and reach {format_quantity(layers.fine_depth, 'm', 3)}: the "
         f'run would stop; write {key} = "{format_quantity(ROOM * times * gone, "m", 2)}"'
     )
-
-
-def _least_heat_of_vapor(case: Case, metal: Vaporization, T: NDArray[np.float64]) -> float:
-    """Least heat that metal takes with it as vapor of one of these temperatures [J/kg]."""
-    curve, vapor = caloric_curve(case), vapor_constants(metal)
-    h = np.interp(T, curve.temperature, curve.enthalpy)
-    (h1, h2), (T1, T2) = curve.enthalpy[-2:], curve.temperature[-2:]
-    h += np.maximum(T - T2, 0.0) * (h2 - h1) / (T2 - T1)
-    latent = [latent_heat(t, vapor["T_b"], vapor["L_b"], vapor["T_c"]) for t in T]
-    return float(np.min((h + latent)[case.material.flow_temperature < T]))
 
 
 def _warnings(layer: float | None, spacing: float) -> list[str]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
 from lasersph.boundaries.moving_surface import MovingSurface
-from lasersph.case import Case
 from lasersph.compute.backend import Backend
 from lasersph.observers import Observers, flow_observers
 from lasersph.observers.relief import WHOLE, Relief
@@ -17,7 +17,7 @@ from lasersph.simulation.recipes.conduction import HeatRecipe
 from lasersph.simulation.recipes.melt_pool.build import with_flow
 from lasersph.simulation.recipes.melt_pool.forecast import flow_forecast, recession_warning
 from lasersph.simulation.recipes.melt_pool.view import flow_view
-from lasersph.simulation.recipes.recipe import StepForecast
+from lasersph.simulation.recipes.recipe import FlowForecast, StepForecast
 from lasersph.simulation.scales import box_numbers, melt_numbers
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.heat_settings import HeatSettings
@@ -25,7 +25,8 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
 
 FLOW_PRODUCTS = {"pool": 25.0, "box": 70.0}
-"""Of a step in which something flows: a part of the block, or all of a box."""
+"""Cost of a step in which something flows, a part of the block or all of a box, in sums over all
+pairs. Forecast: as measured."""
 
 
 class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
@@ -33,10 +34,12 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
 
     settings_type = MeltPoolSettings
 
-    def __init__(self, case: Case) -> None:
-        """The recipe holds the forecast of the flow."""
-        super().__init__(case)
-        self.flow = flow_forecast(case, self.settings, self.layers.spacing)
+    @cached_property
+    def flow(self) -> FlowForecast:
+        """Forecast of the flow of the pool or of the box."""
+        return flow_forecast(
+            self.case, self.settings, self.layers.spacing, self.heating or self.melt
+        )
 
     def build(self, backend: Backend) -> MeltPool:
         """The solver with its particles, at the start of the run; heat is implicit."""
@@ -72,6 +75,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             self.settings.dimensions,
             box=self.case.flow is not None,
             topography=self._topography(),
+            pulses=self.pulse_observer(),
             probes=self.case.probes,
             iterations=iterations,
         )
@@ -101,7 +105,6 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
 
     def step_forecast(self) -> StepForecast:
         """Limits, number and cost of the steps."""
-        assert self.flow is not None
         products = self.products_of("flow")
         if fixed := self.fixed_steps("flow", products):
             return fixed
@@ -112,8 +115,9 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
 
     def warnings(self) -> list[str]:
         """What a user should think about before the run."""
-        recession = recession_warning(self.case, self.layers)
-        return [*([recession] if recession else []), *(self.flow.warnings if self.flow else ())]
+        gone = 0.0 if self.heating is None else self.heating.evaporated
+        recession = recession_warning(self.case, self.layers, gone)
+        return [*([recession] if recession else []), *self.flow.warnings]
 
     def dimensionless(self) -> dict[str, dict[str, float]]:
         """Scales and numbers of the pulse and of the melt; of a box those of its walls."""

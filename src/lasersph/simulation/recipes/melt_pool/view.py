@@ -32,12 +32,16 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Array], np.ndarray])
         found = np.asarray(backend.look(backend.rows_where(free.at_surface, 1.0)), np.int64)
         surface = found[np.argsort(position[0, found], kind="stable")]
         temperature = backend.look(solver.particles["temperature"])[surface]
-        if solver.fluid_count > 0.0 and flow.current_block is not None:
-            temperature = backend.look(free.temperature)[surface]
         gradient = np.gradient(temperature, position[0, surface])
         if solver.fluid_count > 0.0 and flow.current_block is not None:
-            flowing = backend.look(solver.kinds.active)[surface] > 0.0
-            gradient = np.where(flowing, backend.look(free.gradient)[surface], gradient)
+            of_surface = backend.look(free.temperature)[surface]
+            known = backend.look(solver.kinds.active)[surface] > 0.0
+            if flow.has_tangents:  # a surface that moves is known where it flows only
+                known = backend.look(solver.kinds.fluid)[surface] > 0.0
+                of_surface = np.where(known, of_surface, temperature)
+            temperature = of_surface
+            gradient = np.gradient(temperature, position[0, surface])
+            gradient = np.where(known, backend.look(free.gradient)[surface], gradient)
         flows = backend.look(solver.kinds.fluid)[surface]
         jump = backend.look(free.ghost_velocity_jump)[surface]
         speed = velocity[0, surface] + flows * (0.5 * jump)

@@ -20,6 +20,7 @@ from lasersph.compute.vectors import interpolate
 from lasersph.solvers.conduction.implicit import ImplicitStep
 
 MAX_ITERATIONS = 20_000
+"""Iterations of a step at most. Guard: of the published solver; no study."""
 
 
 def difference(g_ij, p_i, p_j):

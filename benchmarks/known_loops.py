@@ -1,0 +1,62 @@
+"""Write the loops that runs call, by kind of run, from coarse runs of all shipped cases.
+
+    python benchmarks/known_loops.py [CASE ...]
+
+Several processes compile these where a run finds one missing (`compute.ahead`). To be run again
+after loops got other names or arguments: a list that is out of date costs the first run on a
+machine some seconds, and changes no result. Lists of kinds that none of the CASEs has stay.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections import defaultdict
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from lasersph import simulation
+from lasersph.case import available_cases, load_case
+from lasersph.compute.ahead import read_lists, write_lists
+from lasersph.compute.generate import Loop, LoopText
+from lasersph.compute.launch import Launcher
+from lasersph.simulation.known_loops import FILE, kind_of_run
+
+
+class RecordedText(LoopText):
+    """Text of a loop that is remembered.
+
+    Attributes:
+        loops: all so far, in the order in which they were asked for.
+    """
+
+    loops: list[Loop] = []  # noqa: RUF012 (of the class: there is one list a process)
+
+    def __init__(self, loop: Loop) -> None:
+        super().__init__(loop)
+        self.loops.append(loop)
+
+
+def loops_of(name: str) -> tuple[str, list[Loop]]:
+    """Kind of a case's run, and what its coarse copy calls."""
+    case = load_case(name, quick=True)
+    RecordedText.loops.clear()
+    with TemporaryDirectory() as folder:
+        simulation.run(case, Path(folder, "run"), threads=1)
+    return kind_of_run(case), list(dict.fromkeys(RecordedText.loops))
+
+
+def main() -> None:
+    """Run the cases and write the lists."""
+    Launcher.text = RecordedText
+    lists: dict[str, list[Loop]] = defaultdict(list)
+    for name in sys.argv[1:] or available_cases():
+        kind, loops = loops_of(name)
+        lists[kind] += loops
+        print(f"{name}: {len(loops)} loops of {kind}", flush=True)
+    found = {kind: list(dict.fromkeys(loops)) for kind, loops in lists.items()}
+    write_lists(FILE, read_lists(FILE) | found)
+    print(f"{FILE}: {FILE.stat().st_size // 1024} KiB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,125 @@
+"""A page for each validation, from its record: figure, question, numbers, what made it."""
+
+import re
+from typing import Any
+
+from validation_charts import judged
+from validation_table import NOT_MET, UNEXPLAINED, anchor, label, number, plain, table
+
+from lasersph.validation.records import State
+
+HEAD = ("quantity", "published", "reference", "computed", "tolerance", "verdict")
+VERDICTS = {True: "ok", False: "**FAILED**", None: "shown"}
+ROUND_OFF = 1e-9
+"""Below it a number whose reference is 0 is 0, in its unit: sums of a few thousand terms of order 1
+end at 1e-13."""
+FEW = 8
+"""Rows that are not folded, whatever they say: a table this short hides nothing."""
+
+
+def validation_page(state: State, readme: str) -> str:
+    """State and figure first, then the README, the judged numbers, the folded ones and figures."""
+    record = state.record
+    title, text = readme_text(readme)
+    said = ": ".join(words for words in (label(state), plain(state.text)) if words)
+    parts = [f"({anchor(state)})=\n# {state.name}", f"{title} ({said}.)"]
+    figures = [_figure(state, file) for file in record["figures"]] if record else []
+    parts += figures[:1]
+    parts.append(text)
+    if state.word == "failed" and NOT_MET not in readme:
+        parts.append(UNEXPLAINED)
+    if record is None:
+        return _joined(parts)
+    parts.append("\n".join(f"- {plain(remark)}" for remark in record["remarks"]))
+    parts += _numbers(state, record)
+    parts += figures[1:]
+    parts.append(_origin(record))
+    return _joined(parts)
+
+
+def _joined(parts: list[str]) -> str:
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def readme_text(readme: str) -> tuple[str, str]:
+    """Title of a README, and its text with its heads as first words."""
+    title, _, text = readme.partition("\n")
+    return title.removeprefix("# "), re.sub(r"^## (.+)\n", r"**\1.** ", text, flags=re.M).strip()
+
+
+def _figure(state: State, file: str) -> str:
+    return f"![{state.name}](../../validation/{state.name}/{file})"
+
+
+def _origin(record: dict[str, Any]) -> str:
+    """How long it took, where and with what."""
+    made = record["computed"]
+    version = f"lasersph {made['lasersph']}" + (f", {made['commit']}" if made["commit"] else "")
+    threads = f"threads: {made['threads'] or 'all'}"
+    return (
+        f"*{_duration(record['seconds'])} on {made['machine']}, {threads}; {version}, "
+        f"{made['date']}.*"
+    )
+
+
+def _numbers(state: State, record: dict[str, Any]) -> list[str]:
+    """The judged numbers, with those folded that agree in every digit shown or are only shown."""
+    rows, notes = record["rows"], _notes(record["rows"])
+    judged_rows = [row for row in rows if row["verdict"] is not None and not row["own"]]
+    shown = [row for row in rows if row["verdict"] is None or row["own"]]
+    equal = [row for row in judged_rows if row["verdict"] and _is_equal(row)]
+    if len(judged_rows) <= FEW:
+        equal = []
+    parts = ["## Numbers"]
+    if judged(record):
+        parts.append(f"![{state.name}: difference over tolerance](../validation-{state.name}.svg)")
+    open_rows = [row for row in judged_rows if row not in equal]
+    if open_rows:
+        parts.append(table(HEAD, [_cells(row, notes) for row in open_rows]))
+    for group, words in ((equal, "judged and equal in every digit shown"), (shown, "not judged")):
+        if group:
+            inner = table(HEAD, [_cells(row, notes) for row in group])
+            parts.append(_folded(f"{len(group)} more numbers, {words}", inner))
+    parts.append("\n".join(f"- ({k}) {plain(text)}" for text, k in notes.items()))
+    return parts
+
+
+def _is_equal(row: dict[str, Any]) -> bool:
+    """Whether a number and what it is judged by are printed alike, or are 0 to round-off."""
+    wanted = row["reference"] if row["reference"] is not None else row["published"]
+    if wanted == 0.0 and isinstance(row["computed"], int | float):
+        return abs(row["computed"]) < ROUND_OFF
+    return number(row["computed"]) == number(wanted)
+
+
+def _folded(words: str, inner: str) -> str:
+    return f"<details><summary>{words}</summary>\n\n{inner}\n\n</details>"
+
+
+def _duration(seconds: float | None) -> str:
+    if seconds is None:
+        return "In a time that was not noted"
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+
+
+def _note(row: dict[str, Any]) -> str:
+    """Why the band of a row is so wide, and what it was before."""
+    changed = f"Changed: {row['changed']}" if row["changed"] else ""
+    return " ".join(text for text in (row["reason"], changed) if text)
+
+
+def _notes(rows: list[dict[str, Any]]) -> dict[str, int]:
+    """Numbers of the notes to the rows."""
+    texts = dict.fromkeys(note for row in rows if (note := _note(row)))
+    return {text: k for k, text in enumerate(texts, start=1)}
+
+
+def _cells(row: dict[str, Any], notes: dict[str, int]) -> tuple[str, ...]:
+    unit = f" [{row['unit']}]" if row["unit"] not in ("", "1") else ""
+    tolerance = "" if row["tolerance"] is None else f"{row['tolerance']:.3g}"
+    note = f"({notes[_note(row)]})" if _note(row) else ""
+    numbers = (number(row[key]) for key in ("published", "reference", "computed"))
+    verdict = "own" if row["own"] else VERDICTS[row["verdict"]]
+    return plain(row["quantity"] + unit), *numbers, f"{tolerance} {note}".strip(), verdict

@@ -1,0 +1,122 @@
+"""Warnings of a run, to be read before its numbers are used: sentences as they follow "warning: ",
+with a small first letter and no full stop.
+
+Those that come before the first step (`lasersph check` says the same) stand among the events of the
+run folder. Those that the run itself has found follow from its summary. Both are kept under
+`warnings` in summary.json, where the terminal, the report and the page in a browser find them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from lasersph.input import format_number, format_quantity
+from lasersph.observers.energy_budget import (
+    IMBALANCE_ALLOWED,
+    IMBALANCE_ALLOWED_WITH_FLOW,
+    NUMERICAL,
+    NUMERICAL_ALLOWED,
+    TERMS,
+)
+from lasersph.observers.vaporization import NEAR_CRITICAL
+from lasersph.output.history import WARNING
+
+
+def event_warnings(events: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Warnings among the events of a run, each once, in their order."""
+    found = (str(one["message"]) for one in events if one["event"] == WARNING and "message" in one)
+    return list(dict.fromkeys(found))
+
+
+def found_warnings(summary: Mapping[str, Any], last: Mapping[str, Any] | None = None) -> list[str]:
+    """Warnings that follow from the results of a run.
+
+    Args:
+        summary: content of summary.json.
+        last: row of history.csv of the last step, where it is at hand: tells how deep melt was.
+    """
+    return [
+        *_energy(summary),
+        *_near_critical(summary.get("vaporization", {})),
+        *_held_at_boiling(summary),
+        *_still_molten(summary, last or {}),
+    ]
+
+
+def exchanged(energy: Mapping[str, Any]) -> float:
+    """Largest of the energies absorbed, stored and lost [J]."""
+    return max(abs(energy[f"{name}_J"]) for name in ("absorbed", "stored", "lost"))
+
+
+def allowed_imbalance(summary: Mapping[str, Any]) -> float:
+    """Largest relative error of the energy balance of a run that can be trusted."""
+    return IMBALANCE_ALLOWED_WITH_FLOW if "flow" in summary else IMBALANCE_ALLOWED
+
+
+def _energy(summary: Mapping[str, Any]) -> Iterator[str]:
+    """An energy balance that does not close, heat that numerics have added."""
+    energy = summary["energy"]
+    if energy["imbalance_relative"] > allowed_imbalance(summary):
+        share = "a ten-thousandth" if "flow" in summary else "a millionth"
+        yield f"the energy balance does not close within {share} of the energy moved"
+    for name in NUMERICAL:
+        share = energy.get(f"{name}_max_J", 0.0) / max(exchanged(energy), 1e-300)
+        if share > NUMERICAL_ALLOWED:
+            yield f"the {TERMS[name]} is {format_number(100.0 * share, 3)} % of the energy moved"
+
+
+def _near_critical(vapor: Mapping[str, Any]) -> Iterator[str]:
+    """A surface so hot that the curve of vapor pressure does not hold."""
+    if vapor.get("near_critical_start_s") is None:
+        return
+    place = vapor["near_critical_x_m"]
+    where = "" if place is None else f", hottest at x = {format_quantity(place, 'm')}"
+    yield (
+        f"the surface was above {NEAR_CRITICAL:g} of its critical temperature of "
+        f"{vapor['critical_K']:.0f} K from {format_quantity(vapor['near_critical_start_s'], 's')} "
+        f"to {format_quantity(vapor['near_critical_end_s'], 's')}{where}: the curve of vapor "
+        "pressure is an extrapolation there"
+    )
+
+
+def _held_at_boiling(summary: Mapping[str, Any]) -> Iterator[str]:
+    """Metal that took up its whole heat of vaporization and stayed; ejecta tell of ablation."""
+    depth = summary.get("vaporization", {}).get("depth_max_m")
+    if not depth or "crater" in summary:
+        return
+    wrong = "the depth of the melt and the relief are" if _moves(summary) else "its depth is"
+    yield (
+        f"metal down to {format_quantity(depth, 'm')} took up its whole heat of vaporization and "
+        f"was held at the boiling point, where it would have left as vapor: {wrong} not right; "
+        'vaporization = "flux" in [solver] computes the vapor'
+    )
+
+
+def _still_molten(summary: Mapping[str, Any], last: Mapping[str, Any]) -> Iterator[str]:
+    """Melt at the end: of any fraction where the surface moves with it, else completely fluid."""
+    melt, moves = summary.get("melt"), _moves(summary)
+    if melt is None:
+        return
+    is_left = melt["end_any_s"] == summary["time_s"] if moves else melt["molten_at_end"]
+    if not is_left:
+        return
+    depth = last.get("melt_depth_any_m" if moves else "melt_depth_m")
+    metal = f"metal down to {format_quantity(depth, 'm')}" if depth else "metal"
+    late = "the relief is not final" if moves else "melting ends later than given"
+    # a run that jumps over pauses is not resumed to a later end
+    how = "compute it again" if _jumps(summary) else "go on"
+    yield (
+        f"{metal} was still {'molten' if moves else 'fluid'} at the end, "
+        f"{format_quantity(summary['time_s'], 's')}: {late}; {how} with a later time.end"
+    )
+
+
+def _jumps(summary: Mapping[str, Any]) -> bool:
+    """Whether pauses between pulses were jumped over."""
+    return bool(summary.get("topography", {}).get("after_pulses_m"))
+
+
+def _moves(summary: Mapping[str, Any]) -> bool:
+    """Whether the surface moved."""
+    return "topography" in summary

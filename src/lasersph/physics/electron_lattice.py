@@ -1,0 +1,62 @@
+"""How long electrons are hotter than the lattice that they heat: where one temperature is enough.
+
+Light heats the electrons, which pass heat on to the lattice by G (T_e - T_l). With heat capacities
+C_e = gamma T_e and C_l both meet within [Anisimov1974]
+
+    tau = C_e C_l / ((C_e + C_l) G)
+
+after a pulse shorter than that. All that the electrons give makes the heat u that the lattice then
+has, so that they begin at gamma (T_e^2 - T_0^2)/2 = u.
+
+gamma and G are those of [Medvedev2020], of stainless steel of [Medvedev2025], at T_e = 5000 K and a
+cold lattice, from the tables that the author publishes with them. There gamma and G change by up
+to twice from 5000 to 10 000 K, so that tau says an order of magnitude.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+
+
+@dataclass(frozen=True)
+class Electrons:
+    """gamma of C_e = gamma T_e [J/(m^3 K^2)] and G [W/(m^3 K)]."""
+
+    capacity_slope: float
+    coupling: float
+
+
+ELECTRONS = {
+    "aluminium": Electrons(93.5, 2.54e17),
+    "copper": Electrons(209.6, 1.40e17),
+    "gold": Electrons(108.2, 1.67e16),
+    "iron": Electrons(545.3, 3.81e18),
+    "nickel": Electrons(316.6, 5.17e17),
+    "silver": Electrons(70.3, 3.60e15),
+    "steel": Electrons(334.2, 3.71e17),
+    "titanium": Electrons(353.0, 1.46e17),
+    "tungsten": Electrons(270.4, 1.05e17),
+}
+"""C_e(5000 K)/5000 K and G(5000 K)."""
+SLOWEST = ELECTRONS["silver"]
+"""Taken for a metal that has no numbers here: none of the others couples as weakly."""
+ALLOYS = {"inconel": "nickel", "ti": "titanium"}
+"""Metals that make up most of an alloy, by the first word of its name."""
+
+
+def electrons_of(metal: str) -> Electrons | None:
+    """Numbers of a metal by its name, as "steel-304"; None where there are none."""
+    word = metal.split("-")[0]
+    return ELECTRONS.get(ALLOYS.get(word, word))
+
+
+def coupling_time(electrons: Electrons, heat: float, lattice: float, cold: float) -> float:
+    """tau [s] of electrons that begin with all the heat.
+
+    Args:
+        heat: u that the metal has afterwards [J/m^3]. lattice: C_l [J/(m^3 K)]. cold: T_0 [K].
+    """
+    hot = sqrt(cold**2 + 2.0 * heat / electrons.capacity_slope)
+    capacity = electrons.capacity_slope * hot
+    return capacity * lattice / ((capacity + lattice) * electrons.coupling)

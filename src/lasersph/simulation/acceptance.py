@@ -1,0 +1,44 @@
+"""Whether this machine can compute a case, asked at one place by all who start or check runs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from lasersph.case import Case
+from lasersph.case.checks import refuse_if_too_large
+from lasersph.case.size import Size
+from lasersph.input import CaseError
+from lasersph.simulation.forecast import Forecast, forecast
+from lasersph.simulation.recipes import Recipe
+
+ANYWAY = "or start it all the same: lasersph run --anyway, anyway=True in Python"
+
+
+def accepted_forecast(
+    case: Case,
+    backend: str = "cpu",
+    *,
+    threads: int = 1,
+    recipe: Recipe[Any, Any] | None = None,
+    anyway: bool = False,
+) -> Forecast:
+    """Forecast of a case that this machine, and its card, can hold.
+
+    Args:
+        backend: "cpu" or "cuda". threads: for the expected time. recipe: as of `forecast`.
+        anyway: make a refusal the first of the warnings.
+
+    Raises:
+        CaseError: it needs more memory than there is. NoDevice: no card for "cuda".
+    """
+    try:
+        refuse_if_too_large(case, backend)  # an estimate: absurd cases are not even laid out
+        expected = forecast(case, threads=threads, recipe=recipe)
+        refuse_if_too_large(case, backend, Size(expected.particles, expected.memory))
+    except CaseError as error:
+        if not anyway:
+            raise CaseError(error.problem, f"{error.hint}, {ANYWAY}", key=error.key) from None
+        expected = forecast(case, threads=threads, recipe=recipe)
+        return replace(expected, warnings=(str(error), *expected.warnings))
+    return expected

@@ -1,0 +1,224 @@
+"""What a user should think about before a run, each as a sentence with its numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isnan, pi, sqrt
+
+import numpy as np
+
+from lasersph.case import Case
+from lasersph.case.quick import what_is_not_shown
+from lasersph.case.solver_choice import (
+    chooses_vaporization,
+    computes_flow,
+    missing_for_flux,
+    wants_vapor_flux,
+)
+from lasersph.input import format_quantity
+from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.output.settings import DEFAULT_COUNT
+from lasersph.particles.layers import Layers
+from lasersph.physics.ablation_estimates import PHASE_EXPLOSION
+from lasersph.physics.electron_lattice import SLOWEST, coupling_time, electrons_of
+from lasersph.simulation.heating import HeatingForecast
+
+FEWEST_SPACINGS = 2.0
+"""Spacings in the length over which light changes along the surface. Forecast: 12 of them make a
+period."""
+LEAST_HELD = 1e-9
+"""Depth of metal kept at its boiling point of which it is worth to speak [m]. Forecast: some
+atoms."""
+NEAR_BOILING = 0.8
+"""Expected temperature over that of boiling from which missing vapor is told. Forecast: at 0.8 the
+vapor of a metal pushes with some hundredths of an atmosphere, and a temperature is expected to a
+fifth."""
+SHORT_PULSE = 3.0
+"""Coupling times that a pulse must last for electrons and lattice to have one temperature.
+Forecast: what is left of a difference after three is a twentieth."""
+LEAST_RISE = 1.0
+"""Rise of the temperature under light of which it is worth to speak [K]. Forecast: less is no
+texturing, and the noise of many numbers."""
+MOST_LIGHT = 100.0
+"""Heat of the light over that which boils what it heats. Forecast: shipped cases, ablation
+included, have less; mJ in place of uJ makes 1500 of a texture of copper."""
+
+
+def run_warnings(
+    case: Case, layers: Layers, curve: CaloricCurve, heating: HeatingForecast | None
+) -> Iterator[str]:
+    """Warnings that hold of any solver: resolution, sizes, vapor, electrons, snapshots."""
+    if text := what_is_not_shown(case):
+        yield text
+    spacing = layers.spacing
+    if abs(spacing - case.particles.spacing) > 1e-2 * case.particles.spacing:
+        yield (
+            f"spacing {format_quantity(case.particles.spacing, 'm')} is rounded to "
+            f"{format_quantity(spacing, 'm')} so that whole cells fill the domain"
+        )
+    if case.laser is not None and heating is not None:
+        yield from _resolution(case, layers)
+        yield from _sizes(case, heating)
+        yield from _vapor(case, heating)
+        yield from _electrons(case, curve, heating)
+        yield from _frames(case)
+    changes = case.solver.phase_change and (case.laser is not None or case.material.melting)
+    if changes and case.material.vaporization is None:
+        hot = "" if heating is None else f" (here to {heating.temperature:.0f} K)"
+        yield (
+            f'no boiling point is given of "{case.material.name}": its temperature rises without '
+            f"limit{hot}; give temperature and latent_heat in [material.vaporization]"
+        )
+    if case.time.is_fixed:
+        yield "the time step is fixed: it may be unstable"
+
+
+def _frames(case: Case) -> Iterator[str]:
+    """Snapshots of a flow that are further apart than its pulse lasts."""
+    interval = case.output.snapshots.interval or case.end_of_pulse / DEFAULT_COUNT
+    duration = pulse_duration(case)
+    if computes_flow(case.solver) and interval > duration and not case.output.snapshots.times:
+        yield (
+            f"snapshots are {format_quantity(interval, 's', 3)} apart, longer than the pulse of "
+            f"{format_quantity(duration, 's', 3)}: figures miss the fastest flow, numbers do not; "
+            f'write output.snapshots.interval = "{format_quantity(0.1 * duration, "s", 2)}"'
+        )
+
+
+def absorption_length(case: Case) -> float:
+    """1/alpha of the light of a case [m]."""
+    assert case.laser is not None
+    return 1.0 / case.laser.absorption_coefficient(case.material)
+
+
+def pulse_duration(case: Case) -> float:
+    """Time over which a pulse delivers its energy [s]."""
+    assert case.laser is not None
+    return case.laser.pulse.on_time or 100.0 * case.laser.pulse.resolution
+
+
+def penetration_depth(case: Case) -> float:
+    """Thermal penetration of a pulse, sqrt(D t_p) [m] [Alshaer2017, eq. (34)]."""
+    return sqrt(case.material.diffusivity_reference * pulse_duration(case))
+
+
+def _resolution(case: Case, layers: Layers) -> Iterator[str]:
+    """Heat and light that are finer than the particles, or do not fit into the domain."""
+    assert case.laser is not None
+    spacing, length, heat = layers.spacing, absorption_length(case), penetration_depth(case)
+    if spacing > heat / 3.0:
+        yield (
+            f"the heat of a pulse reaches {format_quantity(heat, 'm', 3)}, less than 3 "
+            f"spacings of {format_quantity(spacing, 'm', 3)}: take a finer spacing"
+        )
+    if 0.0 < length < spacing:
+        yield (
+            f"the light is absorbed within {format_quantity(length, 'm', 3)}, less than one"
+            f" spacing of {format_quantity(spacing, 'm', 3)}: its profile is not resolved, though"
+            " its energy is exact"
+        )
+    scale = case.laser.beam.scale
+    if scale < FEWEST_SPACINGS * spacing and case.solver.dimensions > 1:
+        yield (
+            f"the light changes along the surface within {format_quantity(scale, 'm', 3)}, a "
+            f"pattern of {format_quantity(2.0 * pi * scale, 'm', 3)}, less than "
+            f"{FEWEST_SPACINGS:.0f} spacings of {format_quantity(spacing, 'm', 3)}: take a finer "
+            "spacing"
+        )
+    if layers.thickness.sum() < 5.0 * heat:
+        yield (
+            f"the domain is {format_quantity(float(layers.thickness.sum()), 'm', 3)} deep, less "
+            f"than 5 penetration depths of {format_quantity(heat, 'm', 3)}: the bottom will be felt"
+        )
+    if not case.laser.pulse.delivered(0.0, case.time.end) > 0.0:
+        yield (
+            f"no light falls before time.end of {format_quantity(case.time.end, 's')}: nothing "
+            "will be heated"
+        )
+
+
+def _sizes(case: Case, heating: HeatingForecast) -> Iterator[str]:
+    """Energies that are so large or small that their unit is likely to be wrong."""
+    assert case.laser is not None
+    laser, boiling = case.laser, case.material.vaporization
+    name = next(
+        key for key in ("pulse_energy", "fluence", "power", "intensity") if _has(laser, key)
+    )
+    if isnan(heating.temperature):
+        return
+    rise = heating.temperature - heating.cold
+    if 0.0 < rise < LEAST_RISE:
+        yield (
+            f"the light heats the surface by {rise:.2g} K only: is laser.{name} right, or its unit?"
+        )
+    if boiling is None:
+        return
+    heated = case.material.density_reference * (penetration_depth(case) + absorption_length(case))
+    capacity = float(case.material.heat_capacity_at(case.material.reference_temperature))
+    needed = heated * capacity * (boiling.temperature - heating.cold)
+    ratio = heating.absorbed_peak / needed
+    if ratio > MOST_LIGHT:
+        yield (
+            f"the light brings {format_quantity(1e-4 * heating.absorbed_peak, '', 3)} J/cm^2, "
+            f"{ratio:.2g} times what boils the layer of this metal that it heats: is laser.{name} "
+            "right, or its unit (mJ where uJ is meant), or the size of the spot?"
+        )
+
+
+def _has(laser: object, key: str) -> bool:
+    return getattr(laser, key) is not None
+
+
+def _vapor(case: Case, heating: HeatingForecast) -> Iterator[str]:
+    """Metal that a plateau keeps though it should leave, and heat beyond all models of vapor."""
+    metal, solver = case.material.vaporization, case.solver
+    if metal is None or not chooses_vaporization(solver):
+        return
+    missing = " and ".join(missing_for_flux(case.material))
+    add = f"; give {missing} in [material.vaporization]" if missing else ""
+    boils = f"it boils at {metal.temperature:.0f} K"
+    is_cold = heating.temperature < NEAR_BOILING * metal.temperature
+    wants_flux = wants_vapor_flux(solver, case.material) and not solver.has_vapor_flux
+    if wants_flux and missing and not is_cold:
+        yield (
+            f'no vapor leaves the surface that moves, or pushes it: "{case.material.name}" has no '
+            f"{missing}; light heats it to about {heating.temperature:.0f} K, {boils}{add}"
+        )
+    elif heating.held > LEAST_HELD:
+        how = "" if missing else '; solver.vaporization = "flux" computes it'
+        yield (
+            f"the surface is held at its boiling point of {metal.temperature:.0f} K, with the heat "
+            f"that would turn {format_quantity(heating.held, 'm', 2)} of metal into vapor: vapor "
+            f"that leaves, its push and a hotter surface are left out{how or add}"
+        )
+    critical = metal.critical_temperature
+    if critical is not None and heating.temperature > PHASE_EXPLOSION * critical:
+        yield (
+            f"light heats the surface to more than {PHASE_EXPLOSION * critical:.0f} K, "
+            f"{PHASE_EXPLOSION:g} of the critical temperature: metal explodes into vapor and drops "
+            "there, which is left out"
+        )
+
+
+def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Iterator[str]:
+    """How long electrons are hotter than the lattice, where a pulse is not much longer."""
+    material, pulse = case.material, pulse_duration(case)
+    electrons = electrons_of(material.name)
+    hottest = np.nan_to_num(heating.temperature, nan=float(curve.temperature[-1]))
+    hottest = min(max(hottest, heating.cold), float(curve.temperature[-1]))
+    density = material.density_reference
+    time = coupling_time(
+        electrons or SLOWEST,
+        heat=density * max(float(curve.enthalpy_at(hottest)), 0.0),
+        lattice=density * float(material.heat_capacity_at(material.reference_temperature)),
+        cold=heating.cold,
+    )
+    if pulse > SHORT_PULSE * time:
+        return
+    than = "longer than" if time > pulse else "comparable with"
+    bound = "" if electrons else f', if "{material.name}" couples them as weakly as silver'
+    yield (
+        f"electrons are hotter than the lattice for about {format_quantity(time, 's', 2)}{bound}, "
+        f"{than} the pulse of {format_quantity(pulse, 's', 3)}: this run has one temperature, and "
+        "its heat, melt and vapor are not those of such a pulse"
+    )

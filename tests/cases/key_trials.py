@@ -1,0 +1,218 @@
+"""What each key of a case is tried with: values that matter, beside settings that they need.
+
+The keys of [time] and the plain ones of [solver] are tried in `test_every_key`.
+"""
+
+from __future__ import annotations
+
+LIT = """
+material = "steel-304"
+initial_temperature = "1650 K"
+laser = { fluence = "0.3 J/cm^2", pulse = { kind = "square", duration = "0.2 ns" }, \
+absorption = { kind = "surface" } }
+domain = { depth = "2 um", width = "2.4 um" }
+particles = { spacing = "0.2 um" }
+time = { end = "0.1 ns", step = "0.05 ns" }
+"""
+"""A case file of warm metal under light."""
+LINES = "laser.beam={ kind = 'interference', period = '2.4 um' }"
+MOVING = ("solver.kind=ablation", "solver.sound_speed=1000 m/s")
+BASES: dict[str, tuple[str, ...]] = {
+    "column": ("solver.dimensions=1",),
+    "section": ("solver.dimensions=2", LINES),
+    "pool": ("solver.kind=melt-pool", "solver.flow={ surface = 'moving' }", LINES),
+    "matter": (*MOVING, "solver.dimensions=2", LINES),
+    "column of matter": (*MOVING, "solver.dimensions=1"),
+}
+"""Small cases of every solver; "box" is one without light."""
+FILM = ("particles.spacing=60 nm", "domain.depth=480 nm", "time.end=2 ns")
+"""A film of liquid below a surface that moves; settings of the shipped case."""
+BOX = ("particles.spacing=100 mm", "time.end=0.4 s")
+
+Trial = tuple[str, tuple[str, ...]]
+"""A value, and settings beside it."""
+NONE: tuple[str, ...] = ()
+DARK = ("laser=",)
+
+
+def alone(*values: str, beside: tuple[str, ...] = NONE) -> list[Trial]:
+    """Trials of values beside the same settings."""
+    return [(value, beside) for value in values]
+
+
+def faces() -> dict[str, list[Trial]]:
+    """Trials of the kinds of faces, of their temperatures and fluxes."""
+    found: dict[str, list[Trial]] = {}
+    for face in ("bottom", "sides", "left", "right"):
+        key, stem = f"boundaries.{face}", "side" if face == "sides" else face
+        held = [(f"{key}={kind}",) for kind in ("fixed-temperature", "wall")]
+        flowing = (f"{key}=prescribed-flux", f"boundaries.{stem}_flux=1e10 W/m^2")
+        found[key] = alone("fixed-temperature", "wall", beside=(WARM,))
+        found[f"boundaries.{stem}_temperature"] = [("1300 K", one) for one in held]
+        found[f"boundaries.{stem}_flux"] = alone("5e10 W/m^2", beside=flowing)
+    return found
+
+
+WARM = "domain.depth=1 um"
+"""So that heat of the light reaches the bottom."""
+HELD = (*DARK, "boundaries.surface=fixed-temperature", "boundaries.surface_temperature=1900 K")
+FLOWING = ("boundaries.surface=prescribed-flux", "boundaries.surface_flux=1e10 W/m^2")
+BOILING = ("laser.fluence=3 J/cm^2", "solver.vaporization=flux")
+ROUND = ("laser.fluence_kind=peak",)
+SHORT = "laser.pulse={ kind = 'gaussian', fwhm = '0.02 ns', center = '0.05 ns' }"
+TABLE = "laser.pulse={ kind = 'tabulated', table = [['0 ns', 1.0], ['0.1 ns', 2.0]] }"
+DEEP = ("laser.absorption={ kind = 'beer-lambert' }",)
+SPOT = "laser.beam={ kind = 'top-hat', radius = '1 um' }"
+PATH = ("laser.path={ kind = 'linear', speed = '2e4 m/s' }",)
+LIGHT = ("laser.beam={ kind = 'interference', period = '2.4 um', wavelength = '532 nm' }",)
+ENERGY = ("laser.fluence=", "laser.pulse_energy=0.5 uJ")
+TRAIN = "laser.pulse={ kind = 'square', duration = '0.01 ns', count = 2, period = '0.05 ns' }"
+RATE = TRAIN.replace("period = '0.05 ns'", "repetition_rate = '20 GHz'")
+ANGLE = "laser.beam={ kind = 'interference', wavelength = '532 nm', angle = '12.726592 deg' }"
+WAVES = "laser.beam={ kind = 'interference', wavelength = '532 nm', waves = [%s, %s] }"
+RIGHT, LEFT = (f"{{ polar = '6.363296 deg', azimuth = '{degrees} deg' }}" for degrees in (0, 180))
+SOLID = ("solver.dimensions=3", "particles.spacing=0.6 um")
+CELL = (*ENERGY, "laser.spot={ diameter = '50 um', definition = '1/e^2' }")
+
+BOUNDARIES = (
+    faces()
+    | {
+        "boundaries.surface": alone("wall", beside=HELD),
+        "boundaries.surface_temperature": alone("1800 K", beside=HELD),
+        "boundaries.surface_flux": alone("5e10 W/m^2", beside=FLOWING),
+    }
+    | {
+        "boundaries.convection": alone("1e6 W/(m^2 K)") + alone("1e6 W/(m^2 K)", beside=HELD),
+        "boundaries.emissivity": alone("0.9") + alone("0.9", beside=HELD),
+        "boundaries.ambient_temperature": alone(
+            "100 K", beside=("boundaries.convection=1e6 W/(m^2 K)",)
+        ),
+        "boundaries.ambient_pressure": alone("0 Pa", beside=BOILING) + alone("0 Pa"),
+    }
+)
+BLOCK = {
+    "initial_temperature": alone("1300 K"),
+    "domain.depth": alone("3 um"),
+    "domain.width": alone("4.8 um"),
+    "domain.breadth": alone("4.8 um", beside=("solver.dimensions=3", "particles.spacing=0.5 um")),
+    "domain.extent": alone("half"),
+    "particles.spacing": alone("0.1 um"),
+    "particles.arrangement": alone("graded", beside=("solver.flow=", "domain.depth=4 um")),
+    "particles.fine_depth": alone("1.4 um")
+    + alone("1.2 um", beside=("particles.arrangement=graded", "domain.depth=4 um", "solver.flow=")),
+    "particles.kernel": alone("wendland-c2"),
+    "particles.support_ratio": alone("3.2"),
+} | {
+    f"particles.{key}": alone(value)
+    + alone(value, beside=("particles.arrangement=graded", "domain.depth=9 um", "solver.flow="))
+    for key, value in (("coarsest", "0.3 um"), ("ratio", "0.6"))
+}
+LASER = {
+    "laser.fluence": alone("0.2 J/cm^2"),
+    "laser.fluence_kind": alone("peak", beside=(LINES,)),
+    "laser.intensity": alone("2e12 W/m^2", beside=("laser.fluence=", "laser.intensity=1e12 W/m^2")),
+    "laser.pulse_energy": alone("2 uJ", beside=CELL),
+    "laser.power": alone(
+        "2 kW", beside=(CELL[-1], "laser.fluence=", "laser.power=1 kW")
+    ),
+    "laser.reflectivity": alone("0.1"),
+    "laser.reflectivity.table": alone(
+        "[['300 K', 0.2], ['3000 K', 0.2]]",
+        beside=("laser.reflectivity={ table = [['300 K', 0.5], ['3000 K', 0.5]] }",),
+    ),
+    "laser.wavelength": alone("532 nm"),
+    "laser.position": alone("['0.4 um', '0 um']")
+    + alone("['0.4 um', '0 um']", beside=(SPOT,))
+    + alone("['0 um', '0.4 um']", beside=(LINES,)),
+    "laser.path": alone("{ kind = 'linear', speed = '2e4 m/s' }"),
+    "laser.path.speed": alone("1e4 m/s", beside=PATH),
+    "laser.path.direction": alone("60 deg", beside=PATH),
+    "laser.path.table": alone(
+        "[['0 ns', '0 um', '0 um'], ['0.1 ns', '2 um', '0 um']]",
+        beside=("laser.path={ kind = 'tabulated', table = [['0 ns', '0 um', '0 um'], ['0.1 ns', "
+                "'1 um', '0 um']] }",),
+    ),
+    "laser.pulse.duration": alone("0.3 ns"),
+    "laser.pulse.start": alone("0.03 ns"),
+    "laser.pulse.count": alone("1", beside=(TRAIN,)),
+    "laser.pulse.period": alone("0.06 ns", beside=(TRAIN,)),
+    "laser.pulse.repetition_rate": alone("16 GHz", beside=(RATE,)),
+    "laser.pulse.fwhm": alone("0.01 ns", beside=(SHORT,)),
+    "laser.pulse.center": alone("0.06 ns", beside=(SHORT,)),
+    "laser.pulse.table": alone("[['0 ns', 1.0], ['0.1 ns', 1.0]]", beside=(TABLE,)),
+    "laser.absorption": alone("{ kind = 'beer-lambert' }"),
+    "laser.absorption.absorption_coefficient": alone("1e6 1/m") + alone("1e6 1/m", beside=DEEP),
+    "laser.beam": alone("{ kind = 'interference', period = '1.2 um' }"),
+    "laser.beam.radius": alone("0.7 um", beside=(SPOT,)),
+    **{
+        f"laser.beam.{key}": alone(
+            "0.7 um", beside=(f"laser.beam={{ kind = 'gaussian', {key} = '1 um' }}", *ROUND)
+        )
+        for key in ("radius_1e2", "diameter_1e2", "diameter_fwhm")
+    },
+    "laser.beam.period": alone("1.2 um"),
+    "laser.beam.angle": alone("25.61417 deg", beside=(ANGLE,)),
+    "laser.beam.waves": alone(
+        f"[{RIGHT.replace('azimuth', 'amplitude = 0.5, azimuth')}, {LEFT}]",
+        beside=(WAVES % (RIGHT, LEFT),),
+    ),
+    "laser.beam.beams": alone("4") + alone("4", beside=(*SOLID, LINES)),
+    "laser.beam.shift": alone("0.6 um") + alone("0.6 um", beside=(LINES, TRAIN)),
+    "laser.beam.wavelength": alone("266 nm", beside=(ANGLE, "domain.width=1.2 um")),
+    "laser.beam.polarization": alone("'p'", beside=LIGHT),
+    "laser.beam.energy_shares": alone("[0.2, 0.8]"),
+    "laser.beam.phases": alone("['0 deg', '180 deg']"),
+    "laser.spot": alone("{ diameter = '50 um', definition = 'fwhm', place = ['9 um', '0 um'] }"),
+    "laser.spot.diameter": alone("60 um", beside=CELL),
+    "laser.spot.definition": alone("fwhm", beside=CELL),
+    "laser.spot.extent": alone("whole", beside=(*ENERGY, CELL[-1].replace("50 um", "2.4 um"))),
+    "laser.spot.place": alone("['9 um', '0 um']", beside=CELL),
+}  # fmt: skip
+SOLVER = {
+    **{
+        f"solver.flow.{side}": alone("{ kind = 'moving-wall', velocity = '1 m/s' }")
+        for side in ("left", "right", "bottom", "surface")
+    },
+    **{
+        f"solver.flow.{side}.velocity": alone(
+            "2 m/s", beside=(f"solver.flow.{side}={{ kind = 'moving-wall', velocity = '1 m/s' }}",)
+        )
+        for side in ("left", "right", "bottom", "surface")
+    },
+    "solver.flow.initial": alone("{ kind = 'taylor-green', speed = '1 m/s' }"),
+    "solver.flow.initial.speed": alone(
+        "2 m/s", beside=("solver.flow.initial={ kind = 'taylor-green', speed = '1 m/s' }",)
+    ),
+    "solver.flow.initial.period": alone(
+        "0.5 m", beside=("solver.flow.initial={ kind = 'taylor-green', speed = '1 m/s' }",)
+    ),
+    "solver.vessel.left": alone("1 um"),
+    "solver.vessel.right": alone("1 um"),
+    "solver.vessel.above": alone("1 um") + alone("1 um", beside=("boundaries.sides=periodic",)),
+    **{
+        f"solver.motion.{axis}": alone("1 m/s", beside=("solver.motion={ kind = 'uniform' }",))
+        for axis in "xz"
+    },
+}
+
+
+def waves() -> dict[str, list[Trial]]:
+    """Trials of what is imposed on a surface along x."""
+    given = {"temperature": "50 K", "pressure": "1 kPa", "mass_flux": "10 kg/(m^2 s)"}
+    found: dict[str, list[Trial]] = {}
+    for name, amplitude in given.items():
+        key = f"boundaries.surface_{name}_wave"
+        wave = f"{key}={{ amplitude = '{amplitude}', period = '5.05 um', end = '20 ns' }}"
+        found[key] = alone(wave.partition("=")[2].replace("'5", "'7").replace("'1", "'3"))
+        changes = {"amplitude": amplitude.replace(" ", "0 ", 1), "period": "2.525 um"}
+        changes |= {"start": "0.4 ns", "end": "0.4 ns"}
+        for part, value in changes.items():
+            found[f"{key}.{part}"] = alone(value, beside=(wave,))
+    start = "solver.flow.initial_surface={ amplitude = '10 nm', period = '5.05 um' }"
+    found["solver.flow.initial_surface"] = alone(start.partition("=")[2])
+    found["solver.flow.initial_surface.amplitude"] = alone("15 nm", beside=(start,))
+    found["solver.flow.initial_surface.period"] = alone("2.525 um", beside=(start,))
+    return found
+
+
+TRIALS = BOUNDARIES | BLOCK | LASER | SOLVER | waves()

@@ -1,0 +1,144 @@
+"""Every key of every table of a case changes what is computed, or is refused."""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+import pytest
+from key_trials import BASES, BOX, FILM, LIT, TRIALS
+from test_every_key import END, SAME_NUMBERS, VALUES
+
+from lasersph import compute
+from lasersph.case import Case, load_case
+from lasersph.input import CaseError
+from lasersph.simulation.recipes import recipe_of
+from lasersph.solvers.step_control import choose_step
+
+STEPS = 3
+UNTRIED = {
+    "schema_version": "the format of the file",
+    "title": "for reports",
+    "laser.spot.image": "a file; tests/unit/lasers/test_beam_image.py",
+    "laser.spot.pixel_size": "of the image",
+    "laser.spot.image_digest": "filled in",
+    "laser.spot.shift": "`check` says the overlap of the pulses from it",
+    "laser.spot.scan_speed": "`check` says the overlap of the pulses from it",
+    "solver.dimensions": "chooses another domain",
+    "solver.flow.initial.path": "a file; bad_flow_cases.py",
+    "solver.flow.initial.rows": "filled in from the file",
+    "solver.flow.initial_surface.path": "a file; tests/unit/boundaries",
+    "solver.flow.initial_surface.rows": "filled in from the file",
+    "solver.motion.y": "3-D; bad_ablation_cases.py",
+    "solver.motion.hydrostatic": "needs gravity; test_every_key.py",
+    "solver.motion.amplitude": "of the shipped sound-wave",
+    "solver.motion.waves": "of the shipped sound-wave",
+    "probes": "what is observed; tests/unit/observers, bad_cases.py",
+    "traces": "what is observed; tests/unit/observers, bad_ablation_cases.py",
+    "output": "what is stored; tests/unit/output, bad_cases.py",
+}
+"""Keys, and those below them, that are not tried here, each with what it does or where it is."""
+TABLES = ("material", "solver.ejection")
+"""Tables of which a solver asks for a part: a metal knows more than one solver needs."""
+ALIKE = {
+    ("domain.width", "column"): "a column of a block that has it",
+    ("domain.width", "column of matter"): "a column of a block that has it",
+}
+"""Keys that are taken and do nothing, each with the reason."""
+
+
+def keys_of(node: dict, defs: dict, path: str = "") -> set[str]:
+    """Every key below a part of a schema, those of lists with [], whatever the kind."""
+    if "$ref" in node:
+        return keys_of(defs[node["$ref"].rpartition("/")[2]], defs, path)
+    found = set()
+    for choice in (*node.get("anyOf", ()), *node.get("oneOf", ()), *node.get("allOf", ())):
+        found |= keys_of(choice, defs, path)
+    if isinstance(node.get("items"), dict):
+        found |= keys_of(node["items"], defs, f"{path}[]")
+    for name, part in node.get("properties", {}).items():
+        key = f"{path}.{name}" if path else name
+        below = keys_of(part, defs, key)
+        found |= below or {key}
+    return found
+
+
+def all_keys() -> set[str]:
+    """Of the schema, without the words that choose a kind."""
+    schema = Case.model_json_schema()
+    return {key for key in keys_of(schema, schema["$defs"]) if not key.endswith(".kind")}
+
+
+def is_under(key: str, tables) -> bool:
+    """Whether a key is one of the tables, or below one."""
+    return any(key == one or key.startswith((f"{one}.", f"{one}[")) for one in tables)
+
+
+def test_every_key_has_a_trial():
+    """A new key cannot be forgotten."""
+    known = {*VALUES, *SAME_NUMBERS, *TRIALS}
+    untried = {
+        key
+        for key in all_keys() - known
+        if not is_under(key, (*UNTRIED, *TABLES)) and not is_under(key, SAME_NUMBERS)
+    }
+    assert not untried
+    assert not (set(UNTRIED) & known), "tried after all"
+
+
+@pytest.fixture(scope="module")
+def bases(tmp_path_factory) -> dict:
+    """File and settings of each small case."""
+    file = tmp_path_factory.mktemp("case") / "case.toml"
+    file.write_text(LIT, encoding="utf-8")
+    lit = {label: (str(file), settings) for label, settings in BASES.items()}
+    return lit | {"box": ("natural-convection", BOX), "film": ("moving-film", FILM)}
+
+
+def computed(case: Case) -> str:
+    """Layers, limits, times, energies and fields of the first steps, as one word."""
+    recipe = recipe_of(case)
+    solver, layers = recipe.build(compute.cpu(threads=1)), recipe.layers
+    found = hashlib.sha256(repr((layers.columns.tolist(), layers.thickness.tolist())).encode())
+    for _ in range(STEPS):
+        if solver.state.time >= END * case.time.end:
+            break
+        limits = solver.time_step_limits()
+        solver.step(choose_step(limits)[1])
+        state = solver.state
+        found.update(repr((sorted(limits.items()), state.time, state.energy)).encode())
+    for field in solver.particles:
+        found.update(np.ascontiguousarray(solver.backend.look(solver.particles[field])).tobytes())
+    return found.hexdigest()
+
+
+def outcome(base, key: str, trial, seen) -> bool | None:
+    """Whether a value changes what is seen; None where it, or what is beside it, is refused."""
+    (name, settings), (value, beside) = base, trial
+    try:
+        changed = load_case(name, (*settings, *beside, f"{key.replace('[]', '[1]')}={value}"))
+        plain = load_case(name, (*settings, *beside))
+    except CaseError:
+        return None
+    return None if plain.hash() == changed.hash() else seen(plain) != seen(changed)
+
+
+def is_tried_in(label: str, key: str) -> bool:
+    """Whether a key is tried in a small case: what acts on a surface of melt where there is some
+    from the start, and what is not of a flow under light."""
+    if "_wave" in key:
+        return label == "film"
+    return label not in ("box", "film") or key.startswith("solver.flow")
+
+
+@pytest.mark.parametrize("key", TRIALS)
+def test_a_key_changes_something_or_is_refused(key, bases):
+    """In each small case that takes it, and some case takes it."""
+    found = {
+        (label, *trial): outcome(base, key, trial, computed)
+        for label, base in bases.items()
+        if (key, label) not in ALIKE and is_tried_in(label, key)
+        for trial in TRIALS[key]
+    }
+    assert [one for one, changes in found.items() if changes is False] == []
+    assert True in found.values(), f"{key} is never taken with these values"

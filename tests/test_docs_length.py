@@ -1,0 +1,98 @@
+"""Pages that people finish: 1 500 words at most, with a picture and without commits; those that
+cannot be short or show a picture say why here.
+
+Counted are words outside of code, formulas and addresses of links. All pages with their counts:
+`python tests/test_docs_length.py`.
+"""
+
+import re
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).resolve().parent.parent / "docs"
+MOST = 1500
+"""Words of a page: seven minutes of reading."""
+NO_WORDS = re.compile(r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|\]\([^)]*\)", re.DOTALL)
+PICTURE = re.compile(r"!\[[^\]]*\]\([^)]+\)|\{code-cell\}")
+"""A picture, or a cell of a notebook, which draws some when the pages are built."""
+LONG = {
+    "extend.md": "a recipe each for ten kinds of things, of which a reader takes one",
+    "results.md": "each file of a run folder, looked up by name",
+}
+PLAIN = {
+    "api.md": "made from docstrings",
+    "benchmarks.md": "benchmarks/README.md: commands",
+    "cases.md": "a table of keys",
+    "cluster.md": "commands and files of a queue",
+    "examples.md": "shows the pictures of the examples, put in when it is built",
+    "extend.md": "code",
+    "gallery.md": "shows all pictures, put in when it is built",
+    "gpu.md": "commands; no run on a card has been made",
+    "methods/index.md": "a list of pages",
+    "notes/index.md": "a list of pages",
+    "papers/ablation.md": "shows the figures of the paper, put in when it is built",
+    "papers/texturing.md": "shows the figures of the paper, put in when it is built",
+    "references.md": "a list",
+    "stability.md": "a table of promises",
+    "sweeps.md": "plans to type; what comes out is on the page of maps",
+    "tutorials/index.md": "a list of pages",
+    "validation.md": "shows charts and figures, put in when it is built",
+}
+MADE = re.compile(r"`python docs/_extensions/\w+\.py` writes this page")
+"""A page that a script writes is a table to look things up in."""
+COMMIT = re.compile(r"\b(?=[a-f]*[0-9])(?=[0-9]*[a-f])[0-9a-f]{7}\b|\bcommits? [0-9a-f]{7}\b")
+NOTES = "notes/2026"
+"""Notes are tables of what was measured once."""
+PAGES = {
+    page.relative_to(DOCS).as_posix(): page.read_text(encoding="utf-8")
+    for page in sorted(DOCS.rglob("*.md"))
+    if not {"generated", "_build"} & set(page.relative_to(DOCS).parts)
+}
+PAGES = {page: text for page, text in PAGES.items() if not MADE.search(text)}
+
+
+def words_of(text: str) -> int:
+    """Words of a page, its tables and heads among them."""
+    return sum(bool(re.search(r"\w", word)) for word in NO_WORDS.sub(" ", text).split())
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_page_is_short_enough(page):
+    """A longer one is listed with its reason, and one that has become short no more."""
+    words = words_of(PAGES[page])
+    assert (words > MOST) == (page in LONG), f"{words} words"
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if not page.startswith(NOTES)])
+def test_page_has_a_picture(page):
+    """One without is listed with its reason, and one that has got a picture no more."""
+    assert bool(PICTURE.search(PAGES[page])) == (page not in PLAIN)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_page_names_no_commit(page):
+    """Readers want a date; commits stand in the records that numbers come from."""
+    assert COMMIT.findall(PAGES[page]) == []
+
+
+def test_listed_pages_exist():
+    """And each has a reason."""
+    assert {*LONG, *PLAIN} <= {*PAGES}
+    assert all(len(reason) > 3 for reason in (*LONG.values(), *PLAIN.values()))
+
+
+def test_what_counts_as_a_word():
+    """Neither code nor formulas, bars of tables or addresses."""
+    text = "# A head\n\n| two | words |\n|---|---|\n\n```\ncode\n```\n$x = 1$ [link](page.md) `a`\n"
+    assert words_of(text) == 6
+
+
+def main() -> None:
+    for page, text in sorted(PAGES.items(), key=lambda one: -words_of(one[1])):
+        picture = "" if PICTURE.search(text) else "no picture"
+        print(f"{words_of(text):6} {page:40} {picture} {LONG.get(page, PLAIN.get(page, ''))}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,76 @@
+"""Two runs side by side: settings, numbers with their differences, figures, a page."""
+
+import json
+
+import numpy as np
+import pytest
+import synthetic_flow
+import synthetic_run
+
+import lasersph
+from lasersph.cli import main
+from lasersph.output import OutputError, open_run
+from lasersph.output.particle_file import ParticleFile
+from lasersph.plots.comparison import figures_of_two
+
+
+@pytest.fixture
+def two(tmp_path):
+    """Two heat runs of one case; the second got twice the fluence, and its melt twice as deep."""
+    first = synthetic_run.make_run(tmp_path / "first")
+    second = synthetic_run.make_run(tmp_path / "second")
+    case = second / "case.toml"
+    case.write_text("# --set laser.fluence=8000.0 J/m^2\n" + case.read_text(), encoding="utf-8")
+    summary = json.loads((second / "summary.json").read_text())
+    summary["melt"]["depth_max_m"] *= 2.0
+    (second / "summary.json").write_text(json.dumps(summary))
+    return first, second
+
+
+def test_numbers_and_settings(two):
+    """A difference is told with its sign and in percent, none as the same."""
+    found = lasersph.compare_runs(*two)
+    assert [row[0] for row in found.settings] == ["laser.fluence"]
+    assert found.settings[0][2] == "0.8 J/cm^2"
+    rows = {words: cells for words, *cells in found.rows}
+    depth = rows["largest depth of completely fluid metal (f_m = 1)"]
+    assert depth[2].startswith("+") and depth[2].endswith("(+100 %)")
+    assert rows["largest temperature"][2] == "the same"
+    first, second = found.numbers["melt.depth_max_m"]
+    assert second == 2.0 * first
+
+
+def test_command(two, tmp_path, capsys):
+    """A table, a page with the figures; a folder that is no run is one line."""
+    assert main(["compare", str(two[0]), str(two[1])]) == 0
+    said = capsys.readouterr().out
+    assert "(+100 %)" in said and "0.8 J/cm^2" in said
+    folder = two[0] / "compare-second"
+    assert {file.name for file in folder.iterdir()} >= {
+        "comparison.html",
+        "comparison.json",
+        "melt.png",
+        "temperature.png",
+    }
+    page = (folder / "comparison.html").read_text(encoding="utf-8")
+    assert "+100 %" in page and page.count("data:image/png") == 2
+    (tmp_path / "empty").mkdir()
+    assert main(["compare", str(two[0]), str(tmp_path / "empty")]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+    with pytest.raises(OutputError, match="is not a run folder"):
+        lasersph.compare_runs(two[0], tmp_path / "empty")
+
+
+def test_reliefs(tmp_path):
+    """Both surfaces at their ends, and the second less the first at the same places."""
+    runs = []
+    x = 1e-7 * np.arange(20)
+    for name, depth in (("a", 20e-9), ("b", 50e-9)):
+        run = open_run(synthetic_flow.make_pool_run(tmp_path / name))
+        file = ParticleFile(run.path / "surface.vtkhdf", "Lines")
+        for time in run.snapshots.times:
+            file.append(float(time), np.array([x, -depth * np.cos(x / 1e-7)]), {})
+        runs.append(run)
+    above, below = figures_of_two(runs, ["a", "b"])["relief"].axes
+    assert len(above.lines) == 2 and above.get_ylabel() == "height [nm]"
+    np.testing.assert_allclose(np.max(np.abs(below.lines[0].get_ydata())), 30.0, rtol=1e-5)

@@ -1,0 +1,115 @@
+"""What `check` warns of, with its numbers, and what it does not."""
+
+import pytest
+
+from lasersph.case import Case, available_cases, load_case
+from lasersph.cli import main
+from lasersph.physics.electron_lattice import Electrons, coupling_time, electrons_of
+from lasersph.simulation import forecast
+
+COARSE = ("particles.spacing=64 nm", "particles.coarsest=1 um")
+
+
+def said(name: str, *settings: str) -> str:
+    """All warnings of a case."""
+    return "\n".join(forecast(load_case(name, [*COARSE, *settings])).warnings)
+
+
+def test_a_plateau_that_holds_what_should_leave():
+    """With how much metal that is, and not where it does not boil, nor where vapor leaves."""
+    plateau = ("solver.vaporization=plateau",)
+    assert "boiling point of 3087 K, with the heat that would turn" in said(
+        "texture-steel", *plateau
+    )
+    assert "boiling point" not in said("texture-steel")
+    assert "boiling point" not in said("texture-steel", *plateau, "laser.fluence=0.3 J/cm^2")
+    assert "boiling point of 3273 K" in said("dlip-steel", "solver.kind=conduction")
+
+
+def test_a_metal_that_lacks_what_vapor_needs():
+    """The key that is missing is named."""
+    data = load_case("texture-steel", COARSE).resolved()
+    del data["solver"]["vaporization"], data["solver"]["plateau"]
+    vapor = data["material"]["vaporization"]
+    vapor["critical_temperature"] = None
+    del vapor["source"]["critical_temperature"]
+    warnings = " ".join(forecast(Case.model_validate(data)).warnings)
+    assert "no vapor leaves the surface that moves" in warnings
+    assert "give critical_temperature in [material.vaporization]" in warnings
+    data["laser"]["fluence"] *= 0.5  # melts, and stays far from boiling: nothing is left out
+    assert "no vapor" not in " ".join(forecast(Case.model_validate(data)).warnings)
+
+
+@pytest.mark.parametrize(
+    ("pulse", "words"),
+    [
+        ("6 ps", "longer than the pulse of 6 ps"),
+        ("100 fs", "longer than the pulse of 100 fs"),
+        ("20 ps", "comparable with the pulse of 20 ps"),
+        ("1 ns", ""),
+    ],
+)
+def test_pulses_as_short_as_the_coupling_of_electrons(pulse, words):
+    """Copper couples within some 10 ps."""
+    settings = ["material=copper", "laser.wavelength=532 nm", f"laser.pulse.fwhm={pulse}"]
+    warnings = said("texture-steel", *settings, "laser.fluence=0.5 J/cm^2")
+    assert words in warnings
+    assert ("electrons are hotter" in warnings) == bool(words)
+
+
+def test_coupling_time_by_hand():
+    """C_e = gamma T_e of electrons that begin at 10 000 K, beside a lattice with as much."""
+    heat = 0.5 * 100.0 * (1e8 - 9e4)
+    found = coupling_time(Electrons(100.0, 1e17), heat=heat, lattice=1e6, cold=300.0)
+    assert found == pytest.approx(0.5e6 / 1e17)
+    assert electrons_of("ti-6al-4v") == electrons_of("titanium") is not None
+    assert electrons_of("bronze") is None
+
+
+@pytest.mark.parametrize(
+    ("fluence", "words"),
+    [("600 J/cm^2", "times what boils the layer"), ("1e-5 J/cm^2", "heats the surface by 0.")],
+)
+def test_energies_in_the_wrong_unit(fluence, words):
+    """A thousand times as much, or as little, as texturing needs."""
+    warnings = said("texture-steel", f"laser.fluence={fluence}")
+    assert words in warnings and "laser.fluence right, or its unit" in warnings
+
+
+def test_a_pattern_finer_than_the_particles():
+    """Less than two spacings in the length over which light changes."""
+    settings = ["laser.beam.period=300 nm", "domain.width=3 um", "particles.spacing=60 nm"]
+    assert "a pattern of 300 nm, less than 2 spacings" in said("texture-steel", *settings)
+
+
+@pytest.mark.parametrize("name", available_cases())
+def test_shipped_cases_have_plausible_sizes(name):
+    """None of them is taken for a typing error, none is too short for one temperature."""
+    warnings = " ".join(forecast(load_case(name)).warnings)
+    assert "its unit" not in warnings and "electrons" not in warnings
+
+
+def test_check_says_what_the_light_does(capsys):
+    """Reflectivity and its temperature, absorbed fluence, highest temperature, boiling."""
+    main(["check", "texture-steel"])
+    rows = dict(
+        line.split("  ", 1) for line in capsys.readouterr().out.splitlines() if "  " in line
+    )
+    assert " at 298 K" in rows["reflectivity"]
+    assert "at most" in rows["absorbed fluence"]
+    assert (
+        "melts (" in rows["highest temperature"]
+        and ", boils (3087 K)" in rows["highest temperature"]
+    )
+    assert "leaves the surface" in rows["vapor"]
+    assert " in the top " in rows["finest spacing"]
+
+
+def test_snapshots_further_apart_than_the_pulse_lasts():
+    """With the line to write; not where some fall into the pulse, nor where nothing flows."""
+    apart = "output.snapshots.interval=25 ns"
+    assert "snapshots are 25 ns apart, longer than the pulse of" in said("texture-steel", apart)
+    assert 'write output.snapshots.interval = "' in said("texture-steel", apart)
+    assert "snapshots are" not in said("texture-steel")
+    assert "snapshots are" not in said("texture-steel", apart, 'output.snapshots.times=["30 ns"]')
+    assert "snapshots are" not in said("dlip-steel", apart, "solver.kind=conduction")
