@@ -66,12 +66,15 @@ SPOT = "laser.beam={ kind = 'top-hat', radius = '1 um' }"
 PATH = ("laser.path={ kind = 'linear', speed = '2e4 m/s' }",)
 LIGHT = ("laser.beam={ kind = 'interference', period = '2.4 um', wavelength = '532 nm' }",)
 ENERGY = ("laser.fluence=", "laser.pulse_energy=0.5 uJ")
-TRAIN = "laser.pulse={ kind = 'square', duration = '0.01 ns', count = 2, period = '0.05 ns' }"
-RATE = TRAIN.replace("period = '0.05 ns'", "repetition_rate = '20 GHz'")
-ANGLE = "laser.beam={ kind = 'interference', wavelength = '532 nm', angle = '12.726592 deg' }"
+TRAIN = "laser.pulse={ kind = 'square', duration = '0.01 ns', count = 2, period = '0.02 ns' }"
+RATE = TRAIN.replace("period = '0.02 ns'", "repetition_rate = '50 GHz'")
+ANGLE = "laser.beam={ kind = 'interference', wavelength = '532 nm', angle = '12.726711602457 deg' }"
 WAVES = "laser.beam={ kind = 'interference', wavelength = '532 nm', waves = [%s, %s] }"
-RIGHT, LEFT = (f"{{ polar = '6.363296 deg', azimuth = '{degrees} deg' }}" for degrees in (0, 180))
-SOLID = ("solver.dimensions=3", "particles.spacing=0.6 um")
+RIGHT, LEFT = (
+    f"{{ polar = '6.3633558012287 deg', azimuth = '{degrees} deg' }}" for degrees in (0, 180)
+)
+TWO_WAVES = (WAVES % (RIGHT, LEFT),)
+SOLID = ("solver.dimensions=3", "particles.spacing=0.5 um")
 CELL = (*ENERGY, "laser.spot={ diameter = '50 um', definition = '1/e^2' }")
 
 BOUNDARIES = (
@@ -135,8 +138,8 @@ LASER = {
     "laser.pulse.duration": alone("0.3 ns"),
     "laser.pulse.start": alone("0.03 ns"),
     "laser.pulse.count": alone("1", beside=(TRAIN,)),
-    "laser.pulse.period": alone("0.06 ns", beside=(TRAIN,)),
-    "laser.pulse.repetition_rate": alone("16 GHz", beside=(RATE,)),
+    "laser.pulse.period": alone("0.03 ns", beside=(TRAIN,)),
+    "laser.pulse.repetition_rate": alone("40 GHz", beside=(RATE,)),
     "laser.pulse.fwhm": alone("0.01 ns", beside=(SHORT,)),
     "laser.pulse.center": alone("0.06 ns", beside=(SHORT,)),
     "laser.pulse.table": alone("[['0 ns', 1.0], ['0.1 ns', 1.0]]", beside=(TABLE,)),
@@ -151,14 +154,19 @@ LASER = {
         for key in ("radius_1e2", "diameter_1e2", "diameter_fwhm")
     },
     "laser.beam.period": alone("1.2 um"),
-    "laser.beam.angle": alone("25.61417 deg", beside=(ANGLE,)),
-    "laser.beam.waves": alone(
-        f"[{RIGHT.replace('azimuth', 'amplitude = 0.5, azimuth')}, {LEFT}]",
-        beside=(WAVES % (RIGHT, LEFT),),
+    "laser.beam.angle": alone("25.613886449014 deg", beside=(ANGLE,)),
+    "laser.beam.waves[].amplitude": alone("0.5", beside=TWO_WAVES),
+    "laser.beam.waves[].azimuth": alone("180 deg", "60 deg", beside=TWO_WAVES),
+    "laser.beam.waves[].phase": alone("180 deg", beside=TWO_WAVES),
+    "laser.beam.waves[].polar": alone(
+        "12.806943224507 deg", beside=(*TWO_WAVES, "domain.width=4.8 um")
+    ),
+    "laser.beam.waves[].polarization": alone(
+        "30 deg", beside=(TWO_WAVES[0].replace("polar =", "polarization = 's', polar ="),)
     ),
     "laser.beam.beams": alone("4") + alone("4", beside=(*SOLID, LINES)),
-    "laser.beam.shift": alone("0.6 um") + alone("0.6 um", beside=(LINES, TRAIN)),
-    "laser.beam.wavelength": alone("266 nm", beside=(ANGLE, "domain.width=1.2 um")),
+    "laser.beam.shift": alone("1.2 um") + alone("1.2 um", beside=(LINES, TRAIN)),
+    "laser.beam.wavelength": alone("266 nm", beside=(ANGLE,)),
     "laser.beam.polarization": alone("'p'", beside=LIGHT),
     "laser.beam.energy_shares": alone("[0.2, 0.8]"),
     "laser.beam.phases": alone("['0 deg', '180 deg']"),
@@ -214,5 +222,65 @@ def waves() -> dict[str, list[Trial]]:
     found["solver.flow.initial_surface.period"] = alone("2.525 um", beside=(start,))
     return found
 
+
+EJECTION = {
+    "model": ("model = 'enthalpy'", "model = 'published'"),
+    "velocity": ("velocity = 'effusion'", "velocity = 'mean-normal'"),
+    "preset": ("preset = 'timeline'", "preset = 'depth'"),
+    "leave": ("leave = 'layer-below'", "leave = 'distance', leave_distance = 0.5"),
+    "leave_distance": (
+        "leave = 'distance', leave_distance = 0.5",
+        "leave = 'distance', leave_distance = 3",
+    ),
+}
+"""Two values of each key of [solver.ejection], of the published model but for its own."""
+
+Property = tuple[str, str, tuple[str, ...]]
+"""A small case, a value in it, and settings beside it."""
+MELT = (*BOILING, "material={ base = 'steel-304' }")
+SULFUR = (
+    "material.surface_tension_slope=",
+    "material.surface_tension={ polynomial = [2.72087, -4.3e-4], scale = '1 N/m', adsorption = "
+    "{ saturation = '1.3e-5 mol/m^2', segregation = 3.18e-3, enthalpy = '-166 kJ/mol', "
+    "source = '[Sahoo1988]' } }",
+)
+
+
+def properties() -> dict[str, Property]:
+    """Trials of a metal's properties, each in a case that needs it."""
+    found: dict[str, Property] = {
+        "reference_temperature": ("column", "400 K", MELT),
+        "optics.absorption_coefficient": ("column", "1e6 1/m", (*MELT, *DEEP)),
+        "optics.reflectivity": ("pool", "0.3", MELT),
+        "optics.emissivity": ("pool", "0.9", MELT),
+        "melting.solidus": ("pool", "1660 K", MELT),
+        "melting.liquidus": ("pool", "1800 K", MELT),
+        "melting.latent_heat": ("pool", "200 kJ/kg", MELT),
+        "vaporization.temperature": ("pool", "2800 K", MELT),
+        "vaporization.latent_heat": ("pool", "5 MJ/kg", MELT),
+        "vaporization.molar_mass": ("pool", "50 g/mol", MELT),
+        "vaporization.critical_temperature": ("pool", "9000 K", MELT),
+        "expansion": ("box", "1e-4 1/K", NONE),
+        "kinematic_viscosity": ("box", "1e-6 m^2/s", NONE),
+        "sulfur": ("film", "0.01 %", SULFUR),
+    }
+    in_film = {
+        "density": "7000 kg/m^3",
+        "conductivity": "20 W/(m K)",
+        "heat_capacity": "600 J/(kg K)",
+        "viscosity": "8 mPa s",
+        "surface_tension": "1.5 N/m",
+        "surface_tension_slope": "-0.2 mN/(m K)",
+    }
+    return found | {key: ("film", value, NONE) for key, value in in_film.items()}
+
+
+PROPERTIES = properties()
+WORDS = (
+    *("base", "name", "title", "note", "source", "composition", "uncertainty"),
+    *("conductivity_printed", "diffusivity", "wavelength", "by_wavelength"),
+)
+"""What a metal's file says beside its properties: where a number is from, what a paper prints
+beside it, and at which light it holds (`laser.wavelength` chooses)."""
 
 TRIALS = BOUNDARIES | BLOCK | LASER | SOLVER | waves()

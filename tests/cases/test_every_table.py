@@ -6,7 +6,7 @@ import hashlib
 
 import numpy as np
 import pytest
-from key_trials import BASES, BOX, FILM, LIT, TRIALS
+from key_trials import BASES, BOX, EJECTION, FILM, LIT, PROPERTIES, TRIALS, WORDS
 from test_every_key import END, SAME_NUMBERS, VALUES
 
 from lasersph import compute
@@ -16,6 +16,16 @@ from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import choose_step
 
 STEPS = 3
+LATER = (
+    "laser.pulse.count",
+    "laser.pulse.period",
+    "laser.pulse.repetition_rate",
+    "laser.beam.shift",
+)
+"""Keys that say when, or what a second pulse does: seen after more steps, or those whose name ends
+with `_wave.end`."""
+MORE_STEPS = 300
+BOILING_STEPS = 60
 UNTRIED = {
     "schema_version": "the format of the file",
     "title": "for reports",
@@ -33,13 +43,11 @@ UNTRIED = {
     "solver.motion.hydrostatic": "needs gravity; test_every_key.py",
     "solver.motion.amplitude": "of the shipped sound-wave",
     "solver.motion.waves": "of the shipped sound-wave",
-    "probes": "what is observed; tests/unit/observers, bad_cases.py",
-    "traces": "what is observed; tests/unit/observers, bad_ablation_cases.py",
-    "output": "what is stored; tests/unit/output, bad_cases.py",
+    "probes": "what is observed; test_every_observation.py",
+    "traces": "what is observed; test_every_observation.py",
+    "output": "what is stored; test_every_observation.py",
 }
 """Keys, and those below them, that are not tried here, each with what it does or where it is."""
-TABLES = ("material", "solver.ejection")
-"""Tables of which a solver asks for a part: a metal knows more than one solver needs."""
 ALIKE = {
     ("domain.width", "column"): "a column of a block that has it",
     ("domain.width", "column of matter"): "a column of a block that has it",
@@ -77,10 +85,13 @@ def is_under(key: str, tables) -> bool:
 def test_every_key_has_a_trial():
     """A new key cannot be forgotten."""
     known = {*VALUES, *SAME_NUMBERS, *TRIALS}
+    known |= {f"solver.ejection.{key}" for key in EJECTION}
+    known |= {f"material.{key}" for key in PROPERTIES}
     untried = {
         key
         for key in all_keys() - known
-        if not is_under(key, (*UNTRIED, *TABLES)) and not is_under(key, SAME_NUMBERS)
+        if not is_under(key, UNTRIED) and not is_under(key, SAME_NUMBERS)
+        if not (key.startswith("material.") and key.rpartition(".")[2] in WORDS)
     }
     assert not untried
     assert not (set(UNTRIED) & known), "tried after all"
@@ -95,12 +106,12 @@ def bases(tmp_path_factory) -> dict:
     return lit | {"box": ("natural-convection", BOX), "film": ("moving-film", FILM)}
 
 
-def computed(case: Case) -> str:
+def computed(case: Case, steps: int) -> str:
     """Layers, limits, times, energies and fields of the first steps, as one word."""
     recipe = recipe_of(case)
     solver, layers = recipe.build(compute.cpu(threads=1)), recipe.layers
     found = hashlib.sha256(repr((layers.columns.tolist(), layers.thickness.tolist())).encode())
-    for _ in range(STEPS):
+    for _ in range(steps):
         if solver.state.time >= END * case.time.end:
             break
         limits = solver.time_step_limits()
@@ -112,15 +123,17 @@ def computed(case: Case) -> str:
     return found.hexdigest()
 
 
-def outcome(base, key: str, trial, seen) -> bool | None:
-    """Whether a value changes what is seen; None where it, or what is beside it, is refused."""
+def outcome(base, key: str, trial, steps: int) -> bool | None:
+    """Whether a value changes what is computed; None where it, or what is beside it, is refused."""
     (name, settings), (value, beside) = base, trial
     try:
         changed = load_case(name, (*settings, *beside, f"{key.replace('[]', '[1]')}={value}"))
         plain = load_case(name, (*settings, *beside))
     except CaseError:
         return None
-    return None if plain.hash() == changed.hash() else seen(plain) != seen(changed)
+    if plain.hash() == changed.hash():
+        return None
+    return computed(plain, steps) != computed(changed, steps)
 
 
 def is_tried_in(label: str, key: str) -> bool:
@@ -134,11 +147,31 @@ def is_tried_in(label: str, key: str) -> bool:
 @pytest.mark.parametrize("key", TRIALS)
 def test_a_key_changes_something_or_is_refused(key, bases):
     """In each small case that takes it, and some case takes it."""
+    steps = MORE_STEPS if key in LATER or key.endswith("_wave.end") else STEPS
     found = {
-        (label, *trial): outcome(base, key, trial, computed)
+        (label, *trial): outcome(base, key, trial, steps)
         for label, base in bases.items()
         if (key, label) not in ALIKE and is_tried_in(label, key)
         for trial in TRIALS[key]
     }
     assert [one for one, changes in found.items() if changes is False] == []
     assert True in found.values(), f"{key} is never taken with these values"
+
+
+@pytest.mark.parametrize("key", PROPERTIES)
+def test_a_property_of_a_metal_changes_what_is_computed(key, bases):
+    """In a case that needs it: a metal knows more than every case asks for."""
+    label, value, beside = PROPERTIES[key]
+    steps = BOILING_STEPS if label == "pool" else STEPS
+    assert outcome(bases[label], f"material.{key}", (value, beside), steps)
+
+
+@pytest.mark.parametrize("key", EJECTION)
+def test_a_key_of_ejection_changes_what_is_computed(key, bases):
+    """Once matter boils."""
+    plain, changed = (
+        f"{{ {one} }}" if key == "model" else f"{{ model = 'published', {one} }}"
+        for one in EJECTION[key]
+    )
+    given = ("laser.fluence=10 J/cm^2", "particles.spacing=0.05 um", f"solver.ejection={plain}")
+    assert outcome(bases["column of matter"], "solver.ejection", (changed, given), MORE_STEPS)
