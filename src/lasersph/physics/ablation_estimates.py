@@ -97,6 +97,7 @@ def evaporating_temperature(
         heat = c_p * (T - T_0) + L_m + latent_heat(T, T_b, L_b, T_c)
         return mass_flux(T, pressure, R_s) * heat
 
+    # Landau's balance, see above: the flux that evaporation carries at T equals q
     hottest = min(T_c, HOTTEST)
     return min(first_crossing(carried_flux, flux, T_b, hottest), hottest)
 
@@ -110,11 +111,14 @@ def first_crossing(
     """
     if function(low) >= wanted:
         return low
+    # first part of the range in which the function rises to the value
     width = (high - low) / INTERVALS
     ends = (low + (k + 1) * width for k in range(INTERVALS))
     upper = next((T for T in ends if function(T) >= wanted), inf)
     if upper == inf:
         return inf
+
+    # bisection in that part
     lower = upper - width
     for _ in range(HALVINGS):
         middle = 0.5 * (lower + upper)
@@ -128,5 +132,6 @@ def recoil_moves_melt_at(radius: float, surface_tension: float, vapor: dict[str,
     Args:
         radius: of the pool [m]. surface_tension: [N/m]. vapor: `evaporation.vapor_constants`.
     """
+    # 0.54 p = 2 gamma / r
     pressure = 2.0 * surface_tension / (radius * RECOIL_FACTOR)
     return temperature_at_pressure(pressure, **vapor)

@@ -33,4 +33,5 @@ def alpha_between(f_i, f_j, alpha_solid, alpha_liquid):
 
 def viscous_term(mu_ij, alpha, c_0, rho_i, rho_j):
     """Pi_ij [m^5/(kg s^2) in 3-D]: -alpha c_0 mu_ij / rho_ij for approaching particles, else 0."""
+    # eq. (23) with rho_ij = (rho_i + rho_j) / 2; parting particles, mu_ij > 0, feel nothing
     return -2.0 * alpha * c_0 * min(mu_ij, 0.0) / (rho_i + rho_j)

@@ -44,6 +44,7 @@ def compressible_limits(
     heat = MIDPOINT / diffusive_rate if diffusive_rate > 0.0 else inf
     if is_still:
         return {"conduction": heat}
+    # eq. (31) of [Alshaer2017], then viscosity and conduction by the rates of the lattice
     limits = {
         "sound": courant * smoothing / (sound_speed + closing_speed),
         "force": courant * sqrt(smoothing / acceleration) if acceleration > 0.0 else inf,

@@ -57,6 +57,7 @@ def covers_neighbor(x_ij, r_ij, v_i, lift_i, kind_j, exposed_j, distance, alignm
     Args:
         x_ij: x_i - x_j [m]. v: velocity [m/s]. lift, distance: moved, and to the next layer [m].
     """
+    # distance along the path to the neighbor, and that from the former place of i
     behind = dot(x_ij, v_i) / max(norm(v_i), 1e-30)
     is_near = behind > alignment * r_ij and behind - lift_i < distance
     if is_near and kind_j == INTERIOR and exposed_j == 0.0:
@@ -81,11 +82,14 @@ def published_departure(
         lift: distance moved [m]. covered: how many particles it covers. exposed: 1 at the surface.
         distance: at which it has left [m]; negative where it has left when it covers none.
     """
+    # starts to leave
     if kind == INTERIOR and exposed > 0.0 and T_v <= T:
         return LEAVING, vapor_speed(T, R_s, is_effusion) * normal
     if kind != LEAVING:
         return kind, v
+    # goes on in its direction with the speed of its temperature
     velocity = vapor_speed(T, R_s, is_effusion) / max(norm(v), 1e-30) * v
+    # has left: either nothing is covered any more, or the distance is passed
     if (distance < 0.0 and covered == 0.0) or (distance >= 0.0 and lift >= distance):
         return EJECTED, velocity
     return LEAVING, velocity
@@ -104,6 +108,7 @@ def enthalpy_departure(kind, h, m, light, exposed, T, normal, v, h_v, R_s, is_ef
             exposed, at the bottom of a hole, and so has no normal.
     """
     if kind == INTERIOR and h >= h_v and (exposed > 0.0 or light > 0.0):
+        # leaves along its normal; m (h - h_v) stays with what lies below
         direction = normal if dot(normal, normal) > 0.0 else up + 0.0 * normal
         velocity = vapor_speed(T, R_s, is_effusion) * direction
         return EJECTED, velocity, h_v - 0.5 * dot(velocity, velocity), m * (h - h_v)
@@ -111,7 +116,7 @@ def enthalpy_departure(kind, h, m, light, exposed, T, normal, v, h_v, R_s, is_ef
 
 
 def ejected_quantities(kind, left_at, p_v, T, m, h, v, time, p_b, T_b, L_b, T_c, R_s):
-    """What a particle that has just left takes along.
+    """Quantities that a particle takes along in the step in which it leaves.
 
     Returns the time of leaving [s], the saturation pressure [Pa], and, zero for the others,
     1, its mass [kg], enthalpy m h and kinetic energy m v^2 / 2 [J].
@@ -120,6 +125,7 @@ def ejected_quantities(kind, left_at, p_v, T, m, h, v, time, p_b, T_b, L_b, T_c,
         left_at: 0 as long as it has not been written [s]. m: mass [kg]. h: [J/kg]. v: [m/s].
             time: end of the step [s]. p_b, T_b, L_b, T_c, R_s: `evaporation.vapor_constants`.
     """
+    # written once, in the step in which it left
     if kind == EJECTED and left_at == 0.0:
         p = saturation_pressure(T, p_b, T_b, L_b, T_c, R_s)
         return time, p, 1.0, m, m * h, 0.5 * m * dot(v, v)

@@ -57,6 +57,8 @@ def coupling_time(electrons: Electrons, heat: float, lattice: float, cold: float
     Args:
         heat: u that the metal has afterwards [J/m^3]. lattice: C_l [J/(m^3 K)]. cold: T_0 [K].
     """
+    # all heat in the electrons: gamma (T_e^2 - T_0^2) / 2 = u
     hot = sqrt(cold**2 + 2.0 * heat / electrons.capacity_slope)
+    # C_e = gamma T_e, and tau of two capacities that exchange heat
     capacity = electrons.capacity_slope * hot
     return capacity * lattice / ((capacity + lattice) * electrons.coupling)

@@ -67,8 +67,10 @@ def saturation_pressure(T, p_b, T_b, L_b, T_c, R_s):
     """
     if T_c >= NO_CRITICAL_POINT:
         return p_b * exp(L_b / R_s * (T - T_b) / (T * T_b))  # [Alshaer2017, eq. (5)]
+    # Watson's exponent; substitution y, in which the integrand is smooth up to T_c
     span, power = T_c - T_b, 0.5 * (1.0 + WATSON_EXPONENT)
     y = (max(T_c - T, 0.0) / span) ** power
+    # ten points of Gauss from y to 1, the boiling point
     middle, half = 0.5 * (1.0 + y), 0.5 * (1.0 - y)
     total = (
         0.2955242247147529 * gauss_pair(middle, 0.1488743389816312 * half, span, T_c)

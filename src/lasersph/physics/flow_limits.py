@@ -50,11 +50,13 @@ def flow_limits(
     """
     is_published = rule == "published"
     advection = PUBLISHED_ADVECTION if is_published else ADVECTION
+    # common to both rules: advection and force
     limits = {
         "advection": advection * support / speed if speed else inf,
         "force": FORCE * sqrt(support / acceleration) if acceleration else inf,
         "viscosity": inf,
     }
+    # eqs. (59), (76): diffusion of momentum and heat, and capillary waves
     if is_published:
         limits["viscosity"] = PUBLISHED_DIFFUSION * support**2 / viscosity
         limits["heat"] = PUBLISHED_DIFFUSION * support**2 / diffusivity
@@ -63,5 +65,6 @@ def flow_limits(
                 density * support**3 / (2.0 * pi * surface_tension)
             )
     else:
+        # corrected: viscosity alone, by how it is solved
         limits["viscosity"] = (SPLIT if is_implicit else DIFFUSION) * support**2 / viscosity
     return limits

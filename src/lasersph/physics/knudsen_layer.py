@@ -57,9 +57,11 @@ def vapor_behind(mach: float) -> Vapor:
 
     The closed form solves the balances of mass, momentum and energy of the layer to rounding.
     """
+    # jump conditions of [Knight1979]: `root` is sqrt(T_v / T_s), `tail` is E
     m = mach * sqrt(0.5 * HEAT_RATIO)
     root = sqrt(1.0 + PI * (m / 8.0) ** 2) - sqrt(PI) * m / 8.0
     tail = exp(m * m) * erfc(m)
+    # rho_v / rho_s: the two terms of its formula above
     density = ((m * m + 0.5) * tail - m / sqrt(PI)) / root
     density += (1.0 - sqrt(PI) * m * tail) / (2.0 * root * root)
     pressure = density * root * root
@@ -74,8 +76,10 @@ def vapor_behind(mach: float) -> Vapor:
 
 def outflow_tables() -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Nodes p_e / p_sat, rising from 0 to 1; the flux over Hertz-Knudsen and M there (k,)."""
+    # from the sonic outflow into vacuum to the end of evaporation
     mach = np.linspace(1.0, 0.0, NODES)
     vapor = [vapor_behind(float(M)) for M in mach]
+    # Knight's flux scaled so that M = 1 has 0.82, as `evaporation` has
     flux = np.array([one.flux for one in vapor]) * (NET_EVAPORATION / vapor[0].flux)
     flux[0] = NET_EVAPORATION
     ratio = np.array([one.pressure for one in vapor])
@@ -91,8 +95,10 @@ def net_mass_flux(T, p, p_slope, R_s, p_e, ratio_nodes, flux_nodes):
     """
     if p <= p_e:
         return 0.0 * p, 0.0 * p
+    # Hertz-Knudsen flux times the share that the surroundings let through
     ratio, root = p_e / p, sqrt(2.0 * PI * R_s * T)
     share = interpolate(ratio, ratio_nodes, flux_nodes)
+    # d/dT of p / sqrt(T), then of the share
     slope = share * (p_slope - 0.5 * p / T) / root
     # the share rises with p: d(p_e / p)/dT = -p_e / p^2 dp/dT
     slope = slope - interpolation_slope(ratio, ratio_nodes, flux_nodes) * ratio * p_slope / root
@@ -106,5 +112,6 @@ def gauge_recoil_pressure(p, p_e, ratio_nodes, mach_nodes):
     """
     if p <= p_e:
         return 0.0 * p
+    # behind the layer p_v = p_e: subsonic, 5/3 M^2 p_e; sonic, 0.54 p - p_e
     M = interpolate(p_e / p, ratio_nodes, mach_nodes)
     return max(HEAT_RATIO * M * M * p_e, RECOIL_FACTOR * p - p_e)

@@ -33,6 +33,7 @@ def evaporation_loss(T, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes):
         p_b, T_b, L_b, T_c, R_s: `evaporation.vapor_constants`. p_e, ratio_nodes, flux_nodes: see
             `knudsen_layer.net_mass_flux`.
     """
+    # L_v m(T), and its slope by the product rule
     p, L = saturation_pressure(T, p_b, T_b, L_b, T_c, R_s), latent_heat(T, T_b, L_b, T_c)
     p_slope = saturation_pressure_slope(T, p, L, R_s)
     L_slope = latent_heat_slope(T, T_b, L_b, T_c)

@@ -36,6 +36,7 @@ def balanced_enthalpy(energy, m, S, h_nodes, P_nodes):
     Args:
         m: mass [kg]. S: time step times the sum of the particle's weights [s m^(d-2)].
     """
+    # bisection for the segment of the curve in which the balance holds
     low = 0
     high = len(h_nodes) - 1
     while high - low > 1:
@@ -45,8 +46,9 @@ def balanced_enthalpy(energy, m, S, h_nodes, P_nodes):
         else:
             low = middle
     slope = (P_nodes[low + 1] - P_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
-    rest = energy - m * h_nodes[low] - S * P_nodes[low]
-    return h_nodes[low] + rest / (m + S * slope)
+    # inside the segment P is linear in h
+    remainder = energy - m * h_nodes[low] - S * P_nodes[low]
+    return h_nodes[low] + remainder / (m + S * slope)
 
 
 def potential_slope(h, h_nodes, P_nodes):
@@ -67,14 +69,17 @@ def follow_potential(h, dP, dh, h_nodes, P_nodes):
     low = segment(h, h_nodes)
     last = len(h_nodes) - 2
     slope = (P_nodes[low + 1] - P_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
+    # where the particle is now, by its potential
     P = P_nodes[low] + slope * (h - h_nodes[low])
     new = h + dh
     if slope <= 0.0:
+        # on a plateau h changes by dh, and P not before an end of the plateau
         new = max(new, h_nodes[low])
         if low < last and new >= h_nodes[low + 1]:
             new = h_nodes[low + 1]
             low = low + 1
     else:
+        # through segments in which P rises or falls, as far as the next plateau
         P = P + dP
         while low < last and P_nodes[low + 1] <= P and P_nodes[low + 2] > P_nodes[low + 1]:
             low = low + 1
@@ -82,12 +87,14 @@ def follow_potential(h, dP, dh, h_nodes, P_nodes):
             low = low - 1
         slope = (P_nodes[low + 1] - P_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
         new = h_nodes[low] + (P - P_nodes[low]) / slope
+        # heated onto a plateau: what is left of dP enters as latent heat, at most all of it
         if low < last and P_nodes[low + 1] <= P:
             P = P_nodes[low + 1]
             low = low + 1
             if low < last and new >= h_nodes[low + 1]:
                 new = h_nodes[low + 1]
                 low = low + 1
+        # cooled onto a plateau: latent heat leaves
         elif low > 0 and P_nodes[low] > P:
             P = P_nodes[low]
             low = low - 1

@@ -39,6 +39,7 @@ def transposed_terms(v_i, v_j, m_i, m_j, G_ij):
 
 def transposed_force(total_0, total_1, C, b, nu):
     """Body force b [m/s^2] with (grad v)^T grad nu; C corrects both gradients."""
+    # (grad v)^T grad nu with corrected gradients; nu scales the relative viscosity
     gradient = matmul(total_0, transpose(C))
     return b + nu * matvec(transpose(gradient), matvec(C, total_1))
 
@@ -64,6 +65,7 @@ def forced(v, b, step):
 
 def start(total, v, V, v_star, g_sum, s):
     """Residual r = V (v* - v) + s sum g (v_j - v_i), its scaled form z, and r . z, r . r."""
+    # Jacobi: the diagonal of the matrix is V + s sum g
     r = V * (v_star - v) + s * total
     z = 1.0 / (V + s * g_sum) * r
     return r, z, dot(r, z), dot(r, r)
@@ -77,9 +79,9 @@ def multiply(total, d, V, s):
 
 def advance(v, r, d, q, V, g_sum, alpha, s):
     """v += alpha d, r -= alpha q, z scaled; reduces r . z and r . r."""
-    rest = r - alpha * q
-    z = 1.0 / (V + s * g_sum) * rest
-    return v + alpha * d, rest, z, dot(rest, z), dot(rest, rest)
+    residual = r - alpha * q
+    z = 1.0 / (V + s * g_sum) * residual
+    return v + alpha * d, residual, z, dot(residual, z), dot(residual, residual)
 
 
 def turn(z, d, beta):

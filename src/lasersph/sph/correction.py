@@ -45,6 +45,7 @@ def correction_term(V_j, x_ij, r_ij, dW_ij):
     Args:
         V: volume [m^d]. x_ij: x_i - x_j [m]. r_ij: distance [m]. dW_ij: dW/dr [1/m^(d+1)].
     """
+    # grad W_ij = dW_ij x_ij / r_ij, and x_j - x_i = -x_ij gives the sign
     return -V_j * dW_ij / r_ij * outer(x_ij, x_ij)
 
 
@@ -135,9 +136,11 @@ def corrected_difference_term(p_i, p_j, C_i, C_j, G_ij):
 
 def bounded_inverse(total):
     """M^-1 where M is near the unit tensor, else 1: next to a gap a correction would amplify."""
+    # too few or too many neighbors: det M far from 1
     size, diagonal = determinant(total), trace(total)
     if size < LEAST_DETERMINANT or size > MOST_DETERMINANT:
         return identity(len(total))
+    # neighbors nearly on a line: the two eigenvalues of M differ too much
     if diagonal * diagonal > MOST_ANISOTROPY * size:
         return identity(len(total))
     return inverse(total)

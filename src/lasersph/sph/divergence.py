@@ -40,6 +40,7 @@ def position_term(V_j, r_ij, dW_ij):
     Args:
         V: volume [m^d]. r_ij: distance [m]. dW_ij: dW/dr [1/m^(d+1)].
     """
+    # x_ij . grad W_ij = r_ij dW_ij
     return -V_j * r_ij * dW_ij
 
 

@@ -37,8 +37,10 @@ def surface_state(total_0, total_1, o, threshold, up, least, face):
         up: direction where the sum has none, as for a particle on its own. least: length [1/m]
             below which it has none. face: area of a particle at the surface [m^(d-1)].
     """
+    # inside the body, or no part of it
     if o == 0.0 or total_0 >= threshold:
         return total_0, 0.0, 0.0 * total_1, 0.0
+    # exposed on all sides
     if norm(total_1) < least:
         return total_0, 1.0, up + 0.0 * total_1, face
     return total_0, 1.0, total_1 / norm(total_1), face

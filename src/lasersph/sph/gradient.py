@@ -33,6 +33,7 @@ def symmetric_term(f_i, f_j, m_j, rho_i, rho_j, x_ij, r_ij, dW_ij):
     Args:
         f: the field. m: mass [kg]. rho: density [kg/m^d]. Others as in `difference_term`.
     """
+    # m_i / rho_i times it changes its sign with i and j: momentum is conserved
     return rho_i * m_j * (f_i / (rho_i * rho_i) + f_j / (rho_j * rho_j)) * dW_ij / r_ij * x_ij
 
 

@@ -98,6 +98,7 @@ def wendland_c2_line_slope(s):
     return -12.0 * s * outer**2
 
 
+# sigma by dimension, so that the integral of W over its support is 1
 _CUBIC = {1: 4.0 / 3.0, 2: 40.0 / (7.0 * pi), 3: 8.0 / pi}
 _QUINTIC = {1: 243.0 / 40.0, 2: 15309.0 / (478.0 * pi), 3: 2187.0 / (40.0 * pi)}
 _WENDLAND = {1: 5.0 / 4.0, 2: 7.0 / pi, 3: 21.0 / (2.0 * pi)}
@@ -111,6 +112,7 @@ def kernel(name: KernelName, dimension: int) -> Kernel:
     """
     if dimension not in (1, 2, 3):
         raise ValueError(f"dimension must be 1, 2 or 3, not {dimension}")
+    # the last number is the usual support over the spacing: h = 1.5 dx, quintic h = 1.25 dx
     if name == "cubic-spline":
         sigma = _CUBIC[dimension]
         return Kernel(name, dimension, sigma, cubic_spline, cubic_spline_slope, 3.0)
@@ -118,6 +120,7 @@ def kernel(name: KernelName, dimension: int) -> Kernel:
         sigma = _QUINTIC[dimension]
         return Kernel(name, dimension, sigma, quintic_spline, quintic_spline_slope, 3.75)
     if name == "wendland-c2":
+        # the C2 function of the family depends on the dimension
         line = dimension == 1
         shape = wendland_c2_line if line else wendland_c2
         slope = wendland_c2_line_slope if line else wendland_c2_slope

@@ -68,8 +68,10 @@ def layered_weight(
     """
     along = dot(x_ij, up) / r_ij  # every division by r_ij: the compiler takes one reciprocal
     share = along * along
+    # c_n: mean factor of the planes that the pair crosses, from the running sums N
     steps = layer_i - layer_j
     across = (normal_i - normal_j) / steps if steps != 0.0 else 1.0
+    # along the normal c_n, along the layer c_l, by the squares of the direction
     factor = share * across + (1.0 - share) * 0.5 * (lateral_i + lateral_j)
     return -2.0 * V_i * V_j * dW_ij / r_ij * factor
 

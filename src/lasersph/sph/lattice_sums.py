@@ -27,54 +27,57 @@ Array = NDArray[np.float64]
 
 
 def lattice_neighbors(kernel: Kernel, ratio: float) -> tuple[Array, Array]:
-    """Places (dim, k) of the neighbors in spacings, and |dW| dx^(d+1) of each (k,).
+    """Offsets (dim, k) of the neighbors in spacings, and |dW| dx^(d+1) of each (k,).
 
     Args:
         ratio: support radius over spacing.
     """
     offsets = range(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1)
-    place = np.array(list(product(offsets, repeat=kernel.dimension)), float).T
-    r = np.sqrt(np.sum(place * place, axis=0))
+    # all lattice points of a box around the support, then those within it
+    offset = np.array(list(product(offsets, repeat=kernel.dimension)), float).T
+    r = np.sqrt(np.sum(offset * offset, axis=0))
     is_near = (r > 0.0) & (r < ratio)
-    place, r = place[:, is_near], r[is_near]
-    return place, np.array([-kernel.derivative(float(value), ratio) for value in r])
+    offset, r = offset[:, is_near], r[is_near]
+    return offset, np.array([-kernel.derivative(float(value), ratio) for value in r])
 
 
 def second_moment(kernel: Kernel, ratio: float) -> float:
     """Second moment of the weights inside a body [1]."""
-    place, slope = lattice_neighbors(kernel, ratio)
-    return float(np.sum(slope * _distance(place))) / kernel.dimension
+    offset, slope = lattice_neighbors(kernel, ratio)
+    return float(np.sum(slope * _distance(offset))) / kernel.dimension
 
 
 def kernel_sum(kernel: Kernel, ratio: float) -> float:
     """Sum of the kernel over the neighbors inside a body [1]."""
-    place, _ = lattice_neighbors(kernel, ratio)
-    return sum(kernel.value(float(r), ratio) for r in _distance(place))
+    offset, _ = lattice_neighbors(kernel, ratio)
+    return sum(kernel.value(float(r), ratio) for r in _distance(offset))
 
 
 def surface_threshold(kernel: Kernel, ratio: float) -> float:
     """Divergence of positions below which a particle lies in the top layer [1]."""
-    place, slope = lattice_neighbors(kernel, ratio)
-    terms = slope * _distance(place)
-    first, second = (float(np.sum(terms[place[-1] <= above])) for above in (0.0, 1.0))
+    offset, slope = lattice_neighbors(kernel, ratio)
+    terms = slope * _distance(offset)
+    # neighbors at or below a particle of the top layer, and with one layer above it
+    first, second = (float(np.sum(terms[offset[-1] <= above])) for above in (0.0, 1.0))
     return 0.5 * (first + second)
 
 
 def diffusive_rate(kernel: Kernel, ratio: float) -> float:
     """L: fastest rate of decay over D / dx^2 [1]."""
-    place, slope = lattice_neighbors(kernel, ratio)
-    weight = 2.0 * slope / _distance(place)
-    phases = np.pi * np.cumsum(place, axis=0)
+    offset, slope = lattice_neighbors(kernel, ratio)
+    weight = 2.0 * slope / _distance(offset)
+    # k alternates along the first 1, 2, ..., d axes: the fastest is one of them
+    phases = np.pi * np.cumsum(offset, axis=0)
     return max(float(np.sum(weight * (1.0 - np.cos(phase)))) for phase in phases)
 
 
 def viscous_rate(kernel: Kernel, ratio: float, softening: float) -> float:
     """N: rate at which alternating layers stop over alpha c_0 / dx [1], h half the support."""
-    place, slope = lattice_neighbors(kernel, ratio)
-    r, z, h = _distance(place), place[-1], 0.5 * ratio
+    offset, slope = lattice_neighbors(kernel, ratio)
+    r, z, h = _distance(offset), offset[-1], 0.5 * ratio
     share = z * z / (r * r + softening * h * h)
     return float(h * np.sum(slope / r * share * (1.0 - np.cos(np.pi * z))))
 
 
-def _distance(place: Array) -> Array:
-    return np.sqrt(np.sum(place * place, axis=0))
+def _distance(offset: Array) -> Array:
+    return np.sqrt(np.sum(offset * offset, axis=0))

@@ -97,8 +97,11 @@ def schwaiger_laplacian(
     """
     assert neighbors.position is not None
     d, n = neighbors.position.shape[0], out.shape[0]
+    # grad f with the same kernel gradient as the sums
     work = dict(fields, df=backend.zeros((d, n)))
     corrected_gradient(backend, neighbors, work, work["df"])
+
+    # brace of (16) times the factor in front
     work |= _moments(backend, neighbors, fields, n, use_gamma)
     backend.pair_sum(second_difference_term, neighbors, work, out, finish=scaled)
 
@@ -111,6 +114,7 @@ def _moments(
     d = neighbors.position.shape[0]
     found = {"N": backend.zeros((d, n)), "factor": backend.zeros(n)}
     backend.pair_sum(normal_term, neighbors, fields, found["N"])
+    # the factor in front: 1, or tr(Gamma^-1) / d of (17)
     if not use_gamma:
         backend.fill(found["factor"], 1.0)
         return found

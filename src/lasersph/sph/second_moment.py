@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 KEPT = 3 * GHOSTS
 """Layers kept of a uniform stretch; the others repeat them."""
 LARGEST_SAMPLE = 4096
-"""Columns over which rows of different width repeat, at most. Geometry: a longer pattern is cut,
+"""Columns over which layers of different width repeat, at most. Geometry: a longer pattern is cut,
 and the conditions hold to 1 / 4096 of a period."""
 PULL = 1e-3
 """Weight of keeping the factors near 1 against meeting the moments, in the least squares sense.
@@ -57,10 +57,13 @@ def layer_factors(
     layers: Layers, kernel: Kernel, support_ratio: float, mean: Callable[[float, float], float]
 ) -> LayerFactors:
     """Solve for the factors of all layers, mirrored beyond surface and bottom."""
+    # factors of the short stack, in which all layers of different surroundings occur
     short, index = _shortened(layers)
     lattice = _Lattice(short, kernel, support_ratio, mean)
     planes, lateral = lattice.solve()
     total = layers.thickness.size
+
+    # layers beyond the faces mirror those inside
     number = np.arange(-GHOSTS, total + GHOSTS)
     inside = np.where(number < 0, -1 - number, number)
     inside = np.where(inside >= total, 2 * total - 1 - inside, inside)
@@ -71,6 +74,8 @@ def layer_factors(
     mirrored = np.where(mirrored > total - 1, 2 * (total - 1) - mirrored, mirrored)
     mirrored = np.clip(mirrored, -1, total - 1)
     factor = np.where(mirrored < 0, planes[0], planes[index[np.maximum(mirrored, 0)] + 1])
+
+    # N_k = f_0 + ... + f_(k-1)
     normal = np.concatenate([[0.0], np.cumsum(factor)[:-1]])
     return LayerFactors(normal, lateral[index[inside]])
 
@@ -78,10 +83,12 @@ def layer_factors(
 def _shortened(layers: Layers) -> tuple[Layers, NDArray[np.int64]]:
     """Layers with long uniform stretches cut to KEPT, and the short layer that each layer is."""
     d = layers.thickness
+    # a uniform stretch: layers as thick as the one above
     same = np.concatenate([[False], np.abs(np.diff(d)) < 1e-9 * d[1:]])
     starts = np.flatnonzero(~same)
     kept: list[int] = []
     index = np.zeros(d.size, np.int64)
+    # of a long stretch keep both ends, whose neighbors differ; the inside repeats
     for start, end in zip(starts, [*starts[1:], d.size], strict=True):
         length = end - start
         base = len(kept)
@@ -90,9 +97,9 @@ def _shortened(layers: Layers) -> tuple[Layers, NDArray[np.int64]]:
             index[start:end] = base + np.arange(length)
             continue
         kept.extend([*range(start, start + KEPT), *range(end - KEPT, end)])
-        place = np.arange(length)
+        position = np.arange(length)
         index[start:end] = base + np.where(
-            place < KEPT, place, np.maximum(place - (length - 2 * KEPT), KEPT)
+            position < KEPT, position, np.maximum(position - (length - 2 * KEPT), KEPT)
         )
     return Layers(d[kept], layers.columns[:, kept], layers.bounds), index
 
@@ -113,18 +120,22 @@ class _Lattice:
     def solve(self) -> tuple[Array, Array]:
         """Factors of planes -1 ... total - 1 and of layers."""
         total, planes = self.total, self.total + 1
-        rows = np.zeros((planes + total, planes + total))
+        # conditions: flux through each plane, then lateral moment of each layer
+        matrix = np.zeros((planes + total, planes + total))
         for k in range(total):
             for step in range(-GHOSTS, GHOSTS + 1):
                 other, z = self._neighbor(k, k + step)
                 if other is not None:
-                    self._add(rows, k, k + step, other, z)
+                    self._add(matrix, k, k + step, other, z)
         target = np.concatenate([np.ones(planes), np.full(total, 2.0)])
+        # 1-D has no lateral pairs: factor 1
         if not self.layers.bounds:
-            rows[planes:, planes:] = 2.0 * np.eye(total)
+            matrix[planes:, planes:] = 2.0 * np.eye(total)
+
+        # least squares for the deviation from 1, pulled to 0
         ones = np.ones(planes + total)
-        missing = (target - rows @ ones) / PULL
-        system = np.vstack([rows / PULL, np.eye(planes + total)])
+        missing = (target - matrix @ ones) / PULL
+        system = np.vstack([matrix / PULL, np.eye(planes + total)])
         change = np.linalg.lstsq(system, np.concatenate([missing, 0.0 * ones]), rcond=None)[0]
         factors = ones + change
         return factors[:planes], factors[planes:]
@@ -132,6 +143,7 @@ class _Lattice:
     def _neighbor(self, k: int, number: int) -> tuple[int | None, float]:
         """Layer inside that layer `number` mirrors, and its z."""
         total = self.total
+        # reflect at the surface, then at the bottom
         inside = -1 - number if number < 0 else number
         inside = 2 * total - 1 - inside if inside >= total else inside
         if not 0 <= inside < total:
@@ -143,11 +155,14 @@ class _Lattice:
             z = -2.0 * self.depth - z
         return inside, self.center[k] - z
 
-    def _add(self, rows: Array, k: int, number: int, other: int, z: float) -> None:
+    def _add(self, matrix: Array, k: int, number: int, other: int, z: float) -> None:
         """Add the pairs of layer k with layer `number` to the conditions."""
         planes = self.total + 1
+        # sums per area of layer k
         along, across, x_along, x_across = self._moments(k, other, z)
         thickness = self.layers.thickness[k]
+
+        # planes between the two layers, those beyond the faces mirrored; the pair takes their mean
         low, high = min(k, number), max(k, number)
         crossed = np.arange(low, high)
         mirrored = np.where(crossed < -1, -2 - crossed, crossed)
@@ -158,16 +173,18 @@ class _Lattice:
             np.add.at(share, mirrored, 1.0 / crossed.size)
         # pairs of two inner layers are met from both sides
         counted = 0.5 if 0 <= number < self.total else 1.0
+        # normal condition: g |z| of the pair counts in each plane that it crosses
         for plane in crossed:
             if -1 <= plane <= last:
                 flux = counted * abs(z)
-                rows[plane + 1, :planes] += flux * along * share
-                rows[plane + 1, planes + k] += 0.5 * flux * across
-                rows[plane + 1, planes + other] += 0.5 * flux * across
+                matrix[plane + 1, :planes] += flux * along * share
+                matrix[plane + 1, planes + k] += 0.5 * flux * across
+                matrix[plane + 1, planes + other] += 0.5 * flux * across
+        # lateral condition: g x^2 over the thickness of the layer
         if self.layers.bounds:
-            rows[planes + k, :planes] += x_along / thickness * share
-            rows[planes + k, planes + k] += 0.5 * x_across / thickness
-            rows[planes + k, planes + other] += 0.5 * x_across / thickness
+            matrix[planes + k, :planes] += x_along / thickness * share
+            matrix[planes + k, planes + k] += 0.5 * x_across / thickness
+            matrix[planes + k, planes + other] += 0.5 * x_across / thickness
 
     def _moments(self, k: int, other: int, z: float) -> Array:
         """Per area of layer k: sums of g e_n^2, g (1 - e_n^2), and both times x^2 (mean axis)."""
@@ -179,12 +196,15 @@ class _Lattice:
 
     def _sum(self, k: int, other: int, z: float) -> Array:
         d = self.layers.thickness
+        # two layers further apart than the support exchange nothing
         support = self.mean(self.ratio * d[k], self.ratio * d[other])
         if abs(z) >= support:
             return np.zeros(4)
         offsets = [
             self._offsets(axis, k, other, support) for axis in range(len(self.layers.bounds))
         ]
+
+        # squares of the lateral distances of all pairs, from each column of a period
         samples = 1
         squares: list[Array] = [np.zeros(1)]
         if len(offsets) == 1:
@@ -194,9 +214,13 @@ class _Lattice:
             samples = offsets[0].shape[0] * offsets[1].shape[0]
             x, y = np.meshgrid(offsets[0].ravel() ** 2, offsets[1].ravel() ** 2, indexing="ij")
             squares = [x.ravel(), y.ravel()]
+
+        # neighbors within the support, but for the particle itself
         r2 = z * z + np.sum(squares, axis=0)
         is_near = (r2 < support * support) & (r2 > 1e-12 * support * support)
         r = np.sqrt(r2[is_near])
+
+        # g_ij = -2 V_i V_j (dW/dr) / r per area of layer k, its moments by e_n^2 and 1 - e_n^2
         slope = np.vectorize(self.kernel.slope, otypes=[float])(r / support)
         volume = d[k] * d[other] * np.prod(self.width[:, other])
         scale = self.kernel.sigma / support ** (self.kernel.dimension + 1)
@@ -211,6 +235,7 @@ class _Lattice:
         w_i, w_j = self.width[axis, k], self.width[axis, other]
         count = int(self.layers.columns[axis, k])
         columns = np.arange(1 if abs(w_i - w_j) < 1e-9 * w_i else min(count, LARGEST_SAMPLE))
+        # each column of layer k, and the columns of the other layer within the support around it
         x = (columns + 0.5) * w_i
         farthest = int(np.ceil(support / w_j)) + 1
         nearest = np.floor(x / w_j).astype(np.int64)

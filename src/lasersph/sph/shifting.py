@@ -30,8 +30,10 @@ def shift(total_0, total_1, total_2, is_fluid, at_face, normal, scale, limit):
         is_fluid, at_face: 1 or 0. normal: of the face [1]. scale: C a [m]. limit: largest
             displacement [m].
     """
+    # (73): R_i = r_i^2 sum_j n_ij / r_ij^2, r_i the mean distance
     mean = total_1 / max(total_2, 1.0)
     moved = is_fluid * scale * mean * mean * total_0
+    # no displacement through a face
     along = at_face * dot(moved, normal)
     kept = moved - along * normal
     size = norm(kept)

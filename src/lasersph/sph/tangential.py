@@ -31,9 +31,11 @@ def tangential_gradient(total_0, total_1, n, s):
     """
     if s <= 0.0:
         return 0.0 * n
+    # P M P has no inverse along n; + n n gives it one and leaves the plane as it is
     normal = outer(n, n)
     P = identity(len(n)) - normal
     M = matmul(P, matmul(total_1, P)) + normal
+    # P applied to the sum, then the inverse in the plane
     slope = total_0 - dot(total_0, n) * n
     return matvec(inverse(M), slope)
 
