@@ -1,7 +1,7 @@
 """Beer and Lambert through particles that have moved, as pure functions of a grid of cells.
 
-Columns and rows of cells of one spacing lie below the surface. A particle is as wide as a cell and
-as high as its volume says, that of a cell where nothing has evaporated; it covers up to four of
+Columns and levels of cells of one spacing lie below the surface. A particle is as wide as a cell
+and as high as its volume says, that of a cell where nothing has evaporated; it covers up to four of
 them, by parts c_ik of their area, which sum up to its volume over that of a cell. A cell is as
 opaque as what lies in it, and takes of the light that enters its column
 
@@ -25,23 +25,25 @@ def cell_at_corner(x, depth, size, low, inverse_x, inverse_z, right, lower, colu
     """Cell at a corner of a particle's area, its column, and the part c of a cell that lies in it.
 
     What reaches beyond an end or the surface counts for the cells next to it. The number behind
-    the last one stands for what lies below all rows.
+    the last one stands for what lies below all levels.
 
     Args:
         x: position [m]. depth: below the surface [m]. size: volume over that of a cell, 1 for a
             square. low: left end [m]. inverse_x, inverse_z:
             1 / width and 1 / height of a cell [1/m]. right, lower: 1 for the right column, the
-            lower row. columns, levels: numbers of columns and rows.
+            lower level. columns, levels: their numbers.
     """
-    place, level = (x[0] - low) * inverse_x - 0.5, depth * inverse_z - 0.5 * size
-    column, row = floor(place), floor(level)
-    beyond_x, beyond_z = place - column, level - row
+    across, down = (x[0] - low) * inverse_x - 0.5, depth * inverse_z - 0.5 * size
+    column, level = floor(across), floor(down)
+    beyond_x, beyond_z = across - column, down - level
+    # c_ik is a product: part of the width in this column, part of the height in this level
     share_x = beyond_x if right > 0.0 else 1.0 - beyond_x
     share_z = min(1.0 - beyond_z, size)
     if lower > 0.0:
         share_z = max(beyond_z + (size - 1.0), 0.0)
+    # what reaches beyond an end counts for the cell next to it
     c = int(min(max(column + right, 0.0), columns - 1.0))
-    r = int(min(max(row + lower, 0.0), levels))
+    r = int(min(max(level + lower, 0.0), levels))
     if r >= levels:
         return int(columns * levels), c, 0.0 * share_z
     return int(c * levels + r), c, share_x * share_z
@@ -58,12 +60,13 @@ def add(a, b):
 
 
 def running_sum(k, total, totals, distance, levels):
-    """Sum with that of the cell `distance` rows above [1]; doubled distances give the sum of all.
+    """Sum with that of the cell `distance` levels above [1]; doubled distances give the sum of all.
 
     Args:
         k: number of the cell. total: sum so far. totals: that of all cells.
-            distance, levels: rows, and rows in a column.
+            distance: a number of levels. levels: those of a column.
     """
+    # the first `distance` cells of a column have none that far above them
     if k % levels < distance:
         return 1.0 * total
     return total + totals[k - distance]
@@ -75,6 +78,7 @@ def light_per_cover(tau, total, tau_one):
     Args:
         tau: of the cell. total: of it and all above [1].
     """
+    # (1 - exp(-tau_k)) / tau_k, times the light that is left above the cell, exp(-(sum - tau_k))
     taken = 1.0 - 0.5 * tau if tau < THIN else (1.0 - exp(-tau)) / tau
     return exp(tau - total) * taken * tau_one
 

@@ -37,6 +37,7 @@ def column_along(x, axis, low, inverse):
             [1/m].
     """
     place = (dot(x, axis) - low) * inverse - 0.5
+    # a particle that stands in one column but for rounding covers no part of the next
     column = floor(place + ROUNDING)
     beyond = place - column
     return column, (beyond if beyond > ROUNDING else 0.0)
@@ -75,9 +76,11 @@ def column_at_corner(
     """
     x = wrap_column(column_x + right, count_x, wraps_x)
     y = wrap_column(column_y + back, count_y, wraps_y)
+    # part of the column's area under the square: a product of the parts along both axes
     cover = (beyond_x if right > 0.0 else 1.0 - beyond_x) * (
         beyond_y if back > 0.0 else 1.0 - beyond_y
     )
+    # what has left, and what lies outside, stands in no column
     if kind > LEAVING or x < 0.0 or y < 0.0 or cover <= ROUNDING:
         return int(count_x * count_y), 0.0
     return int(x * count_y + y), cover
@@ -100,7 +103,7 @@ def top_of(covering, any_height):
 
 
 def cover_of_uppermost(x_j, cover_j, top_i, up, band):
-    """What a particle covers of a column if it is one of its uppermost ones, else 0."""
+    """Share of a column that a particle covers if it is one of its uppermost ones, else 0."""
     return cover_j if dot(x_j, up) > top_i - band else 0.0
 
 
@@ -116,6 +119,7 @@ def share_of(x, column, cover, tops, covers, up, band):
         column: its number. cover: share that the particle covers. tops, covers: tables of columns:
             height of the highest [m], sum of the covers of the uppermost.
     """
+    # shadowed: more than half a spacing below the highest of the column
     if cover <= 0.0 or dot(x, up) <= tops[column] - band:
         return 0.0
     return cover / covers[column]
@@ -132,14 +136,15 @@ def mark_hit(hit, share):
 
 
 def absorbed_light(light, T, R_T, R_R):
-    """What a particle absorbs of the light on it and what it reflects [J]: shares 1 - R(T) and
-    R(T); R_T, R_R: table of R(T)."""
+    """Energy of the light on a particle that it absorbs and that it reflects [J], the shares
+    1 - R(T) and R(T); R_T, R_R: table of R(T)."""
+    # the reflectivity of the particle's own temperature
     R = interpolate(T, R_T, R_R)
     return (1.0 - R) * light, R * light
 
 
 def excess_for_column(excess_j, cover_j, whole_j):
-    """What a particle that has left hands to one of its columns [J].
+    """Energy that a particle that has left hands to one of its columns [J].
 
     Args:
         excess: energy beyond what it took along [J]. cover: share of the column that it covered.

@@ -66,10 +66,10 @@ class FirstHitLight:
 
     Attributes:
         center: (dim - 1, columns) [m]. width: along each axis [m]. up: against the beam, a unit
-            vector. rows: the particles that are hit.
+            vector. hit: the particles that are hit, kind "index".
     """
 
-    rows: Rows
+    hit: Rows
 
     def __init__(
         self,
@@ -84,6 +84,7 @@ class FirstHitLight:
         self.backend, self.laser, self.spacing = backend, laser, spacing
         self.dimension, self.deposit = len(bounds) + 1, deposit
         self.incident = self.transmitted = self.reflected = 0.0
+        # the columns: as many as fit, so that their width is the spacing or close to it
         low, high = np.array(bounds, dtype=float).reshape(-1, 2).T
         counts = [max(1, round(extent / spacing)) for extent in high - low]
         shape, wraps = (*counts, 1, 1), (*(float(one) for one in periodic), 0.0, 0.0)
@@ -104,56 +105,65 @@ class FirstHitLight:
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._R_T, self._R_R = (backend.asarray(values) for values in table)
         self._absorptivity = 1.0 - float(np.min(table[1]))
+        # the tables have one entry more, for "no column"
         self._energy, self._top, self._covers = (backend.zeros(self.count + 1) for _ in range(3))
         self._shares: list[tuple[Array, Array]] = []
         self._corners: list[Corner] = []
         self._is_hit = np.zeros(self.count, bool)
-        self._take(backend.zeros(0, "index"))
+        self._set_hit(backend.zeros(0, "index"))
 
     # --- who is hit -----------------------------------------------------------------------------
 
-    def find_hit(self, position: Array, kind: Array, rows: Rows) -> None:
+    def find_hit(self, position: Array, kind: Array, candidates: Rows) -> None:
         """Find which particles the light meets first.
 
         Args:
-            position: (dim, N) [m]. kind: (N,); what has left and walls are transparent. rows:
-                where to look, kind "index".
+            position: (dim, N) [m]. kind: (N,); what has left and walls are transparent.
+                candidates: numbers of the particles that may be hit, kind "index".
         """
-        backend, self._searched = self.backend, rows
-        size = max(rows.shape[0], self.count + 1)
+        backend, self._searched = self.backend, candidates
+        size = max(candidates.shape[0], self.count + 1)
+        # gather those that may be hit; entries beyond them count as gone
         x, kinds = backend.zeros((self.dimension, size)), backend.zeros(size)
         backend.fill(kinds, GONE)
-        backend.gather(position, rows, x)
-        backend.gather(kind, rows, kinds)
+        backend.gather(position, candidates, x)
+        backend.gather(kind, candidates, kinds)
+
+        # columns of each particle, then the highest particle of each column
         self._corners = self._find_corners(x, kinds)
         self._find_tops()
-        shares, hit = [], backend.zeros(size)
+
+        # s_pc at the four corners; hit is what takes a share of any column
+        shares, is_hit = [], backend.zeros(size)
         tables = {"tops": self._top, "covers": self._covers, **self._above}
         for column, cover, _ in self._corners:
             share, fields = backend.zeros(size), {"x": x, "column": column, "cover": cover}
             backend.pointwise(share_of, fields, share, **tables)
-            backend.pointwise(mark_hit, {"hit": hit, "share": share}, hit)
+            backend.pointwise(mark_hit, {"hit": is_hit, "share": share}, is_hit)
             shares.append((column, share))
-        places = backend.rows_where(hit, 1.0)
+
+        # keep shares of what is hit alone, in its own order
+        order = backend.rows_where(is_hit, 1.0)
         self._shares = [
-            (self._gather(column, places, "index"), self._gather(share, places))
+            (self._gather(column, order, "index"), self._gather(share, order))
             for column, share in shares
         ]
         # what is no longer hit absorbs nothing
-        backend.scatter(backend.zeros(self.rows.shape[0]), self.rows, self.deposit)
-        self._take(self._gather(rows, places, "index"))
+        backend.scatter(backend.zeros(self.hit.shape[0]), self.hit, self.deposit)
+        self._set_hit(self._gather(candidates, order, "index"))
 
-    def _take(self, rows: Rows) -> None:
-        """Let `rows` be what is hit."""
-        self.rows = rows
+    def _set_hit(self, hit: Rows) -> None:
+        """Let `hit` be the particles that are hit, and allocate the arrays over them."""
+        self.hit = hit
         self._light, self._temperature, self._absorbed = (
-            self.backend.zeros(rows.shape[0]) for _ in range(3)
+            self.backend.zeros(hit.shape[0]) for _ in range(3)
         )
 
     def _find_corners(self, x: Array, kind: Array) -> list[Corner]:
         """Column and cover of each particle at each corner of its square."""
         backend, size, lateral = self.backend, x.shape[1], self.dimension - 1
         fields = {"kind": kind}
+        # lower edge of the square along each lateral axis: column, and how far it lies beyond
         for axis, name in enumerate("xy"):
             column, beyond = backend.zeros(size), backend.zeros(size)
             fields |= {f"column_{name}": column, f"beyond_{name}": beyond}
@@ -164,6 +174,8 @@ class FirstHitLight:
                     "inverse": 1.0 / float(self.width[axis]),
                 }
                 backend.pointwise(column_along, {"x": x}, (column, beyond), axis=unit, **place)
+
+        # the 2^(d-1) corners of the square, and the particles of each column by this corner
         found = []
         for right, back in product(*[(0.0, 1.0)] * lateral, *[(0.0,)] * (2 - lateral)):
             column, cover = backend.zeros(size, "index"), backend.zeros(size)
@@ -178,11 +190,14 @@ class FirstHitLight:
         highest, any_height, part, other = (backend.zeros(count) for _ in range(4))
         backend.fill(highest, NOWHERE)
         backend.fill(any_height, NOWHERE)
+        # highest of those that cover enough, and of all, over the four lists
         for _, cover, members in self._corners:
             fields, out = {"cover": cover}, (part, other)
             backend.pair_sum(heights, members, fields, out, combine=("max", "max"), up=self.up)
             backend.pointwise(larger, {"a": highest, "b": part}, highest)
             backend.pointwise(larger, {"a": any_height, "b": other}, any_height)
+
+        # top of each column, and the cover of its uppermost particles: the denominator of s_pc
         top, covers = backend.head(self._top, count), backend.head(self._covers, count)
         backend.pointwise(top_of, {"covering": highest, "any_height": any_height}, top)
         backend.fill(covers, 0.0)
@@ -213,6 +228,7 @@ class FirstHitLight:
         """Fix the light from `start` to `end` [s]; sets `incident` and `transmitted`."""
         backend = self.backend
         density = self.laser.energy_density(self._lower, self._upper, start, end)
+        # energy of the columns; those in which nothing is hit transmit theirs
         energy = density * np.prod(self.width)
         self.incident = float(energy.sum())
         self.transmitted = float(energy[~self._is_hit].sum())
@@ -223,6 +239,7 @@ class FirstHitLight:
         """Let the energy of the columns (columns + 1,) [J] fall on what is hit: `_light`."""
         backend = self.backend
         backend.fill(self._light, 0.0)
+        # sum over the corners of s_pc times the energy of the column
         for column, share in self._shares:
             fields = {"light": self._light, "column": column, "share": share}
             backend.pointwise(add_light, fields, self._light, energy=energy)
@@ -231,13 +248,13 @@ class FirstHitLight:
         """Set `deposit` and `reflected` from the temperatures (N,) [K]; returns what is absorbed
         [J]."""
         backend, taken = self.backend, self._absorbed
-        backend.gather(temperature, self.rows, self._temperature)
+        backend.gather(temperature, self.hit, self._temperature)
         fields = {"light": self._light, "T": self._temperature}
         out, table = (taken, None), {"R_T": self._R_T, "R_R": self._R_R}
         absorbed, self.reflected = backend.pointwise(
             absorbed_light, fields, out, reduce=("sum", "sum"), **table
         )
-        backend.scatter(taken, self.rows, self.deposit)
+        backend.scatter(taken, self.hit, self.deposit)
         return absorbed
 
     def pass_excess_down(
@@ -254,20 +271,24 @@ class FirstHitLight:
         """
         backend, count = self.backend, self.count
         size = self._corners[0].column.shape[0]
+        # excess and covers of what was searched when the light was distributed
         own, whole = backend.zeros(size), backend.zeros(size)
         backend.gather(excess, self._searched, own)
         total, part = backend.zeros(count + 1), backend.zeros(count)
         for _, cover, _ in self._corners:
             backend.pointwise(add, {"a": whole, "b": cover}, whole)
+        # hand the excess to the columns, each by its part of the covers
         for _, cover, members in self._corners:
             fields = {"excess": own, "cover": cover, "whole": whole}
             backend.pair_sum(excess_for_column, members, fields, part)
             head = backend.head(total, count)
             backend.pointwise(add, {"a": head, "b": part}, head)
+
+        # what lies open now takes it, by the shares of the light
         self.find_hit(position, kind, self._searched)
         self._distribute(total)
-        enthalpy, mass = self._gather(h, self.rows), self._gather(m, self.rows)
+        enthalpy, mass = self._gather(h, self.hit), self._gather(m, self.hit)
         fields = {"h": enthalpy, "m": mass, "given": self._light}
         (given,) = backend.pointwise(add_heat, fields, (enthalpy, None), reduce=(None, "sum"))
-        backend.scatter(enthalpy, self.rows, h)
+        backend.scatter(enthalpy, self.hit, h)
         return given

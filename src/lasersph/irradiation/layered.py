@@ -42,7 +42,7 @@ SMALLEST_SHARE = 1e-30
 """Share of the light below which a particle is dark. Format: products with smaller ones are not
 normal numbers."""
 OPAQUE = 37.0
-"""Optical thickness below which rows of cells are dark. Rounding: exp(-37) is the rounding of 1."""
+"""Optical thickness below which levels of cells are dark. Rounding: exp(-37) is that of 1."""
 
 
 def enter_column(F, T_s, area, R_T, R_R, beyond):
@@ -95,6 +95,7 @@ class LayeredLight:
         alpha = laser.absorption_coefficient(material)
         is_deep = np.isfinite(alpha) and laser.absorption.kind == "beer-lambert"
         self.alpha = float(alpha) if is_deep else None
+        # A_i s_i, with the exact share of each depth cell (8)
         share = laser.absorption.deposited(
             np.maximum(depth - half, 0.0), depth + half, alpha if np.isfinite(alpha) else None
         )
@@ -112,6 +113,7 @@ class LayeredLight:
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._varies = bool(np.ptp(table[1]) > 0.0)
         R_T, R_R = map(backend.asarray, table)
+        # light that passes the bottom of the lowest particle
         bottom = float(np.max(depth + half))
         beyond = 0.0 if self.alpha is None else exp(-self.alpha * bottom)
         self._entering: dict[str, Any] = {"R_T": R_T, "R_R": R_R, "beyond": beyond}
@@ -122,15 +124,19 @@ class LayeredLight:
         self._find_cells = backend.phase(LayeredLight._run_cells)
         self._find_shares = backend.phase(LayeredLight._run_shares)
         self._absorb = backend.phase(LayeredLight._run_absorption)
+        # particles move in 2-D, and only light that goes deep needs cells
         if filling.position.shape[0] == 2 and self.alpha is not None:
             self._lay_cells(width, half, self.alpha)
 
     def _lay_cells(self, width: np.ndarray, half: np.ndarray, alpha: float) -> None:
         """Cells for particles as large as those of the surface, which come first."""
         backend, columns = self.backend, self.surface_area.size
+        # coarse layers below keep the shares that they have on the lattice
         is_fine = np.all(np.isclose(width, width[:, :1], rtol=1e-9), axis=0)
         self._fine = is_fine.size if is_fine.all() else int(np.argmin(is_fine))
         size_x, size_z = float(width[0, 0]), 2.0 * float(half[0])
+
+        # as many levels as there are fine layers, or as the light reaches
         levels = min(self._fine // columns, int(np.ceil(OPAQUE / (alpha * size_z))))
         self._grid = {"columns": float(columns), "levels": float(levels), "low": self.lower[0, 0]}
         self._grid |= {"inverse_x": 1.0 / size_x, "inverse_z": 1.0 / size_z}
@@ -148,11 +154,11 @@ class LayeredLight:
         self.incident = float(np.sum(density * self.surface_area))
         self.backend.copy(self.backend.asarray(density), self.fluence)
 
-    def rest(self) -> None:
+    def reset(self) -> None:
         """Let the light meet particles on their lattice, as at the start."""
         self._surface = None
 
-    def follow(
+    def distribute(
         self,
         position: Array,
         depth: Array,
@@ -170,8 +176,9 @@ class LayeredLight:
             return
         backend = self.backend
         if not self._moving:
-            self._make_room()
+            self._allocate_shares()
         if self.alpha is None:
+            # surface absorption: the particles at the surface take all, each of its two columns
             ends = surface.shares(float(self.surface_area[0]))
             for side, (column, share) in zip(("", "_right"), ends, strict=True):
                 backend.fill(self._moving[f"share{side}"], 0.0)
@@ -188,10 +195,13 @@ class LayeredLight:
     def _run_cells(self, position: Array, depth: Array, volume: Array | None = None) -> None:
         """Cell, column and cover of each particle, by its four corners."""
         backend, fine = self.backend, self._fine
+        # evaporated particles are less high: their volume over that of a cell
         if volume is not None:
             area = self._grid["inverse_x"] * self._grid["inverse_z"]
             fields = {"V": backend.head(volume, fine)}
             backend.pointwise(scale, fields, self._size, factor=area)
+
+        # the area of a particle covers up to 2 x 2 cells
         fields = {"x": backend.head(position, fine), "depth": backend.head(depth, fine)}
         fields["size"] = self._size
         self._corners = []
@@ -215,6 +225,8 @@ class LayeredLight:
         light = backend.zeros(cells + 1)
         fields = {"tau": inner, "total": self._sums_from_above(inner)}
         backend.pointwise(light_per_cover, fields, backend.head(light, cells), tau_one=one)
+
+        # s_ik: what a particle takes of its left and right column, upper and lower cell together
         left_and_right = self._corners[:2], self._corners[2:]
         for side, (upper, lower) in zip(("", "_right"), left_and_right, strict=True):
             fields = {"upper": upper[0], "cover_upper": upper[2]}
@@ -223,7 +235,7 @@ class LayeredLight:
             backend.pointwise(column_share, fields, out, width=self._size_x, light=light)
             backend.copy(upper[1], backend.head(self._moving[f"column{side}"], fine))
 
-    def _make_room(self) -> None:
+    def _allocate_shares(self) -> None:
         """Arrays of particles that have moved, the coarse ones as they are on the lattice."""
         backend = self.backend
         for name, values in self._lattice.items():
@@ -240,6 +252,7 @@ class LayeredLight:
         backend, distance = self.backend, 1
         total, other = backend.zeros(self._cells), backend.zeros(self._cells)
         backend.copy(tau, total)
+        # running sum in log2(levels) passes, each adding the sum `distance` cells above
         while distance < self._levels:
             fields, how = {"k": self._numbers, "total": total}, {"levels": self._levels}
             backend.pointwise(running_sum, fields, other, totals=total, distance=distance, **how)
@@ -253,6 +266,7 @@ class LayeredLight:
             self.backend.fill(self.deposit, 0.0)
             return 0.0
         T_s, shares = temperature, self._lattice
+        # R depends on T: the mean of the particles at the surface now
         if self._varies and self._surface is not None:
             T_s = self._surface.mean(temperature)
         if self._surface is not None and self._moving:

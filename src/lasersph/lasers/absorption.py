@@ -34,6 +34,7 @@ class SurfaceAbsorption(Model):
     ) -> Array:
         """Share of the absorbed energy in each cell, shape (n,): 1 where the top is at depth 0."""
         top, bottom = np.asarray(depth_top, float), np.asarray(depth_bottom, float)
+        # the cell whose upper face is the surface, but for rounding
         return (top <= 1e-6 * (bottom - top)).astype(float)
 
 
@@ -74,6 +75,7 @@ class BeerLambertAbsorption(Model):
         """
         alpha = self.coefficient(absorption_coefficient)
         top, bottom = np.asarray(depth_top, float), np.asarray(depth_bottom, float)
+        # expm1 keeps the digits of cells that are thin against 1 / alpha
         return np.exp(-alpha * top) * -np.expm1(-alpha * (bottom - top))
 
 

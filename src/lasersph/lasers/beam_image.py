@@ -2,8 +2,8 @@
 
 The background is subtracted (see `beam_widths`), what does not stand out of the noise counts as
 dark, and the rest is the envelope g, with the highest pixel 1. Between the centers of pixels g is
-bilinear, so that means over cells of any size are exact: with the sums S of pixels up to each place
-the integral of a bilinear function is
+bilinear, so that means over cells of any size are exact: with the sums S of pixels up to each
+position the integral of a bilinear function is
 
     D(x) = S_i (1 - t)^2/2 + S_(i+1) (1/2 + t - t^2) + S_(i+2) t^2/2,   t = (x - x_i)/pixel
 
@@ -70,6 +70,7 @@ class MeasuredEnvelope:
     @property
     def shape(self) -> str:
         """Shape and widths, in words."""
+        # rows run downward in the image and upward on the surface: the azimuth changes its sign
         first, second = (format_quantity(self.pixel * each, "m") for each in self.measured.widths)
         turned = f"{-np.degrees(self.measured.azimuth):.3g} deg from x"
         diameter = format_quantity(2.0 * self.radius, "m")
@@ -79,16 +80,17 @@ class MeasuredEnvelope:
     def quality(self) -> str:
         """Size, background, noise and saturation of the image, in words."""
         rows, columns = self.pixels.shape
-        told = (
+        text = (
             f"{columns} x {rows} pixels of {format_quantity(self.pixel, 'm')}, background "
             f"{100.0 * self.measured.background:.3g} % and noise "
             f"{100.0 * self.measured.noise:.2g} % of the highest pixel"
         )
-        return f"{told}; {self.saturated} pixels look saturated" if self.saturated else told
+        return f"{text}; {self.saturated} pixels look saturated" if self.saturated else text
 
     @cached_property
     def _tables(self) -> dict[tuple[bool, bool], Array]:
         """Pixels, rows upward, with zeros around; summed along x, y, or both."""
+        # a border of zeros ends the bilinear function outside the image
         plain = np.pad(self.pixels[::-1], 1)
         tables = {}
         for along_x in (False, True):
@@ -99,24 +101,27 @@ class MeasuredEnvelope:
                 tables[along_x, along_y] = table
         return tables
 
-    def _places(self, corner: Array) -> Array:
-        """Places (2, n) [m] from the axis, in pixels of the padded table, rows upward."""
+    def _positions(self, corner: Array) -> Array:
+        """Positions (2, n) [m] from the axis, in pixels of the padded table, rows upward."""
+        # the centroid in the padded table, whose rows are turned over
         column, row = self.measured.center
         origin = np.array([column + 1.0, self.pixels.shape[0] - row])
         return corner / self.pixel + origin[:, None]
 
     def at(self, x: ArrayLike, y: ArrayLike) -> Array:
-        """g at places relative to the axis [m], any shape."""
+        """g at positions relative to the axis [m], any shape."""
         x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-        places = self._places(np.stack([x.ravel(), y.ravel()]))
-        return self._value(places, (False, False)).reshape(x.shape)
+        positions = self._positions(np.stack([x.ravel(), y.ravel()]))
+        return self._value(positions, (False, False)).reshape(x.shape)
 
     def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
         """Mean of g over each cell, shape (n,), exact."""
         low, high = plane_cells(lower, upper, axis)
+        # directions of the surface are integrated; one that is missing takes the value
         is_summed = (lower.shape[0] > 0, lower.shape[0] > 1)
-        low, high = self._places(low), self._places(high)
+        low, high = self._positions(low), self._positions(high)
         means = self._value(high, is_summed)
+        # integral over the cell: D at its corners with alternating signs
         for k in range(lower.shape[0]):
             corner = high.copy()
             corner[k] = low[k]
@@ -125,14 +130,15 @@ class MeasuredEnvelope:
             means = means + self._value(low, is_summed)
         return means / np.prod((high - low)[: lower.shape[0]], axis=0)
 
-    def _value(self, places: Array, is_summed: tuple[bool, bool]) -> Array:
+    def _value(self, positions: Array, is_summed: tuple[bool, bool]) -> Array:
         """The bilinear function, or its integral from below along the summed directions."""
+        # entries around each position and their weights, then the sum of their products
         table = self._tables[is_summed]
         (columns, at_x), (rows, at_y) = (
-            _weights(place, size, summed)
-            for place, size, summed in zip(places, table.shape[::-1], is_summed, strict=True)
+            _weights(position, size, summed)
+            for position, size, summed in zip(positions, table.shape[::-1], is_summed, strict=True)
         )
-        value = np.zeros(places.shape[1])
+        value = np.zeros(positions.shape[1])
         for row, wy in zip(rows, at_y, strict=True):
             for column, wx in zip(columns, at_x, strict=True):
                 value += wy * wx * table[row, column]
@@ -140,18 +146,20 @@ class MeasuredEnvelope:
 
 
 def _sums(table: Array, axis: int) -> Array:
-    """Sums of all entries before each place along an axis, and once more of all."""
+    """Sums of all entries before each position along an axis, and once more of all."""
     total = np.cumsum(table, axis=axis)
     first, last = (np.take(total, [end], axis=axis) for end in (0, -1))
     return np.concatenate([0.0 * first, total, last], axis=axis)
 
 
-def _weights(place: Array, size: int, summed: bool) -> tuple[list[Any], list[Array]]:
+def _weights(position: Array, size: int, summed: bool) -> tuple[list[Any], list[Array]]:
     """Entries of a table along one direction and their weights, see the formula above."""
+    # last entry that has its neighbors; positions outside take the value at the border
     most = size - (3 if summed else 2)
-    place = np.clip(place, 0.0, float(most if summed else most + 1))
-    i = np.minimum(place.astype(np.intp), most)
-    t = place - i
+    position = np.clip(position, 0.0, float(most if summed else most + 1))
+    i = np.minimum(position.astype(np.intp), most)
+    t = position - i
+    # of D above, or of a straight line between two pixels
     weights = [0.5 * (1.0 - t) ** 2, 0.5 + t - t * t, 0.5 * t * t] if summed else [1.0 - t, t]
     return [i + k for k in range(len(weights))], weights
 
@@ -176,17 +184,24 @@ def measured_envelope(file: str, digest: str, pixel: float) -> MeasuredEnvelope:
     highest = float(raw.max())
     if highest <= float(raw.min()):
         raise ValueError("has the same value in all pixels; give the image of a beam")
+    # widths from the moments of the image, with its highest pixel as 1
     measured = beam_widths(raw / highest if highest > 0.0 else raw)
+
+    # the whole beam has to lie in the image
     row_count, column_count = raw.shape
     reach = 0.5 * max(measured.widths)
-    for place, side in zip(measured.center, (column_count, row_count), strict=True):
-        if place - reach < -0.5 or place + reach > side - 0.5:
+    for position, side in zip(measured.center, (column_count, row_count), strict=True):
+        if position - reach < -0.5 or position + reach > side - 0.5:
             raise ValueError(NO_BEAM)
+
+    # subtract the background; what does not stand out of the noise or lies far away is dark
     lit = raw / highest - measured.background
     lit = np.where(stands_out(lit, measured.diameter, measured.noise), np.maximum(lit, 0.0), 0.0)
     y, x = np.mgrid[:row_count, :column_count]
     far = np.hypot(x - measured.center[0], y - measured.center[1])
     lit[far > 0.5 * APERTURE * max(measured.widths)] = 0.0
+
+    # many pixels at one value in whole numbers: the camera has reached its end
     at_end = int(np.sum(raw == highest))
     is_saturated = bool(np.all(raw == np.round(raw))) and at_end > SATURATED * measured.diameter**2
     return MeasuredEnvelope(lit / lit.max(), pixel, measured, at_end if is_saturated else 0)
@@ -222,6 +237,7 @@ def _picture(file: Path) -> Array:
             pixels = np.asarray(image, float)
     except (UnidentifiedImageError, Image.DecompressionBombError, SyntaxError, TypeError):
         raise ValueError("cannot be read as an image; export it as gray PNG or TIFF") from None
+    # color channels that are all alike are gray; a channel of opacity is left out
     if pixels.ndim == 3:
         gray = pixels[..., :3] if pixels.shape[2] >= 3 else pixels[..., :1]
         if np.ptp(gray, axis=2).any():
@@ -233,6 +249,7 @@ def _picture(file: Path) -> Array:
 def _table(file: Path) -> Array:
     text = file.read_text(encoding="utf-8-sig", errors="replace")
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    # the first mark in the first line separates the columns
     between = next((mark for mark in ";\t," if lines and mark in lines[0]), None)
     try:
         rows = [[float(each) for each in line.rstrip(";,\t ").split(between)] for line in lines]

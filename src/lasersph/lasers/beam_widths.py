@@ -9,10 +9,10 @@ until they stay.
 
 Noise is what the norm leaves open: second moments weight it with the square of the distance, and
 2 % of it in the rectangle changes the width of a beam 64 pixels wide by 2 %. So the image is split
-into the Gaussian that fits it best, whose moments are exact, and the rest, which counts where its
-mean over a neighborhood, or over a ring around the Gaussian, stands out of the noise. What an image
-without noise gives stays the same; with 2 % of noise a flat top 60 pixels wide is given 1.4 % too
-wide, two spots side by side 6 %.
+into the Gaussian that fits it best, whose moments are exact, and the remainder, which counts where
+its mean over a neighborhood, or over a ring around the Gaussian, stands out of the noise. What an
+image without noise gives stays the same; with 2 % of noise a flat top 60 pixels wide is given 1.4 %
+too wide, two spots side by side 6 %.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ NO_BEAM = (
 
 @dataclass(frozen=True)
 class BeamWidths:
-    """What the moments of an image say; lengths in pixels.
+    """Numbers that follow from the moments of an image; lengths in pixels.
 
     Attributes:
         center: column and row of the centroid. widths: along the principal axes, the first the one
@@ -73,14 +73,17 @@ def beam_widths(image: Array) -> BeamWidths:
     Raises:
         ValueError: no whole beam stands out of the noise.
     """
+    # large images: means over tiles, and the result in pixels of the image
     binned = int(np.ceil(max(image.shape) / MOST_PIXELS))
     if binned > 1:
         rows, columns = (binned * (side // binned) for side in image.shape)
         tiles = image[:rows, :columns].reshape(rows // binned, binned, columns // binned, binned)
         coarse = beam_widths(tiles.mean(axis=(1, 3)))
-        x, y = (binned * (place + 0.5) - 0.5 for place in coarse.center)
+        x, y = (binned * (position + 0.5) - 0.5 for position in coarse.center)
         a, b = (binned * width for width in coarse.widths)
         return BeamWidths((x, y), (a, b), coarse.azimuth, coarse.background, binned * coarse.noise)
+
+    # first guess: the background of the corners, and what exceeds half of the highest mean
     outside = _corners(image.shape)
     center, moments = _first_guess(image, outside)
     last = 0.0
@@ -89,6 +92,7 @@ def beam_widths(image: Array) -> BeamWidths:
         lit = image - background
         center, moments = _moments(lit, center, moments, noise, int(outside.sum()))
         widths, azimuth = _principal(moments)
+        # the rectangle of three widths gives the next background, until the widths stay
         aperture = _rectangle(image.shape, center, widths, azimuth)
         if np.mean(~aperture) > LEAST_OUTSIDE:
             outside = ~aperture
@@ -102,6 +106,7 @@ def stands_out(lit: Array, width: float, noise: float) -> NDArray[np.bool_]:
     """Pixels around which the local mean of `lit` differs from 0 by more than noise does."""
     from scipy.ndimage import uniform_filter  # takes as long to load as all else of a case
 
+    # a mean over side^2 pixels scatters side times less than a pixel
     side = max(3, int(NEIGHBORHOOD * width))
     mean = np.asarray(uniform_filter(lit, side, mode="constant"))
     return np.abs(mean) > STANDS_OUT * noise / side
@@ -109,11 +114,12 @@ def stands_out(lit: Array, width: float, noise: float) -> NDArray[np.bool_]:
 
 def _corners(shape: tuple[int, ...]) -> NDArray[np.bool_]:
     """Pixels in the corners of an image."""
+    # strips at both ends of each side; where they cross are the corners
     ends = []
     for side in shape:
-        place = np.arange(side)
+        position = np.arange(side)
         deep = max(1, round(CORNER * side))
-        ends.append((place < deep) | (place >= side - deep))
+        ends.append((position < deep) | (position >= side - deep))
     return ends[0][:, None] & ends[1][None, :]
 
 
@@ -133,6 +139,7 @@ def _weighted(weight: Array, center: Array | None = None) -> tuple[float, Array,
     first moments replace the centroid, and both are sums."""
     y, x = np.mgrid[: weight.shape[0], : weight.shape[1]]
     total = float(weight.sum())
+    # moments about the centroid, both over the sum of the weights
     if center is None:
         middle = np.array([(weight * x).sum(), (weight * y).sum()]) / total
         return total, middle, _weighted(weight, middle)[2] / total
@@ -150,6 +157,7 @@ def _moments(
     y, x = np.mgrid[: lit.shape[0], : lit.shape[1]]
     power, distance = 0.0, np.zeros(lit.shape)
     for _ in range(ROUNDS):
+        # neither negative nor larger than the image
         is_beam = np.linalg.det(moments) > 0.0 < np.trace(moments) < max(lit.shape) ** 2
         if power < 0.0 or not is_beam:
             raise ValueError(NO_BEAM)
@@ -163,17 +171,21 @@ def _moments(
         moments = 2.0 * half
         if change < SAME_WIDTH:
             break
+
+    # what the fitted Gaussian leaves counts where a neighborhood or a ring stands out of the noise
     area = 2.0 * np.pi * float(np.sqrt(np.linalg.det(moments)))
     height = 2.0 * power / area
-    rest = lit - height * np.exp(-0.5 * distance**2)
+    remainder = lit - height * np.exp(-0.5 * distance**2)
     widths, azimuth = _principal(moments)
     ring = (distance / RING).astype(int)
-    size, total = np.bincount(ring.ravel()), np.bincount(ring.ravel(), rest.ravel())
-    counts = stands_out(rest, float(np.mean(widths)), noise)
+    size, total = np.bincount(ring.ravel()), np.bincount(ring.ravel(), remainder.ravel())
+    counts = stands_out(remainder, float(np.mean(widths)), noise)
     error = noise * np.sqrt(size * (1.0 + size / dark))
     counts |= (np.abs(total) > STANDS_OUT * error)[ring]
     counts &= _rectangle(lit.shape, center, widths, azimuth)
-    left, first, second = _weighted(np.where(counts, rest, 0.0), center)
+
+    # moments of both together, about their common centroid (parallel axes)
+    left, first, second = _weighted(np.where(counts, remainder, 0.0), center)
     total = height * area + left
     offset = first / total
     return center + offset, (height * area * moments + second) / total - np.outer(offset, offset)
@@ -182,8 +194,10 @@ def _moments(
 def _principal(moments: Array) -> tuple[tuple[float, float], float]:
     """Widths along the principal axes, and the azimuth of the first [rad]."""
     (xx, xy), (_, yy) = moments
+    # g sqrt((s_xx - s_yy)^2 + 4 s_xy^2), see above
     root = float(np.hypot(xx - yy, 2.0 * xy)) * (1.0 if xx >= yy else -1.0)
     azimuth = 0.5 * float(np.arctan2(2.0 * xy, xx - yy)) if xx != yy or xy else 0.0
+    # the first axis is the one nearer to the columns' direction
     if xx < yy:
         azimuth -= 0.5 * np.pi * np.sign(azimuth or 1.0)
     first, second = (np.sqrt(max(8.0 * (xx + yy + sign * root), 0.0)) for sign in (1.0, -1.0))

@@ -33,6 +33,7 @@ def plane_cells(lower: Array, upper: Array, axis: Array) -> tuple[Array, Array]:
     surface does not have become points at 0.
     """
     low, high = (np.zeros((2, corner.shape[1])) for corner in (lower, upper))
+    # directions that the surface lacks stay points at 0
     low[: lower.shape[0]], high[: upper.shape[0]] = lower, upper
     return low - axis[:, None], high - axis[:, None]
 
@@ -81,12 +82,14 @@ class TopHatBeam(Model):
         """Share of each cell inside the circle, shape (n,), exact in every dimension."""
         low, high = plane_cells(lower, upper, axis)
         low, high = low / self.radius, high / self.radius
+        # a point, a chord of the circle, or an area
         if lower.shape[0] == 0:
             return (low[0] ** 2 + low[1] ** 2 <= 1.0).astype(float)
         if lower.shape[0] == 1:
             chord = np.sqrt(np.maximum(0.0, 1.0 - low[1] ** 2))
             inside = np.clip(high[0], -chord, chord) - np.clip(low[0], -chord, chord)
             return inside / (high[0] - low[0])
+        # four rectangles from the center, with alternating signs
         inside = (
             _disc_area(high[0], high[1])
             - _disc_area(low[0], high[1])
@@ -139,6 +142,7 @@ class GaussianBeam(Model):
     @property
     def radius(self) -> float:
         """w [m], the radius at 1/e^2."""
+        # w of whichever width is given; at half maximum exp(-2 r^2 / w^2) = 1/2
         if self.radius_1e2 is not None:
             return self.radius_1e2
         if self.diameter_1e2 is not None:
@@ -169,6 +173,7 @@ class GaussianBeam(Model):
         low, high = low * np.sqrt(2.0) / self.radius, high * np.sqrt(2.0) / self.radius
         mean = np.ones(lower.shape[1])
         for k in range(2):
+            # mean over the cell's extent, or the value where the direction is missing
             if k < lower.shape[0]:
                 integral = 0.5 * np.sqrt(np.pi) * (erf(high[k]) - erf(low[k]))
                 mean = mean * integral / (high[k] - low[k])

@@ -39,12 +39,14 @@ def fluence_maps(laser: Laser) -> list[FluenceMap]:
     """
     maps, beam = [], laser.beam
     if isinstance(beam, InterferenceBeam):
+        # a pattern without a period along x is drawn over some of its changes
         x = beam.lateral_period or beam.lateral_period_y or PERIODS * np.pi * beam.scale
         low, high, shape = _pixels(PERIODS * x, PERIODS * (beam.lateral_period_y or x))
         means = laser.unit_fluence * beam.cell_means(low, high, np.zeros(2))
         maps.append(_map(low, high, means.reshape(shape), "pattern"))
     if laser.spot is not None or beam.area is not None:
         local = laser.spot_fluence
+        # the envelope scaled to the energy of the pulse, and the pattern on it
         low, high, shape = _pixels(*(2 * (DIAMETERS * local.diameter,)))
         means = (
             local.energy / local.envelope.area * local.envelope.cell_means(low, high, np.zeros(2))

@@ -86,6 +86,7 @@ class Wave(Model):
         azimuth, across = self.polarization, self.direction()
         if isinstance(azimuth, str):  # of the half plane of azimuths from 0 to 180 deg
             azimuth = self.azimuth % np.pi + (0.5 * np.pi if azimuth == "s" else 0.0)
+        # the part of the direction that is perpendicular to the wave, of length 1
         along = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
         across = along - (along @ across) * across
         return self.amplitude * across / np.linalg.norm(across)
@@ -145,6 +146,7 @@ class InterferenceBeam(Model):
     def _check_form(self) -> InterferenceBeam:
         given = {n for n in ("period", "wavelength", "angle") if getattr(self, n) is not None}
         given |= {"waves"} if self.waves else set()
+        # exactly these sets of keys fix wavenumber and directions
         forms = (
             {"period"},
             {"wavelength", "angle"},
@@ -160,6 +162,7 @@ class InterferenceBeam(Model):
             )
         if len(self.waves) == 1:
             raise ValueError("one wave alone does not interfere; give two or more in waves")
+        # parallel fields and fields of a known direction do not mix
         polarized = [wave.polarization is not None for wave in self.waves]
         if any(polarized) and not all(polarized):
             raise ValueError(
@@ -195,6 +198,7 @@ class InterferenceBeam(Model):
                     )
                 )
             return
+        # sin(theta/2) = q wavelength / (2 pi) has to be below 1
         sine = self._along_surface * self.wavelength / (2.0 * np.pi)
         if sine >= 1.0:
             least = PERIOD_TIMES_Q[self.count] * self.wavelength / (2.0 * np.pi)
@@ -278,6 +282,7 @@ class InterferenceBeam(Model):
             return np.ones(1), np.array([[2.0 * np.pi / self.lateral_period], [0.0]]), np.zeros(1)
         k, waves = self._arrangement
         total = sum(wave.amplitude**2 for wave in waves)
+        # f is 1 and one cosine for each pair of waves
         pairs = list(combinations(waves, 2))
         c = np.array([2.0 * float(a.field() @ b.field()) / total for a, b in pairs])
         K = np.array([k * (a.direction() - b.direction())[:2] for a, b in pairs]).T
@@ -311,6 +316,7 @@ class InterferenceBeam(Model):
         c = self.terms[0]
         if c.size == 1:
             return float(1.0 - np.abs(c[0])), float(1.0 + np.abs(c[0]))
+        # three waves or more: search one unit cell, if there is one
         sides = np.array([self.lateral_period or 0.0, self.lateral_period_y or 0.0])
         varies = np.any(self.terms[1] != 0.0, axis=1)
         if np.any(varies & (sides == 0.0)):

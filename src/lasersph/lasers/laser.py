@@ -103,6 +103,7 @@ class Laser(Model):
             line = f"write e.g. {example} (one of {', '.join(AMOUNTS)})"
             hint = f"leave all but one of {got} out" if given else line
             raise ValueError(f"a laser needs one statement of its energy, got {got}; {hint}")
+        # a power says nothing without the time for which the light is on
         name = given[0]
         if name in ("intensity", "power") and self.pulse.on_time is None:
             raise ValueError(
@@ -212,6 +213,7 @@ class Laser(Model):
     def _center_fluence(self) -> float:
         """The fluence of one pulse where f and g are 1 [J/m^2]."""
         on_time, area = self.pulse.on_time, self.area
+        # F from whichever of the four amounts is given, see the table above
         if self.pulse_energy is not None and area is not None:
             return self.pulse_energy / area
         if self.power is not None and area is not None and on_time is not None:
@@ -274,6 +276,7 @@ class Laser(Model):
         """Whether the light is symmetric about x = 0 at all times."""
         if isinstance(self.beam, UniformBeam) and not self.is_bounded:
             return True
+        # nothing is known of the symmetry of a measured spot
         is_measured = self.spot is not None and self.spot.image is not None and self.is_bounded
         is_centered = self.path is None and self.position[0] == 0.0 and not is_measured
         return is_centered and (not isinstance(self.beam, InterferenceBeam) or self.beam.is_even)
@@ -323,6 +326,7 @@ class Laser(Model):
         """
         low, high = np.asarray(lower, float), np.asarray(upper, float)
         if isinstance(self.beam, InterferenceBeam) and self.beam.shift:
+            # each pulse of a shifted pattern by its own share
             shares = self.pulse.shares(t0, t1)
             total = np.zeros(low.shape[1])
             for number in np.flatnonzero(shares):
@@ -330,6 +334,7 @@ class Laser(Model):
                 total += shares[number] * self.beam.cell_means(low, high, axis)
             return self.unit_fluence * total
         if self.path is None:
+            # a beam that rests: exact means times the exact share of the pulse
             share = float(self.pulse.delivered(t0, t1))
             if share == 0.0:
                 return np.zeros(low.shape[1])

@@ -77,12 +77,14 @@ def path_quadrature(
     Args:
         corners: times at which the path turns [s]. scale: size of the beam [m].
     """
+    # Gauss-Legendre nodes of all panels, weighted by the power there
     start, end = _panels(pulse, axis, corners, scale, t0, t1)
     half = 0.5 * (end - start)[:, None]
     times = start[:, None] + half * (PANEL_NODES + 1.0)
     tiny = 1e-6 * half
     power = np.maximum(pulse.delivered(times - tiny, times + tiny), 0.0) * PANEL_WEIGHTS
     sums = power.sum(axis=1, keepdims=True)
+    # scaled to the exact energy of each panel; even where no node meets light
     even = np.broadcast_to(0.5 * PANEL_WEIGHTS, power.shape)
     weights = np.divide(power, sums, out=even.copy(), where=sums > 0.0)
     shares = weights * pulse.delivered(start, end)[:, None]
@@ -93,11 +95,13 @@ def _panels(
     pulse: Pulse, axis: Axis, corners: Array, scale: float, t0: float, t1: float
 ) -> tuple[Array, Array]:
     """Starts and ends of panels between breakpoints, short against pulse and beam size."""
+    # no panel crosses a jump of the power or a corner of the path
     marks = np.concatenate([pulse.breakpoints(t0, t1), corners])
     edges = np.unique(np.concatenate([[t0, t1], marks[(marks > t0) & (marks < t1)]]))
     cuts = [np.empty((2, 0))]
     for a, b in pairwise(edges):
         if float(pulse.delivered(a, b)) > 0.0:
+            # the beam moves at most half its size in a panel, and the pulse changes little
             distance = float(np.linalg.norm(axis(b) - axis(a)))
             longest = max(2.0 * distance / scale, (b - a) / (20 * pulse.resolution))
             parts = np.linspace(a, b, max(1, int(np.ceil(longest))) + 1)

@@ -25,7 +25,7 @@ FWHM_PER_SIGMA = float(2.0 * np.sqrt(2.0 * np.log(2.0)))
 
 
 class PulseTrain(Model, ABC):
-    """What all pulse shapes share: repetition, and the sums over the repetitions.
+    """Repetition of any pulse shape, and the sums over the repetitions.
 
     A shape supplies `window` (first and last time at which its first pulse counts as light),
     `support` (the times outside which it delivers nothing) and `share_until`.
@@ -95,6 +95,7 @@ class PulseTrain(Model, ABC):
         first, last = self.support
         if self.count == 1:
             return self.share_until(time)
+        # pulses that are over count as 1, those under way by their share
         done = np.clip(np.floor((time - last) / self._step) + 1.0, 0.0, self.count)
         total = done.copy()
         for ahead in range(int(np.ceil((last - first) / self._step)) + 1):
@@ -120,6 +121,7 @@ class PulseTrain(Model, ABC):
         if self.count == 1:
             marks = self._first_marks
             return marks[(marks >= start) & (marks <= end)]
+        # only the pulses that reach into [start, end]
         marks = self._marks()
         low = max(0, int(np.floor((start - marks[-1]) / self._step)))
         high = self.count
@@ -141,6 +143,7 @@ class PulseTrain(Model, ABC):
         on, off = self.window
         if self.count == 1:
             return start < off and end > on
+        # the first pulse that is not over at `start`
         first = max(0.0, np.floor((start - off) / self._step) + 1.0)
         return bool(first < self.count and end > on + first * self._step)
 
@@ -253,6 +256,7 @@ class TabulatedPulse(PulseTrain):
             raise ValueError(
                 f"the table begins at {format_quantity(times[0], 's')}; times must not be negative"
             )
+        # two rows at one time are a jump
         if np.any(np.diff(times) < 0.0) or np.any(times[2:] == times[:-2]):
             raise ValueError(
                 "the times of a pulse table must rise from row to row; two rows at one time make "
@@ -260,6 +264,7 @@ class TabulatedPulse(PulseTrain):
             )
         if not self.on_time > 0.0:
             raise ValueError("a pulse table of zeros holds no energy; give a power above 0")
+        # pulses of a train do not overlap
         if self._step < times[-1] - times[0]:
             raise ValueError(
                 f"the table spans {format_quantity(times[-1] - times[0], 's')}, longer than the "
@@ -271,6 +276,7 @@ class TabulatedPulse(PulseTrain):
     def _columns(self) -> tuple[Array, Array, Array]:
         """Times, powers and the integral of the power up to each time."""
         time, power = np.array(self.table, float).T
+        # trapezoids, exact for a piecewise linear power
         area = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(time))])
         return time, power, area
 
@@ -295,6 +301,7 @@ class TabulatedPulse(PulseTrain):
     def share_until(self, time: Array) -> Array:
         """Share of the first pulse's energy delivered until each time."""
         nodes, power, area = self._columns
+        # energy up to the node before, and the trapezoid from there
         k = np.clip(np.searchsorted(nodes, time, side="right") - 1, 0, nodes.size - 2)
         width = nodes[k + 1] - nodes[k]
         part = np.clip(time - nodes[k], 0.0, width)

@@ -40,6 +40,7 @@ class ReflectivityTable(Model):
     def nodes(self) -> tuple[Array, Array]:
         """Strictly rising temperatures [K] and reflectivities, a jump drawn over 1 mK below it."""
         T, R = np.array(self.table, float).T
+        # interpolation needs rising nodes: a jump is a steep line
         T[:-1][np.diff(T) == 0.0] -= JUMP_WIDTH
         return T, R
 
@@ -66,6 +67,7 @@ def reflectivity_nodes(
     Raises:
         ValueError: nothing is given and the material has no reflectivity.
     """
+    # the case's own table or number goes before the material's
     if isinstance(given, ReflectivityTable):
         return given.nodes()
     if given is not None:

@@ -119,6 +119,7 @@ class Spot(Model):
                 "the diameter of a spot may be that where 1/e^2 or half of the peak is left, or "
                 'of a top hat; write definition = "1/e^2", "fwhm" or "top-hat"'
             )
+        # a whole spot has no place for a cell
         if self.extent == "whole" and self.place != (0.0, 0.0):
             raise ValueError("place says where a cell lies in the spot; leave it out for a whole")
         if self.shift is not None and self.scan_speed is not None:
@@ -132,11 +133,12 @@ class Spot(Model):
         if not isinstance(data, dict) or not isinstance(data.get("image"), str):
             return data
         folder = (info.context or {}).get("folder", Path())
+        # relative to the case file
         file = str((Path(folder) / Path(data["image"]).expanduser()).absolute())
         try:
             return {"image_digest": digest_of(file), **data, "image": file}
         except OSError:
-            return data | {"image": file}  # told with the reason where it is read
+            return data | {"image": file}  # reported with the reason where it is read
 
     def _check_image(self) -> None:
         """Whether the image can be read and shows a beam."""
@@ -147,6 +149,7 @@ class Spot(Model):
             raise refusal(("pixel_size", 'missing; write e.g. pixel_size = "1.2 um"'))
         assert self.image is not None
         try:
+            # a case stands for one content of the image: another one would be another case
             if digest_of(self.image) != self.image_digest:
                 raise ValueError("has changed since its digest was taken; leave image_digest out")
             _ = self.envelope
@@ -162,6 +165,7 @@ class Spot(Model):
         if self.image is not None and self.pixel_size is not None:
             return measured_envelope(self.image, self.image_digest, self.pixel_size)
         assert self.diameter is not None
+        # a Gaussian of the width where half or 1/e^2 of its peak is left
         if self.definition == "top-hat":
             return TopHatBeam(radius=0.5 * self.diameter)
         if self.definition == "fwhm":

@@ -72,7 +72,7 @@ def test_on_every_backend(backend):
     moved[:, 0] += [0.5 * 625e-9, -0.5 * 625e-9]
     position, count = backend.asarray(moved), x.size
     columns.find(position, backend.asarray(light_rows(moved), "index"))
-    light.follow(position, backend.asarray(-moved[1]), columns)
+    light.distribute(position, backend.asarray(-moved[1]), columns)
     total = light.absorb(solver.particles["temperature"])
     deposit = backend.to_host(light.deposit)
     assert deposit.shape == (count,) and deposit.sum() == pytest.approx(total, rel=1e-5)

@@ -268,7 +268,7 @@ class MeltPool:
         if light.incident == 0.0 and exchange.is_idle:
             return
         if not self.domain.block_layers:  # nothing has moved
-            light.rest()
+            light.reset()
             exchange.rest()
             return
         self.domain.find_depth(self.position, self._depth)
@@ -279,7 +279,7 @@ class MeltPool:
         columns.find(self.position, backend.rows_where(mark, 1.0), stretch)
         exchange.follow(columns)
         volume = fields["V"] if self.domain.surface_moves else None
-        light.follow(self.position, self._depth, columns, volume)
+        light.distribute(self.position, self._depth, columns, volume)
 
     def _surface_step(self, position: Array, step: float) -> SurfaceStep:
         """What the surface reads of the particles in a step [s]."""

@@ -50,7 +50,7 @@ def _surface(solver: Ablation, count: int) -> np.ndarray:
     """Particles that the light meets; without light those of the free surface, or the first."""
     backend = solver.backend
     if solver.light is not None:
-        found = backend.look(solver.light.rows).astype(np.int64)
+        found = backend.look(solver.light.hit).astype(np.int64)
         found = found[found < count]
     else:
         found = np.flatnonzero(backend.look(solver.surface.at_surface)[:count])
