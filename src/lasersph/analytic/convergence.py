@@ -41,7 +41,7 @@ ROUNDING = 1e-12
 
 @dataclass(frozen=True)
 class Convergence:
-    """What three or more spacings say about one number.
+    """Convergence of one number over three or more spacings.
 
     kind: "converging" (the changes shrink, same sign), "oscillating" (their sign alternates),
     "diverging" (they grow), "stepped" (two neighbors agree to rounding and the third differs, as
@@ -79,6 +79,7 @@ def _apparent_order(fine: float, coarse: float, spacings: Sequence[float]) -> fl
     """
     log_change = math.log(abs(coarse / fine))
     log_fine, log_coarse = (math.log(spacings[k + 1] / spacings[k]) for k in (0, 1))
+    # equal ratios: the order in closed form
     if math.isclose(log_fine, log_coarse, rel_tol=1e-9):
         return log_change / log_fine
     sign = math.copysign(1.0, coarse / fine)
@@ -87,6 +88,7 @@ def _apparent_order(fine: float, coarse: float, spacings: Sequence[float]) -> fl
         ratio = (math.exp(p * log_coarse) - sign) / (math.exp(p * log_fine) - sign)
         return p * log_fine + math.log(ratio) - log_change
 
+    # bisection for the root of eq. (3)
     low, high = 0.05, 20.0
     if excess(low) > 0.0 or excess(high) < 0.0:
         return math.nan
@@ -119,10 +121,13 @@ def assess(values: Sequence[float], spacings: Sequence[float]) -> Convergence:
     Raises:
         ValueError: fewer than three results, or two equal spacings.
     """
+    # the three finest, f1 first
     pairs = sorted(zip(spacings, values, strict=True))[:3]
     spacing, value = [d for d, _ in pairs], [v for _, v in pairs]
     order = observed_order(value, spacing)
     fine, coarse = value[1] - value[0], value[2] - value[1]
+
+    # changes of the size of rounding have no order
     smallest = ROUNDING * max(abs(v) for v in value)
     is_level = [abs(change) <= smallest for change in (fine, coarse)]
     if all(is_level):
@@ -131,6 +136,7 @@ def assess(values: Sequence[float], spacings: Sequence[float]) -> Convergence:
     if any(is_level):
         kind, order, uncertainty = "stepped", math.nan, max(value) - min(value)
     else:
+        # kind by sign and size of the two changes
         uncertainty = _uncertainty(fine, ratio, _apparent_order(fine, coarse, spacing))
         if fine * coarse < 0.0:
             kind = "oscillating"
@@ -145,6 +151,7 @@ def assess(values: Sequence[float], spacings: Sequence[float]) -> Convergence:
 
 def _uncertainty(change: float, ratio: float, order: float) -> float:
     """Grid convergence index of a change, in its unit, with the order kept to what is credible."""
+    # p between 1/2 with F_s = 3, where it is not to be trusted, and 2
     largest = grid_convergence_index(change, ratio, LEAST_ORDER, SAFETY_FACTOR_WITHOUT_ORDER)
     if math.isnan(order) or order <= 0.0:
         return largest

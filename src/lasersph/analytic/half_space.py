@@ -56,6 +56,7 @@ def ablated_depth(
         absorbed: fluence F of the pulse [J/m^2]. duration: t [s]. rise: up to the boiling point
             dT [K]. latent_heat: L of melting and evaporation [J/kg].
     """
+    # what is left of the fluence after conduction heats and evaporates the depth
     heat = density * heat_capacity * rise
     conducted = heat * float(np.sqrt(4.0 * diffusivity * duration / np.pi))
     return max(0.0, absorbed - conducted) / (heat + density * latent_heat)
@@ -81,8 +82,10 @@ def step_rise(
             None heats the whole surface.
     """
     depth, time = np.broadcast_arrays(np.asarray(depth, float), np.asarray(time, float))
+    # before the switching on any time does: the result is 0 there
     on = time > 0.0
     root = 2.0 * np.sqrt(diffusivity * np.where(on, time, 1.0))
+    # on the axis of a disc: less what an endless surface adds from beyond its rim
     shape = ierfc(depth / root)
     if disc_radius is not None:
         shape = shape - ierfc(np.hypot(depth, disc_radius) / root)
@@ -162,6 +165,7 @@ def _superpose(step, depth, time, pulse_duration, off_time, count, **properties)
     """Sum of steps switched on at each pulse's start and off at its end."""
     time = np.asarray(time, float)
     total = np.zeros(np.broadcast_shapes(np.shape(depth), time.shape))
+    # a pulse is a step on at its start less the same step from its end
     for start in np.arange(count) * (pulse_duration + off_time):
         total = total + step(depth, time - start, **properties)
         total = total - step(depth, time - start - pulse_duration, **properties)

@@ -36,7 +36,7 @@ comparison with 80 nodes."""
 
 @dataclass(frozen=True)
 class Drive:
-    """What acts on the surface, each times cos kx, from `start` to `end` [s].
+    """Loads on the surface, each times cos kx, from `start` to `end` [s].
 
     Args:
         temperature: A [K]. pressure: p_e [Pa]. mass_flux: m [kg/(m^2 s)].
@@ -119,27 +119,32 @@ class LiquidFilm:
     def _in_time(self, times, drive, initial, of):
         drive, times = drive or Drive(), np.asarray(times, float)
         frequency, diffusion = self.natural_frequency, self.viscosity / self.density
+        # a film whose viscosity damps the first wave does not swing
         is_wave = frequency > diffusion * (0.5 * np.pi / self.depth) ** 2
         if is_wave and frequency * np.max(times, initial=0.0) > LARGEST_PHASE:
             raise ValueError(f"times must be at most {LARGEST_PHASE / frequency:.3g} s")
-        found = np.zeros(times.shape)
-        for begin, sign in ((drive.start, 1.0), (drive.end, -1.0)):
-            late = times > begin
-            s, weights = talbot(times[late] - begin)
+        values = np.zeros(times.shape)
+
+        # a drive that ends: the same drive from its start, less that from its end
+        for switch, sign in ((drive.start, 1.0), (drive.end, -1.0)):
+            late = times > switch
+            s, weights = talbot(times[late] - switch)
             c, a = self._transform(s.ravel(), drive, 0.0)
-            found[late] += (
+            values[late] += (
                 sign * np.sum(weights * of(s.ravel(), c, a).reshape(s.shape), axis=1).real
             )
+        # the wave at the start by itself, without a drive
         if initial:
             late = times > 0.0
             s, weights = talbot(times[late])
             c, a = self._transform(s.ravel(), Drive(), initial)
-            found[late] += np.sum(weights * of(s.ravel(), c, a).reshape(s.shape), axis=1).real
-        return found
+            values[late] += np.sum(weights * of(s.ravel(), c, a).reshape(s.shape), axis=1).real
+        return values
 
     def _derivatives(self, s: NDArray, z: float) -> list[NDArray]:
         """The four parts of W at z and their first and second derivatives, (nodes, 4) each."""
         k, d = self.wave_number, self.depth
+        # W = c_1 e^(kz) + c_2 e^(-k(z + d)) + c_3 e^(qz) + c_4 e^(-q(z + d))
         q = np.sqrt(k**2 + s * self.density / self.viscosity)
         k = np.full_like(q, k)
         rate = np.stack([k, -k, q, -q], axis=1)
@@ -151,6 +156,7 @@ class LiquidFilm:
         """Coefficients c (nodes, 4) and a (nodes,) of the transform."""
         k, mu, rho = self.wave_number, self.viscosity, self.density
         gamma = self.surface_tension * k**2
+        # rows of the four conditions: W = 0 and W' = 0 at the wall, tangential, normal
         wall, top = self._derivatives(s, -self.depth), self._derivatives(s, 0.0)
         # eta (U' - k W) = tau, with U = -W'/k
         tangential = -mu * (top[2] / k + k * top[0])
@@ -158,18 +164,20 @@ class LiquidFilm:
         pressure = np.where([True, True, False, False], -rho * s[:, None] * top[1] / k**2, 0.0)
         normal = pressure - 2.0 * mu * top[1] - gamma * top[0] / s[:, None]
         tau = -self.surface_tension_slope * k * drive.temperature / s
-        rest = (initial - drive.mass_flux / (rho * s)) / s
-        right = np.stack([0.0 * s, 0.0 * s, tau, drive.pressure / s + gamma * rest], axis=1)
+        prescribed = (initial - drive.mass_flux / (rho * s)) / s
+        right = np.stack([0.0 * s, 0.0 * s, tau, drive.pressure / s + gamma * prescribed], axis=1)
         matrix = np.stack([wall[0], wall[1], tangential, normal], axis=1)
+        # rows of one size, since their units differ by orders of magnitude
         scale = np.max(np.abs(matrix), axis=2)
         c = np.linalg.solve(matrix / scale[:, :, None], (right / scale)[:, :, None])[:, :, 0]
-        return c, np.sum(top[0] * c, axis=1) / s + rest
+        return c, np.sum(top[0] * c, axis=1) / s + prescribed
 
 
 def talbot(times: Array) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
     """Nodes s and weights, (times, nodes): f(t) = Re sum weights F(s) [Trefethen2006]."""
     theta = np.pi * (2.0 * np.arange(NODES) + 1.0) / NODES - np.pi
     a, b = 0.6407, 0.2645
+    # the cotangent contour with the constants of [Trefethen2006] and its derivative
     contour = 0.5017 * theta / np.tan(a * theta) - 0.6122 + 1j * b * theta
     slope = 0.5017 / np.tan(a * theta) - 0.5017 * a * theta / np.sin(a * theta) ** 2 + 1j * b
     s = NODES / np.asarray(times, float)[:, None] * contour

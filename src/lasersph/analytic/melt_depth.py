@@ -107,6 +107,8 @@ def melt_depth(
     curve = _Curve(enthalpy, temperature, potential, melt_fraction)
     if not delivered(0.0, end_time) > 0.0:
         return MeltEstimate(0.0, np.nan, np.nan, float(curve.temperature(0.0)))
+
+    # times of the light, grid in depth, and the columns
     times = _light_times(delivered, end_time)
     light = times[-1] - times[0]
     diffusivity = curve.slope.max() / density
@@ -116,23 +118,29 @@ def melt_depth(
         constant = float(reflectivity)
         reflectivity = lambda T: np.full_like(T, constant)  # noqa: E731
     alpha = absorption_coefficient
+
+    # share of the light in each cell: what is left at its upper face less that at its lower
     left = np.where(faces > 0.0, 0.0, 1.0) if np.isinf(alpha) else np.exp(-alpha * faces)
     left[-1] = 0.0  # the last cell keeps the rest
     absorbed_share = left[:-1] - left[1:]
 
     h = np.zeros((columns.size, faces.size - 1))
     deepest, start, end, hottest = 0.0, np.nan, np.nan, float(curve.temperature(h[0, 0]))
+    # lateral conduction is explicit, stable up to 0.5 width^2 / D
     lateral_limit = np.inf if column_width is None else 0.4 * column_width**2 / diffusivity
     schedule = _Schedule(times, end_time, lateral_limit)
     held, steps = 0.0, []
     now = times[0]
     while now < end_time:
         step = schedule.step(now)
+        # light by the reflectivity of the surface before the step, then one implicit step
         absorbed = columns * (1.0 - reflectivity(curve.temperature(h[:, 0])))
         heat = np.outer(absorbed * delivered(now, now + step), absorbed_share)
         h = block.advance(h, heat, step, curve)
         now += step
         surface = curve.temperature(h[:, 0])
+
+        # what the step has reached: surface, fronts, heat held on the boiling plateau
         hottest = max(hottest, float(surface.max()))
         fronts = _fronts(faces, curve.melt_fraction(h), level)
         steps.append((now, surface, fronts))
@@ -144,6 +152,7 @@ def melt_depth(
             start = now if np.isnan(start) else start
             deepest, end = max(deepest, depth), now
         elif now >= times[-1]:
+            # all has solidified and no light comes any more
             break
     evaporated = float(np.mean(block.evaporated)) / density
     time, temperatures, depths = (np.array(each) for each in zip(*steps, strict=True))
@@ -159,6 +168,7 @@ class _Curve:
     def __init__(self, enthalpy, temperature, potential, melt_fraction):
         h = np.asarray(enthalpy, float)
         potential = _slanted(np.asarray(potential, float))
+        # one node more takes the extended last segment
         far = h[-1] + max(1e3 * (h[-1] - h[0]), FARTHEST)
         self.nodes = np.append(h, far)
         self.columns = {}
@@ -268,6 +278,7 @@ class _Block:
     ) -> Array:
         """Newton's method with a line search; where it cycles (isothermal melting makes theta(h)
         kinked), the step is taken as two halves."""
+        # residual of the balance of energy, lateral heat and light from the start of the step
         capacity = self.mass / step
         gain = heat / step + self._lateral_inflow(curve.potential(h0))
         tolerance = 1e-5 * np.abs(gain).sum() + 1e-9 * np.abs(capacity * h0).sum()
@@ -283,6 +294,7 @@ class _Block:
                 break
             m, surface = self._evaporation_slopes(h, curve)
             change = self._newton_change(curve.potential_slope(h), capacity, r, m, surface)
+            # line search: the first step that lowers the residual
             for damping in (1.0, 0.5, 0.25, 0.1):
                 trial = h + damping * change
                 r = residual(trial)
@@ -291,6 +303,7 @@ class _Block:
             h = trial
         else:
             if halvings > 0:
+                # Newton's method has not converged
                 half = self.advance(h0, 0.5 * heat, 0.5 * step, curve, halvings - 1)
                 return self.advance(half, 0.5 * heat, 0.5 * step, curve, halvings - 1)
         self.evaporated += step * self._evaporation(h, curve)[0]
@@ -301,6 +314,7 @@ class _Block:
         self, slope: Array, capacity: Array, r: Array, m: Array, surface: Array
     ) -> Array:
         """Solve (capacity + outflow slope) change = -r, all columns as one tridiagonal system."""
+        # d(out)/dh of the cell itself, with metal that moves up and the vapor at the surface
         g = self.conductance
         diagonal = capacity + slope * self.outward
         diagonal[:, :-1] += m[:, None]
@@ -328,9 +342,11 @@ class _Schedule:
     def step(self, now: float) -> float:
         k = np.searchsorted(self.times, now * (1.0 + 1e-12), side="right")
         if k < self.times.size:
+            # up to the next time of light, in equal parts within the lateral limit
             wanted = self.times[k] - now
             step = wanted / max(1.0, np.ceil(wanted / self.limit))
         else:
+            # after the light heat spreads ever more slowly
             step = min(1.05 * self.last, self.longest, self.limit)
         self.last = step
         return min(step, self.end - now)
@@ -341,9 +357,11 @@ def _light_times(delivered: Delivered, end_time: float) -> Array:
     grid = np.linspace(0.0, end_time, 4001)
     energy = delivered(0.0, grid)
     share = energy / energy[-1]
+    # from 0.01 % of the energy to 99.99 %
     first = max(int(np.searchsorted(share, 1e-4, side="right")) - 1, 0)
     last = int(np.searchsorted(share, 1.0 - 1e-4, side="left"))
     last = max(last, first + 1)
+    # marks at equal parts of energy and of time, so that pauses of the light have steps too
     progress = 0.5 * (share + (grid - grid[first]) / (grid[last] - grid[first]))
     inside = slice(first, last + 1)
     marks = np.linspace(progress[first], progress[last], 151)
@@ -356,6 +374,7 @@ def _cell_faces(light: float, span: float, alpha: float, diffusivity: float, n: 
     diffused = np.sqrt(diffusivity * light)
     finest = np.clip(0.25 / alpha, 2e-3 * diffused, 0.05 * diffused)
     deepest = 5.0 * np.sqrt(diffusivity * span) + 10.0 / alpha
+    # bisection for the growth with which n cells reach the depth
     low, high = 1.0, 2.0
     for _ in range(60):
         growth = 0.5 * (low + high)

@@ -39,6 +39,7 @@ def couette(y: ArrayLike, time: float, *, gap: float, speed: float, viscosity: f
 def poiseuille(y: ArrayLike, time: float, *, gap: float, force: float, viscosity: float) -> Array:
     """u [m/s] at y [m] after a force per mass [m/s^2] was switched on between walls at rest."""
     y = np.asarray(y, float)
+    # odd modes alone: the flow is symmetric about the middle
     n = 2.0 * np.arange(MODES).reshape((-1,) + (1,) * y.ndim) + 1.0
     decay = np.exp(-viscosity * (n * np.pi / gap) ** 2 * time)
     modes = 4.0 * force * gap**2 / (viscosity * (n * np.pi) ** 3)
@@ -52,6 +53,7 @@ def sheared(
     """u [m/s] at y [m] after a stress [Pa] began to pull the free plane y = gap."""
     y = np.asarray(y, float)
     n = np.arange(MODES).reshape((-1,) + (1,) * y.ndim)
+    # a quarter of a wave more: no stress of the modes at the free plane
     rate = (n + 0.5) * np.pi / gap
     decay = np.exp(-viscosity * rate**2 * time)
     modes = 2.0 * (-1.0) ** n / (gap * rate**2) * np.sin(rate * y) * decay

@@ -37,6 +37,7 @@ def impulse_density(
     alpha = inf deposits in the surface: G = exp(-b^2) / sqrt(pi D s).
     """
     depth, elapsed = np.broadcast_arrays(np.asarray(depth, float), np.asarray(elapsed, float))
+    # a = alpha sqrt(D s), b = z / 2 sqrt(D s); erfcx(x) = exp(x^2) erfc(x)
     root = np.sqrt(diffusivity * elapsed)
     b = depth / (2.0 * root)
     if np.isinf(alpha):
@@ -61,8 +62,10 @@ def impulse_share(depth: ArrayLike, elapsed: ArrayLike, alpha: float, diffusivit
 
 def _mirror_terms(depth: Array, alpha: float, a: Array, b: Array) -> tuple[Array, Array]:
     """exp(a^2 - 2ab) erfc(a - b) and exp(a^2 + 2ab) erfc(a + b) with 2ab = alpha z, no overflow."""
+    # exp(a^2 + 2ab) erfc(a + b) = exp(-b^2) erfcx(a + b)
     damping = np.exp(-(b**2))
     up = damping * erfcx(a + b)
+    # for a < b by erfc(-x) = 2 - erfc(x), so that erfcx has no negative argument
     ahead = damping * erfcx(np.abs(a - b))
     behind = 2.0 * np.exp(np.where(a < b, a**2 - alpha * depth, -np.inf)) - ahead
     return np.where(a < b, behind, ahead), up
@@ -101,11 +104,13 @@ def gaussian_pulse_rise(
     times = np.atleast_1d(np.asarray(time, float))
     rise = np.zeros((times.size, top.size))
     for row, t in enumerate(times):
+        # convolution of the pulse with the decaying mode, at the nodes of the elapsed time
         elapsed, weight = _quadrature(t - center, sigma, diffusivity, absorption_coefficient)
         if elapsed.size == 0:
             continue
         pulse = np.exp(-0.5 * ((t - center - elapsed) / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))
         weight = weight * pulse * np.exp(-(wavenumber**2) * diffusivity * elapsed)
+        # the half-space, or its images in an insulated bottom
         for image_top, image_bottom, sign in _images(top, bottom, thickness, diffusivity, elapsed):
             rise[row] += (
                 sign
@@ -141,6 +146,7 @@ def _impulse_response(top, bottom, elapsed, alpha, diffusivity) -> Array:
     """G at the depths, or its cell mean, shape (elapsed, depths)."""
     if bottom is None:
         return impulse_density(np.abs(top), elapsed, alpha, diffusivity)
+    # mean over a cell: difference of the integral of G, which is odd in z
     above_bottom = np.sign(bottom) * impulse_share(np.abs(bottom), elapsed, alpha, diffusivity)
     above_top = np.sign(top) * impulse_share(np.abs(top), elapsed, alpha, diffusivity)
     return (above_bottom - above_top) / (bottom - top)
@@ -154,6 +160,7 @@ def _images(top, bottom, thickness, diffusivity, elapsed):
     yield top, bottom, 1.0
     if thickness is None:
         return
+    # images further away than heat has come add nothing
     farthest = 14.0 * np.sqrt(diffusivity * elapsed.max()) + 2.0 * thickness
     for n in range(1, int(np.ceil(farthest / (2.0 * thickness))) + 1):
         shift = 2.0 * n * thickness
@@ -170,10 +177,12 @@ def _quadrature(delay: float, sigma: float, diffusivity: float, alpha: float):
     last, first = delay + 9.0 * sigma, max(0.0, delay - 9.0 * sigma)
     if last <= 0.0:
         return np.empty(0), np.empty(0)
+    # panels end at multiples of sigma, and at powers of 1/4 of the longest time
     edges = [e for e in delay + sigma * np.arange(-9.0, 10.0) if first < e < last]
     edges += [last * 0.25**k for k in range(1, 18) if last * 0.25**k > first]
     edges = np.sqrt(np.array(sorted({first, last, *edges})))
     x, w = np.polynomial.legendre.leggauss(20)
+    # s = u^2, ds = 2 u du
     half = 0.5 * np.diff(edges)[:, None]
     u = (edges[:-1, None] + half * (x + 1.0)).ravel()
     return u * u, (half * w).ravel() * 2.0 * u

@@ -38,6 +38,7 @@ def slab_step_rise(
     """
     depth, time = np.broadcast_arrays(np.asarray(depth, float), np.asarray(time, float))
     fourier = diffusivity * np.maximum(time, 0.0) / thickness**2
+    # images at z + 2 n H
     early = np.zeros(depth.shape)
     for n in range(-3, 4):
         early = early + step_rise(
@@ -47,6 +48,7 @@ def slab_step_rise(
             conductivity=conductivity,
             diffusivity=diffusivity,
         )
+    # mean rise, parabola, and decaying modes
     y = 1.0 - depth / thickness
     late = fourier + (3.0 * y**2 - 1.0) / 6.0
     for n in range(1, 8):

@@ -50,12 +50,13 @@ class SteadyRecession:
         """T_s [K]. Raises ValueError where not even the hottest surface carries the flux away."""
         from scipy.optimize import brentq
 
+        # Landau's balance of energy at the surface
         def surplus(T: float) -> float:
             heat = self._sensible(T) + self.melting + self.latent_heat(T)
             return self.mass_flux(T) * heat - self.flux
 
-        found = brentq(surplus, self.melting_temperature, self.hottest, xtol=1e-9)
-        return float(found)  # pyright: ignore[reportArgumentType]  # the root alone, by default
+        root = brentq(surplus, self.melting_temperature, self.hottest, xtol=1e-9)
+        return float(root)  # pyright: ignore[reportArgumentType]  # the root alone, by default
 
     @property
     def speed(self) -> float:
@@ -76,6 +77,7 @@ class SteadyRecession:
     def melt_depth(self) -> float:
         """Depth of the melting point below the surface [m]."""
         hot = self._sensible(self.surface_temperature) + self.melting
+        # exp(-v z / D) takes the enthalpy from that of the surface to that of the liquid at T_m
         front = self._sensible(self.melting_temperature) + self.melting
         return self.thermal_length * float(np.log(hot / front))
 
@@ -83,6 +85,7 @@ class SteadyRecession:
         """Temperature [K] at depths below the surface [m], any shape."""
         z = np.asarray(depth, dtype=float)
         hot = self._sensible(self.surface_temperature) + self.melting
+        # enthalpy in the melt less the latent heat; below the front the solid goes on from T_m
         melt = hot * np.exp(-z / self.thermal_length) - self.melting
         below = (z - self.melt_depth) / self.thermal_length
         solid = self._sensible(self.melting_temperature) * np.exp(-np.maximum(below, 0.0))

@@ -82,6 +82,7 @@ class Melting:
     def front_constant(self) -> float:
         """lambda in s = 2 lambda sqrt(D_l t)."""
         solid = self.solid or self.liquid
+        # C of the equation for lambda, with sqrt(D_l / D_s)
         contrast = np.sqrt(self.diffusivity(self.liquid) / self.diffusivity(solid))
         cooling = (
             solid.conductivity
@@ -112,6 +113,7 @@ class Melting:
         x = self.front_constant
         superheat = self.surface_temperature - self.melting_temperature
         subcooling = self.melting_temperature - self.initial_temperature
+        # error functions between T_s and T_m in the liquid, between T_m and T_0 in the solid
         in_liquid = self.surface_temperature - superheat * erf(
             depth / (2.0 * np.sqrt(d_liquid * time))
         ) / erf(x)

@@ -62,6 +62,7 @@ class TaylorGreen:
     def velocity(self, position: ArrayLike, time: float = 0.0) -> Array:
         """u, w [m/s] at positions x, z (2, n) [m], (2, n)."""
         x, z = self.wave_number * np.asarray(position, float)
+        # the derivatives of a stream function: free of divergence
         u, w = np.sin(x) * np.cos(z), -np.cos(x) * np.sin(z)
         return self.speed * np.exp(-self.decay_rate * time) * np.stack([u, w])
 

@@ -67,6 +67,7 @@ class ThermocapillaryLayer:
         x, z = np.asarray(position, float)
         a, c, d = self._constants()
         sinh, cosh = np.sinh(k * z), np.cosh(k * z)
+        # u = f' sin(k x), w = -k f cos(k x)
         f = c * z * cosh + (d + a * z) * sinh
         slope = (c + k * d) * cosh + a * sinh + k * z * (c * sinh + a * cosh)
         return np.stack([slope * np.sin(k * x), -k * f * np.cos(k * x)])
@@ -82,6 +83,7 @@ class ThermocapillaryLayer:
         """a, c [m/s] and d [m^2/s] of f(z) = c z cosh + (d + a z) sinh."""
         B = self.wave_number * self.depth
         sinh, cosh = np.sinh(B), np.cosh(B)
+        # stress at the surface gives a; no flow at the wall c and d
         a = -self.surface_tension_slope * self.amplitude / (2.0 * self.viscosity)
         c = a * sinh**2 / (sinh * cosh - B)
         return a, c, self.depth * (a - c * cosh / sinh)

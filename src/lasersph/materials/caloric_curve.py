@@ -87,12 +87,14 @@ class CaloricCurve:
         temperature. Raises ValueError above a boiling point at which T is held.
         """
         values = np.asarray(temperature, dtype=np.float64)
+        # above a boiling point that is held no temperature exists
         holds = self.vaporization is not None and self.plateau != "evaporate"
         if holds and np.any(values > self.temperature[-1]):
             raise ValueError(
                 f"no enthalpy belongs to {np.max(values):g} K: the curve holds the boiling "
                 f"temperature of {self.temperature[-1]:g} K (plateau = {self.plateau!r})"
             )
+        # "left" finds the lower end of a plateau; beyond the last rise its segment goes on
         right = np.searchsorted(self.temperature, values, side="left")
         rising = np.flatnonzero(np.diff(self.temperature) > 0.0)
         right = np.clip(right, 1, rising[-1] + 1)
@@ -104,6 +106,7 @@ class CaloricCurve:
     def _linear(self, values: Array, enthalpy: ArrayLike) -> Array:
         """Interpolate node values in h, the end segments continued."""
         h = np.asarray(enthalpy, dtype=np.float64)
+        # the segment around h, the first or last one beyond the ends
         right = np.clip(np.searchsorted(self.enthalpy, h, side="right"), 1, values.size - 1)
         low, high = self.enthalpy[right - 1], self.enthalpy[right]
         share = (h - low) / (high - low)

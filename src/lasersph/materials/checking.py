@@ -81,6 +81,7 @@ def _sources(material: Material) -> list[Finding]:
     laws = (
         law for property_ in material.properties().values() for law in property_.laws().values()
     )
+    # sources of laws, then of single numbers, one text or one for each
     sources = [law.source for law in laws]
     for section in (material.melting, material.vaporization):
         given = section.source if section else ""
@@ -92,6 +93,7 @@ def _sources(material: Material) -> list[Finding]:
 
 def _completeness(material: Material) -> list[Finding]:
     found = []
+    # properties that some solver asks for, and for what
     spectral = material.optics.by_wavelength if material.optics else {}
     for name, purpose in WANTED.items():
         if name not in material.properties() and not (name == "reflectivity" and spectral):
@@ -100,6 +102,8 @@ def _completeness(material: Material) -> list[Finding]:
         found.append(
             Finding("note", "surface_tension_slope", "not given; needed for Marangoni flow")
         )
+
+    # phase changes and optics, likewise
     if material.melting is None:
         found.append(Finding("note", "melting", "not given; the material never melts"))
     if material.vaporization is None:
@@ -118,6 +122,7 @@ def _ranges(material: Material) -> list[Finding]:
     found = []
     for name, property_ in material.properties().items():
         for phase, law in property_.laws().items():
+            # a source that ends short of what a run asks for, or suffices
             needed = _needed(material, name, phase)
             where = name if phase == "all" else f"{name}.{phase}"
             if needed is None:
@@ -134,6 +139,7 @@ def _ranges(material: Material) -> list[Finding]:
 
 def _needed(material: Material, name: str, phase: str) -> tuple[float, float] | None:
     """Temperatures [K] between which a law is evaluated; None where that is not known."""
+    # solid: up to the solidus; liquid: from the liquidus to boiling; one law: all of it
     top = material.vaporization.temperature if material.vaporization else None
     if phase == "solid":
         end = material.solidus or top
@@ -146,6 +152,7 @@ def _needed(material: Material, name: str, phase: str) -> tuple[float, float] | 
 
 def _gaps(law: Law[Any], lower: float, upper: float, unit: str) -> list[str]:
     gaps = []
+    # 2 K: a law that begins at 300 K serves from 298.15 K on
     if law.lower > lower + 2.0:
         value = f"{float(law.at(law.lower)):.4g} {unit}".strip()
         gaps.append(f"below {law.lower:g} K the value there ({value}) is held")
@@ -158,15 +165,18 @@ def _gaps(law: Law[Any], lower: float, upper: float, unit: str) -> list[str]:
 def _consistency(material: Material) -> list[Finding]:
     found = []
     T = material.reference_temperature
+    # a printed diffusivity has to be k / (rho c_p)
     if material.diffusivity is not None:
         printed, own = float(material.at("diffusivity", T)), material.diffusivity_reference
         found.append(_compare("diffusivity", "k / (rho c_p)", own, "m^2/s", printed))
+    # a conductivity for computing beside that of the paper
     if material.conductivity_printed is not None:
         printed, own = (
             float(material.at("conductivity_printed", T)),
             float(material.conductivity_at(T)),
         )
         found.append(_compare("conductivity", "used", own, "W/(m K)", printed))
+    # Dulong-Petit: 3 R per mole
     mass = material.vaporization.molar_mass if material.vaporization else None
     if mass is not None:
         moles = float(material.heat_capacity_at(T)) * mass / GAS_CONSTANT
@@ -186,6 +196,7 @@ def _compare(subject: str, words: str, own: float, unit: str, printed: float) ->
 def _phase_change(material: Material) -> list[Finding]:
     found = []
     vapor, melt = material.vaporization, material.melting
+    # Trouton's rule for boiling, Richards' for melting
     if vapor is not None and vapor.molar_mass is not None:
         trouton = vapor.latent_heat / (vapor.specific_gas_constant * vapor.temperature)
         level: Level = "ok" if 8.0 <= trouton <= 17.0 else "warning"
@@ -196,6 +207,8 @@ def _phase_change(material: Material) -> list[Finding]:
             level = "ok" if 0.7 <= richards <= 2.0 else "warning"
             text = f"L_f / (R_s T_l) = {richards:.2f} (Richards: about 1 for metals)"
             found.append(Finding(level, "melting.latent_heat", text))
+
+    # critical temperature over boiling temperature
     if vapor is not None and vapor.critical_temperature is not None:
         ratio = vapor.critical_temperature / vapor.temperature
         level = "ok" if 1.8 <= ratio <= 4.0 else "warning"
@@ -208,6 +221,7 @@ def _liquid(material: Material) -> list[Finding]:
     if material.solidus is None or material.liquidus is None:
         return []
     found = []
+    # most metals expand on melting
     if material.density.liquid is not None:
         solid = float(material.density.solid_law.at(material.solidus))
         liquid = float(material.density.liquid_law.at(material.liquidus))
@@ -215,6 +229,7 @@ def _liquid(material: Material) -> list[Finding]:
         step = liquid / solid - 1.0
         text = f"liquid {liquid:.0f}, solid {solid:.0f} kg/m^3 at melting ({step:+.1%})"
         found.append(Finding(level, "density", text))
+    # liquid metals: some mPa s
     if material.viscosity is not None:
         eta = float(material.viscosity_at(material.liquidus))
         nu = float(material.kinematic_viscosity_at(material.liquidus))
@@ -224,6 +239,7 @@ def _liquid(material: Material) -> list[Finding]:
             f"(rho = {eta / nu:.0f} kg/m^3)"
         )
         found.append(Finding(level, "viscosity", text))
+    # gamma falls with temperature, but with sulfur or oxygen
     if material.surface_tension is not None or material.surface_tension_slope is not None:
         slope = float(material.surface_tension_slope_at(material.liquidus + 1.0))
         level = "ok" if slope < 0.0 else "warning"

@@ -51,6 +51,7 @@ class Piece:
         self.lower, self.upper = lower, upper
         self.heat_capacity, self.conductivity = heat_capacity, conductivity
         self.melt_fraction = melt_fraction
+        # a segment of the width dT misses the curve by about bend dT^2 / 8 [K]
         samples = np.linspace(lower, upper, 65)
         if upper == lower:
             self._samples, self._count = samples, np.zeros_like(samples)
@@ -59,6 +60,7 @@ class Piece:
         bend = np.abs(np.gradient(c, samples)) / c + np.abs(np.gradient(k, samples)) / k
         flat = float(np.ptp(c)) == 0.0 and float(np.ptp(k)) == 0.0
         density = np.zeros_like(samples) if flat else np.sqrt(bend / 8.0)
+        # integral of the density of cuts up to each sample
         steps = 0.5 * (density[1:] + density[:-1]) * np.diff(samples)
         self._samples, self._count = samples, np.concatenate(([0.0], np.cumsum(steps)))
 
@@ -68,6 +70,7 @@ class Piece:
 
     def nodes(self, tolerance: float) -> Array:
         """Temperatures [K] that cut the piece, ends included."""
+        # cuts at equal parts of that integral: short segments where the curve bends
         cuts = max(1, int(np.ceil(self.demand() / np.sqrt(tolerance))))
         inner = np.interp(
             np.linspace(0.0, self.demand(), cuts + 1)[1:-1], self._count, self._samples
@@ -87,6 +90,7 @@ class CurveBuilder:
     """Collects nodes from T_0 upward; every method continues where the last one ended."""
 
     def __init__(self, initial_temperature: float, pieces: list[Piece]) -> None:
+        # tolerance for which all pieces together take NODE_LIMIT cuts, if that is the larger one
         needed = sum(piece.demand() for piece in pieces)
         self.tolerance = max(TEMPERATURE_TOLERANCE, (needed / NODE_LIMIT) ** 2)
         self.rows: list[Array] = [np.array([[0.0, initial_temperature, 0.0, 0.0, 0.0]])]
@@ -116,6 +120,7 @@ class CurveBuilder:
             self._append(T, np.array([latent_heat]), np.zeros(1), np.ones(1))
             return
         T = piece.nodes(self.tolerance)
+        # sensible and latent heat, both linear in T over the range
         heat = (heat_capacity * width + latent_heat) * np.diff(T) / width
         flow = integral(piece.conductivity, T)
         self._measure(piece, T, np.diff(T), flow)
@@ -123,11 +128,13 @@ class CurveBuilder:
 
     def boiling(self, latent_heat: float) -> None:
         """Add the plateau at T_v and a last flat segment, so that T stays there for any h."""
+        # up to full vaporization, and once more as much for enthalpies beyond
         h, T, P, melt, _ = self.rows[-1][-1]
         for vapor, heat in ((1.0, latent_heat), (1.0, 2.0 * latent_heat)):
             self.rows.append(np.array([[h + heat, T, P, melt, vapor]]))
 
     def _append(self, T: Array, heat: Array, flow: Array, melt: Array) -> None:
+        # continue from the last node
         h, _, P, _, vapor = self.rows[-1][-1]
         columns = (h + np.cumsum(heat), T[1:], P + np.cumsum(flow), melt, np.full(melt.size, vapor))
         self.rows.append(np.column_stack(columns))
@@ -135,10 +142,12 @@ class CurveBuilder:
     def _measure(self, piece: Piece, T: Array, heat: Array, flow: Array) -> None:
         """Distance of the polyline from the integrals at the middle of every segment [K]."""
         middle = 0.5 * (T[1:] + T[:-1])
+        # heat and potential up to the middle of every segment
         halves = np.column_stack((T[:-1], middle)).ravel()
         halves = np.append(halves, T[-1])
         first_heat = integral(piece.heat_capacity, halves)[::2]
         first_flow = integral(piece.conductivity, halves)[::2]
+        # temperature that the polyline gives at the enthalpy of the middle
         line = T[:-1] + first_heat / heat * np.diff(T)
         off = np.abs(line - middle)
         flow_off = np.abs(first_heat / heat * flow - first_flow) / piece.conductivity(middle)
@@ -174,6 +183,7 @@ def build_curve(
         raise ValueError(f'plateau must be "hold", "clip" or "evaporate", got {plateau!r}')
     if initial_temperature <= 0.0:
         raise ValueError(f"the initial temperature must be positive, got {initial_temperature} K")
+    # the curve begins below the first phase change
     boiling = vaporization.temperature if vaporization and holds else None
     top = melting.solidus if melting else boiling
     if top is not None and initial_temperature >= top:
@@ -181,12 +191,16 @@ def build_curve(
             f"the initial temperature {initial_temperature:g} K is not below {top:g} K, "
             f"where {'melting' if melting else 'boiling'} of {name!r} begins"
         )
+
+    # pieces of the solid, of the melting range, of the liquid
     c, k = heat_capacity, conductivity
     end = _end_of_curve(c, k, initial_temperature, melting, vaporization, holds)
     solid_end = melting.solidus if melting else end
     solid = _sensible(c.solid_law, k.solid_law, initial_temperature, solid_end, 0.0)
     mush = _mush(k, melting) if melting else None
     liquid = _sensible(c.liquid_law, k.liquid_law, melting.liquidus, end, 1.0) if melting else []
+
+    # nodes from T_0 upward, phase by phase
     builder = CurveBuilder(initial_temperature, [*solid, *([mush] if mush else []), *liquid])
     for piece in solid:
         builder.sensible(piece)
@@ -195,6 +209,8 @@ def build_curve(
         builder.melting(mush, 0.5 * float(ends[0] + ends[1]), melting.latent_heat)
     for piece in liquid:
         builder.sensible(piece)
+
+    # boiling begins there, whether or not the curve holds it
     start = builder.enthalpy_at_temperature(vaporization.temperature) if vaporization else None
     if holds and vaporization is not None:
         builder.boiling(vaporization.latent_heat)
@@ -225,6 +241,7 @@ def _end_of_curve(
     if holds and vaporization is not None:
         return vaporization.temperature
     laws = (c.liquid_law, k.liquid_law) if melting else (c.solid_law, k.solid_law)
+    # where the laws end; formulas without an end go on to 2e4 K
     uppers = [law.upper for law in laws if not law.is_constant and np.isfinite(law.upper)]
     open_ended = any(not law.is_constant and not np.isfinite(law.upper) for law in laws)
     floors = [initial_temperature + 1.0, *uppers, 2.0e4 if open_ended else 0.0]

@@ -35,6 +35,7 @@ def available_materials() -> dict[str, Path]:
     Raises CaseError where LASERSPH_MATERIALS names something that is not a folder.
     """
     found = {path.stem: path for path in sorted(LIBRARY.glob("*.toml"))}
+    # materials of the user go before shipped ones of the same name
     folder = os.environ.get(FOLDER_VARIABLE, "").strip()
     if folder:
         path = Path(folder).expanduser()
@@ -56,10 +57,13 @@ def material_file(name_or_path: str | os.PathLike[str]) -> Path:
     text = os.fspath(name_or_path)
     if text.endswith(".toml") or os.sep in text or isinstance(name_or_path, Path):
         return Path(text).expanduser()
+    # a known name, then one of its other names
     known = available_materials()
     name = text if text in known else shipped_name(text, tuple(known))
     if name in known:
         return known[name]
+
+    # neither: a family of metals, or a name that is spelt nearly so
     near = metals_of_family(text) or difflib.get_close_matches(text, known, n=1, cutoff=NEAR_NAME)
     meant = " or ".join(f'"{one}"' for one in near)
     hint = f"do you mean {meant}?" if near else KNOWN.format(", ".join(known))
@@ -71,8 +75,8 @@ def materials_like(word: str) -> dict[str, Material]:
     found = {}
     for name in available_materials():
         material = load_material(name)
-        told = f"{name} {material.title} {material.composition}".lower()
-        if word.lower() in told or is_called(name, word):
+        text = f"{name} {material.title} {material.composition}".lower()
+        if word.lower() in text or is_called(name, word):
             found[name] = material
     return found
 

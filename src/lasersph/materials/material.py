@@ -104,11 +104,13 @@ class Material(Model):
     @model_validator(mode="after")
     def _check_values(self) -> Material:
         """Refuse values that no solver survives: zero or negative, or reflectivity beyond 0..1."""
+        # sulfur acts by the constants of adsorption
         gamma = self.surface_tension
         if self.sulfur > 0.0 and (gamma is None or gamma.adsorption is None):
             raise refusal(("sulfur", NO_ADSORPTION))
         for name, property_ in (self.properties() | self._spectral_reflectivities()).items():
             for phase, law in property_.laws().items():
+                # each law over its own range, kinks included
                 values = law.at(sample_temperatures(law))
                 where = name if phase == "all" else f"{name}.{phase}"
                 if not np.all(np.isfinite(values)):
@@ -118,6 +120,7 @@ class Material(Model):
                 if name.endswith("reflectivity") and (values.min() < 0.0 or values.max() > 1.0):
                     raise ValueError(f"{where} must lie between 0 and 1 everywhere in its range")
         self._compare_viscosities()
+        # phases in their order
         boiling = self.vaporization.temperature if self.vaporization else float("inf")
         if self.liquidus is not None and boiling <= self.liquidus:
             raise ValueError("the boiling temperature must lie above the liquidus")
@@ -127,6 +130,7 @@ class Material(Model):
         """Refuse dynamic and kinematic viscosities whose ratio is not the density of the liquid."""
         if self.viscosity is None or self.kinematic_viscosity is None:
             return
+        # eta / nu is the density of the liquid
         T, ratio = self.flow_temperature, self.density_liquid
         density = float(self.density.liquid_law.at(T))
         if abs(ratio / density - 1.0) > CONTRADICTION:
@@ -145,6 +149,7 @@ class Material(Model):
             for name in type(self).model_fields
             if isinstance(getattr(self, name), Property)
         }
+        # properties that are not fields: gamma with its sulfur, R among the optics
         if self.surface_tension is not None:
             found["surface_tension"] = self.surface_tension.with_sulfur(self.sulfur)
         if self.optics is not None and self.optics.reflectivity is not None:
@@ -178,6 +183,7 @@ class Material(Model):
         states it, of all that have one."""
         found = {}
         for name, property_ in self.properties().items():
+            # laws, then single numbers of the sections
             home = f"optics.{name}" if name == "reflectivity" else name
             for phase, law in property_.laws().items():
                 if law.uncertainty is not None:
@@ -291,6 +297,7 @@ class Material(Model):
         """d gamma/dT [N/(m K)] at temperature [K]: as given, else the slope of gamma(T)."""
         if self.surface_tension_slope is not None:
             return self.at("surface_tension_slope", temperature)
+        # central difference over 1 K
         T, half = np.asarray(temperature, dtype=np.float64), 0.5
         return self.surface_tension_at(T + half) - self.surface_tension_at(T - half)
 
@@ -309,6 +316,7 @@ class Material(Model):
         found = self.properties().get(name)
         if found is None:
             raise ValueError(f"material {self.name!r} has no {name.replace('_', ' ')}")
+        # kinks of the laws and ends of the melting range; curved laws between them
         nodes = {lower, upper}
         if found.is_constant:
             return np.array([lower, upper]), found.at([lower, upper])
@@ -319,6 +327,7 @@ class Material(Model):
         for T in (self.solidus, self.liquidus):
             if T is not None and lower < T < upper:
                 nodes.add(T)
+        # melting point: a steep line instead of a jump
         if self.solidus is not None and self.solidus == self.liquidus:
             before = self.solidus - JUMP_WIDTH
             if lower < before and self.solidus < upper:
@@ -355,6 +364,7 @@ class Material(Model):
 
 def sample_temperatures(law: Law[Any], count: int = 129) -> Array:
     """Temperatures [K] over the range of a law, kinks included; 200 to 4000 K without one."""
+    # laws without an end are looked at where metals melt and boil
     lower = law.lower if law.lower > 0.0 else 200.0
     upper = law.upper if np.isfinite(law.upper) else max(4000.0, 2.0 * lower)
     return np.unique(

@@ -64,6 +64,7 @@ class SpectralOptics(Model):
         n, k = self.refractive_index, self.extinction_coefficient
         reflectivity, alpha = self.reflectivity, self.absorption_coefficient
         if n is not None and k is not None:
+            # Fresnel's equations at normal incidence [Born1999]; what is given goes before
             alpha = alpha or 4.0 * pi * k / wavelength
             if reflectivity is None:
                 share = ((n - 1.0) ** 2 + k**2) / ((n + 1.0) ** 2 + k**2)
@@ -119,6 +120,7 @@ class Optics(Sourced):
                 raise refusal((f"by_wavelength.{name}", f"names no wavelength: {error}")) from None
             if wavelength <= 0.0:
                 raise refusal((f"by_wavelength.{name}", 'must be positive; write e.g. "1064 nm"'))
+            # one light has one entry
             twin = next((old for old in known if is_same_light(old, wavelength)), None)
             if twin is not None:
                 text = f'is the light of "{known[twin]}" already; leave one of the two out'
@@ -143,6 +145,7 @@ class Optics(Sourced):
         listed = "has optics at " + ", ".join(f'"{one}"' for one in shown)
         example = f'wavelength = "{shown[0]}" in [laser]' if shown else ""
         if wavelength is None:
+            # numbers that hold for every wavelength, or the only ones
             if not self.by_wavelength or self.wavelength is not None or self.reflectivity:
                 return self
             raise NoOptics(f"{listed}; write e.g. {example}")
@@ -153,6 +156,7 @@ class Optics(Sourced):
                 continue
             found = optics.at(wavelength, self.emissivity)
             if self.wavelength is None:
+                # numbers that name no wavelength go before those of the table
                 own = {"reflectivity": self.reflectivity}
                 own |= {"absorption_coefficient": self.absorption_coefficient}
                 found = found.model_copy(update={k: v for k, v in own.items() if v is not None})

@@ -1,4 +1,4 @@
-"""What other programs call the keys of a material, so that a message can say ours.
+"""Names that other programs give to the keys of a material, so that a message can say ours.
 
 See `input.findings.Misplaced`: keys in full, or beginning with a dot inside their own table; what
 begins with a semicolon is what to do instead.
@@ -13,7 +13,7 @@ SLOPES = tuple(
     f"surface_tension.{word}"
     for word in ("slope", "gradient", "temperature_coefficient", "dgamma_dt")
 )
-"""What a change of the surface tension with temperature is called in its table."""
+"""Names that a change of the surface tension with temperature has in its table."""
 MATERIAL_WORDS = dict.fromkeys(SLOPES, SLOPE) | {
     "specific_heat": ".heat_capacity",
     "specific_heat_capacity": ".heat_capacity",

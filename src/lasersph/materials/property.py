@@ -142,6 +142,7 @@ class Law(Model, Generic[Quantity]):
 
     def at(self, temperature: ArrayLike) -> Array:
         """Value [SI] at temperature [K], any shape; the nearer end's outside the range."""
+        # beyond the range of the source the value at its end
         T = np.clip(np.asarray(temperature, dtype=np.float64), self.lower, self.upper)
         if self.value is not None:
             return np.full(T.shape, float(self.value))
@@ -149,6 +150,7 @@ class Law(Model, Generic[Quantity]):
             return np.interp(T, [row[0] for row in self.table], [row[1] for row in self.table])
         scale = float(self.scale or 0.0)
         t = T / self.temperature_scale
+        # an Arrhenius law, or a polynomial of T over its scale
         if self.log10 is not None:
             return scale * 10.0 ** (self.log10[0] + self.log10[1] / t)
         powers = self.powers or tuple(range(len(self.polynomial)))
@@ -205,6 +207,7 @@ class Property(Law[Quantity], Generic[Quantity]):
             return self.solid_law.at(T)
         solid = self.solid_law.at(np.minimum(T, solidus))
         liquid = self.liquid_law.at(np.maximum(T, liquidus))
+        # melting range, or a jump at the melting point
         if liquidus > solidus:
             share = np.clip((T - solidus) / (liquidus - solidus), 0.0, 1.0)
         else:

@@ -34,6 +34,7 @@ class Sourced(Model):
     @model_validator(mode="after")
     def _check_sources(self) -> Sourced:
         """Refuse a number without a source and a source without a number."""
+        # every number has a source, and every source and uncertainty a number
         numbers = {
             name for name in type(self).model_fields if isinstance(getattr(self, name), float)
         }

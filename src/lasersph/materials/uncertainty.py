@@ -47,6 +47,7 @@ def relative_uncertainty(text: str, value: float | None, kind: str) -> float:
     elif value == 0.0:
         raise QuantityError("0 has no uncertainty that could be told in parts of it; leave it out")
     else:
+        # 5 deg C of uncertainty are 5 K
         of_difference = "temperature_difference" if kind == "temperature" else kind
         relative = parse_quantity(text, of_difference) / abs(value)
     if not 0.0 < relative < 1.0:

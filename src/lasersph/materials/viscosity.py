@@ -30,9 +30,11 @@ def relative_viscosity_table(material: Material) -> ViscosityTable:
     is_kinematic = material.kinematic_viscosity is not None
     name = "kinematic_viscosity" if is_kinematic else "viscosity"
     reference, law = material.flow_temperature, material.properties()[name].liquid_law
+    # from the liquidus on; of a material without a solid from the law's own start
     lower = max(law.lower, LOWEST) if material.melting is None else reference
     upper = max(min(law.upper, HIGHEST), lower + 1.0)
     T, values = material.table(name, lower, upper, NODES)
+    # constant beyond both ends, whose segments interpolation extends
     T = np.concatenate([[T[0] - 1.0], T, [T[-1] + 1.0]])
     return T, np.pad(values / material.at(name, reference), 1, mode="edge")
 
@@ -45,6 +47,7 @@ def viscosity_text(material: Material) -> str:
         return f"{eta:.3g} mPa s at all temperatures"
     text = f"{eta * m[0]:.3g} mPa s at {T[1]:.0f} K and below"
     boiling = material.vaporization.temperature if material.vaporization else T[-2]
+    # words end at the boiling point
     hottest = min(T[-2], boiling)
     beyond = " and above" if hottest == T[-2] else ", where it boils"
     return f"{text}, {eta * np.interp(hottest, T, m):.3g} mPa s at {hottest:.0f} K{beyond}"

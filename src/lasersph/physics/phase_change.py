@@ -94,8 +94,8 @@ def follow_potential(h, dP, dh, h_nodes, P_nodes):
             if low < last and new >= h_nodes[low + 1]:
                 new = h_nodes[low + 1]
                 low = low + 1
-        # cooled onto a plateau: latent heat leaves
         elif low > 0 and P_nodes[low] > P:
+            # cooled onto a plateau: latent heat leaves
             P = P_nodes[low]
             low = low - 1
             new = max(new, h_nodes[low])
