@@ -50,7 +50,7 @@ IMPROBABLE = 0.01
 
 @dataclass(frozen=True)
 class Calibration:
-    """What measured values say of the unknowns of a case.
+    """Posterior of the unknowns of a case, with the runs and emulators that it comes from.
 
     Attributes:
         plan, model, posterior: what was asked, the emulators, the answer.
@@ -89,7 +89,7 @@ class Calibration:
         return {name for one in self.combinations for name in one.unknowns}
 
     def warnings(self) -> list[str]:
-        """What a user must know before using the numbers, in lines."""
+        """Lines that a user must know before using the numbers."""
         found = [one.sentence() for one in self.combinations]
         sd = np.sqrt(np.diag(self.posterior.covariance))
         loose = self.loose()
@@ -116,6 +116,7 @@ class Calibration:
                     f"no sum of the runs has profile {fit.number}: {1e9 * fit.left_over:.3g} nm "
                     "rms of it are left over, more than its standard error explains"
                 )
+        # the emulator by itself: how well runs predict the others
         for column, emulator in self.model.emulators.items():
             error = float(np.sqrt(np.mean(emulator.leave_one_out()[0] ** 2)))
             least = min(
@@ -132,6 +133,7 @@ class Calibration:
                 f"{len(self.settings)} runs leave the emulator at {self.ratio:.2g} of a measured "
                 "standard error: allow more runs (most)"
             )
+        # the box without failed runs may not reach as far as the bounds do
         failed = sum(one is None for one in self.numbers)
         if failed:
             text = f"{failed} of {len(self.numbers)} runs failed and were left out"
@@ -169,6 +171,7 @@ def calibrate_with(
             with three unknowns or more, is not installed.
     """
     settings = first_settings(plan)
+    # the answer of all runs so far, and whether the emulator still widens it
     while True:
         reduced, numbers, profiles = reduce_profiles(plan, make(settings), reliefs(settings))
         model = emulate(reduced, settings, numbers)
@@ -178,8 +181,9 @@ def calibrate_with(
             f"{len(settings)} runs: {_shown(plan, posterior)}; emulator at {ratio:.2g} of a "
             "standard error"
         )
-        room = plan.runs.most - len(settings)
-        fresh = [one for one in wanted if one not in settings][:room]
+        # runs where the emulator knows least, as far as the budget goes
+        budget_left = plan.runs.most - len(settings)
+        fresh = [one for one in wanted if one not in settings][:budget_left]
         if ratio <= GOOD_ENOUGH or not fresh:
             break
         settings += fresh
@@ -222,6 +226,7 @@ def emulate(
         noise = np.array(
             [0.0 if one is None else one.get(f"numerical_sd.{column}", 0.0) for one in numbers]
         )
+        # keys + 2 runs: a mean, and a length of each key
         has = np.isfinite(values)
         if np.count_nonzero(has) < inputs.shape[1] + 2:
             done = sum(one is not None for one in numbers)
@@ -245,9 +250,11 @@ def _next_runs(model: Model, posterior: Posterior) -> tuple[float, list[Settings
     settings that would lower it, of different measurements."""
     plan, draws = model.plan, posterior.draw(DRAWS, model.plan.runs.seed)
     _, sd = model.predict(draws)
+    # where in the posterior the emulator's error is largest beside the measured one
     ratios = sd / model.measured[1]
     places = np.array([place for place, _ in model.data])
     found: list[tuple[float, Settings]] = []
+    # one run for each measurement, at its settings with the unknowns drawn there
     for place in dict.fromkeys(places):
         of_place = ratios[:, places == place].max(axis=1)
         draw = int(np.argmax(of_place))

@@ -1,4 +1,4 @@
-"""What a calibration writes: its answer as JSON and in words, the posterior, the best case."""
+"""Texts of the answer of a calibration: JSON, words, the posterior, the best case."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lasersph.plots.calibration import unit_of_unknown
 from lasersph.studies.calibration import Calibration, Settings
 from lasersph.studies.calibration_plan import CalibrationPlan
 from lasersph.studies.calibration_profile import COMPONENT, ProfileFit
-from lasersph.studies.identifiability import told_apart
+from lasersph.studies.identifiability import separability
 from lasersph.studies.measured_value import unit_of_number
 from lasersph.studies.posterior import GRID
 
@@ -53,6 +53,8 @@ def answer(found: Calibration) -> dict[str, Any]:
             "emulators_share_of_variance": float(posterior.emulators_share[number]),
             "is_fixed_by_data": one.name not in found.loose(),
         }
+
+    # each measured value beside the computed one, with all errors
     total, freedom, probability = found.chi_squared
     computed, sd = model.predict(posterior.most_probable)
     value, error = model.measured
@@ -71,6 +73,7 @@ def answer(found: Calibration) -> dict[str, Any]:
         }
         for number, (place, column) in enumerate(model.data)
     ]
+    # how well the emulators know the runs
     emulators = {
         column: {
             "runs": int(one.outputs.size),
@@ -93,7 +96,7 @@ def answer(found: Calibration) -> dict[str, Any]:
         "unknowns": unknowns,
         "covariance": covariance.tolist(),
         "combinations": combinations,
-        "sentence": told_apart(plan, posterior, found.combinations),
+        "sentence": separability(plan, posterior, found.combinations),
         "chi_squared": {"value": total, "degrees_of_freedom": freedom, "probability": probability},
         "data": data,
         "profiles": [_profile(found, one) for one in found.profiles],
@@ -116,7 +119,7 @@ def _shown_units(plan: CalibrationPlan) -> dict[str, ShownUnit]:
 
 
 def _profile(found: Calibration, fit: ProfileFit) -> dict[str, Any]:
-    """What calibration.json says of a measured profile, SI."""
+    """Entry of a measured profile in calibration.json, SI."""
     target = found.plan.conditions[fit.number - 1].profile
     computed = computed_profile(found, fit)
     scale, error = (one["lateral_scale"] for one in (fit.comparison.values, fit.comparison.errors))
@@ -152,6 +155,7 @@ def answer_lines(content: dict[str, Any]) -> list[str]:
     """The answer in lines for a terminal."""
     lines = []
     for name, one in content["unknowns"].items():
+        # unknowns that the data do not fix have no number of their own
         if not one["is_fixed_by_data"]:
             continue
         unit = unit_of_unknown(one)
@@ -175,6 +179,7 @@ def answer_lines(content: dict[str, Any]) -> list[str]:
         f"{fit['probability']:.2g}), {content['runs']} runs"
     )
     lines += [f"warning: {text}" for text in content["warnings"]]
+    # the run of the answer, where one was made
     check = content.get("check", {"failed": "", "numbers": []})
     if check["failed"]:
         lines.append(f"check: the run of {check['failed']} failed")
@@ -189,6 +194,7 @@ def answer_lines(content: dict[str, Any]) -> list[str]:
 def posterior_text(found: Calibration) -> str:
     """Points of the posterior as CSV: the unknowns in SI and the weight."""
     posterior = found.posterior
+    # points that weigh anything; of a chain every n-th
     keep = np.flatnonzero(posterior.weights > LEAST_WEIGHT * posterior.weights.max())
     if len(found.plan.unknowns) not in GRID:
         keep = keep[:: max(1, len(keep) // MOST_POINTS)]
@@ -212,8 +218,9 @@ def best_case_text(found: Calibration) -> str:
     if "image" in spot:
         spot["image"] = str((Path(document.file).parent / spot["image"]).absolute())
     values = zip(plan.unknowns, found.posterior.most_probable, strict=True)
-    told = ", ".join(f"{one.name} = {value:.6g} {one.unit}".rstrip() for one, value in values)
-    lines = [f"# The most probable unknowns at the settings of the first measurement: {told}"]
+    shown = ", ".join(f"{one.name} = {value:.6g} {one.unit}".rstrip() for one, value in values)
+    lines = [f"# The most probable unknowns at the settings of the first measurement: {shown}"]
+    # keys of the file itself come before all tables in TOML
     tables = {name: value for name, value in data.items() if isinstance(value, dict)}
     lines += [f"{name} = {as_toml(value)}" for name, value in data.items() if name not in tables]
     for name, table in tables.items():

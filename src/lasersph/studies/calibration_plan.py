@@ -1,4 +1,4 @@
-"""What a calibration has to find: unknowns of a case, what was measured, how many runs it may take.
+"""Plan of a calibration: unknowns of a case, measured values, how many runs it may take.
 
 An unknown is a key of the case, a factor that `scales` a key, or `complements` a key: 1 less the
 key, such as the absorptivity of laser.reflectivity.
@@ -92,7 +92,7 @@ class CalibrationPlan:
 
     @property
     def study(self) -> Study:
-        """What a folder must belong to for this plan to go on in it."""
+        """Study that a folder must belong to for this plan to go on in it."""
         if self.spot is not None:
             cells = self.spot
             return Study.of("calibration", cells.cell_template, cells.cell_units, self.text)
@@ -108,6 +108,7 @@ class CalibrationPlan:
         columns = []
         for key in self.units:
             column = np.full(len(unknowns), condition.settings.get(key, np.nan))
+            # a key of the case, changed by the unknown that belongs to it
             for unknown, values in zip(self.unknowns, unknowns.T, strict=True):
                 if unknown.key == key:
                     column = related(unknown.relation, column, values)
@@ -116,13 +117,14 @@ class CalibrationPlan:
 
     def box(self) -> tuple[Array, Array]:
         """Lowest and highest keys (keys,) that the bounds of the unknowns reach, in SI."""
+        # relations are monotone in the unknowns, so that the corners reach farthest
         corners = np.array(list(product(*((one.low, one.high) for one in self.unknowns))))
-        reached = np.vstack([self.inputs(corners, one) for one in self.conditions])
-        return reached.min(axis=0), reached.max(axis=0)
+        corner_keys = np.vstack([self.inputs(corners, one) for one in self.conditions])
+        return corner_keys.min(axis=0), corner_keys.max(axis=0)
 
 
 def related(relation: Relation, setting: Array, unknown: Array) -> Array:
-    """What a key of the case is with some setting and unknown."""
+    """Key of the case with some setting and unknown."""
     if relation == "scales":
         return setting * unknown
     return unknown if relation == "key" else 1.0 - unknown

@@ -62,7 +62,7 @@ class ProfileFit:
         values: (k,) components of the measured profile [m]. standard_error: of each [m].
         nuisances: (n, 4 to 7) what alignment changes: level, tilts, place, angle, lateral scale.
         tau: correlated points of what is left over. left_over: its rms [m].
-        probability: of so large a rest of noise of the stated standard error.
+        probability: of so large a residual by noise of the stated standard error.
     """
 
     number: int
@@ -97,6 +97,7 @@ class ProfileFit:
 
     def measured_beside(self, computed: Array) -> Array:
         """Measured heights (n,), aligned with computed ones (n,) [m]."""
+        # alignment anew: least squares of what it changes
         left = self.comparison.measured - computed
         moved = np.linalg.lstsq(self.nuisances, left, rcond=None)[0]
         return self.comparison.measured - self.nuisances @ moved
@@ -137,6 +138,8 @@ def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileF
     known = [one for one in reliefs if one is not None]
     best, nearest = _nearest(number, target, known)
     x, y, is_map = best.x, best.y, np.ptp(best.y) > 0.0
+
+    # slope of the relief about the place of alignment, by central differences
     factor, step = best.values.get("fluence_factor", 1.0), nearest.table.period / STEPS
 
     def slope(along: float, across: float) -> Array:
@@ -146,6 +149,7 @@ def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileF
         )
         return (after - before) / (2.0 * step)
 
+    # directions in which alignment moves the heights: level, tilts, shifts, angle
     computed = np.array([one.at(x, y, 1.0) for one in known])
     middle, root = computed.mean(axis=0), np.sqrt(x.size)
     slope_x, slope_y = slope(1.0, 0.0), np.zeros_like(x)
@@ -156,11 +160,13 @@ def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileF
     if is_map:
         moves += [y, y * slope_x - x * slope_y]
     free, scale = np.stack(moves, axis=1), best.values["lateral_scale"]
-    stretch = -(x * slope_x + y * slope_y) / scale  # dh/ds
+    scale_slope = -(x * slope_x + y * slope_y) / scale  # dh/ds
     # s is 1 +- its error beforehand: the one moves the heights, the other widens their errors
-    measured = best.measured - stretch * (1.0 - scale) - middle
-    widened = target.scale_error * stretch
-    tau, sd, rest = 1.0, target.error, measured
+    measured = best.measured - scale_slope * (1.0 - scale) - middle
+    widened = target.scale_error * scale_slope
+
+    # principal components of the runs, without what alignment explains
+    tau, sd, residual = 1.0, target.error, measured
     for _ in range(2):  # the second time with the tau of what the first leaves over
         sd = target.error * np.sqrt(tau)
         left, sizes, right = np.linalg.svd(_project(computed - middle, free, widened / sd), False)
@@ -170,10 +176,13 @@ def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileF
                 f"profile {number} tells nothing: the {len(sizes)} runs differ by less than its "
                 f"standard error of {1e9 * target.error:.3g} nm"
             )
-        rest = _project(measured[None], free, widened / sd)[0]
-        values = right[tells] @ rest
-        rest = rest - values @ right[tells]
-        tau = correlated_points(rest, target.surface, MOST_POINTS)
+        residual = _project(measured[None], free, widened / sd)[0]
+        # d_k, and what no sum of the components explains
+        values = right[tells] @ residual
+        residual = residual - values @ right[tells]
+        tau = correlated_points(residual, target.surface, MOST_POINTS)
+
+    # components m_k of the runs, and degrees of freedom of the remainder
     freedom = (x.size - free.shape[1] - 1 - values.size) / tau
     components = np.full((len(reliefs), values.size), np.nan)
     components[[one is not None for one in reliefs]] = left[:, tells] * sizes[tells] / root
@@ -184,10 +193,10 @@ def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileF
         shapes=root * (left[:, tells] / sizes[tells]).T @ (computed - middle),
         values=values / root,
         standard_error=target.error * float(np.sqrt(tau)) / root,
-        nuisances=np.column_stack([free, stretch]),
+        nuisances=np.column_stack([free, scale_slope]),
         tau=tau,
-        left_over=float(np.sqrt(np.mean(rest**2))),
-        probability=float(gammaincc(0.5 * freedom, 0.5 * (rest @ rest) / sd**2)),
+        left_over=float(np.sqrt(np.mean(residual**2))),
+        probability=float(gammaincc(0.5 * freedom, 0.5 * (residual @ residual) / sd**2)),
     )
     return fit, components
 
@@ -219,9 +228,11 @@ def _aligned(relief: Relief, target: ProfileTarget) -> Comparison | None:
 def _project(rows: Array, free: Array, widened: Array) -> Array:
     """Rows (m, n) without the directions `free` (n, q), and with the direction `widened` (n,), in
     standard errors of a point, as much smaller as its error is larger."""
+    # remove the free directions, then shrink along the one that is known beforehand
     basis = np.linalg.qr(free)[0]
     rows = rows - (rows @ basis) @ basis.T
     widened = widened - basis @ (basis.T @ widened)
     square = float(widened @ widened) or 1.0
+    # the root of the inverse of 1 + w w^T takes this part off along w
     part = (1.0 - 1.0 / np.sqrt(1.0 + square)) / square
     return rows - part * np.outer(rows @ widened, widened)

@@ -63,7 +63,7 @@ from lasersph.sweeps.points import find_key
 
 
 class UnknownEntry(Model):
-    """What is unknown: one of key, scales and complements."""
+    """An unknown: one of key, scales and complements."""
 
     key: str | None = None
     scales: str | None = None
@@ -73,7 +73,7 @@ class UnknownEntry(Model):
 
 
 class MeasuredEntry(Model):
-    """What was measured at some settings."""
+    """A measurement at some settings."""
 
     set: dict[str, Any] = Field(default_factory=dict)
     values: dict[str, str] = Field(default_factory=dict)
@@ -111,6 +111,7 @@ class _Reader:
     def plan(self) -> CalibrationPlan:
         """The plan. Raises CaseError."""
         entry = self.entry
+        # keys and settings by themselves, then what the case says of them
         sets = [
             self._settings(one.set, "measured", number, "set")
             for number, one in enumerate(entry.measured)
@@ -119,19 +120,23 @@ class _Reader:
         self.mistakes.raise_any()
         contents = self.template.file.contents(self.template.overrides({}))
         self._learn_kinds(sets)
+        # values in SI, by the kinds that the case has
         unknowns = tuple(self._unknown(name, one) for name, one in entry.unknown.items())
         conditions = [self._condition(number, one, contents) for number, one in enumerate(sets)]
         self.mistakes.raise_any()
         self._complete(conditions, unknowns, contents)
+        # data against unknowns
         count = sum(len(one.values) for one in conditions)
-        loose = [one for one in unknowns if one.known is None]
-        if count < len(loose) and all(one.profile is None for one in conditions):
+        free = [one for one in unknowns if one.known is None]
+        if count < len(free) and all(one.profile is None for one in conditions):
             self.mistakes.add(
                 ("unknown",),
-                f"{len(loose)} unknowns need at least as many measured values, not {count}",
+                f"{len(free)} unknowns need at least as many measured values, not {count}",
                 'measure more, or say what is known, e.g. known = "10 +- 0.5 ns"',
             )
         self.mistakes.raise_any()
+
+        # keys with one value everywhere belong to the template, the others vary from run to run
         touched = {one.key for one in unknowns}
         every = dict.fromkeys(key for one in conditions for key in one.settings)
         seen = {key: {one.settings[key] for one in conditions} for key in every}
@@ -147,6 +152,7 @@ class _Reader:
         for _, values in self._trials(sets):
             fixed.learn_kinds(values)
         units = {key: self.template.unit(key) for key in (*every, *touched) if key not in same}
+        # enough runs for an emulator, and bounds that the case takes
         plan = CalibrationPlan(
             self.mistakes.document.text, fixed, unknowns, tuple(conditions), dict(units), entry.runs
         )
@@ -167,6 +173,7 @@ class _Reader:
                 )
                 self.mistakes.raise_any()
             return plan
+        # the middle of the box has to melt something
         low, high = (dict(zip(plan.keys, ends.tolist(), strict=True)) for ends in plan.box())
         spot = SpotCells(plan.template, plan.units, low, high, plan.runs.cells)
         for number, one in enumerate(plan.conditions):
@@ -191,7 +198,8 @@ class _Reader:
         return {key: raw for key, _, raw in entries}
 
     def _check_unknowns(self, sets: list[dict[str, Any]]) -> None:
-        """What can be said without the case: how unknowns and settings name their keys."""
+        """Check without the case how unknowns and settings name their keys."""
+        # by key: the unknown that sets it
         owners: dict[str, str] = {}
         if not self.entry.unknown:
             self.mistakes.add(
@@ -221,6 +229,7 @@ class _Reader:
                 owners[named[0]] = name
                 if named[0] in self.template.settings:
                     self.mistakes.add(path, f"{named[0]} is given in [set] as well", "remove one")
+        # each measurement has a value or a profile, and sets no key that is unknown or common
         for number, settings in enumerate(sets):
             if not self.entry.measured[number].values and not self.entry.measured[number].profile:
                 self.mistakes.add(
@@ -244,6 +253,7 @@ class _Reader:
 
     def _trials(self, sets: list[dict[str, Any]]) -> list[tuple[KeyPath, dict[str, Any]]]:
         """A value of each key that the plan gives, and where."""
+        # settings of measurements, then both ends of each unknown
         trials: list[tuple[KeyPath, dict[str, Any]]] = [
             (("measured", number, "set", key), {key: value})
             for number, settings in enumerate(sets)
@@ -258,7 +268,7 @@ class _Reader:
         return trials
 
     def _learn_kinds(self, sets: list[dict[str, Any]]) -> None:
-        """Which quantity each key reads; a key or value that the case refuses is said here."""
+        """Learn which quantity each key reads; what the case refuses is said here."""
         for path, values in self._trials(sets):
             try:
                 self.template.learn_kinds(values)
@@ -268,6 +278,7 @@ class _Reader:
         self.mistakes.raise_any()
 
     def _unknown(self, name: str, one: UnknownEntry) -> Unknown:
+        # an unknown that is a key has its unit; a factor and a complement have none
         relation: Relation = "key" if one.key else "scales" if one.scales else "complements"
         key = one.key or one.scales or one.complements or ""
         kind = self.template.kind(key) if relation == "key" else ""
@@ -302,6 +313,7 @@ class _Reader:
         self, number: int, settings: dict[str, Any], contents: CaseContents
     ) -> Condition:
         values, read = {}, {}
+        # values in SI; a word cannot vary between runs that are emulated
         for key, value in settings.items():
             si = self.template.to_si(key, value)
             if isinstance(si, bool) or not isinstance(si, int | float):
@@ -329,6 +341,7 @@ class _Reader:
         self, conditions: list[Condition], unknowns: tuple[Unknown, ...], contents: BaseModel
     ) -> None:
         """Give every condition a value of each key that another one sets or a factor scales."""
+        # keys that some measurement sets or a factor scales: the others take the case's number
         scaled = {one.key: one.name for one in unknowns if one.relation == "scales"}
         wanted = dict.fromkeys([*(key for one in conditions for key in one.settings), *scaled])
         nominal: dict[str, float | None] = {}

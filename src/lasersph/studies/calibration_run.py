@@ -87,6 +87,7 @@ def calibrate(
     if not isinstance(plan, CalibrationPlan):
         plan = read_calibration_plan(plan)
     _refuse_missing_libraries(plan)
+    # runs and answer, then the check of the most probable unknowns
     runs = _Runs(
         plan, Path(out), engine or LocalEngine(workers, threads, retries), report, should_stop
     )
@@ -94,6 +95,8 @@ def calibrate(
     content = answer(found)
     if plan.runs.check:
         content["check"] = _check(found, runs)
+
+    # files, once all runs are made
     path = Path(out)
     replace_json(path / ANSWER, content)
     replace_text(path / POINTS, posterior_text(found))
@@ -129,6 +132,7 @@ class _Runs:
             return [None] * len(settings)
         spot = self.plan.spot
         points = [self._points(one) for one in settings]
+        # spots share cells: each is made once
         every = {point.hash: point for cells in points for point in cells}
         rows = dict(zip(every, self.table(list(every.values())).rows, strict=True))
         found = [[self._cell(rows[one.hash], profile.period) for one in cells] for cells in points]
@@ -197,11 +201,13 @@ def _check(found: Calibration, runs: _Runs) -> dict[str, Any]:
     first = plan.template.point(dict(best))
     if first.case is None:
         return {"numbers": [], "failed": first.reason}
+    # the most probable unknowns at the case's spacing and at half of it, after all other runs
     half = {**best, "particles.spacing": 0.5 * first.case.particles.spacing}
     pair = runs.make([*found.settings, best, half])[-2:]
     words = zip(("the most probable one", "half the spacing"), pair, strict=True)
     failed = " and ".join(word for word, one in words if one is None)
     coarse, fine = (one or {} for one in pair)
+    # numbers of the first measurement: of the run, emulated, and shift with the spacing
     emulated = model.predict(found.posterior.most_probable)[0][0]
     numbers = []
     for number, (place, column) in enumerate(model.data):
@@ -217,6 +223,7 @@ def _check(found: Calibration, runs: _Runs) -> dict[str, Any]:
                     "standard_error": condition.values[column].sd,
                 }
             )
+    # the profile by its distance from the measurement
     if condition.profile is not None and not failed:
         fit = found.profiles[0]
         reliefs = runs.reliefs([*found.settings, best, half])[-2:]
@@ -256,6 +263,7 @@ def read_profiles(folder: str | PathLike[str], content: dict[str, Any]) -> list[
 
 def _refuse_missing_libraries(plan: CalibrationPlan) -> None:
     """Say what is missing before hours of runs, not after. Raises OutputError."""
+    # a grid takes up to two unknowns; more are sampled
     needed = {"sklearn": "scikit-learn"}
     if len(plan.unknowns) not in GRID:
         needed["emcee"] = "emcee"

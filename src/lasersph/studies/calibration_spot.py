@@ -65,6 +65,7 @@ class SpotCells:
         Raises:
             NoTexture: the brightest one melts nothing. CaseError: the case refuses it.
         """
+        # spots that differ in their light alone share cells, made by the first of them
         others, name = self._others(settings)
         if name not in self._points:
             template, units = self.cell_template, self.cell_units
@@ -73,6 +74,7 @@ class SpotCells:
                 unit = units[key] if key in units else template.unit(key)
                 fixed[key] = f"{value!r} {unit}".strip()
             template.learn_kinds({**fixed, KEY: "1 J/cm^2"})
+            # cells from what just melts up to the brightest center
             bright = CaseTemplate(template.name, {**template.settings, **fixed, KEY: "1 J/cm^2"})
             fluences = cell_fluences(bright, self._brightest(others), self.count)
             self._points[name] = [template.point({KEY: one, **others}) for one in fluences]
@@ -88,6 +90,7 @@ class SpotCells:
         whole, name = tuple(sorted(settings.items())), self._others(settings)[1]
         if whole in self._reliefs:
             return self._reliefs[whole]
+        # complete cells, which have to reach the center of the spot
         case = self._case(settings)
         spot, period = spot_of(case)
         done = [
@@ -100,6 +103,7 @@ class SpotCells:
         if name not in self._tables:
             self._tables[name] = CellTable.of(done, period, case.initial_temperature)
         table = self._tables[name]
+        # local fluence on a grid over all that the cells change
         x, y = (
             np.linspace(-size, size, 1 + 2 * int(np.ceil(PIXELS_A_PERIOD * size / period)))
             for size in half_sizes(spot, table)
@@ -116,6 +120,7 @@ class SpotCells:
     def _brightest(self, others: Settings) -> float:
         """Fluence of the brightest center within the bounds [J/m^2]."""
         light = [key for key in self.units if key.startswith(LIGHT)]
+        # the fluence at the center is monotone in size and energy: it is largest at a corner
         ends = product(*((self.low[key], self.high[key]) for key in light))
         return max(
             spot_of(self._case({**others, **dict(zip(light, end, strict=True))}))[0].center

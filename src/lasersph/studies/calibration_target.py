@@ -62,6 +62,7 @@ def read_target(entry: ProfileEntry, folder: Path, contents: CaseContents) -> Pr
             "the spot of the case moves from pulse to pulse: what is measured is one spot; leave "
             "laser.spot.shift and scan_speed out"
         )
+    # heights that cannot be those of the case are refused before any run
     surface = read_surface(folder / entry.file)
     refuse_odd(surface, period)
     error = entry.error or point_noise(surface.z)

@@ -56,6 +56,7 @@ def read_input(case: Case, text: str) -> Input:
     key, equals, standard = (part.strip() for part in text.partition("="))
     if not equals:
         raise QuantityError(f'"{text}" is not KEY=U; write e.g. laser.fluence=5%')
+    # a law is uncertain in parts of its values, at all temperatures alike
     value, kind = _value_at(case, key)
     constant = value.value if isinstance(value, Law) else value
     try:
@@ -79,6 +80,7 @@ def shifted(case: Case, one: Input, sign: int) -> Case | str:
     line where the case refuses that."""
     key, factor, material = one.key, 1.0 + sign * one.relative, case.material
     both = {name: getattr(material, name) for name in VISCOSITIES}
+    # eta and nu are given: both are scaled
     if key.removeprefix("material.") in both and None not in both.values():
         key, new = (
             "material",
@@ -116,12 +118,14 @@ def coarser_cases(case: Case, melt: MeltEstimate | None) -> list[Case] | str:
         melt: how deep the case is expected to melt.
     """
     lattice = case.particles
+    # coarsest spacing that still shows the melt
     largest = largest_spacing(case)
     if melt is not None and melt.depth:
         largest = min(largest, melt.depth / LEAST_MELT_CELLS)
     most = largest / lattice.spacing
     if lattice.arrangement == "graded":
         most = min(most, math.log(STEEPEST) / math.log(lattice.ratio))
+    # two companions: the coarser is ratio^2 times as coarse
     ratio = min(USUAL_RATIO, math.sqrt(most))
     if ratio < LEAST_RATIO:
         return (

@@ -120,6 +120,7 @@ def fit_emulator(
             that do not fit.
         OutputError: scikit-learn is not installed.
     """
+    # refuse what determines no process
     x, y = np.atleast_2d(np.asarray(inputs, float)), np.asarray(outputs, float)
     if y.ndim != 1 or x.shape[0] != y.size:
         raise ValueError(f"{x.shape[0]} runs have {y.size} outputs; one each is needed")
@@ -133,6 +134,8 @@ def fit_emulator(
     if scale <= 1e-12 * float(np.max(np.abs(y))):
         raise ValueError(f"all {y.size} runs give {y[0]:.6g}: there is nothing to emulate")
     box = box or box_of(x.min(axis=0), x.max(axis=0))
+
+    # keys to 0..1, outputs to mean 0 and deviation 1, then the likeliest kernel
     scaled, offset = box.scaled(x), float(np.mean(y))
     floor = np.maximum(np.broadcast_to(np.asarray(noise, float), y.shape) / scale, LEAST_NOISE) ** 2
     fit = _likeliest(scaled, (y - offset) / scale, floor, seed)
@@ -169,6 +172,7 @@ class Emulator:
 
     def _covariance(self, x: Array) -> Array:
         """cov[g] of scaled points (m, keys) with the runs, (m, n)."""
+        # the kernel above, with r^2 = 5 sum of (x_k - x'_k)^2 / l_k^2
         r = np.sqrt(5.0) * cdist(x / self.lengths, self.inputs / self.lengths)
         return np.asarray(self.variance * (1.0 + r + r**2 / 3.0) * np.exp(-r), dtype=np.float64)
 
@@ -183,6 +187,7 @@ class Emulator:
         [Rasmussen2006, eqs. 2.25, 2.26].
         """
         x = self.box.scaled(points)
+        # (2.25) mean = k* . K^-1 y; (2.26) variance = k(x, x) - |L^-1 k*|^2
         across = self._covariance(x)
         explained = solve_triangular(self._factor, across.T, lower=True)
         variance = self.variance - np.sum(explained**2, axis=0)
@@ -193,6 +198,7 @@ class Emulator:
         """Each run's output less what the other runs predict there, and the standard deviation of
         that prediction with the noise of the run, (n,) each; closed form
         [Rasmussen2006, eqs. 5.10-5.12], mean, scale and kernel as fitted to all runs."""
+        # (5.10)-(5.12): from the diagonal of K^-1
         inverse = cho_solve((self._factor, True), np.eye(self.outputs.size))
         variance = 1.0 / np.diag(inverse)
         return self.scale * self._weights * variance, self.scale * np.sqrt(variance)
@@ -229,6 +235,7 @@ class Emulator:
         if x.shape[1] == 1 or x.shape[1] > MOST_HULL_KEYS:
             low, high = self.inputs.min(axis=0) - rounding, self.inputs.max(axis=0) + rounding
             return np.all((x >= low) & (x <= high), axis=1)
+        # runs on a plane of their keys have no simplices
         if np.linalg.matrix_rank(self.inputs - self.inputs[0], tol=1e-6) < x.shape[1]:
             raise ValueError("the runs vary their keys together, so that they have no inside")
         return Delaunay(self.inputs).find_simplex(x, tol=rounding) >= 0
@@ -243,15 +250,17 @@ class Emulator:
         [Wilson2020] Wilson et al., Efficiently sampling functions from Gaussian process posteriors,
         ICML (2020), arXiv:2002.09309.
         """
+        # frequencies of the kernel, each with a cosine and a sine of random weights
         rng = np.random.default_rng(seed)
-        stretch = np.sqrt(5.0 / rng.chisquare(5.0, (FEATURES, 1)))
-        waves = stretch * rng.standard_normal((FEATURES, self.lengths.size)) / self.lengths
+        student = np.sqrt(5.0 / rng.chisquare(5.0, (FEATURES, 1)))
+        waves = student * rng.standard_normal((FEATURES, self.lengths.size)) / self.lengths
         weights = rng.standard_normal((2 * FEATURES, count)) * np.sqrt(self.variance / FEATURES)
 
         def prior(scaled: Array) -> Array:
             phase = scaled @ waves.T
             return np.hstack([np.cos(phase), np.sin(phase)]) @ weights
 
+        # [Wilson2020, eq. 11]: moved by what the waves miss at the runs, with a noise of their own
         noise = np.sqrt(self.noise)[:, None] * rng.standard_normal((self.outputs.size, count))
         missing = ((self.outputs - self.offset) / self.scale)[:, None] - prior(self.inputs) - noise
         moves = cho_solve((self._factor, True), missing)
@@ -277,6 +286,7 @@ def _likeliest(
         from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
     except ImportError as error:
         raise OutputError(install_hint("scikit-learn", "study")) from error
+    # maximum of the marginal likelihood, from several starts
     variance, lengths = start or (1.0, np.full(x.shape[1], 0.5))
     untyped: dict[str, Any] = {"length_scale": lengths, "alpha": floor}  # scikit-learn says floats
     smooth = Matern(untyped["length_scale"], LENGTHS, nu=2.5)
@@ -289,5 +299,6 @@ def _likeliest(
     with warnings.catch_warnings():  # parameters may end at their bounds
         warnings.simplefilter("ignore", ConvergenceWarning)
         process.fit(x, y)
+    # scikit-learn keeps the logarithms of the parameters, in the order of the kernel
     variance, *lengths, noise = np.exp(process.kernel_.theta)
     return floor + noise, float(variance), np.array(lengths)

@@ -88,7 +88,7 @@ class Event:
         low = np.maximum(interpolate(self.low) - apart, least)
         return low, np.minimum(interpolate(self.high) + apart, largest)
 
-    def doubt(self, interpolate: Callable[[Array], Array]) -> Array:
+    def ambiguity(self, interpolate: Callable[[Array], Array]) -> Array:
         """Positive at places between the runs where the event may have happened or not."""
         low, high = self.bounds(interpolate)
         return np.minimum(high, -low)
@@ -107,6 +107,7 @@ def one_sided_notes(table: Table, keys: list[str]) -> list[str]:
     """Of each event that every run has, or none, which runs would tell where it begins."""
     complete, notes = table.is_complete, []
     for name, happened in _outcomes(table).items():
+        # a metal without boiling point, and a solver without ejection, cannot tell
         is_possible = {
             "melts": True,
             "boils": np.any(np.isfinite(numbers_of(table, "material.vaporization_K"))),
@@ -115,9 +116,9 @@ def one_sided_notes(table: Table, keys: list[str]) -> list[str]:
         if not is_possible or len(set(happened[complete])) != 1:
             continue
         does = bool(happened[complete][0])
-        beyond = _beyond(table, keys, colder=does)
+        where_to = _heating_end(table, keys, colder=does)
         who, which = ("Every", "colder") if does else ("No", "hotter")
-        where = f"{which} runs{beyond} would tell where {EVENTS[name]} begins"
+        where = f"{which} runs{where_to} would tell where {EVENTS[name]} begins"
         notes.append(f"{who} run {name}: {where}.")
     return notes
 
@@ -126,10 +127,12 @@ def onsets_of(event: Event, layout: RunPlaces) -> Iterator[Onset]:
     """Where an event begins along the first key: on each line of a grid, or over a single key."""
     for runs in layout.rows():
         at = float(layout.points[runs[0], 1]) if layout.points.shape[1] == 2 else None
+        # runs with a result, in the order of the first key
         known = runs[np.isfinite(event.low[runs])]
         if known.size == 0:
             continue
         places, happened = layout.points[known, 0], event.happened[known]
+        # neighbors of which one has the event
         changes = np.flatnonzero((happened[1:] != happened[:-1]) & (np.diff(places) > 0.0))
         if changes.size == 0:
             ends = float(places[0]), float(places[-1])
@@ -140,6 +143,7 @@ def onsets_of(event: Event, layout: RunPlaces) -> Iterator[Onset]:
 
 def _onset_between(event: Event, at: float | None, pair: NDArray[np.int_], ends: Array) -> Onset:
     """Where an event begins between two neighboring runs."""
+    # places between the two runs, evenly in the logarithm of a positive key
     share = np.linspace(0.0, 1.0, STEPS)
     places = box_of(ends[:1], ends[1:], ends[:1] > 0.0).restored(share[:, None])[:, 0]
     places[[0, -1]] = ends
@@ -147,7 +151,8 @@ def _onset_between(event: Event, at: float | None, pair: NDArray[np.int_], ends:
     def interpolate(values: Array) -> Array:
         return (1.0 - share) * values[pair[0]] + share * values[pair[1]]
 
-    inside = np.flatnonzero(event.doubt(interpolate) > 0.0)
+    # the band, and the zero of the heat within it
+    inside = np.flatnonzero(event.ambiguity(interpolate) > 0.0)
     heat = event.heat[pair]
     line = heat[0] / (heat[0] - heat[1])
     estimate = float(np.interp(line, share, places)) if np.isfinite(line) else None
@@ -171,11 +176,13 @@ def _outcomes(table: Table) -> dict[str, NDArray[np.bool_]]:
 
 def _event(table: Table, layout: RunPlaces, name: str, happened: NDArray[np.bool_]) -> Event:
     """An event with what the runs tell of its heat."""
+    # without a temperature a run says only on which side it is
     exists = np.where(table.is_complete, 0.0, np.nan)
     low = np.where(happened, ROUNDING, -UNKNOWN) + exists
     high = np.where(happened, UNKNOWN, -ROUNDING) + exists
     if name == "ablates":
         return Event(name, happened, np.full(low.shape, np.nan), low, high)
+    # heat from the highest temperature, on the side that the outcome says
     hottest = numbers_of(table, "temperature_max_K")
     heat = _relative_rises(table, hottest)[list(EVENTS).index(name)]
     heat = np.where(happened, np.maximum(heat, ROUNDING), np.minimum(heat, -ROUNDING))
@@ -200,6 +207,7 @@ def _relative_rises(table: Table, hottest: Array) -> Array:
     for k, row in enumerate(table.rows):
         if row.status != "complete":
             continue
+        # E(T) of each metal and initial temperature, once
         case: dict[str, Any] = open_run(table.path / RUNS / row.run).resolved["case"]
         text = json.dumps([case["material"], case["initial_temperature"]])
         if text not in scales:
@@ -224,6 +232,7 @@ def _raised(heat: Array, is_held: NDArray[np.bool_], layout: RunPlaces) -> Array
     where the colder runs determine no plane."""
     colder = np.isfinite(heat) & ~is_held
     raised = np.where(is_held, np.nan, heat)
+    # plane through the colder runs about run k: its value there is the heat
     for k in np.flatnonzero(is_held):
         steps = layout.x[colder] - layout.x[k]
         weight = 1.0 / np.linalg.norm(steps, axis=1, keepdims=True)
@@ -234,13 +243,14 @@ def _raised(heat: Array, is_held: NDArray[np.bool_], layout: RunPlaces) -> Array
     return raised
 
 
-def _beyond(table: Table, keys: list[str], *, colder: bool) -> str:
-    """Beyond which end of the key that heats most further runs are colder or hotter, in brackets;
+def _heating_end(table: Table, keys: list[str], *, colder: bool) -> str:
+    """End of the key that heats most, beyond which runs are colder or hotter, in brackets;
     empty where the temperatures do not tell."""
     points = np.stack([table.values(key) for key in keys], axis=1)
     hottest = numbers_of(table, "temperature_max_K")
     known = np.isfinite(hottest)
     low, high = points.min(axis=0), points.max(axis=0)
+    # plane through the highest temperatures: its steepest key heats most
     plane = np.hstack([np.ones((known.sum(), 1)), (points[known] - low) / (high - low)])
     slopes = np.linalg.lstsq(plane, hottest[known], rcond=None)[0][1:]
     k = int(np.argmax(np.abs(slopes)))

@@ -37,7 +37,7 @@ from lasersph.sweeps.plan import Sampling, VariedCase, compare_with_case
 from lasersph.sweeps.plan_reading import Mistakes, entries_of, read_plan_file
 from lasersph.sweeps.sampling import DIGITS
 
-MOST_DOUBT = 0.05
+LARGEST_EMULATOR_SHARE = 0.05
 """Change of a probability by the emulator up to which an answer is sure: less than its rounding in
 what is printed matters to whoever chooses settings."""
 AT_ONCE = 2
@@ -61,7 +61,7 @@ class FindPlan:
 
     @property
     def study(self) -> Study:
-        """What a folder must belong to for this plan to go on in it."""
+        """Study that a folder must belong to for this plan to go on in it."""
         sweep = self.sweep
         return Study.of("search", sweep.template, sweep.varied, sweep.text)
 
@@ -75,6 +75,7 @@ def read_find_plan(file: str | PathLike[str]) -> FindPlan:
     document = read_plan_file(file, "find")
     entry = build(FindEntry, document)
     mistakes, wishes = Mistakes(document), []
+    # what is wanted, then how many runs, then what varies
     for number, text in enumerate(entry.want):
         try:
             wishes.append(read_wish(text))
@@ -121,6 +122,7 @@ def find(
         ValueError: too few runs, or numbers that none of them has. OutputError: see `make_runs`.
         Stopped: `should_stop` said so.
     """
+    # a folder of runs is only read; a plan makes runs of its own
     known = None if under is None else read_answer(under)
     if Path(plan).is_dir():
         return find_settings(Table.read(plan), [read_wish(one) for one in want], calibration=known)
@@ -133,8 +135,11 @@ def find(
         table = make_or_stop(
             points, Path(out), loaded.study, engine or LocalEngine(), report, should_stop
         )
+        # run the settings whose probability the emulator decides, as far as the budget goes
         found = find_settings(table, loaded.wishes, calibration=known, seed=loaded.budget.seed)
-        unsure = sorted((one for one in found if one.doubt > MOST_DOUBT), key=lambda o: -o.doubt)
+        unsure = sorted(
+            (one for one in found if one.doubt > LARGEST_EMULATOR_SHARE), key=lambda o: -o.doubt
+        )
         wanted = [
             sweep.template.point({k: float(f"{v:.{DIGITS}g}") for k, v in one.reached.items()})
             for one in unsure

@@ -40,8 +40,8 @@ APART = 0.1
 """Least distance of two answers, in ranges of their keys."""
 Answer = tuple[dict[str, Any], Array]
 """Of a calibration: content of calibration.json, points of the posterior with their weights."""
-World = list[tuple[int, Relation, float]]
-"""What unknowns may be: place of the key, relation and value of each."""
+ParameterSample = list[tuple[int, Relation, float]]
+"""One drawn value of each unknown: number of its key, relation and value."""
 _WISH = re.compile(r"\s*([\w.]+)\s*(=|<=?|>=?)\s*(.+)")
 
 
@@ -79,6 +79,7 @@ def read_wish(text: str) -> Wish:
     Raises:
         QuantityError: no such number, no such unit, neither = with +- nor < nor >.
     """
+    # a value with its error is an interval, a limit is open at one end
     match = _WISH.fullmatch(text)
     if match is None:
         raise QuantityError(
@@ -112,6 +113,7 @@ def find_settings(
         ValueError: too few runs, a number that none of them has, an unknown of the calibration at
             a key that the sweep does not vary.
     """
+    # an emulator of each number that is wanted
     points = np.column_stack([table.values(key) for key in table.varied])
     box = box_of_runs(points)
     emulators: dict[str, Emulator] = {}
@@ -125,21 +127,23 @@ def find_settings(
         except ValueError as error:
             raise ValueError(f"{column}: {error}") from None
     refuse_other_keys(calibration, table.varied)
-    worlds = _worlds(table.varied, calibration, seed)
+    samples = _samples(table.varied, calibration, seed)
 
+    # P of settings, averaged over the posterior
     def probabilities(settings: Array, *, are_exact: bool = False) -> Array:
         total = np.zeros(len(settings))
-        for world in worlds:
-            reached = _reached(settings, world)
-            part = next(iter(emulators.values())).is_inside(reached).astype(float)
+        for sample in samples:
+            keys = _case_keys(settings, sample)
+            part = next(iter(emulators.values())).is_inside(keys).astype(float)
             for wish in wishes:
-                mean, sd = emulators[wish.column].predict(reached)
+                mean, sd = emulators[wish.column].predict(keys)
                 least = max(numerical[wish.column], 1e-9 * abs(float(np.max(mean))))
                 sd = np.hypot(0.0 if are_exact else sd, least)
                 part *= ndtr((wish.high - mean) / sd) - ndtr((wish.low - mean) / sd)
             total += part
-        return total / len(worlds)
+        return total / len(samples)
 
+    # Sobol points in the box, then narrower ones around the best
     candidates = qmc.Sobol(points.shape[1], seed=seed).random(LOOKS)  # pyright: ignore[reportCallIssue]
     first = _best(candidates, probabilities(box.restored(candidates)), count)
     steps = NARROWER * (candidates[: LOOKS // 8] - 0.5)
@@ -149,20 +153,22 @@ def find_settings(
     found = []
     for number in _best(every, chance, count):
         settings = box.restored(every[number : number + 1])
-        reached = np.vstack([_reached(settings, world) for world in worlds])
-        numbers = {name: float(np.mean(one.predict(reached)[0])) for name, one in emulators.items()}
+        keys = np.vstack([_case_keys(settings, sample) for sample in samples])
+        numbers = {name: float(np.mean(one.predict(keys)[0])) for name, one in emulators.items()}
+        # the settings, and the keys of the case that they act as
         by_key, acts_as = (
             dict(zip(table.varied, values.tolist(), strict=True))
-            for values in (settings[0], reached.mean(axis=0))
+            for values in (settings[0], keys.mean(axis=0))
         )
-        doubt = abs(float(chance[number] - probabilities(settings, are_exact=True)[0]))
-        found.append(FoundSettings(by_key, float(chance[number]), numbers, acts_as, doubt))
+        emulator_share = abs(float(chance[number] - probabilities(settings, are_exact=True)[0]))
+        found.append(FoundSettings(by_key, float(chance[number]), numbers, acts_as, emulator_share))
     return found
 
 
 def _best(candidates: Array, chance: Array, count: int) -> list[int]:
     """Places of the most probable candidates that lie apart, and are possible at all."""
     chosen: list[int] = []
+    # from the most probable on, those that lie apart from all before
     for number in np.argsort(-chance, kind="stable"):
         if chance[number] < 1e-6 or len(chosen) == count:
             break
@@ -172,13 +178,13 @@ def _best(candidates: Array, chance: Array, count: int) -> list[int]:
     return chosen
 
 
-def _reached(settings: Array, world: World) -> Array:
+def _case_keys(settings: Array, sample: ParameterSample) -> Array:
     """Keys of the case (n, keys) that some settings are, were the unknowns so."""
-    reached = settings.copy()
-    for place, relation, value in world:
+    keys = settings.copy()
+    for number, relation, value in sample:
         unknown = np.full(len(settings), value)
-        reached[:, place] = related(relation, reached[:, place], unknown)
-    return reached
+        keys[:, number] = related(relation, keys[:, number], unknown)
+    return keys
 
 
 def refuse_other_keys(calibration: Answer | None, keys: Sequence[str]) -> None:
@@ -190,12 +196,13 @@ def refuse_other_keys(calibration: Answer | None, keys: Sequence[str]) -> None:
             )
 
 
-def _worlds(keys: Sequence[str], calibration: Answer | None, seed: int) -> list[World]:
-    """Unknowns as drawn from a posterior; one world without unknowns where there is none."""
+def _samples(keys: Sequence[str], calibration: Answer | None, seed: int) -> list[ParameterSample]:
+    """Unknowns as drawn from a posterior; one sample without unknowns where there is none."""
     if calibration is None:
         return [[]]
     content, points = calibration
     unknowns = content["unknowns"]
+    # points of the posterior, drawn by their weights
     weights = points[:, -1] / np.sum(points[:, -1])
     drawn = np.random.default_rng(seed).choice(len(weights), DRAWS, p=weights)
     return [

@@ -97,6 +97,7 @@ def threshold(
     """
     if not 0.0 < tolerance < 1.0:
         raise ValueError(f"the tolerance must lie between 0 and 1, not {tolerance}")
+    # one value after the other, with those ahead made at the same time
     search = _Search(case, of, out, tolerance, bracket, largest_factor)
     while (value := search.following(search.known)) is not None:
         if not (search.folder(value) / "summary.json").exists():
@@ -106,6 +107,8 @@ def threshold(
             word = "reached" if trial.reached else "not reached"
             energy = f"{search.key} = {show_energy(search.key, value)}"
             report(f"run {len(search.known)}: {energy}: {trial.temperature:.1f} K, {word}")
+
+    # the bracket as found, or why there is none
     if search.bracket and (search.known[search.bracket[0]] or not search.known[search.bracket[1]]):
         raise ValueError(
             f"{search.bracket[0]:g} and {search.bracket[1]:g} do not bracket the threshold; give "
@@ -129,7 +132,7 @@ def usual_runs(tolerance: float) -> int:
 
 
 class _Search:
-    """What is known of a threshold, and which value follows from that."""
+    """Outcomes known of a threshold, and the value to try next."""
 
     def __init__(
         self,
@@ -167,11 +170,13 @@ class _Search:
     def following(self, known: Mapping[float, bool]) -> float | None:
         """The value to try next, were this known; None at the end, and where the bracket is none
         or nothing near the guess is one."""
+        # first the given bracket, or the case's own energy
         for value in self.bracket or (self.guess,):
             if value not in known:
                 return value
         if self.bracket and (known[self.bracket[0]] or not known[self.bracket[1]]):
             return None
+        # bracketed: halve; else double or halve until it is
         below, above = self.ends(known)
         if below is not None and above is not None:
             is_narrow = above - below <= self.tolerance * (above + below)
@@ -184,13 +189,14 @@ class _Search:
     def ahead(self, count: int) -> list[float]:
         """The next value and those that would follow from what it and others may give, the soonest
         needed first: where all are run at a time, the search takes the same way in fewer rounds."""
-        found, worlds = dict[float, None](), deque([self.known])
-        while worlds and len(found) < count:
-            world = worlds.popleft()
-            value = self.following(world)
+        found, outcomes = dict[float, None](), deque([self.known])
+        # breadth first: what is needed soonest comes first
+        while outcomes and len(found) < count:
+            known = outcomes.popleft()
+            value = self.following(known)
             if value is not None:
                 found[value] = None
-                worlds += [{**world, value: reached} for reached in (True, False)]
+                outcomes += [{**known, value: reached} for reached in (True, False)]
         return list(found)
 
     def judge(self, value: float, summary: dict[str, Any]) -> Trial:

@@ -56,6 +56,7 @@ def process_map(
         KeyError: no run has the number. OutputError: no sweep there; scikit-learn is missing.
     """
     table = runs if isinstance(runs, Table) else Table.read(runs)
+    # points and values of the runs, which must span the map
     keys = _chosen_keys(table, x, y)
     points = np.stack([table.values(key) for key in keys], axis=1)
     values = sizes_of(table, show)
@@ -65,6 +66,7 @@ def process_map(
     for key, column in zip(keys, points[good].T, strict=True):
         if np.ptp(column) == 0.0:
             raise ValueError(f"{key} is {column[0]:g} in every run with a result")
+    # the number over the keys as the runs lie, heat over their logarithms
     box = box_of_runs(points)
     layout = RunPlaces(box, points)
     powers = RunPlaces(box_of(box.low, box.high, box.low > 0.0), points)
@@ -73,11 +75,13 @@ def process_map(
         field, deviation = layout.emulate(values, numerical_deviation(table, show))
         if np.nanmin(values) >= 0.0:  # no size of a pool below zero where it vanishes
             field = np.maximum(field, 0.0)
+    # lines of the events with their bands, and of the target
     events = events_of(table, powers)
     lines = {one.name: powers.lines(one.heat) for one in events}
-    bands = {one.name: powers.area(one.doubt(powers.interpolate)) for one in events}
+    bands = {one.name: powers.area(one.ambiguity(powers.interpolate)) for one in events}
     if target is not None:
         lines["target"] = layout.contour(field, target)
+    # unit by the dimension of the runs; what is missing in words
     known, dimensions = RESULTS.get(show), int(np.nanmax(table.values("dimensions")))
     unit = unit_in(known.unit, dimensions) if known else unit_of(show)
     notes, units = one_sided_notes(table, keys), table.shown_units()
@@ -119,10 +123,10 @@ def _chosen_keys(table: Table, x: str | None, y: str | None) -> list[str]:
             raise ValueError(f"{key} does not vary in {table.path}{hint}")
     if x is not None and x == y:
         raise ValueError(f"x and y are both {x}")
-    rest = [key for key in table.varied if key not in given]
-    if len(given) + len(rest) > 2:
+    others = [key for key in table.varied if key not in given]
+    if len(given) + len(others) > 2:
         raise ValueError(
             f"{len(table.varied)} keys vary in {table.path} ({', '.join(table.varied)}) and a map "
             "shows two: make a sweep of two, or see lasersph sensitivity"
         )
-    return [*rest, *given] if x is None else [*given, *rest]
+    return [*others, *given] if x is None else [*given, *others]

@@ -37,6 +37,7 @@ def read_measured(text: str, kind: str) -> Measured:
     example = KINDS[kind].example if kind else "1.1"
     number, _, unit = example.partition(" ")
     hint = f'write e.g. "{f"{number} +- {0.05 * float(number):g} {unit}".strip()}"'
+    # value and error, each with its unit, or one unit for both at the end
     parts = _SIGN.split(text.strip())
     if len(parts) != 2:
         raise QuantityError(f'"{text}" needs a value and its standard error; {hint}')
@@ -45,6 +46,7 @@ def read_measured(text: str, kind: str) -> Measured:
         value = _number(left, kind)
         sd = 1e-2 * abs(value) * _number(right.removesuffix("%"), "")
     else:
+        # a bare value takes the unit of its error
         if _NUMBER.fullmatch(left):
             match = _NUMBER.match(right)
             left += right[match.end() :] if match else ""

@@ -1,4 +1,4 @@
-"""What measured values say of unknowns: likelihood over emulators, and the posterior.
+"""Posterior of unknowns from measured values: likelihood over emulators.
 
 With d_j the measured values, s_j their standard errors, m_j and e_j mean and standard deviation of
 the emulator and n_j the numerical standard deviation of the runs (cells),
@@ -73,6 +73,7 @@ class Model:
         points = np.atleast_2d(np.asarray(unknowns, float))
         means, sds = np.empty((2, len(points), len(self.data)))
         for column, emulator in self.emulators.items():
+            # values of this number in all measurements, each with its own settings
             places = [number for number, (_, name) in enumerate(self.data) if name == column]
             inputs = [
                 self.plan.inputs(points, self.plan.conditions[self.data[number][0]])
@@ -92,6 +93,7 @@ class Model:
         """ln p but for a constant (n,), -inf outside of the bounds."""
         mean, sd = self.predict(unknowns)
         value, error = self.measured
+        # v_j, then the likelihood and what is known beforehand
         variance = error**2 + self.numerical_sd**2 + (sd**2 if with_emulators_error else 0.0)
         found = -0.5 * np.sum((value - mean) ** 2 / variance + np.log(variance), axis=1)
         for one, x in zip(self.plan.unknowns, unknowns.T, strict=True):
@@ -128,9 +130,10 @@ class Posterior:
 
     def quantiles(self, values: Array, shares: ArrayLike) -> Array:
         """Quantiles of some values (n,) of the points."""
+        # distribution at the middle of each point's weight
         order = np.argsort(values, kind="stable")
-        reached = np.cumsum(self.weights[order]) - 0.5 * self.weights[order]
-        return np.interp(np.asarray(shares), reached, values[order])
+        cumulative = np.cumsum(self.weights[order]) - 0.5 * self.weights[order]
+        return np.interp(np.asarray(shares), cumulative, values[order])
 
     def draw(self, count: int, seed: int) -> Array:
         """Points (count, p) drawn by their weights."""
@@ -153,6 +156,7 @@ def find_posterior(model: Model, seed: int) -> Posterior:
     low = np.array([one.low for one in model.plan.unknowns])
     high = np.array([one.high for one in model.plan.unknowns])
     if low.size in GRID:
+        # first look over the bounds, second one where the probability lies
         points = _grid(low, high)
         density = model.log_probability(points)
         near = points[density > density.max() - FIRST_LOOK]
@@ -161,8 +165,10 @@ def find_posterior(model: Model, seed: int) -> Posterior:
         density = model.log_probability(points)
         weights = _normalized(density)
     else:
+        # points of a chain weigh the same
         points, density = _sampled(model, low, high, seed)
         weights = np.full(len(points), 1.0 / len(points))
+    # the same points, weighted as if the emulators were exact
     perfect = model.log_probability(points, with_emulators_error=False)
     tilted = weights * np.exp(perfect - density - np.max(perfect - density))
     best = points[int(np.argmax(density))]
@@ -187,6 +193,7 @@ def _sampled(model: Model, low: Array, high: Array, seed: int) -> tuple[Array, A
     except ImportError as error:
         raise OutputError(install_hint("emcee", "study")) from error
     rng = np.random.default_rng(seed)
+    # walkers start at the best of random points, and forget that before steps are kept
     trials = low + rng.random((CHUNK, low.size)) * (high - low)
     walkers = WALKERS * low.size
     best = trials[np.argsort(-model.log_probability(trials), kind="stable")[:walkers]]

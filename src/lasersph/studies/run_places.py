@@ -25,6 +25,7 @@ class RunPlaces:
         self.box, self.points = box, points
         self.x = box.scaled(points)
         keys = points.shape[1]
+        # a regular field over the box, in SI for the axes
         shares = np.linspace(0.0, 1.0, PLACES[keys])
         self.shares = np.stack(np.meshgrid(*[shares] * keys, indexing="xy"), axis=-1)
         corner = box.restored(np.repeat(shares[:, None], keys, axis=1))
@@ -53,6 +54,7 @@ class RunPlaces:
 
     def grid_order(self) -> tuple[tuple[Array, Array], NDArray[np.int_]] | None:
         """Scaled lines of a grid and the run at each crossing; None where the runs are no grid."""
+        # a grid: as many runs as crossings of its lines, one at each
         lines = [np.unique(np.round(column, 9)) for column in self.x.T]
         if len(lines) != 2 or lines[0].size * lines[1].size != len(self.x):
             return None
@@ -79,6 +81,7 @@ class RunPlaces:
         """Where a field is positive: rings (k, 2) around it and around its holes, or the ends
         (2, 1) of each stretch of a single key."""
         if field.ndim == 1:
+            # a single key: pairs of ends
             ends = np.concatenate([np.empty((0, 1)), *self.contour(field, 0.0)])
             return tuple(ends[: len(ends) // 2 * 2].reshape(-1, 2, 1))
         step = np.linspace(0.0, 1.0, field.shape[0])
@@ -97,6 +100,7 @@ class RunPlaces:
     def contour(self, field: Array, level: float) -> tuple[Array, ...]:
         """Where a field passes a level: lines (k, 2), or one array (k, 1) over a single key."""
         if field.ndim == 1:
+            # a single key: crossings between neighbors, linearly
             above = field > level
             known = np.isfinite(field[1:]) & np.isfinite(field[:-1])
             k = np.flatnonzero((above[1:] != above[:-1]) & known)

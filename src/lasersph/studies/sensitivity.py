@@ -80,12 +80,15 @@ def sobol_indices(emulator: Emulator, *, seed: int = 1) -> SobolIndices:
     count, keys = emulator.inputs.shape
     if keys < 2:
         raise ValueError("a single key varies: there is nothing to compare it with")
+    # indices of drawn functions: what the runs leave open, and the points
     drawn = np.hstack(
         [
             _indices(emulator, emulator.draw(DRAWS, seed=seed + batch), [seed, batch])
             for batch in range(BATCHES)
         ]
     )
+
+    # jackknife over groups of runs
     group = np.random.default_rng(seed).permutation(count) % min(GROUPS, count)
     whole = _indices(emulator, lambda x: emulator.predict(x)[0][None], [seed])[:, 0]
     parts = []
@@ -93,6 +96,8 @@ def sobol_indices(emulator: Emulator, *, seed: int = 1) -> SobolIndices:
         reduced = emulator.without(group == one)
         parts.append(_indices(reduced, lambda x, r=reduced: r.predict(x)[0][None], [seed])[:, 0])
     left = np.array(parts)
+
+    # variances of the draws and of the jackknife, and its bias
     fold = len(left) - 1
     bias = fold * (left.mean(axis=0) - whole)
     variance = drawn.var(axis=1) + fold * left.var(axis=0) + bias**2
@@ -140,11 +145,13 @@ def screen(inputs: ArrayLike, outputs: ArrayLike, box: Box) -> Screening:
     """
     x, y = box.scaled(inputs), np.asarray(outputs, float)
     steps, rises = np.diff(x, axis=0), np.diff(y)
+    # steps in which one key alone has moved
     is_moved = np.abs(steps) > 1e-9  # rounding of scaled keys
     usable = (is_moved.sum(axis=1) == 1) & np.isfinite(rises)
     sizes, deviations, counts = [], [], []
     for key in range(x.shape[1]):
         chosen = usable & is_moved[:, key]
+        # elementary effects of the key; mu* is the mean of their sizes
         effects = rises[chosen] / steps[chosen, key]
         if effects.size < 2:
             raise ValueError(
@@ -158,7 +165,7 @@ def screen(inputs: ArrayLike, outputs: ArrayLike, box: Box) -> Screening:
 
 @dataclass(frozen=True, eq=False)
 class Sensitivity:
-    """What the keys of a sweep do to a number.
+    """Influence of the keys of a sweep on a number.
 
     Attributes:
         column: the number. keys: what varies. runs: how many have the number.
@@ -195,6 +202,7 @@ def assess_sensitivity(
         raise ValueError(f"no run has {column} yet")
     found = Sensitivity(column, table.varied, int(good.sum()))
     box = box_of_runs(points)
+    # walks of a screening have their effects; other runs are emulated
     if _is_screening(table):
         return replace(found, screening=screen(points, values, box))
     noise = numerical_deviation(table, column)

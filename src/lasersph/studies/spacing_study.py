@@ -66,6 +66,7 @@ class SpacingStudy:
         head, lines = ["number", *spacings, "behavior", "order", "at zero spacing", "GCI"], []
         for row in self.rows:
             c = row.convergence
+            # values at the spacings, then what they tend to
             shown = [_in_its_unit(row.name, value) for value in (*row.values, c.extrapolated)]
             texts = [row.name, *shown[:-1], c.kind, _shown(c.order, "{:.2f}"), shown[-1]]
             lines.append([*texts, _shown(100.0 * c.gci, "{:.2g} %")])
@@ -113,6 +114,7 @@ def converge(
             f"an order needs three different spacings, got {len(wanted)}; give e.g. 32nm,16nm,8nm"
         )
     used, summaries = [], []
+    # coarsest first: cheap runs show soonest what is wrong
     folders = {spacing: out / f"spacing-{1e9 * spacing:.4g}nm" for spacing in reversed(wanted)}
     cases = {spacing: changed(case, "particles.spacing", spacing) for spacing in folders}
     prepare({folders[spacing]: each for spacing, each in cases.items()})
@@ -135,6 +137,7 @@ def assess_summaries(summaries: Sequence[dict[str, Any]], spacings: list[float])
         raise ValueError(
             "two of the spacings were rounded to the same; choose spacings farther apart"
         )
+    # every number that any run has
     numbers = [numbers_of(summary) for summary in summaries]
     names = dict.fromkeys(name for each in numbers for name in each)
     rows = []
@@ -146,8 +149,9 @@ def assess_summaries(summaries: Sequence[dict[str, Any]], spacings: list[float])
 
 
 def resolution(name: str, value: float, summary: dict[str, Any], spacing: float) -> float:
-    """What a number of a run jumps by at least: a cell for sizes counted in whole cells (two for a
+    """Least jump of a number of a run: a cell for sizes counted in whole cells (two for a
     width of which half is computed), the smallest step for a time, 0 for others and for nothing."""
+    # a width of which half is computed jumps by two cells
     if WHOLE_CELLS.fullmatch(name) and value > 0.0:
         cells = summary.get("surface", {}).get("symmetry_factor", 1)
         return spacing * (cells if "width" in name else 1)
@@ -165,6 +169,7 @@ def _row(name: str, values: list[float], spacings: list[float], least: float) ->
     """`least`: the uncertainty is never smaller."""
     if any(math.isnan(value) for value in values[:3]):
         return StudyRow(name, tuple(values), Convergence("incomplete", *[math.nan] * 4))
+    # no surer than a cell or a step
     found = assess(values, spacings)
     if found.uncertainty < least:
         found = replace(found, uncertainty=least, gci=least / abs(values[0]))

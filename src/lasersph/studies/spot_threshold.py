@@ -135,6 +135,7 @@ def spot_threshold(
     if reason := no_spot(case, fluences):
         raise ValueError(reason)
     craters = []
+    # one run for each fluence, numbered from the lowest
     cases = {
         out / f"{number:02d}-fluence-{fluence:.6g}": changed(case, "laser.fluence", fluence)
         for number, fluence in enumerate(sorted(set(fluences)), start=1)
@@ -145,13 +146,14 @@ def spot_threshold(
         craters.append(crater_of(fluence, summary))
         if report:
             report(f"run {number}: {1e-4 * fluence:.5g} J/cm2: {craters[-1].diameter * 1e6:.4g} um")
+    # runs without a crater say nothing about the line
     deep = [one for one in craters if one.diameter > 0.0]
     threshold, radius, scatter = fit([d.fluence for d in deep], [d.diameter for d in deep])
     return SpotThreshold(tuple(craters), threshold, radius, case.laser.beam.radius, scatter)
 
 
 def crater_of(fluence: float, summary: dict[str, Any]) -> SpotCrater:
-    """What a run's summary says of its crater."""
+    """Crater of a run, from its summary."""
     crater = summary["crater"]
     return SpotCrater(
         fluence=fluence,
@@ -171,6 +173,7 @@ def fit(fluences: Sequence[float], diameters: Sequence[float]) -> tuple[float, f
     """
     if len(fluences) < LEAST:
         raise ValueError(f"only {len(fluences)} of the fluences left a crater; give higher ones")
+    # straight line D^2 over ln F: slope 2 w^2, zero at ln F_th
     square = np.array(diameters) ** 2
     logarithm = np.log(fluences)
     slope, offset = (float(value) for value in np.polyfit(logarithm, square, 1))

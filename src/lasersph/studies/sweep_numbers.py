@@ -20,6 +20,7 @@ def box_of_runs(points: Array) -> Box:
         ValueError: a key has the same value in all runs.
     """
     low, high, middle = points.min(axis=0), points.max(axis=0), np.median(points, axis=0)
+    # a median near the geometric middle: the key was spread evenly in its logarithm
     positive = low > 0.0
     geometric = np.sqrt(np.where(positive, low, 0.0) * high)
     bent = positive & (np.abs(middle - geometric) < np.abs(middle - 0.5 * (low + high)))

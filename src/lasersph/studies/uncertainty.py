@@ -76,11 +76,14 @@ def assess_uncertainty(
     """
     chosen, fixed, coarser = _plan(case, inputs)
     total = 2 * len(chosen) + (0 if isinstance(coarser, str) else len(coarser))
+    # companions several at a time, after the run that they accompany
     study = _Companions(folder / "companions", run, report, total)
     if isinstance(coarser, str):  # said before hours of runs, not after
         study.note(f"no numerical part: {coarser}")
     main = run(case, folder).summary
     study.prepare(prepare, fixed, () if isinstance(coarser, str) else coarser, chosen, main)
+
+    # numerical part: grid convergence index over three spacings
     rows: dict[str, StudyRow] = {}
     spacings: list[float] = []
     if not isinstance(coarser, str):
@@ -90,6 +93,8 @@ def assess_uncertainty(
             spacings = [float(summary["spacing_m"]) for summary in summaries]
             rows = {row.name: row for row in assess_summaries(summaries, spacings).rows}
     numbers = numbers_of(main)
+
+    # inputs: each higher and lower by its standard uncertainty
     shifts = {one.key: study.both_sides(fixed, one, numbers) for one in chosen}
     content = {
         "schema_version": SCHEMA,
@@ -156,10 +161,13 @@ class _Companions:
     ) -> None:
         """Make companions several at a time: coarser ones and those with a higher input, then those
         with a lower one, but for inputs that change none of the numbers."""
+        # coarser companions, and each input higher
         cases = {self.folder / _name_of_spacing(each): each for each in coarser}
         higher = {one: self.folder / _name_of_shift(one, 1) for one in inputs}
         others = {folder: shifted(case, one, 1) for one, folder in higher.items()}
         prepare(cases | {path: each for path, each in others.items() if isinstance(each, Case)})
+
+        # an input that changes nothing when it is higher is not made lower
         numbers, lower = numbers_of(main), dict[Path, Case]()
         for one, folder in higher.items():
             is_made = (folder / "summary.json").exists()
@@ -216,6 +224,7 @@ def _assessed(
     shifts: dict[str, tuple[Numbers | None, Numbers | None]],
 ) -> dict[str, Any]:
     """One number: value, error that holds about 95 %, and its parts."""
+    # u_i of each input, their root sum of squares, and U of both parts
     parts = {
         key: part
         for key, (plus, minus) in shifts.items()
@@ -242,9 +251,10 @@ def _assessed(
 
 
 def _part(value: float, plus: float | None, minus: float | None) -> dict[str, Any] | None:
-    """What one input does to a number; None where neither side has it."""
+    """Contribution of one input to a number; None where neither side has it."""
     if plus is None and minus is None:
         return None
+    # differences of the size of rounding are none
     smallest = ROUNDING * abs(value)
     up, down = (
         None if other is None else other - value if abs(other - value) > smallest else 0.0
@@ -252,6 +262,7 @@ def _part(value: float, plus: float | None, minus: float | None) -> dict[str, An
     )
     if up is None or down is None:
         return {"up": up, "down": down, "standard": abs(up or down or 0.0), "is_linear": None}
+    # [GUM2008, 5.1.3, note 2]; not linear: the larger difference
     half, middle = 0.5 * (up - down), 0.5 * (up + down)
     is_linear = abs(middle) <= abs(half)
     standard = abs(half) if is_linear else max(abs(up), abs(down))

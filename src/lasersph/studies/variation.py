@@ -12,7 +12,7 @@ M = TypeVar("M", bound=BaseModel)
 
 
 class Finished(Protocol):
-    """What a run leaves behind, as far as studies look at it."""
+    """A finished run, as far as studies look at it."""
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -46,10 +46,11 @@ def changed(model: M, key: str, value: Any) -> M:
     Raises:
         KeyError: there is no such key. pydantic.ValidationError: the value does not fit.
     """
-    head, _, rest = key.partition(".")
+    head, _, inner = key.partition(".")
     if head not in type(model).model_fields:
         raise KeyError(f"{type(model).__name__} has no key {head!r}")
+    # only keys that were set: defaults may depend on the others
     data = {name: getattr(model, name) for name in model.model_fields_set}
     old = getattr(model, head)
-    data[head] = changed(old, rest, value) if rest else value
+    data[head] = changed(old, inner, value) if inner else value
     return type(model).model_validate(data)

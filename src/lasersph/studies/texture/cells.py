@@ -49,6 +49,7 @@ def read_cell(run: Run, period: float) -> Cell:
     """
     if not len(run.surface) or not len(run.snapshots):
         raise OutputError(f"{run.path} holds no surface that moved")
+    # the run covers one period or the half of an even one
     x, height = run.surface[-1]["position"]
     spacing = (x[-1] - x[0]) / (x.size - 1)
     width = spacing * x.size
@@ -59,6 +60,7 @@ def read_cell(run: Run, period: float) -> Cell:
     def columns_of(places: Array) -> NDArray[np.int64]:
         return np.floor((places - (x[0] - 0.5 * spacing)) / spacing).astype(int)
 
+    # largest values over the snapshots, of particles and of the surface
     first = run.snapshots[0]
     shape = first["temperature"].shape
     melted, hottest = np.zeros(shape), np.zeros(shape)
@@ -68,12 +70,15 @@ def read_cell(run: Run, period: float) -> Cell:
             raise OutputError(f"{run.path}: the number of particles changes")
         np.maximum(melted, step["melt_fraction"], out=melted)
         np.maximum(hottest, step["temperature"], out=hottest)
+        # a surface that flows has values of its own; else those of the uppermost particle
         top = uppermost(step, columns_of(step["position"][0]))
         at, wet = step["position"][0, top], (step["surface"][top] > 0) & (step["flows"][top] > 0)
         found = np.where(wet, step["surface_temperature"][top], step["temperature"][top])
         np.maximum(temperature, np.interp(x, at, found), out=temperature)
         along = np.where(wet, np.abs(step["surface_velocity"][top]), 0.0)
         np.maximum(speed, np.interp(x, at, along), out=speed)
+
+    # depth of the melt, then the mirrored half, in the order of x
     material = run.summary["material"]
     melting = 0.5 * (material["solidus_K"] + material["liquidus_K"])
     depth = depth_below(columns_of(first["position"][0]), x.size, first, melted, hottest, melting)
@@ -89,6 +94,7 @@ def read_cell(run: Run, period: float) -> Cell:
 
 def uppermost(step: dict[str, Array], column: NDArray[np.int64]) -> NDArray[np.int64]:
     """Number of the uppermost particle of each column that has one, in order of x."""
+    # later writes win: from below to the top
     upward = np.argsort(step["position"][1], kind="stable")
     top = np.full(int(column.max()) + 1, -1)
     top[column[upward]] = upward
@@ -115,12 +121,14 @@ def depth_below(
     spacing = np.min(first["width"][0])
     is_fine = np.abs(first["width"][0] - spacing) < PERIOD_FITS * spacing
     for k in np.unique(column[(melted >= HALF) & is_fine]):
+        # particles of the column from the top down, and the deepest that was half molten
         rows = np.flatnonzero((column == k) & is_fine)
         rows = rows[np.argsort(-z[rows], kind="stable")]
         deepest = int(np.flatnonzero(melted[rows] >= HALF)[-1])
         if deepest + 1 == rows.size:
             found[k] = -z[rows[deepest]] + 0.5 * first["width"][1, rows[deepest]]
             continue
+        # half molten between two particles, by melt fraction, and by temperature where they differ
         a, b = rows[deepest], rows[deepest + 1]
         share = (melted[a] - HALF) / (melted[a] - melted[b])
         if hottest[a] > hottest[b]:

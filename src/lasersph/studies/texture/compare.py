@@ -31,7 +31,7 @@ from lasersph.studies.texture.measurement import (
     point_noise,
     points_of,
     refuse_odd,
-    turn_of,
+    rotation_of,
 )
 from lasersph.studies.texture.relief import Relief
 
@@ -106,6 +106,7 @@ def compare(relief: Relief, surface: HeightMap, scale_error: float = SCALE_ERROR
             unit can't be right.
     """
     refuse_odd(surface, relief.table.period)
+    # start with few points, then least squares with all
     few = _Alignment.of(relief, surface, scale_error, START_POINTS)
     unknowns = min((few.least(one) for one in few.starts()), key=lambda found: found.cost).x
     every = _Alignment.of(relief, surface, scale_error, MOST_POINTS)
@@ -137,8 +138,10 @@ class _Alignment:
     def of(cls, relief: Relief, surface: HeightMap, scale_error: float, most: int) -> Self:
         x, y, z = points_of(surface, most)
         is_map = np.ptp(y) > 0.0
+        # level and tilts as an orthonormal basis: solved for exactly [Golub1973]
         columns = [np.ones_like(x), x - x.mean()] + ([y - y.mean()] if is_map else [])
         basis = np.linalg.qr(np.stack(columns, axis=1))[0]
+        # unknowns that a profile or a map, of lines or of a spot, can tell
         names = ["shift_x_m", "lateral_scale"] + (["rotation_rad"] if is_map else [])
         if relief.is_spot:
             names += ["fluence_factor"] + (["shift_y_m"] if is_map else [])
@@ -148,19 +151,19 @@ class _Alignment:
     @property
     def bounds(self) -> Mapping[str, tuple[float, float]]:
         high = self.relief.largest_factor * (1.0 + 1e-12)
-        turn = LARGEST_TURN
         return {
             "lateral_scale": (0.8, 1.25),
             "fluence_factor": (LOWEST_FACTOR, high),
-            "rotation_rad": (-turn, turn),
+            "rotation_rad": (-LARGEST_TURN, LARGEST_TURN),
         }
 
     def places(self, unknowns: Array) -> tuple[Array, Array]:
         """Our coordinates of the points [m]."""
         found, period = dict(zip(self.names, unknowns, strict=True)), self.relief.table.period
-        turn, scale = found.get("rotation_rad", 0.0), found["lateral_scale"]
+        angle, scale = found.get("rotation_rad", 0.0), found["lateral_scale"]
         x, y = self.x - period * found["shift_x_m"], self.y - period * found.get("shift_y_m", 0.0)
-        cosine, sine = np.cos(turn), np.sin(turn)
+        # into the coordinates of the relief: shift, turn, scale
+        cosine, sine = np.cos(angle), np.sin(angle)
         return (cosine * x + sine * y) / scale, (cosine * y - sine * x) / scale
 
     def heights(self, unknowns: Array) -> Array:
@@ -193,6 +196,7 @@ class _Alignment:
 
     def starts(self) -> list[Array]:
         """The best places on a grid, with lateral scale 1."""
+        # places within reach: one period of lines, or a spot that overlaps the measurement
         relief, period = self.relief, self.relief.table.period
         reach = 0.5 * (np.ptp(self.x) + np.ptp(relief.x)) if relief.is_spot else 0.5 * period
         shifts = np.arange(-reach, reach, period / STARTS_A_PERIOD) / period
@@ -200,7 +204,9 @@ class _Alignment:
         # the center across the lines: that of the squares of the leveled heights
         across = float(np.sum(self.y * left**2) / np.sum(left**2)) / period
         values = {"lateral_scale": 1.0, "shift_y_m": across}
-        values["rotation_rad"] = turn_of(self.surface, period, LARGEST_TURN)
+        values["rotation_rad"] = rotation_of(self.surface, period, LARGEST_TURN)
+
+        # each place and factor, leveled; the best few are followed
         factors = (relief.largest_factor * k for k in (0.97, 0.8)) if relief.is_spot else (1.0,)
         found = []
         for factor in factors:
@@ -214,8 +220,9 @@ class _Alignment:
         return [one for _, one in found[:STARTS]]
 
     def comparison(self, unknowns: Array, jacobian: Array) -> Comparison:
-        """What the minimum says. Raises NoComparison."""
+        """Comparison at the minimum. Raises NoComparison."""
         relief, names = self.relief, self.names
+        # variance of the residuals, their correlation, and the scale known beforehand
         residual, jacobian = self.noise * self.misfit(unknowns)[:-1], self.noise * jacobian[:-1]
         freedom = max(self.z.size - len(names) - self.basis.shape[1], 1)
         variance = float(residual @ residual) / freedom
@@ -226,6 +233,7 @@ class _Alignment:
         covariance = np.linalg.pinv(precision, hermitian=True)
         units = [relief.table.period if name.startswith("shift") else 1.0 for name in names]
         errors = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * units
+        # factor on heights: regression of measured on ours, both leveled
         ours = self.heights(unknowns)
         if np.std(ours) == 0.0:
             raise NoComparison("our relief is flat where the measurement lies: nothing to align to")
@@ -287,7 +295,7 @@ def answer(found: Comparison) -> dict[str, Any]:
 
 
 def sentence(found: Comparison) -> str:
-    """What the measurement can tell, in one sentence."""
+    """Sentence that says what the measurement can tell."""
     rms = float(np.sqrt(np.mean(found.residual**2)))
     expected = float(np.hypot(found.noise, found.interpolation))
     fits = rms < 1.5 * expected
@@ -296,6 +304,7 @@ def sentence(found: Comparison) -> str:
         + ("no more than" if fits else "more than")
         + f" noise and interpolation explain ({1e9 * expected:.3g} nm)"
     )
+    # a factor at its bound is a limit, not a value
     if "fluence_factor" in found.at_bound:
         low, high = found.interval("fluence_factor")
         is_high = found.values["fluence_factor"] > LOWEST_FACTOR + 0.5 * (high - low)

@@ -85,11 +85,14 @@ class LineHeights:
         """
         from scipy.interpolate import PchipInterpolator, UnivariateSpline
 
+        # cells over the distance from their line, with the edges of their melt
         phase = x - period * np.round(x / period)
         order = np.argsort(phase, kind="stable")
         phase, height = phase[order], height[:, order]
         least = CHANGED * float(np.abs(height).max())
         half_width = np.array([distance_of_edge(phase, row, least, period) for row in height])
+
+        # S: heights from edge to edge, of a line without edges over its period
         stretched = np.zeros((fluence.size, PLACES))
         for k, (row, w) in enumerate(zip(height, half_width, strict=True)):
             places = np.linspace(-w, w, PLACES)
@@ -102,12 +105,16 @@ class LineHeights:
         for k in range(fluence.size - 2, -1, -1):
             if half_width[k] == 0.0 and half_width[k + 1] == 0.5 * period:
                 half_width[k] = 0.5 * period  # nothing is known of an edge between these two
+
+        # smoothing spline of w^2 over fluence, to the rounding of columns
         has_edge = (half_width > 0.0) & (half_width < 0.5 * period)
         if np.count_nonzero(has_edge) > FEWEST:
             lit, w = fluence[has_edge], half_width[has_edge]
             rounding = period / (np.sqrt(12.0) * x.size)
             smooth = UnivariateSpline(lit, w**2, w=1.0 / (2.0 * w * rounding))
             half_width[has_edge] = np.sqrt(np.maximum(smooth(lit), 0.0))
+
+        # monotone cubics over fluence, tabulated
         levels = np.linspace(0.0, fluence[-1], LEVELS)
         lit = np.maximum(levels, fluence[0])
         share = np.minimum(levels / fluence[0], 1.0)[:, None]  # linear below the lowest cell
@@ -133,6 +140,7 @@ class LineHeights:
         # a line at one y, on which many places lie, is one complex number
         lines, line = np.unique(np.round(x / self.period) + 1j * y, return_inverse=True)
         center, row = self.period * lines.real, lines.imag
+        # S(F_k, (2 x - a - b) / (b - a)), or Z(F, x) where lines meet
         left, right = self._edges(fluence, center, row)
         own = self._brightest(fluence, center, row)
         half, off = 0.5 * (left + right), 0.5 * (right - left)
@@ -148,6 +156,7 @@ class LineHeights:
     ) -> Array:
         """F_k (n,) of lines at (center, row); that at the line where an edge of the light, such as
         of a top hat, gives no slope."""
+        # slope g of the light, and the brightest place that it moves beside the line
         own, step = fluence(center, row), SLOPE_STEP * self.period
         change = fluence(center + step, row) - fluence(center - step, row)
         slope = change / (2.0 * step * np.maximum(own, 1e-12 * self.highest))
@@ -166,6 +175,7 @@ class LineHeights:
         """
         from scipy.ndimage import map_coordinates
 
+        # few places: each edge by itself; many: a table over lines and rows
         number = np.round(center / self.period).astype(int)
         first, low, high = number.min(), float(row.min()), float(row.max())
         rows = np.linspace(low, high, 2 + int(ROWS_A_PERIOD * (high - low) / self.period))
@@ -188,6 +198,7 @@ class LineHeights:
         self, fluence: Callable[[Array, Array], Array], center: Array, row: Array, side: float
     ) -> Array:
         """Distance (n,) of the edge on a side from lines at (center, row)."""
+        # bisection for x_k -+ w(F): melt reaches as far as w of the fluence there
         near, far = np.zeros(center.size), np.full(center.size, 0.5 * self.period)
         for _ in range(BISECTIONS):
             middle = 0.5 * (near + far)
@@ -206,6 +217,7 @@ class LineHeights:
         """S at distances from the middle between edges that are twice the half width apart."""
         from scipy.ndimage import map_coordinates
 
+        # bilinear in the table: fluence and place from edge to edge
         place = distance / np.maximum(half_width, 1e-12 * self.period)
         row = np.minimum(fluence / self.highest, 1.0) * (LEVELS - 1)
         column = 0.5 * (place + 1.0) * (PLACES - 1)
@@ -226,6 +238,7 @@ def distance_of_edge(phase: Array, height: Array, least: float, period: float) -
     step = period / phase.size
     for side in (phase <= 0.0, phase >= 0.0):
         order = np.argsort(np.abs(phase[side]), kind="stable")
+        # from the line outward: the last column that has changed
         away, z = np.abs(phase[side][order]), np.abs(height[side][order])
         changed = np.flatnonzero(z > least)
         if changed.size == 0:
@@ -233,6 +246,7 @@ def distance_of_edge(phase: Array, height: Array, least: float, period: float) -
         last = int(changed[-1])
         if last == z.size - 1:
             return 0.5 * period
+        # the fall of the last two columns leads to 0
         falls = z[last - 1] - z[last] if last > 0 else 0.0
         farther = min(z[last] / falls, 1.0) if falls > 0.0 else 0.5
         found = max(found, float(away[last]) + step * farther)

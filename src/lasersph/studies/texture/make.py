@@ -58,7 +58,7 @@ DIGITS = 6
 
 @dataclass(frozen=True)
 class TexturePlan:
-    """What a texture needs of its case.
+    """Plan of a texture: its case, cells and spot.
 
     Attributes:
         case: with its spot. cells: the sweep of the case without it, over `KEY`.
@@ -90,6 +90,7 @@ def plan_texture(
     """
     given = dict(settings or {})
     template = CaseTemplate(name, given)
+    # the spot, and the case of a cell without it
     case = template.file.case(template.overrides({}))
     spot, period = spot_of(case)
     laser, bare = case.laser, cell_settings(given)
@@ -106,6 +107,8 @@ def plan_texture(
         bare |= {"laser.pulse.count": 1, "time.end": f"{end:.9g} s"}
         bare |= dict.fromkeys(("laser.pulse.period", "laser.pulse.repetition_rate"), "")
         bare["time.pause"] = ""
+
+    # fluences of the cells, and whether pulses meet the melt of others
     fluences = cell_fluences(CaseTemplate(name, {**bare, KEY: "1 J/cm^2"}), spot.center, cells)
     if moves:
         refuse_common_melt(spot, period, fluences[0] / BELOW, pulses, shift)
@@ -121,6 +124,7 @@ def period_of_lines(case: CaseContents) -> float:
         NoTexture: what it lacks for that.
     """
     beam = None if case.laser is None else case.laser.beam
+    # exactly one period of lines along x, of a surface that moves
     period = beam.lateral_period if isinstance(beam, InterferenceBeam) else None
     if period is None or not isinstance(beam, InterferenceBeam):
         raise NoTexture("the case has no pattern of interfering beams to texture with")
@@ -189,6 +193,7 @@ def cell_fluences(template: CaseTemplate, highest: float, cells: int) -> tuple[f
         raise NoTexture(
             f"{1e-4 * highest:.4g} J/cm^2 at the center melt nothing, by the estimate of the case"
         )
+    # bisection for the fluence that just melts, then even steps up to the center
     dark, bright = 0.0, highest
     for _ in range(BISECTIONS):
         middle = 0.5 * (dark + bright)
@@ -210,6 +215,7 @@ def assemble(plan: TexturePlan, folder: Path, pixel: float | None = None) -> dic
     Raises:
         NoTexture: see `texture_maps`. OutputError: a folder cannot be read or written.
     """
+    # cells to maps, then all files
     table = read_table(folder / CELLS, plan.period)
     pixel = plan.period / PIXELS_A_PERIOD if pixel is None else pixel
     maps = texture_maps(plan.spot, table, pixel, pulses=plan.pulses, shift=plan.shift)
@@ -235,6 +241,7 @@ def link_runs(plan: SweepPlan, folder: Path, share: Sequence[Path]) -> int:
         return 0
     points, count = plan.points(), 0
     with SweepFolder(folder, plan.study) as home, clear_errors("write", folder):
+        # a run is ours where the hash of its case is, under the name that it has here
         names = dict(zip((point.hash for point in points), home.list_points(points), strict=True))
         for run in (run for other in share for run in sorted((other / RUNS).iterdir())):
             ours = folder / RUNS / names.get(run.name.partition("-")[2], run.name)
@@ -264,6 +271,7 @@ def read_table(folder: str | PathLike[str], period: float) -> CellTable:
 
 def answer(plan: TexturePlan, table: CellTable, maps: Maps, pixel: float) -> dict[str, Any]:
     """Content of texture.json, SI."""
+    # error by leaving out each cell but those at the ends
     height = maps.fields["height"]
     errors = {name: table.leave_one_out(name) for name in UNITS}
     interpolation = {
@@ -308,13 +316,14 @@ def answer(plan: TexturePlan, table: CellTable, maps: Maps, pixel: float) -> dic
 
 
 def notes_of(plan: TexturePlan, table: CellTable) -> list[str]:
-    """What a user should know of the texture, in lines."""
+    """Lines that a user should know of the texture."""
     found = []
     if np.any(table.values["melt_depth"][0] > 0.0):
         found.append(
             f"the lowest cell, of {1e-4 * table.fluence[0]:.4g} J/cm^2, melts: the edge of the "
             "texture is interpolated to no melt without light"
         )
+    # steepest slope of a Gaussian, over the fluence at its center
     change = 2.4 * plan.period / plan.spot.diameter
     found.append(
         f"the fluence changes by up to {100.0 * change:.2g} % of that at the center over a period; "
@@ -325,6 +334,7 @@ def notes_of(plan: TexturePlan, table: CellTable) -> list[str]:
 
 def profile_text(maps: Maps) -> str:
     """The line of the spot along x through its center as CSV, SI."""
+    # the row of pixels next to the axis
     row = int(np.argmin(np.abs(maps.y)))
     names = [
         f"{name}_{maps.units[name].replace('/', '_').replace('^', '')}" for name in maps.fields

@@ -80,7 +80,7 @@ def _thinned(surface: HeightMap, most: int) -> tuple[Array, Array, Array]:
     return x, y, surface.z[::across, ::along]
 
 
-def turn_of(surface: HeightMap, period: float, largest: float) -> float:
+def rotation_of(surface: HeightMap, period: float, largest: float) -> float:
     """Angle of a map's x to that across its lines [rad], of 0 for a profile.
 
     The complex amplitude of the lines' strongest wave turns by k tan phi per length along y.

@@ -50,8 +50,10 @@ class Relief:
     def at(self, x: Array, y: Array, factor: float) -> Array:
         """Heights at places [m], any shape, with a factor on the fluence."""
         if not self.is_spot:
+            # lines that repeat: any fluence has the same cell
             height = self.table.values["height"][0]
             return np.interp(x, self.table.x, height, period=self.table.period)
+        # a spot: the cell of the local fluence, from edge to edge of its melt
         local = linear_map(self.x, self.y, factor * self.fluence)
         return self.table.lines["height"].across(local, x, y)
 
@@ -86,6 +88,7 @@ def read_relief(folder: Path) -> Relief:
         OutputError: it holds neither.
     """
     if (folder / "texture.json").exists():
+        # a texture keeps its cells and the map of its fluence
         content, maps = read_json(folder / "texture.json"), read_maps(folder / "maps.vtkhdf")
         if content["pulses"] > 1:
             raise OutputError(f"{folder} has pulses that are moved: compare one spot")
@@ -98,6 +101,7 @@ def read_relief(folder: Path) -> Relief:
     run = open_run(folder)
     if not run.is_complete:
         raise OutputError(f"{folder} is not complete")
+    # a run of one period is a relief that repeats
     beam = (run.case.get("laser") or {}).get("beam", {})
     is_pattern = beam.get("kind") == "interference"
     period = InterferenceBeam.model_validate(beam).lateral_period if is_pattern else None

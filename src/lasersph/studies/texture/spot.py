@@ -48,6 +48,7 @@ def half_sizes(spot: SpotFluence, table: CellTable) -> tuple[float, float]:
     Raises:
         NoTexture: the fluence at the center melts nothing.
     """
+    # the brightest cell that changes nothing bounds the area by its fluence
     touched = [np.any(table.values[name] != 0.0, axis=1) for name in ("height", "melt_depth")]
     changed = np.flatnonzero(touched[0] | touched[1])
     if changed.size == 0:
@@ -81,6 +82,7 @@ def refuse_common_melt(
         light = spot.at(x[None, :], y[:, None]) * np.cos(np.pi * x / period) ** 2
         return light >= CERTAIN * least
 
+    # shifted pulses: two of them melt one place where both are bright enough
     first = melts(x)
     for number in range(1, min(pulses, 2 + int(2.0 * half / shift))):
         common = np.argwhere(first & melts(x - number * shift))
@@ -91,7 +93,7 @@ def refuse_common_melt(
 
 
 def common_melt(number: int, x: float, y: float, apart: float, pulses: int) -> NoTexture:
-    """What is said of a pulse, counted from 0, that melts anew what is at a place [m], and by which
+    """Refusal of a pulse, counted from 0, that melts anew what is at a place [m], and by which
     shift it would not [m]."""
     place = ", ".join(format_quantity(at, "m") for at in (x, y))
     return NoTexture(
@@ -114,6 +116,7 @@ def texture_maps(
     Raises:
         NoTexture: nothing melts, too many pixels, or pulses that melt the same place.
     """
+    # pixels about the center, and as far as the last pulse reaches
     half = half_sizes(spot, table)
     reach = (pulses - 1) * shift
     counts = [int(np.ceil(size / pixel)) for size in half]
@@ -125,6 +128,7 @@ def texture_maps(
             f"{x.size} times {y.size} pixels are too many; write --pixel {1e9 * least:.0f}nm or "
             "more"
         )
+    # pulse after pulse: heights add, largest values stay
     fields = {name: np.zeros((y.size, x.size)) for name in UNITS}
     fields["temperature"] += table.initial_temperature
     fluence = np.zeros((y.size, x.size))
@@ -138,6 +142,7 @@ def texture_maps(
             else table.at(name, local, here[None, :])
             for name in UNITS
         }
+        # a place that two pulses melt is none that a cell of one pulse knows
         melts = (found["melt_depth"] > 0.0) | (found["height"] != 0.0)
         if np.any(melts & has_melted):
             row, column = (int(n) for n in np.argwhere(melts & has_melted)[0])

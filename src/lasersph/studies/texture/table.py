@@ -22,7 +22,7 @@ from lasersph.studies.texture.lines import LEVELS, LineHeights
 
 Array = NDArray[np.float64]
 BETWEEN_EDGES = ("height", "melt_depth")
-"""What ends steeply at the edges of a line's melt."""
+"""Names of values that end steeply at the edges of a line's melt."""
 FEWEST_CELLS = 3
 """Of which one can be left out and predicted from two others."""
 ROUNDING = 1e-9
@@ -62,6 +62,7 @@ class CellTable:
         """The table of cells with their fluences [J/m^2], in any order."""
         ordered = sorted(cells, key=lambda one: one[0])
         fluence, x = np.array([one[0] for one in ordered]), ordered[0][1].x
+        # all cells at the places of the lowest one
         values = {
             name: np.array([np.interp(x, c.x, c.values[name], period=period) for _, c in ordered])
             for name in UNITS
@@ -90,6 +91,7 @@ class CellTable:
             )
         if name in BETWEEN_EDGES:
             return self.lines[name].at(wanted[:, None], self.x[None, :])
+        # monotone cubic over fluence at each place; linear to the dark below the lowest cell
         low = float(self.fluence[0])
         found = PchipInterpolator(self.fluence, self.values[name], axis=0)(
             np.clip(wanted, low, highest)
@@ -100,7 +102,7 @@ class CellTable:
 
     @cached_property
     def lines(self) -> dict[str, LineHeights]:
-        """What follows places of the melt, by name."""
+        """Values that are interpolated over places of the melt, by name."""
         return {
             name: LineHeights.of(self.fluence, self.x, self.period, self.values[name])
             for name in BETWEEN_EDGES
@@ -127,6 +129,7 @@ class CellTable:
         self.profiles(name, wanted.max(keepdims=True).ravel())  # refuses what no cell covers
         if name in BETWEEN_EDGES:
             return self.lines[name].at(wanted, places)
+        # bilinear in the tabulated levels, periodic along x
         levels, values = self._levels
         row = np.minimum(wanted / levels[-1], 1.0) * (LEVELS - 1)
         step = self.period / self.x.size
@@ -136,6 +139,7 @@ class CellTable:
     def leave_one_out(self, name: str) -> Array:
         """Largest error over the period at each cell but the two at the ends (cells - 2,), where it
         is predicted from the others."""
+        # each inner cell predicted from the others
         inner = range(1, self.fluence.size - 1)
         errors = [
             np.abs(
