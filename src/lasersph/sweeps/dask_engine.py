@@ -101,6 +101,7 @@ class DaskEngine:
         from distributed import Client, Security  # pyright: ignore[reportMissingImports]
 
         address = self.address
+        # the file of the scheduler says where it listens
         if self.scheduler_file is not None:
             address = json.loads(self.scheduler_file.read_text())["address"]
         found = check_address(address or "")
@@ -189,6 +190,7 @@ def write_certificate(folder: Path) -> None:
     with clear_errors("write", folder):
         folder.mkdir(parents=True, exist_ok=True)
         for name, text in texts.items():
+            # readable by its owner alone from the first moment, and never over an older one
             descriptor = os.open(folder / name, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
             with open(descriptor, "w", encoding="ascii") as stream:
                 stream.write(text)
@@ -267,6 +269,7 @@ class _Session:
             self._listen()
             if self.client.status != "running":
                 return
+            # tasks that have ended; then, less often, workers and tasks that are silent
             for submission in list(self.waiting.values()):
                 if submission.future.done():
                     self._settle(submission)
@@ -303,6 +306,7 @@ class _Session:
     def _submit(self, submission: Submission) -> None:
         task = submission.task
         submission.heard, submission.is_started = time.monotonic(), False
+        # a key of its own: Dask gives the result of an equal key without computing
         submission.future = self.client.submit(
             make_run_folder,
             json.dumps(task.as_dict()),
@@ -339,6 +343,7 @@ class _Session:
                 event = replace(event, message=text[:MESSAGE])
         except Exception as error:  # its worker died after it had finished
             event = replace(event, message=f"its result cannot be had: {type(error).__name__}")
+        # the folder decides, whatever Dask says
         if submission.is_complete():
             event = replace(event, kind="complete", message="", exit_code=0)
         elif event.kind == "complete":
@@ -347,6 +352,7 @@ class _Session:
         if event.kind in ("complete", "wrong") or event.is_final:
             self._end(event)
             return
+        # a later checkpoint than at the try before: tries count anew
         submission.attempt = 1 if submission.has_progressed() else submission.attempt + 1
         if submission.attempt > self.engine.retries:
             text = f"{event.message} (tried {submission.attempt} times)"
@@ -367,6 +373,7 @@ class _Session:
         """
         now = time.monotonic()
         silent = [s for s in self.waiting.values() if now - s.heard > SILENCE]
+        # workers that none of the tasks heard of keeps busy
         idle = threads - (len(self.waiting) - len(silent))
         for submission in silent[: max(idle, 0)]:
             self.client.cancel([submission.future])
@@ -379,6 +386,7 @@ class _Session:
         self.client.cancel([submission.future for submission in self.waiting.values()])
         until = time.monotonic() + SILENCE
         for submission in self.waiting.values():
+            # a run that has started holds its folder until its checkpoint is written
             lock = submission.task.folder / ".lock"
             while submission.is_started and lock.exists() and time.monotonic() < until:
                 time.sleep(POLL)

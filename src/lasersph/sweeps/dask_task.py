@@ -1,4 +1,4 @@
-"""What a Dask worker does for one run: it has a process of its own compute it.
+"""Task of a Dask worker: it has a process of its own compute one run.
 
 That process is the worker of the local engine, and ends with a checkpoint where its standard input
 ends: when the Dask worker dies in whatever way, and when the driver cancels the run, dies or loses
@@ -42,6 +42,7 @@ def make_run_folder(text: str, threads: int | None, topic: str) -> dict[str, Any
 
     from lasersph.compute.threads import available
 
+    # who computes, and whether the folder can be seen from here
     worker = get_worker()
     key = str(worker.get_current_task())
     host = socket.gethostname()
@@ -54,6 +55,7 @@ def make_run_folder(text: str, threads: int | None, topic: str) -> dict[str, Any
     threads = threads or max(1, available() // worker.state.nthreads)
     process, messages = _idle_process(threads)
     process.begin(task, 0)
+    # hand on what the process says, and end it where nobody waits for the run
     silence = 0
     while True:
         if not _is_wanted(worker, key):
@@ -65,11 +67,13 @@ def make_run_folder(text: str, threads: int | None, topic: str) -> dict[str, Any
             if silence % BEAT == 0:
                 worker.log_event(topic, {"run": task.run})
             continue
+        # its output has ended: it died
         if line is None:
             text = f"its process on {host} ended: {process.last_words() or process.wait()}"
             return Event(task.run, "failed", name, text, FAILED).as_dict()
         event = {**json.loads(line), "worker": name}
         if event["kind"] in ENDS:
+            # a process that has been asked to stop takes no further run
             if event["kind"] != "stopped":
                 _idle.append((threads, process, messages))
             return event

@@ -1,4 +1,4 @@
-"""What makes run folders exist: the tasks that an engine takes and the events that it reports.
+"""Engines, which make run folders exist: the tasks that they take and the events they report.
 
 The folders on disk are the truth. An engine may lose anything else: a task of a run that is
 complete costs nothing, one of a run that was killed goes on from its checkpoint.

@@ -70,6 +70,7 @@ class SweepFolder:
 
     def __init__(self, path: Path, study: Study) -> None:
         self.path = path
+        # nothing is written before it is known whose folder it is
         refuse_other_content(path, study)
         with clear_errors("write", path, FolderRefused):
             (path / RUNS).mkdir(parents=True, exist_ok=True)
@@ -92,11 +93,13 @@ class SweepFolder:
         A case that has a folder keeps its name, whatever its number is now. A refused point has
         a number alone.
         """
+        # names there are: hash to name, and the numbers that are taken
         there = {entry.name.partition("-")[2]: entry.name for entry in (self.path / RUNS).iterdir()}
         taken = {name.partition("-")[0] for name in there.values()}
         names: list[str] = []
         numbers = (f"{number:04d}" for number in range(1, len(points) + len(taken) + 1))
         free = (number for number in numbers if number not in taken)
+        # a case with a folder keeps its name, others take the next free number
         for point in points:
             if not point.hash:
                 names.append(next(free))
@@ -120,6 +123,7 @@ class SweepFolder:
             "columns": list(self.study.columns),
             "points": rows,
         }
+        # written whole: readers find the old or the new list
         replace_json(self.path / POINTS, content)
         if self.study.plan:
             replace_text(self.path / PLAN, self.study.plan)
@@ -152,6 +156,7 @@ def refuse_other_content(path: Path, study: Study) -> None:
     with clear_errors("read", path, FolderRefused):
         if path.exists() and not path.is_dir():
             raise FolderRefused(f"{path} is a file, not a folder: choose another name")
+        # points.json makes it ours; without it only what a killed sweep leaves may lie there
         is_ours = (path / POINTS).exists()
         foreign = set() if is_ours or not path.is_dir() else _foreign(path)
     if foreign:
@@ -188,8 +193,9 @@ def last_events(folder: Path) -> dict[str, dict[str, Any]]:
 
 
 def _foreign(path: Path) -> set[str]:
-    """What lies in a folder but what a sweep leaves that was killed before it wrote its points."""
+    """Entries of a folder but those of a sweep that was killed before it wrote its points."""
     runs = {entry.name for entry in (path / RUNS).iterdir()} if (path / RUNS).is_dir() else set()
+    # lock, log and half-written points of a sweep that was killed
     left = {entry.name for entry in path.iterdir() if not is_lock(entry)}
     return runs | (left - {LOG, RUNS, POINTS + ".writing"})
 

@@ -1,4 +1,4 @@
-"""What the runs of a sweep will cost, before any of them runs."""
+"""Forecast of what the runs of a sweep will cost."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ def forecast_seconds(points: Sequence[Point], threads: int) -> tuple[float, int]
         The sum, and from how many points it is estimated: evenly taken from all.
     """
     cases = [point.case for point in points if point.case is not None]
+    # evenly taken points stand for all
     stride = max(1, (len(cases) - 1) // (SAMPLED - 1))
     chosen = cases[::stride]
     seconds = sum(forecast(case, threads=threads).wall_time for case in chosen)

@@ -121,6 +121,7 @@ class LocalEngine:
         """Make the folders of all tasks exist; see `Engine.make`."""
         if not tasks:
             return
+        # processors are divided among the workers
         count = min(self.workers or most_workers(tasks), len(tasks))
         pool = _Pool(count, self.threads or max(1, available() // count), self.retries, report)
         pool.waiting.extend((task, 0) for task in tasks)
@@ -137,6 +138,7 @@ def most_workers(tasks: Sequence[Task]) -> int:
     The estimates, which leave out what graded layers add, choose the largest case; what it needs
     is its forecast, by which a run is accepted or refused.
     """
+    # largest case by the estimate, its memory by the forecast
     largest = max((task.case for task in tasks), key=lambda case: size_of(case).bytes)
     memory = max(size_of(largest).bytes, forecast(largest).memory)
     return max(1, int(min(available(), LARGEST_COST_SHARE * machine_memory() / memory)))
@@ -171,10 +173,11 @@ class _Pool:
                 worker, line = self.messages.get(timeout=POLL)
             except queue.Empty:
                 continue
-            self._take(worker, line)
+            self._receive(worker, line)
 
     def stop(self) -> None:
         """End all runs with their checkpoints."""
+        # running ones write checkpoints, waiting ones are reported, then all processes end
         self.is_stopping = True
         for worker in self.workers:
             worker.ask_to_stop()
@@ -200,6 +203,7 @@ class _Pool:
 
     def _fill(self) -> None:
         """Start workers, at most as many as there are tasks for."""
+        # no more workers than runs in hand and tasks that wait
         busy = sum(worker.task is not None for worker in self.workers)
         while len(self.workers) < min(self.count, busy + len(self.waiting)):
             self.started += 1
@@ -207,15 +211,17 @@ class _Pool:
 
     def _assign(self) -> None:
         for worker in self.workers:
+            # the first run compiles for all: others wait for its first step
             in_hand = any(other.task for other in self.workers)
             if worker.task is None and self.waiting and (self.has_stepped or not in_hand):
                 worker.begin(*self.waiting.popleft())
 
-    def _take(self, worker: WorkerProcess, line: str | None) -> None:
+    def _receive(self, worker: WorkerProcess, line: str | None) -> None:
         if line is not None:
             self._tell(worker, Event(**json.loads(line)))
             return
         self.workers.remove(worker)
+        # a worker that has died: its run is tried again by another one
         code, task = worker.wait(), worker.task
         if task is not None:
             said = worker.last_words()
@@ -231,6 +237,7 @@ class _Pool:
             self.report(event)
             return
         worker.task = None
+        # a wrong case and a failed step would fail again
         may_pass = event.kind in ("failed", "stopped") and not event.is_final
         if may_pass and task is not None and not self.is_stopping:
             self._try_again(worker, task, event)
@@ -254,6 +261,7 @@ def _named(code: int) -> str:
 
 def _environment(threads: int) -> dict[str, str]:
     """Of a worker: its threads, and the folder that this package was imported from."""
+    # the package from where it is now, before whatever the user's path holds
     home = str(Path(lasersph.sweeps.__path__[0]).parents[1])
     paths = [home, *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
     return {

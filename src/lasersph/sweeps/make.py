@@ -52,6 +52,7 @@ def make_runs(
     """
     path = Path(folder)
     with SweepFolder(path, study) as home:
+        # what is wanted, as names of folders; the table says what is complete
         names = home.list_points(points)
         table = Table.read(path)
         table.write()
@@ -59,6 +60,7 @@ def make_runs(
         for row in table.rows:
             if row.status == "complete":
                 cases.pop(row.run, None)
+        # events to the log, and a new table now and then
         tasks = [Task(name, case, path / RUNS / name) for name, case in cases.items()]
         written_at = time.monotonic()
 
@@ -75,7 +77,7 @@ def make_runs(
         try:
             if tasks:
                 (engine or LocalEngine()).make(tasks, note, should_stop)
-        finally:
+        finally:  # whatever has happened, the table says what is there
             table = Table.read(path, table)
             table.write()
     return table
@@ -91,6 +93,7 @@ def make_folders(
 
     A run that fails stops no other. Arguments as those of `make_runs`.
     """
+    # folders with a summary are complete
     waiting = {path: case for path, case in cases.items() if not (path / "summary.json").exists()}
     tasks = [Task(path.name, case, path) for path, case in waiting.items()]
     engine.make(tasks, report, should_stop)

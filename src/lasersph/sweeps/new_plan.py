@@ -25,6 +25,7 @@ def write_new_plan(kind: str, case: str, target: str | PathLike[str]) -> Path:
         raise CaseError(
             f'no kind of plan "{kind}"', f"write one of {', '.join(files)}", file="--plan"
         )
+    # a case that cannot be read is refused here, not by the plan
     CaseFile(case)
     text = files[kind].read_text(encoding="utf-8")
     text = re.sub(r'^case = "[^"]*"', f"case = {as_toml(case)}", text, flags=re.MULTILINE)

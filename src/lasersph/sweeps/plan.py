@@ -43,7 +43,7 @@ from lasersph.sweeps.plan_reading import (
     refuse_twice,
 )
 from lasersph.sweeps.points import CaseTemplate, Point, Value, as_override
-from lasersph.sweeps.sampling import Choices, Range, grid, latin_hypercube, morris, sobol, together
+from lasersph.sweeps.sampling import Choices, Range, grid, latin_hypercube, morris, paired, sobol
 
 NUMBERS = {"sobol": "runs", "latin-hypercube": "runs", "morris": "trajectories"}
 """Key of [sampling] that says how many points a kind of sampling has."""
@@ -66,7 +66,7 @@ class Sampling(Model):
 
 
 class TableChoice(Model):
-    """What the table shows."""
+    """Columns that the table shows."""
 
     columns: tuple[str, ...] = Field(
         default=(), description="numbers of summaries by key; empty for all of them"
@@ -112,16 +112,17 @@ class SweepPlan:
 
     @property
     def study(self) -> Study:
-        """What a folder must belong to for this plan to go on in it."""
+        """Study that a folder must belong to for this plan to go on in it."""
         return Study.of("sweep", self.template, self.varied, self.text, self.columns)
 
     def points(self) -> list[Point]:
         """All points in their order, those that the case refuses with the reason."""
         kind, runs, seed = self.sampling.kind, self.sampling.runs or 0, self.sampling.seed
+        # the sampling decides how values become points
         if kind == "grid":
             found = grid(self.choices)
         elif kind == "zip":
-            found = together(self.choices)
+            found = paired(self.choices)
         elif kind == "morris":
             found = morris(self.choices, self.sampling.trajectories or 0, seed)
         else:
@@ -129,9 +130,10 @@ class SweepPlan:
         return [self.template.point(values) for values in found]
 
     def notes(self) -> Iterator[str]:
-        """What a user should know of sampling and table before any run, in lines."""
+        """Lines that a user should know of sampling and table before any run."""
         from lasersph.observers.observer_list import RESULTS
 
+        # columns that look misspelt, and numbers of runs that sample badly
         for name in self.columns:
             near = "" if name in RESULTS else did_you_mean(name, RESULTS)
             if near and not name.endswith(("_at_s", "_x_m")):  # of a number: when and where
@@ -177,6 +179,7 @@ def build_plan(
         "sampling": dict(sampling or {}),
         "table": {"columns": list(columns)},
     }
+    # the same plan as a file: what the folder keeps
     lines = ["schema_version = 1", f"case = {as_toml(str(case))}"]
     for name, table in tables.items():
         lines += ["", f"[{name}]", *(f"{as_toml(k)} = {as_toml(v)}" for k, v in table.items())]
@@ -210,12 +213,15 @@ def compare_with_case(
     for key, path, raw in varied:
         for problem, hint, where in _mistakes(raw, sampling):
             mistakes.add((*path, *where), problem, hint, key=key)
+    # the plan by itself
     for path, problem, hint in _sampling_mistakes(sampling, varied):
         mistakes.add(path, problem, hint)
     mistakes.raise_any()
+    # the plan with its case: keys, then every value
     template = read_template(mistakes, plan.case, {key: raw for key, _, raw in settings})
     _check_with_case(template, settings, varied, mistakes)
     mistakes.raise_any()
+    # values and ranges in SI
     choices: Choices = {}
     for key, path, raw in varied:
         if isinstance(raw, list):
@@ -226,12 +232,13 @@ def compare_with_case(
         else:
             choices[key] = _range(template, key, raw, path, mistakes)
     mistakes.raise_any()
+    # zip pairs values one by one
     counts = {key: len(values) for key, values in choices.items()}
     if sampling.kind == "zip" and len(set(counts.values())) > 1:
         shown = ", ".join(f"{key} has {count}" for key, count in counts.items())
         mistakes.add(("vary",), f"zip needs as many values of each key: {shown}")
     elif sampling.kind == "zip":
-        rows = [str(row) for row in together(choices)]
+        rows = [str(row) for row in paired(choices)]
         if len(set(rows)) < len(rows):
             mistakes.add(("vary",), "two runs of the zip have the same values", "remove one")
     mistakes.raise_any()
@@ -239,7 +246,7 @@ def compare_with_case(
 
 
 def _mistakes(raw: Any, sampling: Sampling) -> Iterator[tuple[str, str, KeyPath]]:
-    """What is wrong with a list or range before the case sees it: problem, hint, path below."""
+    """Mistakes of a list or range before the case sees it: problem, hint, path below."""
     is_random = sampling.is_random
     example = '{ from = "0.3 J/cm^2", to = "1 J/cm^2"' + (" }" if is_random else ", count = 8 }")
     if isinstance(raw, list):
@@ -254,6 +261,7 @@ def _mistakes(raw: Any, sampling: Sampling) -> Iterator[tuple[str, str, KeyPath]
     if not isinstance(raw, dict):
         yield "must be a list or a range", f"write e.g. [{as_toml(raw)}] or {example}", ()
         return
+    # a range: its keys, its ends, its count, its scale
     for name in raw:
         if name not in RANGE_KEYS:
             near = did_you_mean(name, RANGE_KEYS).strip(" ()")
@@ -275,6 +283,7 @@ def _mistakes(raw: Any, sampling: Sampling) -> Iterator[tuple[str, str, KeyPath]
 def _sampling_mistakes(
     sampling: Sampling, varied: list[Entry]
 ) -> Iterator[tuple[KeyPath, str, str]]:
+    # a random sampling has a number of points, a grid has none
     wanted = NUMBERS.get(sampling.kind)
     if wanted and getattr(sampling, wanted) is None:
         yield ("sampling",), f"{sampling.kind} misses {wanted}", f"write e.g. {wanted} = 32"
@@ -282,6 +291,7 @@ def _sampling_mistakes(
         if name != wanted and getattr(sampling, name) is not None:
             kinds = " and ".join(kind for kind, number in NUMBERS.items() if number == name)
             yield ("sampling", name), f"{name} is for {kinds}, not {sampling.kind}", ""
+    # no more points than can be listed
     runs = (sampling.trajectories or 0) * (len(varied) + 1) or sampling.runs or 0
     if wanted and runs > MOST_RUNS:
         yield ("sampling", wanted), f"more than {MOST_RUNS} runs", "write fewer"
@@ -306,6 +316,7 @@ def _check_with_case(
     Raises:
         CaseError: the case file itself is wrong.
     """
+    # values to try: all of a list, both ends of a range
     ends = {
         key: [((n,), value) for n, value in enumerate(raw)]
         if isinstance(raw, list)
@@ -313,6 +324,7 @@ def _check_with_case(
         for key, _, raw in varied
     }
     places = {key: path for key, path, _ in [*settings, *varied]}
+    # the first value of each key together, since keys may need each other
     firsts: dict[str, Value] = {key: values[0][1] for key, values in ends.items()}
     known = [as_override(key, value) for key, value in template.settings.items()]
     try:
@@ -327,6 +339,7 @@ def _check_with_case(
                 mistakes.add(places[key], one.problem, one.hint, key=key)
         if own and not mistakes.found:
             raise CaseError(own) from None
+    # then each value with the first ones of the others
     for key, values in ends.items():
         others = [as_override(k, v) for k, v in firsts.items() if k != key]
         for below, value in values:
@@ -351,6 +364,7 @@ def _concerns(place: str, key: str) -> bool:
 def _range(
     template: CaseTemplate, key: str, raw: dict[str, Any], path: KeyPath, mistakes: Mistakes
 ) -> Range:
+    # ends in SI, both numbers, different, and positive on a log scale
     first, last = (template.to_si(key, raw[name]) for name in ("from", "to"))
     scale = raw.get("scale", "linear")
     if isinstance(first, str) or isinstance(last, str):

@@ -1,4 +1,4 @@
-"""What readers of plans share: mistakes with their lines, keys with their paths, the case."""
+"""Parts of all readers of plans: mistakes with their lines, keys with their paths, the case."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ RANGE_KEYS = ("from", "to", "count", "scale")
 
 
 class Mistakes:
-    """What is wrong with a plan, each mistake once."""
+    """Mistakes of a plan, each once."""
 
     def __init__(self, document: Document) -> None:
         self.document, self.found = document, list[Problem]()
@@ -47,7 +47,7 @@ class Mistakes:
 
 
 def read_plan_file(file: str | PathLike[str], kind: str) -> Document:
-    """What the file of a plan of a kind ("sweep", "calibrate", "find") holds.
+    """Content of the file of a plan of a kind ("sweep", "calibrate", "find").
 
     Raises:
         CaseError: it cannot be read, or holds a case.
@@ -64,6 +64,7 @@ def entries_of(table: Mapping[str, Any], path: KeyPath) -> list[Entry]:
     found: list[Entry] = []
     for name, raw in table.items():
         here = (*path, name)
+        # a table that is no range holds keys further down
         if isinstance(raw, dict) and not set(raw) & set(RANGE_KEYS):
             found += [(f"{name}.{key}", below, one) for key, below, one in entries_of(raw, here)]
         else:
@@ -75,6 +76,7 @@ def refuse_twice(mistakes: Mistakes, entries: Iterable[Entry]) -> None:
     """Add a mistake for each key that an earlier entry gives as well."""
     seen: dict[KeyPath, KeyPath] = {}
     for key, path, _ in entries:
+        # an old and a present name of a key are the same key
         place = present_place(steps_of(key))
         if place in seen:
             _, line = mistakes.document.place(seen[place])
@@ -89,6 +91,7 @@ def read_template(mistakes: Mistakes, case: str, settings: Mapping[str, Any]) ->
     Raises:
         CaseError: there is no such case, or its file cannot be read.
     """
+    # a path is relative to the plan; anything else is the name of a shipped case
     is_file = case.endswith(".toml") or "/" in case
     try:
         folder = Path(mistakes.document.file).parent

@@ -72,6 +72,7 @@ class CaseTemplate:
 
     def hash_without(self, keys: Iterable[str]) -> str:
         """Short name of what all points have in common: the file and its settings without keys."""
+        # an override without value leaves its key out
         settings = [as_override(key, value) for key, value in self.settings.items()]
         bare = override(self.file.document, [*settings, *(f"{key}=" for key in keys)])
         return hash_of_case(bare.data)
@@ -101,6 +102,7 @@ class CaseTemplate:
         Raises:
             CaseError: what the case says of these values.
         """
+        # the models of the case say which quantity a key is, as values choose between them
         given = {**self.settings, **values}
         contents = self.file.contents([as_override(key, value) for key, value in given.items()])
         self._kinds |= {key: _kind_at(contents, key) for key in given}
@@ -134,7 +136,7 @@ class CaseTemplate:
 
 
 def find_key(contents: BaseModel, key: str) -> tuple[Any, str]:
-    """What a case holds at a key ("laser.fluence"), and which kind of quantity that is; None and
+    """Value of a case at a key ("laser.fluence"), and which kind of quantity it is; None and
     "" where it gives nothing there.
 
     Raises:
@@ -142,6 +144,7 @@ def find_key(contents: BaseModel, key: str) -> tuple[Any, str]:
     """
     found: Any = contents
     kind = ""
+    # down the models and tuples of the case, step by step
     for step in present_place(steps_of(key)):
         known = type(found).model_fields if isinstance(found, BaseModel) else {}
         if found is None:
@@ -171,6 +174,7 @@ def as_override(key: str, value: Value | list | dict) -> str:
     if not isinstance(value, str):
         return f"{key}={as_toml(value)}"
     try:
+        # text that TOML reads as something else is put in quotes
         tomllib.loads(f"value = {value}")
     except tomllib.TOMLDecodeError:
         return f"{key}={value}"
@@ -178,7 +182,7 @@ def as_override(key: str, value: Value | list | dict) -> str:
 
 
 def reason_of(error: CaseError) -> str:
-    """What a case says is wrong, in one line: its first problem, and how many more there are."""
+    """Reason why a case is refused, in one line: its first problem, and how many more there are."""
     first, more = error.problems[0], len(error.problems) - 1
     text = ": ".join(part for part in (first.key, first.problem) if part)
     text += f"; {first.hint}" if first.hint else ""

@@ -38,7 +38,7 @@ class SweepProgress:
     _running: dict[str, tuple[float, float, float]] = field(default_factory=dict)
     """By run: share of it done before this call and now, and when it was begun [s]."""
     _seconds: list[float] = field(default_factory=list)
-    """What whole runs took."""
+    """Wall times of whole runs [s]."""
 
     def step(self, event: Event, table: Table) -> SweepStatus:
         """Note an event; how far all runs are after it.
@@ -46,12 +46,14 @@ class SweepProgress:
         Args:
             table: made before the event; it tells what earlier calls have done.
         """
+        # complete and refused runs of earlier calls
         now, run = time.monotonic(), event.run
         for row in table.rows:
             if row.status == "complete":
                 self.complete.add(row.run)
             elif row.status == "wrong":
                 self.failed.add(row.run)
+        # share of this run and when it began; a run that ends gives the time of a whole one
         if event.kind == "progress":
             before, _, begun = self._running.get(run, (event.work_done, 0.0, now))
             self._running[run] = (before, event.work_done, begun)
@@ -68,6 +70,7 @@ class SweepProgress:
     def _status(self, table: Table, now: float) -> SweepStatus:
         total, ended = len(set(table.runs)), len(self.complete | self.failed)
         done = sum(share for _, share, _ in self._running.values())
+        # time of a whole run: of those that ended, and of those in hand by their share
         whole = [*self._seconds]
         whole += [
             (now - begun) / (share - before)
@@ -76,6 +79,7 @@ class SweepProgress:
         ]
         remaining = None
         if whole and self._running:
+            # as many at a time as now
             left = total - ended - done  # in runs
             remaining = left * sum(whole) / len(whole) / len(self._running)
         return SweepStatus(

@@ -47,12 +47,13 @@ class Range:
             value = self.first * (self.last / self.first) ** share
         else:
             value = self.first + (self.last - self.first) * share
+        # rounded, so that grids of different counts share points bit for bit
         value = float(f"{value:.{DIGITS}g}")
         return int(value) if self.is_whole and value.is_integer() else value
 
 
 Choices = dict[str, Range | tuple[Value, ...]]
-"""What each varied key takes."""
+"""Values or range of each varied key."""
 
 
 def grid(choices: Choices) -> list[dict[str, Value]]:
@@ -62,7 +63,7 @@ def grid(choices: Choices) -> list[dict[str, Value]]:
     ]
 
 
-def together(choices: Choices) -> list[dict[str, Value]]:
+def paired(choices: Choices) -> list[dict[str, Value]]:
     """The first values of all keys, the second ones, and so on."""
     return [
         dict(zip(choices, values, strict=True)) for values in zip(*choices.values(), strict=True)
@@ -101,10 +102,12 @@ def morris(choices: Choices, trajectories: int, seed: int) -> list[dict[str, Val
     rng, keys = _generator(seed), len(choices)
     walks = np.empty((trajectories, keys + 1, keys))
     for walk in walks:
+        # base level 0 or 1/3, and whether the walk starts 2/3 above it and goes down
         low, is_high = rng.integers(2, size=keys) / 3.0, rng.random(keys) < 0.5
         walk[:] = np.where(is_high, low + 2.0 / 3.0, low)
-        for place, key in enumerate(rng.permutation(keys), start=1):
-            walk[place:, key] = low[key] if is_high[key] else low[key] + 2.0 / 3.0
+        # each key moves once, and stays for all later points
+        for number, key in enumerate(rng.permutation(keys), start=1):
+            walk[number:, key] = low[key] if is_high[key] else low[key] + 2.0 / 3.0
     return _in_box(choices, walks.reshape(-1, keys))
 
 

@@ -117,15 +117,18 @@ def write_array_script(plan: SweepPlan, out: Path, file: Path) -> int:
     Raises:
         FolderRefused, OutputError: see `make_runs`.
     """
+    # lists the runs and writes the table, computes nothing
     missing = MissingRuns()
     make_runs(plan.points(), out, plan.study, engine=missing)
     if not missing.names:
         return 0
     settings = {point["run"]: point["overrides"] for point in read_points(out)["points"]}
+    # one case of the shell for each task of the array
     lines = [
         f"  {number}) run {shlex.join([name, *settings[name]])} ;;"
         for number, name in enumerate(missing.names, 1)
     ]
+    # paths are absolute and quoted: the script may be submitted from anywhere
     case = plan.template.name
     text = ARRAY.format(
         count=len(lines),

@@ -81,12 +81,14 @@ class Table:
         path = Path(folder)
         content, events = read_points(path), last_events(path)
         known = {} if before is None else {row.run: row for row in before.rows}
+        # refused points have no folder; complete runs of an earlier table stay as they are
         rows = tuple(
             Row(entry["run"], "wrong", entry["settings"], reason=entry["refused"])
             if entry["refused"]
             else _row(path, entry, events.get(entry["run"], {}), known.get(entry["run"]))
             for entry in content["points"]
         )
+        # without a choice all numbers, in the order in which runs name them
         every = dict.fromkeys(name for row in rows for name in row.numbers)
         return cls(path, rows, content["units"], tuple(content["columns"] or every))
 
@@ -168,9 +170,10 @@ class Table:
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(["run", "status", *head, "hash", "reason"])
         for row in self.records():
-            for place, unit in enumerate(units.values(), start=2):
-                if isinstance(value := row[place], float):
-                    row[place] = unit.number(value)
+            # settings in the units of the plan, numbers stay SI
+            for number, unit in enumerate(units.values(), start=2):
+                if isinstance(value := row[number], float):
+                    row[number] = unit.number(value)
             writer.writerow("" if one is None else one for one in row)
         replace_text(self.path / TABLE, text.getvalue())
         return self.path / TABLE
@@ -188,7 +191,7 @@ class Table:
         return pandas.DataFrame(list(self.records()), columns=self.header()).set_index("run")
 
     def unknown_columns(self) -> list[str]:
-        """What is wrong with columns that the plan names and no complete run has, in lines."""
+        """Lines on columns that the plan names and no complete run has."""
         known = {name for row in self.rows for name in row.numbers}
         return [
             f'no run has a number "{name}"{did_you_mean(name, known)}'
@@ -218,6 +221,7 @@ def _row(path: Path, entry: Mapping[str, Any], event: Mapping[str, Any], before:
     if before is not None and before.status == "complete":
         return Row(run, "complete", settings, before.numbers)
     folder = path / RUNS / run
+    # the folder says whether it is complete, the log why it is not
     summary = folder / "summary.json"
     if summary.exists():
         return Row(run, "complete", settings, dict(numbers_in(read_json(summary))))

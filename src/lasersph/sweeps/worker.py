@@ -60,6 +60,7 @@ def make_run(
             done, left = min(status.work_done, 1.0), status.remaining_s
             report(Event(task.run, "progress", work_done=done, remaining_s=left))
 
+    # until it has ended: a folder that another process holds is waited for
     report(Event(task.run, "started"))
     patience, is_waiting = time.monotonic() + LOCK_WAIT, False
     ended = Event(task.run, "failed", exit_code=FAILED)
@@ -104,6 +105,7 @@ def _one_line(error: Exception) -> str:
 
 def serve(threads: int | None) -> int:
     """Make runs until the standard input ends or SIGTERM comes; the exit code."""
+    # events leave by a copy of standard output, to which nothing else writes
     events = os.fdopen(os.dup(1), "w", encoding="utf-8", buffering=1)
     os.dup2(2, 1)  # what libraries print is no event
     stopping = threading.Event()
@@ -130,9 +132,10 @@ def _read_lines(lines: queue.SimpleQueue[str | None], stopping: threading.Event)
 
     It reads without Python's buffers, whose locks a thread must not hold when Python ends.
     """
-    rest = b""
+    unfinished = b""
     while block := os.read(0, 1 << 16):
-        *whole, rest = (rest + block).split(b"\n")
+        # whole lines go on, the last part waits for its end
+        *whole, unfinished = (unfinished + block).split(b"\n")
         for line in whole:
             lines.put(line.decode("utf-8"))
     stopping.set()
