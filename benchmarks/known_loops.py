@@ -1,4 +1,5 @@
-"""Write the loops that runs call, by kind of run, from coarse runs of all shipped cases.
+"""Write the loops that runs call, by kind of run, from coarse runs of all shipped cases, and of
+heat alone in those that flow under a laser.
 
     python benchmarks/known_loops.py [CASE ...]
 
@@ -15,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from lasersph import simulation
-from lasersph.case import available_cases, load_case
+from lasersph.case import Case, available_cases, load_case
 from lasersph.compute.ahead import read_lists, write_lists
 from lasersph.compute.generate import Loop, LoopText
 from lasersph.compute.launch import Launcher
@@ -36,9 +37,16 @@ class RecordedText(LoopText):
         self.loops.append(loop)
 
 
-def loops_of(name: str) -> tuple[str, list[Loop]]:
-    """Kind of a case's run, and what its coarse copy calls."""
+def runs_of(name: str) -> list[Case]:
+    """The coarse copy of a shipped case, and heat alone where it has light and flow."""
     case = load_case(name, quick=True)
+    if case.solver.kind != "melt-pool" or case.laser is None:
+        return [case]
+    return [case, load_case(name, ["solver={ kind = 'conduction', dimensions = 2 }"], quick=True)]
+
+
+def loops_of(case: Case) -> tuple[str, list[Loop]]:
+    """Kind of a case's run, and the loops that it calls."""
     RecordedText.loops.clear()
     with TemporaryDirectory() as folder:
         simulation.run(case, Path(folder, "run"), threads=1)
@@ -50,9 +58,10 @@ def main() -> None:
     Launcher.text = RecordedText
     lists: dict[str, list[Loop]] = defaultdict(list)
     for name in sys.argv[1:] or available_cases():
-        kind, loops = loops_of(name)
-        lists[kind] += loops
-        print(f"{name}: {len(loops)} loops of {kind}", flush=True)
+        for case in runs_of(name):
+            kind, loops = loops_of(case)
+            lists[kind] += loops
+            print(f"{name}: {len(loops)} loops of {kind}", flush=True)
     found = {kind: list(dict.fromkeys(loops)) for kind, loops in lists.items()}
     write_lists(FILE, read_lists(FILE) | found)
     print(f"{FILE}: {FILE.stat().st_size // 1024} KiB")

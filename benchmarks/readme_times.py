@@ -31,7 +31,7 @@ PAGES = tuple(ROOT / name for name in ("README.md", "docs/speed.md", "benchmarks
 MOST_SETTINGS = 3
 """A row with more settings than these does not print them; they stand in the record."""
 BEGIN, END = "<!-- {}: begin -->\n", "<!-- {}: end -->\n"
-"""Marks of the tables "times", "peers" and "parts" in a page."""
+"""Marks of the tables "times", "peers", "parts" and "first hour" in a page."""
 
 
 def lasersph(arguments: list[str]) -> tuple[float, int]:
@@ -135,12 +135,24 @@ def part_table(parts: list[dict]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def first_hour_table(rows: list[dict]) -> str:
+    """The table of what `first_hour.py` measured."""
+    lines = ["| what | measured | date, machine |", "|---|---|---|"]
+    for row in rows:
+        number = (
+            words_of_time(row["seconds"]) if "seconds" in row else f"{row['bytes'] / 1e6:.1f} MB"
+        )
+        lines.append(f"| {row['what']} | {number} | {row['date']}, {row['machine']} |")
+    return "\n".join(lines) + "\n"
+
+
 def with_tables(text: str, record: dict) -> str:
     """The text with the tables between its marks made anew."""
     tables = {
         "times": table(record["runs"]),
         "peers": peer_table(record["peers"]),
         "parts": part_table(record["parts"]),
+        "first hour": first_hour_table(record.get("first_hour", [])),
     }
     for name, made in tables.items():
         begin, end = BEGIN.format(name), END.format(name)

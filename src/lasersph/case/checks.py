@@ -23,7 +23,7 @@ from lasersph.case.size import (
 from lasersph.case.solver_choice import SELECTIVE_KEYS, computes_flow, reader_of
 from lasersph.case.surface_checks import surface_problems
 from lasersph.input import CaseError, Model, format_quantity
-from lasersph.lasers import InterferenceBeam, Laser, UniformBeam
+from lasersph.lasers import InterferenceBeam, Laser
 from lasersph.materials import NoOptics
 from lasersph.output.settings import SnapshotSchedule
 from lasersph.solvers.solver_settings import SolverSettings
@@ -245,7 +245,7 @@ def _laser(case: CaseContents) -> Iterator[tuple[str, str]]:
 def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
     """Whether beam, domain and symmetry fit together."""
     dimensions, domain = case.solver.dimensions, case.domain
-    if dimensions == 1 and not isinstance(laser.beam, UniformBeam):
+    if dimensions == 1 and not laser.beam.is_uniform:
         yield (
             "laser.beam.kind",
             f'a "{laser.beam.kind}" beam varies along the surface, which a 1-D run does not have; '
@@ -268,7 +268,8 @@ def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
         yield _pattern_across(laser.beam, case.solver)
     if holds_spot:
         return
-    if laser.beam.shift and not laser.is_even and case.boundaries.kind_of("left") == "adiabatic":
+    is_moved_off = bool(laser.beam.pulse_shift) and not laser.is_even
+    if is_moved_off and case.boundaries.kind_of("left") == "adiabatic":
         yield (
             "laser.beam.shift",
             "takes the pattern away from the planes of symmetry at the sides; shift by half a "
@@ -289,7 +290,7 @@ def _position(laser: Laser, dimensions: int) -> Iterator[tuple[str, str]]:
     x, y = laser.position
     if laser.is_bounded or (x, y) == (0.0, 0.0):
         return
-    if isinstance(laser.beam, UniformBeam):
+    if laser.beam.is_uniform:
         right = "leave it out" if laser.spot is None else "write spot.place instead"
         yield "laser.position", f"says nothing of light that is the same everywhere; {right}"
     elif dimensions == 2 and y != 0.0:

@@ -25,7 +25,7 @@ def light_rows(laser: Laser) -> list[tuple[str, str]]:
     if spot is None and beam.area is None:
         return [*rows, ("fluence of a pulse", f"{_fluence(laser.mean_fluence)}, {kind}")]
     local = laser.spot_fluence
-    if isinstance(beam, InterferenceBeam):
+    if beam.is_pattern:
         highest = peak * local.center / laser.mean_fluence
         kind = f"mean over a period; at most {_fluence(highest)}"
     else:

@@ -98,10 +98,14 @@ class RunDisplay(ProgressDisplay["RunProgress"]):
     """Shows the progress of a run, and the compiling of its loops as what it is.
 
     While loops are compiled nothing is said of the time that is left to compute.
+
+    Args:
+        loops: how many the run may have to compile.
     """
 
-    def __init__(self, *, is_terminal: bool | None = None) -> None:
+    def __init__(self, loops: int = USUAL_LOOPS, *, is_terminal: bool | None = None) -> None:
         super().__init__(str, is_terminal=is_terminal)
+        self._loops = loops
         self._steps_since_compiling: float = inf
 
     def __call__(self, status: RunProgress) -> None:
@@ -119,10 +123,10 @@ class RunDisplay(ProgressDisplay["RunProgress"]):
         """Another loop is: how many now, and how long the rest may take."""
         self._steps_since_compiling = 0
         count, took = compiling.loops, compiling.seconds
-        rest = max(USUAL_LOOPS - count, 0) * took / count
+        rest = max(self._loops - count, 0) * took / count
         text = (
-            f"compiled {count} loops of up to {USUAL_LOOPS} in {took:.0f} s, {rest:.0f} s more "
-            "at most"
+            f"compiled {count} loops of up to {max(self._loops, count)} in {took:.0f} s, "
+            f"{rest:.0f} s more at most"
         )
         if self.is_terminal:
             self._line = text[: shutil.get_terminal_size().columns - 1]

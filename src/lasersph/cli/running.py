@@ -172,11 +172,12 @@ def _compute(
 ) -> Result:
     """Run with progress; a signal ends it with a checkpoint and the way to go on."""
     from lasersph import simulation
-    from lasersph.cli.progress import RunDisplay
+    from lasersph.cli.progress import USUAL_LOOPS, RunDisplay
     from lasersph.compute.compiling import Compiling
+    from lasersph.simulation.known_loops import known_loops
     from lasersph.simulation.time_loop import Stopped
 
-    with RunDisplay() as progress:
+    with RunDisplay(known_loops(case) or USUAL_LOOPS) as progress:
         try:
             with Compiling(progress.compiling, progress.compiled) as compiling:
                 result = simulation.run(

@@ -14,13 +14,13 @@ With one surface dimension the surface is the line y = 0 of the plane, with none
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.input import Length, Model
+from lasersph.input import Length, Model, format_quantity
 
 Array = NDArray[np.float64]
 PositiveLength = Annotated[Length, Field(gt=0)]
@@ -38,22 +38,72 @@ def plane_cells(lower: Array, upper: Array, axis: Array) -> tuple[Array, Array]:
     return low - axis[:, None], high - axis[:, None]
 
 
-class UniformBeam(Model):
+class BeamProfile(Model):
+    """Members of every beam, as they are of one that rests and makes no pattern.
+
+    A beam adds `kind`, `peak`, `area`, `scale` (length over which f changes [m]), `cell_means`, and
+    `at`, `radius` and `shape` where it is bounded.
+
+    Attributes:
+        mean: of f. names_fluence: whether "fluence" alone says which one. is_uniform: whether f is
+            the same everywhere. is_pattern: whether waves interfere.
+    """
+
+    mean: ClassVar[float] = 1.0
+    names_fluence: ClassVar[bool] = True
+    is_uniform: ClassVar[bool] = False
+    is_pattern: ClassVar[bool] = False
+
+    @property
+    def lateral_period(self) -> float | None:
+        """Smallest period along x [m]; None where f does not repeat, or is the same."""
+        return None
+
+    @property
+    def lateral_period_y(self) -> float | None:
+        """Smallest period along y [m]; None where f does not repeat, or is the same."""
+        return None
+
+    @property
+    def lateral_length(self) -> float | None:
+        """Length over which f repeats along x, or falls off [m]; None where it does neither."""
+        return self.lateral_period
+
+    @property
+    def pattern_wavelength(self) -> float | None:
+        """Wavelength of the waves that interfere [m]; None where none do, or none is given."""
+        return None
+
+    @property
+    def pulse_shift(self) -> float:
+        """Displacement of the pattern along x from each pulse to the next [m]."""
+        return 0.0
+
+    @property
+    def is_even(self) -> bool:
+        """Whether f(-x, 0) = f(x, 0)."""
+        return True
+
+    def of_one_pulse(self) -> Self:
+        """The beam of a single pulse."""
+        return self
+
+
+class UniformBeam(BeamProfile):
     """The same fluence everywhere."""
 
     kind: Literal["uniform"] = "uniform"
     peak: ClassVar[float] = 1.0
-    mean: ClassVar[float] = 1.0
     area: ClassVar[None] = None
     scale: ClassVar[float] = np.inf
-    names_fluence: ClassVar[bool] = True
+    is_uniform: ClassVar[bool] = True
 
     def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
         """Mean of f over each cell, shape (n,): 1."""
         return np.ones(lower.shape[1])
 
 
-class TopHatBeam(Model):
+class TopHatBeam(BeamProfile):
     """Constant fluence inside a circle."""
 
     kind: Literal["top-hat"] = "top-hat"
@@ -61,8 +111,11 @@ class TopHatBeam(Model):
         description="of the spot, half of its diameter", examples=["40 um"]
     )
     peak: ClassVar[float] = 1.0
-    mean: ClassVar[float] = 1.0
-    names_fluence: ClassVar[bool] = True
+
+    @property
+    def shape(self) -> str:
+        """Shape and diameter, in words."""
+        return f"top hat of {format_quantity(2.0 * self.radius, 'm')}"
 
     @property
     def area(self) -> float:
@@ -112,7 +165,7 @@ def _arc_integral(x: Array) -> Array:
     return 0.5 * (x * np.sqrt(1.0 - x**2) + np.arcsin(x))
 
 
-class GaussianBeam(Model):
+class GaussianBeam(BeamProfile):
     """f = exp(-2 r^2/w^2), w the radius where the fluence has fallen to 1/e^2 of its peak.
 
     Give exactly one of the three widths; diameter_fwhm = w sqrt(2 ln 2).
@@ -149,6 +202,18 @@ class GaussianBeam(Model):
             return 0.5 * self.diameter_1e2
         assert self.diameter_fwhm is not None
         return float(self.diameter_fwhm / np.sqrt(2.0 * np.log(2.0)))
+
+    @property
+    def shape(self) -> str:
+        """Shape and diameters, in words."""
+        diameter = format_quantity(2.0 * self.radius, "m")
+        half = format_quantity(np.sqrt(2.0 * np.log(2.0)) * self.radius, "m")
+        return f"Gaussian, {diameter} where 1/e^2 of its peak is left, {half} where half is"
+
+    @property
+    def lateral_length(self) -> float:
+        """Diameter where 1/e^2 of the peak is left [m]."""
+        return 2.0 * self.radius
 
     @property
     def area(self) -> float:

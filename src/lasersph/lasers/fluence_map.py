@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.lasers.interference import InterferenceBeam
 from lasersph.lasers.laser import Laser
 
 Array = NDArray[np.float64]
@@ -38,7 +37,7 @@ def fluence_maps(laser: Laser) -> list[FluenceMap]:
         ValueError: a uniform beam without a spot has nothing to draw.
     """
     maps, beam = [], laser.beam
-    if isinstance(beam, InterferenceBeam):
+    if beam.is_pattern:
         # a pattern without a period along x is drawn over some of its changes
         x = beam.lateral_period or beam.lateral_period_y or PERIODS * np.pi * beam.scale
         low, high, shape = _pixels(PERIODS * x, PERIODS * (beam.lateral_period_y or x))
@@ -51,7 +50,7 @@ def fluence_maps(laser: Laser) -> list[FluenceMap]:
         means = (
             local.energy / local.envelope.area * local.envelope.cell_means(low, high, np.zeros(2))
         )
-        if isinstance(beam, InterferenceBeam):
+        if beam.is_pattern:
             means = means * beam.cell_means(low, high, np.zeros(2))
         maps.append(_map(low, high, means.reshape(shape), "spot"))
     if not maps:

@@ -37,7 +37,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
 from lasersph.input import Angle, Length, Model, format_quantity, refusal
-from lasersph.lasers.beams import PositiveLength, plane_cells
+from lasersph.lasers.beams import BeamProfile, PositiveLength, plane_cells
 
 Array = NDArray[np.float64]
 
@@ -92,7 +92,7 @@ class Wave(Model):
         return self.amplitude * across / np.linalg.norm(across)
 
 
-class InterferenceBeam(Model):
+class InterferenceBeam(BeamProfile):
     """n-wave interference: waves written one by one, or a number of beams and their period.
 
     Give one of: `period`; `wavelength` and `angle` or `period`, or all three where they agree;
@@ -138,9 +138,8 @@ class InterferenceBeam(Model):
         description="of the pattern along x from each pulse to the next",
         examples=["0.5 um"],
     )
-    mean: ClassVar[float] = 1.0
     area: ClassVar[None] = None
-    names_fluence: ClassVar[bool] = True
+    is_pattern: ClassVar[bool] = True
 
     @model_validator(mode="after")
     def _check_form(self) -> InterferenceBeam:
@@ -225,6 +224,20 @@ class InterferenceBeam(Model):
     def count(self) -> int:
         """Number of beams."""
         return len(self.waves) or self.beams or 2
+
+    @property
+    def pattern_wavelength(self) -> float | None:
+        """Wavelength of the waves [m]; None where only their period is given."""
+        return self.wavelength
+
+    @property
+    def pulse_shift(self) -> float:
+        """Displacement of the pattern along x from each pulse to the next [m]."""
+        return self.shift
+
+    def of_one_pulse(self) -> InterferenceBeam:
+        """The pattern of the first pulse, which is not displaced."""
+        return self.model_copy(update={"shift": 0.0})
 
     @property
     def description(self) -> str:

@@ -42,7 +42,7 @@ from lasersph.lasers.interference import InterferenceBeam
 from lasersph.lasers.path import LinearPath, Path, path_quadrature
 from lasersph.lasers.pulses import Pulse
 from lasersph.lasers.reflectivity import Reflectivity, reflectivity_nodes
-from lasersph.lasers.spot import Spot, SpotFluence, shape_of
+from lasersph.lasers.spot import Spot, SpotFluence
 from lasersph.materials import Material
 
 Array = NDArray[np.float64]
@@ -151,8 +151,7 @@ class Laser(Model):
                 "fluence and intensity of a measured beam would be those of one pixel; write e.g. "
                 'pulse_energy = "10 uJ" instead'
             )
-        period = self.beam.lateral_period if isinstance(self.beam, InterferenceBeam) else None
-        diameter = self.spot_fluence.diameter
+        period, diameter = self.beam.lateral_period, self.spot_fluence.diameter
         if period is not None and diameter < period:
             raise refusal(
                 (
@@ -165,7 +164,7 @@ class Laser(Model):
 
     @model_validator(mode="after")
     def _check_path(self) -> Laser:
-        if self.path is not None and not self.is_bounded and isinstance(self.beam, UniformBeam):
+        if self.path is not None and not self.is_bounded and self.beam.is_uniform:
             raise ValueError("a uniform beam cannot move; leave path out or give another beam")
         tabulated = self.path is not None and not isinstance(self.path, LinearPath)
         if tabulated and self.position != (0.0, 0.0):
@@ -174,7 +173,7 @@ class Laser(Model):
 
     @model_validator(mode="after")
     def _check_shift(self) -> Laser:
-        if not isinstance(self.beam, InterferenceBeam) or not self.beam.shift:
+        if not self.beam.pulse_shift:
             return self
         if self.pulse.count == 1:
             raise refusal(
@@ -186,7 +185,7 @@ class Laser(Model):
 
     @model_validator(mode="after")
     def _check_wavelength(self) -> Laser:
-        waves = self.beam.wavelength if isinstance(self.beam, InterferenceBeam) else None
+        waves = self.beam.pattern_wavelength
         if self.wavelength is not None and waves is not None and self.wavelength != waves:
             own, beams = (format_quantity(one, "m", 6) for one in (self.wavelength, waves))
             raise refusal(
@@ -246,9 +245,8 @@ class Laser(Model):
                 f"the {self.beam.kind} beam has no spot; write e.g. spot = {{ diameter = "
                 '"50 um", definition = "1/e^2" } in [laser]'
             )
-        period = self.beam.lateral_period if isinstance(self.beam, InterferenceBeam) else None
-        energy = self._center_fluence * envelope.area
-        return SpotFluence(envelope, energy, 2.0 * envelope.radius, shape_of(envelope), period)
+        energy, period = self._center_fluence * envelope.area, self.beam.lateral_period
+        return SpotFluence(envelope, energy, 2.0 * envelope.radius, envelope.shape, period)
 
     @property
     def mean_fluence(self) -> float:
@@ -266,28 +264,26 @@ class Laser(Model):
     @property
     def first_pulse(self) -> Laser:
         """The same laser with its first pulse alone."""
-        single: dict[str, object] = {"pulse": self.pulse.model_copy(update={"count": 1})}
-        if isinstance(self.beam, InterferenceBeam):
-            single["beam"] = self.beam.model_copy(update={"shift": 0.0})
-        return self.model_copy(update=single)
+        pulse = self.pulse.model_copy(update={"count": 1})
+        return self.model_copy(update={"pulse": pulse, "beam": self.beam.of_one_pulse()})
 
     @property
     def is_even(self) -> bool:
         """Whether the light is symmetric about x = 0 at all times."""
-        if isinstance(self.beam, UniformBeam) and not self.is_bounded:
+        if self.beam.is_uniform and not self.is_bounded:
             return True
         # nothing is known of the symmetry of a measured spot
         is_measured = self.spot is not None and self.spot.image is not None and self.is_bounded
         is_centered = self.path is None and self.position[0] == 0.0 and not is_measured
-        return is_centered and (not isinstance(self.beam, InterferenceBeam) or self.beam.is_even)
+        return is_centered and self.beam.is_even
 
     @property
     def displacement(self) -> float | None:
         """Of the spot from one pulse to the next [m]; None where it rests or turns."""
         if self.spot is not None and self.spot.shift is not None:
             return self.spot.shift
-        if isinstance(self.beam, InterferenceBeam) and self.beam.shift:
-            return abs(self.beam.shift)
+        if self.beam.pulse_shift:
+            return abs(self.beam.pulse_shift)
         speed = self.path.speed if isinstance(self.path, LinearPath) else None
         if self.spot is not None and self.spot.scan_speed is not None:
             speed = self.spot.scan_speed
@@ -304,8 +300,7 @@ class Laser(Model):
 
     def resting_means(self, lower: Array, upper: Array) -> Array | None:
         """(n,) means of a beam that rests over cells, for `energy_density`; None where it moves."""
-        is_shifted = isinstance(self.beam, InterferenceBeam) and self.beam.shift
-        if is_shifted or self.path is not None:
+        if self.beam.pulse_shift or self.path is not None:
             return None
         return self._cell_means(lower, upper, self.axis(0.0))
 
@@ -325,12 +320,12 @@ class Laser(Model):
             resting_means: what the function of this name gives, where it is known.
         """
         low, high = np.asarray(lower, float), np.asarray(upper, float)
-        if isinstance(self.beam, InterferenceBeam) and self.beam.shift:
+        if self.beam.pulse_shift:
             # each pulse of a shifted pattern by its own share
             shares = self.pulse.shares(t0, t1)
             total = np.zeros(low.shape[1])
             for number in np.flatnonzero(shares):
-                axis = self.axis(t0) + np.array([number * self.beam.shift, 0.0])
+                axis = self.axis(t0) + np.array([number * self.beam.pulse_shift, 0.0])
                 total += shares[number] * self.beam.cell_means(low, high, axis)
             return self.unit_fluence * total
         if self.path is None:
@@ -393,6 +388,6 @@ class Laser(Model):
         """
         wavelength, optics = self.wavelength, material.optics
         must_choose = optics is not None and optics.by_wavelength and optics.wavelength is None
-        if wavelength is None and must_choose and isinstance(self.beam, InterferenceBeam):
-            wavelength = self.beam.wavelength
+        if wavelength is None and must_choose:
+            wavelength = self.beam.pattern_wavelength
         return material.in_light(wavelength)

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
-from lasersph.input import Length, Model, Velocity, format_quantity, refusal
+from lasersph.input import Length, Model, Velocity, refusal
 from lasersph.lasers.beam_image import MeasuredEnvelope, digest_of, measured_envelope
 from lasersph.lasers.beams import GaussianBeam, PositiveLength, TopHatBeam
 
@@ -171,17 +171,6 @@ class Spot(Model):
         if self.definition == "fwhm":
             return GaussianBeam(diameter_fwhm=self.diameter)
         return GaussianBeam(diameter_1e2=self.diameter)
-
-
-def shape_of(envelope: GaussianBeam | TopHatBeam | MeasuredEnvelope) -> str:
-    """Shape and diameter, in words."""
-    if isinstance(envelope, MeasuredEnvelope):
-        return envelope.shape
-    diameter = format_quantity(2.0 * envelope.radius, "m")
-    if isinstance(envelope, TopHatBeam):
-        return f"top hat of {diameter}"
-    half = format_quantity(np.sqrt(2.0 * np.log(2.0)) * envelope.radius, "m")
-    return f"Gaussian, {diameter} where 1/e^2 of its peak is left, {half} where half is"
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,6 @@ import numpy as np
 from lasersph.analytic.melt_depth import MeltEstimate, Vapor, melt_depth
 from lasersph.case import Case
 from lasersph.irradiation.light import COLDEST, HOTTEST
-from lasersph.lasers import InterferenceBeam
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers, stack
 
@@ -76,8 +75,7 @@ def expected_heating(case: Case, vapor: Vapor | None = None) -> MeltEstimate | N
         laser = laser.first_pulse
     width = case.domain.width
     columns, column_width = 1, None
-    is_pattern = isinstance(laser.beam, InterferenceBeam)
-    if width is not None and laser.is_even and is_pattern:
+    if width is not None and laser.is_even and laser.beam.is_pattern:
         columns, column_width = ESTIMATE_COLUMNS, 0.5 * width / ESTIMATE_COLUMNS
     fluence = np.array([laser.peak_fluence])
     if column_width is not None:

@@ -96,10 +96,10 @@ def test_compiling_has_its_own_progress(capsys, monkeypatch):
     loop has come for some steps."""
     monkeypatch.setenv("COLUMNS", "100")
     compiling = SimpleNamespace(loops=50, seconds=20.0)
-    with RunDisplay(is_terminal=True) as progress:
+    with RunDisplay(138, is_terminal=True) as progress:
         progress.compiled(compiling)
         assert (
-            "compiled 50 loops of up to 150 in 20 s, 40 s more at most" in capsys.readouterr().err
+            "compiled 50 loops of up to 138 in 20 s, 35 s more at most" in capsys.readouterr().err
         )
         progress(replace(STATUS, remaining_s=7.0))
         assert " left" not in capsys.readouterr().err

@@ -18,7 +18,7 @@ import numpy as np
 from lasersph.case import Case
 from lasersph.case.contents import CaseContents
 from lasersph.input import CaseError
-from lasersph.lasers import InterferenceBeam, SpotFluence
+from lasersph.lasers import SpotFluence
 from lasersph.observers.areal_parameters import areal_parameters
 from lasersph.output import OutputError, open_run
 from lasersph.output.atomic import replace_json, replace_text
@@ -125,8 +125,8 @@ def period_of_lines(case: CaseContents) -> float:
     """
     beam = None if case.laser is None else case.laser.beam
     # exactly one period of lines along x, of a surface that moves
-    period = beam.lateral_period if isinstance(beam, InterferenceBeam) else None
-    if period is None or not isinstance(beam, InterferenceBeam):
+    period = None if beam is None else beam.lateral_period
+    if beam is None or period is None:
         raise NoTexture("the case has no pattern of interfering beams to texture with")
     if case.solver.dimensions != 2 or beam.lateral_period_y is not None:
         raise NoTexture("a texture is of lines along y: two beams along x, and a case in 2-D")
@@ -157,8 +157,7 @@ def spot_of(case: CaseContents) -> tuple[SpotFluence, float]:
         )
     if laser.spot.extent != "cell":
         raise NoTexture('laser.spot.extent is "whole"; write extent = "cell": cells make the spot')
-    is_moved = isinstance(laser.beam, InterferenceBeam) and laser.beam.shift
-    if laser.displacement is not None and is_moved:
+    if laser.displacement is not None and laser.beam.pulse_shift:
         raise NoTexture(
             "laser.beam.shift moves the lines from pulse to pulse, and the spot moves as well: "
             "cells of one pulse know neither; leave one of the two out"

@@ -7,12 +7,12 @@ disc of their radius does.
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import inf, pi, sqrt
 from typing import Any
 
 from lasersph.analytic.half_space import pulse_train_temperature, thermal_penetration
 from lasersph.case import Case
-from lasersph.lasers import GaussianBeam, Laser, SquarePulse, TopHatBeam
+from lasersph.lasers import Laser, SquarePulse
 from lasersph.physics.ablation_estimates import (
     PHASE_EXPLOSION,
     VAPOR_ABSORPTION,
@@ -140,11 +140,7 @@ def left_out(case: Case, laser: Laser, reflectivity: float) -> dict[str, float |
 
 def radius_of(laser: Laser) -> float | None:
     """Radius of a uniform disc with the power and the peak of the beam [m]; None if unbounded."""
-    if isinstance(laser.beam, TopHatBeam):
-        return laser.beam.radius
-    if isinstance(laser.beam, GaussianBeam):
-        return laser.beam.radius / sqrt(2.0)
-    return None
+    return None if laser.beam.area is None else sqrt(laser.beam.area / pi)
 
 
 def on_time(laser: Laser) -> float:

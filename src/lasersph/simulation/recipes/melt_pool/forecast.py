@@ -25,7 +25,6 @@ from lasersph.boundaries.surface_line import cutoff_of
 from lasersph.boundaries.surface_waves import surface_limits
 from lasersph.case import Case
 from lasersph.input import format_quantity
-from lasersph.lasers import GaussianBeam, InterferenceBeam
 from lasersph.particles.layers import Layers
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.simulation.recipes.melt_pool.build import recoil_of
@@ -115,12 +114,8 @@ def _pool_speed(case: Case, solver: MeltPoolSettings, surface: SurfaceHistory) -
 
 def _pattern_length(case: Case) -> float:
     """Length over which the light repeats, or of its spot [m]; without light that of the domain."""
-    beam = None if case.laser is None else case.laser.beam
-    if isinstance(beam, InterferenceBeam) and beam.lateral_period:
-        return beam.lateral_period
-    if isinstance(beam, GaussianBeam):
-        return 2.0 * beam.radius
-    return case.domain.width or case.domain.depth
+    own = None if case.laser is None else case.laser.beam.lateral_length
+    return own or case.domain.width or case.domain.depth
 
 
 def _slope(case: Case, temperature: float) -> float:
