@@ -68,8 +68,9 @@ details.subject > summary { font-weight: 600; }
   details.subject { border: 0; padding: 0; }
   details.subject::details-content { content-visibility: visible; height: auto; } }
 @media screen and (max-width: 40rem) { main { padding: 1.2rem; overflow-wrap: anywhere; }
-  .numbers dd, td.number, th + th { white-space: normal; }
-  table { display: block; overflow-x: auto; } }
+  .numbers dd { white-space: normal; }
+  table { display: block; overflow-x: auto; }
+  th, td { overflow-wrap: break-word; padding-right: .7rem; } }
 """
 LONGEST_NUMBER = 30
 """Letters of a cell that stays on one line: a number with its unit, error and place."""
