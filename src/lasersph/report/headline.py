@@ -6,7 +6,7 @@ import re
 from html import escape
 from typing import Any
 
-from lasersph.observers.quantity import unit_in
+from lasersph.observers.quantity import Quantity, unit_in
 from lasersph.output import Run
 from lasersph.report.page import paragraph
 from lasersph.report.tables import main_results, place_text, quantity, shown, text_of, with_error
@@ -136,12 +136,19 @@ def fluence_kind(laser: dict[str, Any]) -> str:
     return f" ({found}, at the center)" if laser.get("spot") else f" ({found})"
 
 
+def telling_results(summary: dict[str, Any]) -> dict[str, tuple[Quantity, Any]]:
+    """Main results that are not 0, with their declarations, by their keys; the end of the melt only
+    where that is not the end of the run."""
+    found = {one.key: (one, value) for one, value in main_results(summary) if value}
+    if summary.get("melt", {}).get("molten_at_end"):
+        found.pop("melt.end_s", None)
+    return found
+
+
 def large_numbers(run: Run) -> str:
     """Five main results, large, with unit, error and when, and what the errors hold."""
     summary, found = run.summary, run.uncertainty
-    results = {one.key: (one, value) for one, value in main_results(summary) if value}
-    if summary.get("melt", {}).get("molten_at_end"):
-        results.pop("melt.end_s", None)  # the end of the run, not of the melt
+    results = telling_results(summary)
     order = [key for key in LARGE if key in results]
     order += [key for key in results if key not in order]
     cards, are_known = [], False

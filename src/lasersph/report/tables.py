@@ -180,7 +180,7 @@ def half_text(summary: dict[str, Any]) -> str:
     """What a run of one half says behind its number of particles; empty of a whole one."""
     if summary.get("surface", {}).get("symmetry_factor") != 2:
         return ""
-    return ", of the half x > 0: volumes and energies are of this half, all else of the whole"
+    return " at x > 0, as are volumes and energies"
 
 
 def computation(summary: dict[str, Any]) -> Rows:

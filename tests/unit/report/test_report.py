@@ -366,7 +366,7 @@ def test_notes(folder):
 def test_terminal_says_of_what_half_its_energies_are(folder):
     """Beside the number of particles; a whole domain says nothing."""
     summary = open_run(folder).summary
-    assert "energies are of this half" in dict(summary_rows(summary))["particles"]
+    assert "as are volumes and energies" in dict(summary_rows(summary))["particles"]
     whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
     assert dict(summary_rows(whole))["particles"] == str(summary["particles"])
 
