@@ -1,6 +1,6 @@
 """Figures of several runs side by side, as the papers draw them.
 
-`surface_temperatures` and `melt_pools` are Figs. 3 and 4 (steel) and 8 and 9 (aluminium) of
+`surface_temperatures` and `melt_pools` are Figs. 3 and 4 (steel) and 8 and 9 (aluminum) of
 [Demuth2020], `surface_speeds` Figs. 5 and 10, `speed_extrema` Fig. 7. Every figure has one curve a
 run, dark to light in the order of the runs, which their fluences name unless `labels` do; `title`
 says what they have in common.
