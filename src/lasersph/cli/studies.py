@@ -140,7 +140,7 @@ def threshold(
     )
     kind = FLUENCES.get(loaded.laser.fluence_kind or "", "") * (key == "laser.fluence")
     told = in_field_units(found.value, unit, found.tolerance * found.value)
-    replace(mark, title=f"{mark.title}: {told}{kind}").write(folder)
+    replace(mark, title=f"{mark.title}: {told}{kind.rstrip(',')}").write(folder)
     print(_answer(found, loaded.laser))
     print(f"runs of all fluences: {folder}")
     _write(json_file, asdict(found))
