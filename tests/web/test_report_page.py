@@ -16,6 +16,14 @@ from lasersph.report.write import report_page
 pytestmark = pytest.mark.web
 
 
+BROKEN_NUMBERS = """[...document.querySelectorAll("td.number")].filter((cell) => {
+  const range = document.createRange();
+  range.selectNodeContents(cell);
+  return range.getClientRects().length > 1;
+}).map((cell) => cell.textContent)"""
+"""Numbers of tables that stand on two lines."""
+
+
 @pytest.fixture(scope="module")
 def report(tmp_path_factory):
     """A report with one figure."""
@@ -53,6 +61,7 @@ def test_viewer_inside_a_file(page, report, tmp_path, keep):
     page.emulate_media(media="screen")
     wide = page.evaluate("document.documentElement.scrollWidth")
     assert wide <= 390
+    assert page.evaluate(BROKEN_NUMBERS) == []
     keep(page, "narrow-report")
 
 

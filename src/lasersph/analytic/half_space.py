@@ -49,7 +49,7 @@ def ablated_depth(
 
         d = (F - rho c dT sqrt(4 D t / pi)) / (rho (c dT + L))
 
-    What is conducted is that of a half-space held at the boiling point. For aluminium and pulses of
+    What is conducted is that of a half-space held at the boiling point. For aluminum and pulses of
     10 ns it is 5 to 7 % less than the Stefan problem of the front, from 5 to 20 J/cm2.
 
     Args:

@@ -123,6 +123,11 @@ def melt_depth(
     left = np.where(faces > 0.0, 0.0, 1.0) if np.isinf(alpha) else np.exp(-alpha * faces)
     left[-1] = 0.0  # the last cell keeps the rest
     absorbed_share = left[:-1] - left[1:]
+    # beyond its last node the curve would stay flat, and Newton's method would not end
+    densest = float(np.max(absorbed_share / np.diff(faces))) / density
+    most = float(columns.max()) * max(float(delivered(0.0, end_time)), 1.0) * densest
+    if most > curve.nodes[-1]:
+        curve = _Curve(enthalpy, temperature, potential, melt_fraction, most)
 
     h = np.zeros((columns.size, faces.size - 1))
     deepest, start, end, hottest = 0.0, np.nan, np.nan, float(curve.temperature(h[0, 0]))
@@ -163,13 +168,13 @@ def melt_depth(
 
 
 class _Curve:
-    """Piecewise-linear functions of enthalpy, their end segments extended."""
+    """Piecewise-linear functions of enthalpy, their end segments extended, to `most` at least."""
 
-    def __init__(self, enthalpy, temperature, potential, melt_fraction):
+    def __init__(self, enthalpy, temperature, potential, melt_fraction, most=FARTHEST):
         h = np.asarray(enthalpy, float)
         potential = _slanted(np.asarray(potential, float))
         # one node more takes the extended last segment
-        far = h[-1] + max(1e3 * (h[-1] - h[0]), FARTHEST)
+        far = h[-1] + max(1e3 * (h[-1] - h[0]), most)
         self.nodes = np.append(h, far)
         self.columns = {}
         for name, values in (("T", temperature), ("theta", potential), ("f", melt_fraction)):

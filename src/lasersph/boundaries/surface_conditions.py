@@ -2,7 +2,7 @@
 
 A pair across the surface sees g_ij (d_i + d_j) of its length, which sums up to the whole where
 particles lie in rows. Rows a fiftieth of a spacing lower see 2 % less, and so much of the stress
-was lost: films of aluminium at rest were 6 % too shallow. So ghosts get the jump of their velocity
+was lost: films of aluminum at rest were 6 % too shallow. So ghosts get the jump of their velocity
 over the share that the pairs of the column and of its neighbors see. Where the viscosity varies,
 each pair passes on the stress of its own; its length counts as that over the surface's.
 """

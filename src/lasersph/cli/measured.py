@@ -44,7 +44,7 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
         found = comparing.compare(relief, surface)
     except (OutputError, NoComparison) as error:
         name = f"{profile}: " if isinstance(error, NoComparison) else ""
-        raise WrongCommand(f"{name}{error}") from None
+        raise WrongCommand(f"{name}{error}{_run_of(profile)}") from None
     content = comparing.answer(found)
     target = out or folder / f"compare-{profile.stem}"
     with clear_errors("write", target):
@@ -69,6 +69,13 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
     print(content["sentence"])
     title = f"{profile.name} beside {relief.name}"
     print(write_comparison(target / "comparison.html", content, file, title, maps))
+
+
+def _run_of(profile: Path) -> str:
+    """A hint where a profile is that of a run, of which half a period may have been computed."""
+    if not (profile.parent / "resolved.json").is_file():
+        return ""
+    return f"; to compare with the run that wrote it name its folder, {profile.parent}"
 
 
 def _compare_runs(first: Path, second: Path, out: Path | None) -> None:

@@ -105,12 +105,12 @@ def threshold(
     json_file: Json = None,
 ) -> None:
     """Find the fluence at which melting, boiling or ablation begins, by bisection."""
-    from dataclasses import asdict
+    from dataclasses import asdict, replace
 
     from lasersph import studies
     from lasersph.case import load_case
     from lasersph.cli.costs import say_cost
-    from lasersph.input import KINDS
+    from lasersph.input import KINDS, in_field_units
     from lasersph.lasers.laser import AMOUNTS
     from lasersph.output.study_mark import StudyMark
     from lasersph.studies.fluence_threshold import usual_runs
@@ -133,10 +133,14 @@ def threshold(
     say_cost(runs, engine, backend, folder, more=more, instead=quicker)
     key = next(f"laser.{name}" for name in AMOUNTS if getattr(loaded.laser, name) is not None)
     unit = KINDS[find_key(loaded, key)[1]].unit
-    StudyMark("threshold", f"threshold of {loaded.name} to {of}", key, unit).write(folder)
+    mark = StudyMark("threshold", f"threshold of {loaded.name} to {of}", key, unit)
+    mark.write(folder)
     found = studies.threshold(
         loaded, of, folder, tolerance=tolerance, at_once=engine.at_once, **options
     )
+    kind = FLUENCES.get(loaded.laser.fluence_kind or "", "") * (key == "laser.fluence")
+    told = in_field_units(found.value, unit, found.tolerance * found.value)
+    replace(mark, title=f"{mark.title}: {told}{kind.rstrip(',')}").write(folder)
     print(_answer(found, loaded.laser))
     print(f"runs of all fluences: {folder}")
     _write(json_file, asdict(found))

@@ -251,7 +251,7 @@ def forecast_rows(
     source = "" if sampled == right else f", estimated from {sampled} of them"
     rows = [("one after the other", f"{duration(1)}{source}")]
     if not engine.is_distant:
-        who = f"{count} workers with {of_each} thread{'s' * (of_each > 1)} each"
+        who = f"{count} worker{'s' * (count > 1)} with {of_each} thread{'s' * (of_each > 1)} each"
         rows.append(("together", f"{duration(count)} by {who}"))
     return rows
 

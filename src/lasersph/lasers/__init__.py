@@ -13,12 +13,13 @@ laser                 all of them together, and the energy that sets the scale
 from lasersph.lasers.absorption import Absorption, BeerLambertAbsorption, SurfaceAbsorption
 from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
 from lasersph.lasers.fluence_map import FluenceMap, fluence_maps
-from lasersph.lasers.interference import InterferenceBeam, Wave
+from lasersph.lasers.interference import InterferenceBeam
 from lasersph.lasers.laser import Beam, Laser
 from lasersph.lasers.path import LinearPath, Path, TabulatedPath
 from lasersph.lasers.pulses import GaussianPulse, Pulse, SquarePulse, TabulatedPulse
 from lasersph.lasers.reflectivity import ReflectivityTable
 from lasersph.lasers.spot import Spot, SpotFluence
+from lasersph.lasers.wave import Wave
 
 __all__ = [
     "Absorption",

@@ -36,13 +36,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from lasersph.input import Angle, Length, Model, format_quantity, refusal
+from lasersph.input import Angle, Length, format_quantity, refusal
 from lasersph.lasers.beams import BeamProfile, PositiveLength, plane_cells
+from lasersph.lasers.wave import Polarization, Wave
 
 Array = NDArray[np.float64]
 
-
-Polarization = Literal["s", "p"] | Angle
 PERIOD_TIMES_Q = {2: np.pi, 3: 4.0 * np.pi / 3.0, 4: np.sqrt(2.0) * np.pi}
 """Period of counted beams times their wavenumber q along the surface, see the table above."""
 SHARES_SUM, PERIOD_FITS = 1e-6, 1e-3
@@ -51,45 +50,6 @@ wavelength and angle, which data sheets round: 5 um for 5.001 um."""
 EXTREMES_GRID, EXTREMES_ZOOMS = 96, 12
 """Points along a period among which the extremes of a pattern are searched, many for each of its
 waves, and how often this is repeated around the best, four times finer each time."""
-
-
-class Wave(Model):
-    """One plane wave that falls onto the surface.
-
-    Its electric field points along the direction of azimuth `polarization` in the surface plane,
-    made perpendicular to the wave; "s" is perpendicular to the plane of incidence and "p" lies in
-    it, with the sign that makes two opposite waves of small angle parallel. Left out for all waves,
-    the fields are taken as parallel (E_j.E_l = |E_j| |E_l|), which is what s-polarized waves in one
-    plane of incidence do.
-    """
-
-    polar: Annotated[Angle, Field(ge=0, lt=np.pi / 2)] = Field(
-        description="angle between the wave and the surface normal"
-    )
-    azimuth: Angle = Field(default=0.0, description="direction along the surface, from x towards y")
-    amplitude: float = Field(default=1.0, gt=0, description="of the electric field, relative")
-    phase: Angle = Field(default=0.0, description="at the origin")
-    polarization: Polarization | None = Field(
-        default=None, description="azimuth of the electric field, or to the plane of incidence"
-    )
-
-    def direction(self) -> Array:
-        """Unit vector of propagation, shape (3,), z upward."""
-        sin = np.sin(self.polar)
-        x, y = sin * np.cos(self.azimuth), sin * np.sin(self.azimuth)
-        return np.array([x, y, -np.cos(self.polar)])
-
-    def field(self) -> Array:
-        """Electric field, shape (3,); along a fixed direction where no polarization is given."""
-        if self.polarization is None:
-            return np.array([0.0, 0.0, self.amplitude])
-        azimuth, across = self.polarization, self.direction()
-        if isinstance(azimuth, str):  # of the half plane of azimuths from 0 to 180 deg
-            azimuth = self.azimuth % np.pi + (0.5 * np.pi if azimuth == "s" else 0.0)
-        # the part of the direction that is perpendicular to the wave, of length 1
-        along = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-        across = along - (along @ across) * across
-        return self.amplitude * across / np.linalg.norm(across)
 
 
 class InterferenceBeam(BeamProfile):

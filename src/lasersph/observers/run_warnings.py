@@ -40,6 +40,7 @@ def found_warnings(summary: Mapping[str, Any], last: Mapping[str, Any] | None = 
         *_energy(summary),
         *_near_critical(summary.get("vaporization", {})),
         *_held_at_boiling(summary),
+        *_thin_melt(summary),
         *_still_molten(summary, last or {}),
     ]
 
@@ -90,6 +91,17 @@ def _held_at_boiling(summary: Mapping[str, Any]) -> Iterator[str]:
         f"metal down to {format_quantity(depth, 'm')} took up its whole heat of vaporization and "
         f"was held at the boiling point, where it would have left as vapor: {wrong} not right; "
         'vaporization = "flux" in [solver] computes the vapor'
+    )
+
+
+def _thin_melt(summary: Mapping[str, Any]) -> Iterator[str]:
+    """Melt that no cell holds to a half: its size is not resolved."""
+    melt = summary.get("melt", {})
+    if melt.get("depth_half_max_m") != 0.0:
+        return
+    yield (
+        "metal began to melt, but no cell was half molten: its width and depth are not resolved, "
+        "and 0 stands for them; take a finer spacing"
     )
 
 

@@ -138,7 +138,9 @@ def height_map(step: Mapping[str, Any]) -> HeightMap:
         OutputError: no ablation, or a run of one dimension.
     """
     if "stage" not in step or step["position"].shape[0] == 1:
-        raise OutputError("a height map needs a 2-D or 3-D run with ablation")
+        raise OutputError(
+            "a height map needs a 2-D or 3-D run with ablation, or a surface that moves"
+        )
     position, width = step["position"], float(np.min(step["width"]))
     body = np.flatnonzero(step["stage"] == CONDENSED)
     x, column = bins(position[0, body], width)

@@ -2,7 +2,7 @@
 
     P = B ((rho/rho_0)^7 - 1),    B = rho_0 c_0^2 / 7                [Alshaer2017, eq. (26)]
 
-rho_0 is the material's own density (2705 kg/m^3 for aluminium; the paper prints 1000, with which
+rho_0 is the material's own density (2705 kg/m^3 for aluminum; the paper prints 1000, with which
 the lattice would explode) and c_0 the speed of sound at rho_0, an input: flows need only
 c_0 >> v, and the time step falls with it. Condensed matter holds no tension here unless asked to:
 below rho_0 the pressure is 0, since a surface layer that leaves lowers the density of the one below

@@ -1,6 +1,6 @@
 """Figures of several runs side by side, as the papers draw them.
 
-`surface_temperatures` and `melt_pools` are Figs. 3 and 4 (steel) and 8 and 9 (aluminium) of
+`surface_temperatures` and `melt_pools` are Figs. 3 and 4 (steel) and 8 and 9 (aluminum) of
 [Demuth2020], `surface_speeds` Figs. 5 and 10, `speed_extrema` Fig. 7. Every figure has one curve a
 run, dark to light in the order of the runs, which their fluences name unless `labels` do; `title`
 says what they have in common.
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lasersph.output import Run
+from lasersph.output.last_pulse import last_pulse
 from lasersph.plots import style
 from lasersph.plots.curves import (
     any_above_zero,
@@ -35,10 +36,10 @@ Labels = Sequence[str] | None
 def surface_temperatures(runs: Sequence[Run], labels: Labels = None, *, title: str = "") -> Figure:
     """Temperature at the interference maximum over time, pulse shaded."""
     figure, (axes,) = style.new_figure(height=4.2)
-    draw_pulse(axes, runs[0].history)
+    draw_pulse(axes, runs[0].history, end_of(runs))
     for run, time, look in looks(runs, labels):
         axes.plot(time, run.history["temperature_at_maximum_K"], **look)
-        axes.set_xlim(time[0], time[-1])
+    axes.set_xlim(0.0, max(float(np.max(line.get_xdata())) for line in axes.lines))
     draw_corner_temperatures(axes, material_of(runs[0]))
     return finish(figure, axes, runs, "surface temperature at the maximum [K]", title)
 
@@ -62,7 +63,7 @@ def melt_pools(
                 x, y = style.without_stairs(time, run.history[column] * unit.factor)
                 axes.plot(x, y, **look)
         text = f"melt pool {size} [{unit.name}]"
-        style.label(axes, time_axis(runs[0].history)[1], text, title=f"({letter})")
+        style.label(axes, time_axis(runs[0].history, end_of(runs))[1], text, title=f"({letter})")
         axes.set_ylim(bottom=0.0)
         show_while(axes, runs, f"melt_width_{level}m", 0.08)
     if title:
@@ -85,7 +86,7 @@ def surface_speeds(
         column: `flow_below_speed_m_s` for the speed one spacing below, as the paper draws it.
     """
     figure, (axes,) = style.new_figure(height=4.2)
-    draw_pulse(axes, runs[0].history)
+    draw_pulse(axes, runs[0].history, end_of(runs))
     for run, time, look in looks(runs, labels):
         axes.plot(time, where_above_zero(run.history[column]), **look)
     show_while(axes, runs, "flow_speed_max_m_s", 0.06)
@@ -115,10 +116,11 @@ def reliefs(runs: Sequence[Run], labels: Labels = None) -> Figure:
 
 def figures_of_two(runs: Sequence[Run], labels: Labels = None) -> dict[str, Figure]:
     """Figures of two runs by name: "relief" where both surfaces move, "temperature" and "melt"
-    where both have them."""
+    where both have them, of trains of pulses since the start of the last."""
     found = {}
     if all(len(run.surface) > 0 for run in runs):
         found["relief"] = reliefs(runs, labels)
+    runs = [last_pulse(run) for run in runs]
     if all("temperature_at_maximum_K" in run.history for run in runs):
         found["temperature"] = surface_temperatures(runs, labels)
     if all(any_above_zero(run, "melt_depth_half_m") for run in runs):
@@ -145,20 +147,27 @@ def speed_extrema(runs: Sequence[Run], labels: Labels = None, *, title: str = ""
 def looks(runs: Sequence[Run], labels: Labels) -> Iterator[tuple[Run, np.ndarray, dict[str, Any]]]:
     """Each run with its times, and color and label of its curve."""
     names = fluence_labels(runs) if labels is None else labels
+    end = end_of(runs)
     for color, run, text in zip(style.color_scale("plasma", len(runs)), runs, names, strict=True):
-        yield run, time_axis(run.history)[0], {"color": color, "label": text}
+        yield run, time_axis(run.history, end)[0], {"color": color, "label": text}
+
+
+def end_of(runs: Sequence[Run]) -> float:
+    """When the longest of some runs ended [s]: one unit of time suits all of their curves."""
+    return max(float(run.history["time_s"][-1]) for run in runs)
 
 
 def finish(figure: Figure, axes: Axes, runs: Sequence[Run], name: str, title: str) -> Figure:
     """Name the axes and put the legend above."""
-    style.label(axes, time_axis(runs[0].history)[1], name, title=title)
+    style.label(axes, time_axis(runs[0].history, end_of(runs))[1], name, title=title)
     style.legend_above(figure, axes, columns=5)
     return figure
 
 
 def show_while(axes: Axes, runs: Sequence[Run], column: str, margin: float) -> None:
     """Limit the time axis to when a column of any of the runs was above zero."""
-    times = [time_axis(run.history)[0][run.history[column] > 0.0] for run in runs]
+    end = end_of(runs)
+    times = [time_axis(run.history, end)[0][run.history[column] > 0.0] for run in runs]
     seen = np.concatenate(times)
     if seen.size and np.ptp(seen) > 0.0:
         around = margin * float(np.ptp(seen))

@@ -58,9 +58,13 @@ def draw_columns(
     axes.set_xlim(time[0], time[-1])
 
 
-def time_axis(history: dict[str, np.ndarray]) -> tuple[np.ndarray, str]:
-    """Times in a unit that suits them, and the name of the axis."""
-    unit = style.fitting_unit("s", float(history["time_s"][-1]))
+def time_axis(history: dict[str, np.ndarray], end: float | None = None) -> tuple[np.ndarray, str]:
+    """Times in a unit that suits them, and the name of the axis.
+
+    Args:
+        end: of the axis [s], which it shares with other runs; the last time if not given.
+    """
+    unit = style.fitting_unit("s", float(history["time_s"][-1]) if end is None else end)
     return history["time_s"] * unit.factor, f"time [{unit.name}]"
 
 
@@ -92,12 +96,12 @@ def incident_power(history: dict[str, np.ndarray]) -> np.ndarray:
     return np.maximum(centered, 0.0) / max(float(np.max(centered)), 1e-300)
 
 
-def draw_pulse(axes: Axes, history: dict[str, np.ndarray]) -> None:
-    """The shape of the pulse as a shade at the foot of the axes."""
+def draw_pulse(axes: Axes, history: dict[str, np.ndarray], end: float | None = None) -> None:
+    """The shape of the pulse as a shade at the foot of the axes; `end` as of `time_axis`."""
     power = incident_power(history)
     if np.any(power > 0.0):
         look: dict[str, Any] = {"color": "#E69F00", "alpha": 0.35, "linewidth": 0.0, "zorder": 0}
-        foot, time = axes.get_xaxis_transform(), time_axis(history)[0]
+        foot, time = axes.get_xaxis_transform(), time_axis(history, end)[0]
         name = "power of the light (no scale)"
         axes.fill_between(time, 0.0, 0.25 * power, transform=foot, label=name, **look)
 

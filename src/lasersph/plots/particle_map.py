@@ -16,6 +16,11 @@ if TYPE_CHECKING:
 
 LARGEST_STRETCH = 4.0
 MAP_WIDTH = 5.6
+FIELDS = (
+    ("temperature", "temperature [K]", style.TEMPERATURE_COLORS),
+    ("melt_fraction", "melt fraction [1]", style.FRACTION_COLORS),
+)
+"""What is drawn: name, words and colors; of a run without phase change the first alone."""
 PIXELS = (320, 1280)
 OUTSIDE = 0.8
 """A pixel farther than this part of a cell's width from its center lies in no cell."""
@@ -112,6 +117,7 @@ def particle_map(run: Run, time: float | None = None) -> Figure | None:
     depth = shown_depth(run, step)
     if run.snapshots.dimension == 1:
         return depth_profile(step, depth, material_of(run))
+    fields = FIELDS if material_of(run).get("solidus_K", 0.0) is not None else FIELDS[:1]
     cells = cells_of_cut(step, depth)
     cells = cells.mirrored() if run.symmetry_factor == 2 else cells
     left, right, _, _ = cells.frame
@@ -119,13 +125,10 @@ def particle_map(run: Run, time: float | None = None) -> Figure | None:
     stretch = max(1.0, shape / LARGEST_STRETCH)
     stretch = 1.0 if stretch < 1.25 else stretch
     height = 1.02 * MAP_WIDTH * stretch / shape
-    figure, all_axes = style.new_figure(2, height=2.0 * (height + 0.55) + 0.3)
+    figure, all_axes = style.new_figure(len(fields), height=len(fields) * (height + 0.55) + 0.3)
     picture = cells.picture()
     unit = style.unit_for(max(abs(left), abs(right)), style.LENGTHS)
-    for axes, field, text, colors in (
-        (all_axes[0], "temperature", "temperature [K]", style.TEMPERATURE_COLORS),
-        (all_axes[1], "melt_fraction", "melt fraction [1]", style.FRACTION_COLORS),
-    ):
+    for axes, (field, text, colors) in zip(all_axes, fields, strict=True):
         values = np.where(picture < 0, np.nan, step[field][picture])
         image = style.paint(axes, values, cells.frame, unit, cmap=colors)
         if field == "melt_fraction":

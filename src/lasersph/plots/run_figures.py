@@ -86,7 +86,7 @@ DRAWINGS = (
     ),
     Drawing(
         "relief-pulses",
-        "The surface after 1, 2, 5, 10 ... pulses, as it froze.",
+        "The surface as it froze after some of the pulses, the last among them.",
         relief_after_pulses,
         has_all_pulses=True,
     ),

@@ -6,11 +6,10 @@ import re
 from html import escape
 from typing import Any
 
-from lasersph.input import format_with_error
-from lasersph.observers.quantity import unit_in
+from lasersph.observers.quantity import Quantity, unit_in
 from lasersph.output import Run
 from lasersph.report.page import paragraph
-from lasersph.report.tables import main_results, place_text, quantity, shown, text_of
+from lasersph.report.tables import main_results, place_text, quantity, shown, text_of, with_error
 
 EFFECTS = {
     "conduction": "heating and melting",
@@ -31,7 +30,17 @@ LARGE = {
     "ejecta.mass_kg": "mass of the ejecta",
 }
 """Main results that a reader asks for first, the most telling before the others, in short words."""
+COMMON_NAME = re.compile(r"[A-Z][a-z]+(-[a-z]+)?(?!\S)(?! [0-9])")
+"""Begins a metal that is small inside a sentence, as "Pure copper"; not "Ti-6Al-4V", not the trade
+name "Inconel 718"."""
 MOST_NUMBERS = 5
+WIDTHS = {
+    "radius": "radius",
+    "radius_1e2": "1/e² radius",
+    "diameter_1e2": "1/e² diameter",
+    "diameter_fwhm": "FWHM",
+}
+"""Keys of a beam that give its width, in words."""
 UNIT_BEHIND = re.compile(r"(?<=[0-9]) (?=\S)")
 """Blank behind a number, where no line may end."""
 STILLS = ("crater-3d", "flow", "relief-section", "crater", "particles", "box-flow", "temperature")
@@ -44,7 +53,8 @@ def what_was_computed(run: Run) -> str:
     material = case.get("material") or {}
     metal = str(material.get("title") or material.get("name") or "a liquid")
     metal = re.split(r", | \(", metal)[0]
-    metal = metal[0].lower() + metal[1:] if metal[1:2].islower() else metal
+    if COMMON_NAME.match(metal):
+        metal = metal[0].lower() + metal[1:]
     size = f"{shown(summary['particles'], 9)} particles"
     if summary.get("spacing_m"):
         size += f", {quantity(summary['spacing_m'], 'm', 3)} apart at the finest"
@@ -75,7 +85,8 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
     """
     fluence, pulse, beam = laser.get("fluence"), laser.get("pulse") or {}, laser.get("beam") or {}
     energy, spot = laser.get("pulse_energy"), laser.get("spot") or {}
-    if fluence is None and energy is None and laser.get("intensity") is None:
+    intensity, power = laser.get("intensity"), laser.get("power")
+    if fluence is intensity is energy is power is None:
         return ""
     count = int(pulse.get("count") or 1)
     lasts = pulse.get("fwhm") or pulse.get("duration")
@@ -93,6 +104,10 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
             mean = 1e-4 * computed["mean_fluence_J_m2"]
             kind = " in the mean over a period" * (beam.get("kind") == "interference")
             text += f", {quantity(mean, 'J/cm^2', 3)}{kind} where it is computed,"
+    elif intensity is not None:
+        text += f" with {quantity(1e-4 * intensity, 'W/cm^2', 3)}{fluence_kind(laser)}"
+    else:
+        text += f" with {quantity(power, 'W', 3)}"
     if spot.get("diameter"):
         text += f" in a spot of {quantity(spot['diameter'], 'm', 3)} ({spot['definition']})"
     if beam.get("kind") in (None, "uniform"):
@@ -102,10 +117,11 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
         return f"{text} of interfering beams" + (
             f" (period {quantity(period, 'm', 3)})" if period else ""
         )
-    radius = beam.get("radius") or beam.get("radius_1e2")
-    return f"{text} in a {beam['kind']} beam" + (
-        f" (radius {quantity(radius, 'm', 3)})" if radius else ""
+    sizes = (
+        f"{words} {quantity(beam[key], 'm', 3)}" for key, words in WIDTHS.items() if beam.get(key)
     )
+    name = beam["kind"].replace("gaussian", "Gaussian")
+    return f"{text} in a {name} beam" + "".join(f" ({size})" for size in sizes)
 
 
 def fluence_kind(laser: dict[str, Any]) -> str:
@@ -120,26 +136,36 @@ def fluence_kind(laser: dict[str, Any]) -> str:
     return f" ({found}, at the center)" if laser.get("spot") else f" ({found})"
 
 
+def telling_results(summary: dict[str, Any]) -> dict[str, tuple[Quantity, Any]]:
+    """Main results that are not 0, with their declarations, by their keys; the end of the melt only
+    where that is not the end of the run."""
+    found = {one.key: (one, value) for one, value in main_results(summary) if value}
+    if summary.get("melt", {}).get("molten_at_end"):
+        found.pop("melt.end_s", None)
+    return found
+
+
 def large_numbers(run: Run) -> str:
     """Five main results, large, with unit, error and when, and what the errors hold."""
     summary, found = run.summary, run.uncertainty
-    results = {one.key: (one, value) for one, value in main_results(summary) if value}
+    results = telling_results(summary)
     order = [key for key in LARGE if key in results]
     order += [key for key in results if key not in order]
-    cards = []
+    cards, are_known = [], False
     for key in order[:MOST_NUMBERS]:
         one, value = results[key]
         text = text_of(one, value, summary)
         error = error_of(summary, found, key)
         if error:
             unit = unit_in(one.unit, int(summary.get("dimensions", 3)))
-            text = format_with_error(value, error, unit, typographic=True)
+            text = with_error(value, error, unit)
+            are_known = True
         when = place_text(summary, one.at[0]) if one.at else ""
         words = LARGE.get(key, one.words.split(" (")[0]) + (f", at {when}" if when else "")
         cards.append(f"<div><dd>{escape(text)}</dd><dt>{escape(words)}</dt></div>")
     if found is not None:
         note = "Errors hold about 95 %: of the spacing and of the inputs, see How sure."
-    elif summary.get("numerical_sd"):
+    elif are_known:
         note = "Errors are twice what counting in cells makes uncertain; --uncertainty gives all."
     else:
         note = "The errors of these numbers were not assessed: run with --uncertainty."

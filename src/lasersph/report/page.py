@@ -31,6 +31,7 @@ p.lead { font-size: 1.12rem; margin: .2rem 0 1.1rem; }
 @media screen { .top.is-drawn figure { order: 2; margin: 1.2rem 0 0; } }
 p.result { font-size: 1.08rem; background: #eef5fa; border-left: 4px solid #0072b2;
   padding: .8rem 1rem; }
+p.result::first-letter { text-transform: uppercase; }
 .warnings { background: #fdf3e4; border-left: 4px solid #d55e00; padding: .5rem 1rem;
   margin: .5rem 0; line-height: 1.4; }
 .warnings p { margin: 0; } .warnings summary { color: inherit; }
@@ -68,8 +69,9 @@ details.subject > summary { font-weight: 600; }
   details.subject { border: 0; padding: 0; }
   details.subject::details-content { content-visibility: visible; height: auto; } }
 @media screen and (max-width: 40rem) { main { padding: 1.2rem; overflow-wrap: anywhere; }
-  .numbers dd, td.number, th + th { white-space: normal; }
-  table { display: block; overflow-x: auto; } }
+  .numbers dd { white-space: normal; }
+  table { display: block; overflow-x: auto; }
+  th, td { overflow-wrap: break-word; padding-right: .7rem; } }
 """
 LONGEST_NUMBER = 30
 """Letters of a cell that stays on one line: a number with its unit, error and place."""

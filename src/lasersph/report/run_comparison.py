@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -21,10 +22,12 @@ from lasersph.report.page import figure, heading, page, paragraph, table
 from lasersph.report.tables import in_words, main_results, text_of
 
 Cells = tuple[str, str, str, str]
+LAST = " Of a train of pulses the last one is drawn, its times count from its start."
 FIGURES = {
     "relief": "Relief at the end of both runs; below: that of the second less that of the first.",
-    "temperature": "Surface temperature at the maximum of the light; shaded: pulse of the first.",
-    "melt": "Width (a) and depth (b) of the half molten metal.",
+    "temperature": "Surface temperature at the maximum of the light; shaded: pulse of the first."
+    + LAST,
+    "melt": "Width (a) and depth (b) of the half molten metal." + LAST,
 }
 
 
@@ -109,6 +112,8 @@ def compare_runs(first: str | PathLike[str], second: str | PathLike[str]) -> Run
     return RunComparison(runs, names, tuple(_different_settings(*runs)), numbers, tuple(rows))
 
 
+LARGEST_PERCENT = 1000.0
+"""Differences above it are told without: nobody reads +338 409 %."""
 _NONE = (None, None)
 """Of a quantity that a run does not have."""
 
@@ -127,6 +132,8 @@ def _difference(first: Any, second: Any, unit: str) -> str:
     if not first:
         return text
     percent = 100.0 * change / abs(first)
+    if abs(percent) > LARGEST_PERCENT:
+        return text
     shown = f"{percent:+.0f}" if abs(percent) >= 10.0 else f"{percent:+.2g}"
     return f"{text} ({shown} %)".replace("-", "−")
 
@@ -155,4 +162,10 @@ def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, An
         if isinstance(value, dict):
             yield from _flat(value, f"{prefix}{key}.")
         else:
-            yield prefix + key, value
+            is_list = isinstance(value, list) and value and isinstance(value[0], dict)
+            yield prefix + key, ", ".join(map(_inline, value)) if is_list else value
+
+
+def _inline(table: Mapping[str, Any]) -> str:
+    """A table as one line of a case file: {name = "maximum", depth = "0 nm"}."""
+    return f"{{{', '.join(f'{key} = {json.dumps(value)}' for key, value in table.items())}}}"

@@ -133,8 +133,8 @@ def note_texts(summary: dict[str, Any]) -> list[str]:
         )
     if summary.get("surface", {}).get("symmetry_factor") == 2:
         found.append(
-            "Only x > 0 was computed, half of what is symmetric about x = 0: widths are those of"
-            " the whole pool, energies those of the half."
+            "Only x > 0 was computed, half of what is symmetric about x = 0: volumes and energies"
+            " are those of this half, all else is of the whole."
         )
     return found
 

@@ -145,7 +145,7 @@ def main_rows(
         error = errors.get(one.key, {}).get("error")
         if error is not None:
             unit = unit_in(one.unit, summary["dimensions"])
-            text = format_with_error(value, error, unit, typographic=typographic)
+            text = with_error(value, error, unit, typographic=typographic)
         at = place_text(summary, one.at[0], typographic=typographic) if one.at else ""
         rows.append((one.words, text, at))
     return rows
@@ -169,11 +169,18 @@ def summary_rows(
     as plain text."""
     return [
         ("case", str(summary.get("title") or summary["case"])),
-        ("particles", str(summary["particles"])),
+        ("particles", f"{summary['particles']}{half_text(summary)}"),
         ("time", f"{format_quantity(summary['time_s'], 's')} in {summary['steps']} steps"),
         ("computed in", format_duration(summary["wall_time_s"])),
         *main_numbers(summary, uncertainty),
     ]
+
+
+def half_text(summary: dict[str, Any]) -> str:
+    """What a run of one half says behind its number of particles; empty of a whole one."""
+    if summary.get("surface", {}).get("symmetry_factor") != 2:
+        return ""
+    return " at x > 0, as are volumes and energies"
 
 
 def computation(summary: dict[str, Any]) -> Rows:
@@ -265,6 +272,15 @@ def unit_of(key: str) -> str:
 
 READABLE = {"J/m^2": (1e-4, "J/cm^2"), "K/m": (1e-6, "K/um")}
 """Factor and unit in which an engineer writes what SI writes otherwise."""
+
+
+def with_error(value: float, error: float | None, unit: str, *, typographic: bool = True) -> str:
+    """A number in SI with its error, in the unit in which an engineer writes it."""
+    factor, name = READABLE.get(unit, (1.0, unit))
+    name = name.replace("um", "µm") if typographic else name
+    return format_with_error(
+        factor * value, error and factor * error, name, typographic=typographic
+    )
 
 
 def in_words(value: Any, unit: str, typographic: bool = True) -> str:

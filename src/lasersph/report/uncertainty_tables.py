@@ -4,11 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from lasersph.input import format_with_error
 from lasersph.observers.observer_list import OBSERVERS
 from lasersph.observers.quantity import unit_in
 from lasersph.report.page import details, paragraph, table
-from lasersph.report.tables import Rows, main_results, quantity, shown, unit_of
+from lasersph.report.tables import (
+    Rows,
+    in_words,
+    main_results,
+    quantity,
+    shown,
+    unit_of,
+    with_error,
+)
 
 MEANING = (
     "An error holds about 95 %. Its numerical part is the grid convergence index of this run and"
@@ -68,12 +75,12 @@ def main_rows(summary: dict[str, Any], found: dict[str, Any]) -> Rows:
 
 def two_digits(size: float | None, unit: str) -> str:
     """A part of an error, rounded to the two digits that an error has."""
-    return quantity(None if size is None else float(f"{size:.2g}"), unit)
+    return in_words(None if size is None else float(f"{size:.2g}"), unit)
 
 
 def value_text(entry: dict[str, Any], unit: str) -> str:
     """A value with its error; a question mark where the numerical part is not known."""
-    text = format_with_error(entry["value"], entry["error"], unit, typographic=True)
+    text = with_error(entry["value"], entry["error"], unit)
     return f"{text} ± ?" if entry["error"] is None else text
 
 

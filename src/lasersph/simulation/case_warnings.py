@@ -187,9 +187,9 @@ def _vapor(case: Case, heating: HeatingForecast) -> Iterator[str]:
     elif heating.held > LEAST_HELD:
         how = "" if missing else '; solver.vaporization = "flux" computes it'
         yield (
-            f"the surface is held at its boiling point of {metal.temperature:.0f} K, with the heat "
-            f"that would turn {format_quantity(heating.held, 'm', 2)} of metal into vapor: vapor "
-            f"that leaves, its push and a hotter surface are left out{how or add}"
+            f"by estimate the surface is held at its boiling point of {metal.temperature:.0f} K, "
+            f"with the heat that would turn {format_quantity(heating.held, 'm', 2)} of metal "
+            f"into vapor: vapor that leaves, its push and a hotter surface are left out{how or add}"
         )
     critical = metal.critical_temperature
     if critical is not None and heating.temperature > PHASE_EXPLOSION * critical:

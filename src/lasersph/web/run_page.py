@@ -15,7 +15,7 @@ from lasersph.output.folder_lock import is_computing
 from lasersph.output.growing_table import last_row, some_values
 from lasersph.output.pulse_starts import starts_of_pulses
 from lasersph.report import tables
-from lasersph.report.headline import LARGE, MOST_NUMBERS
+from lasersph.report.headline import LARGE, MOST_NUMBERS, telling_results
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
 from lasersph.web.changes import changes, unit_of_key
 from lasersph.web.folder_list import Entry, refuse_links
@@ -137,7 +137,7 @@ def _card(run: Run) -> dict[str, Any]:
 def main_numbers(run: Run) -> list[dict[str, str]]:
     """The most telling results of a complete run, with their errors where these are known."""
     errors = (run.uncertainty or {}).get("numbers", {})
-    known = {one.key: (one, value) for one, value in tables.main_results(run.summary) if value}
+    known = telling_results(run.summary)
     found = []
     for key, words in LARGE.items():
         if key not in known:

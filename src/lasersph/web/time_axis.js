@@ -5,6 +5,7 @@ import { fittingUnit, number } from "./dom.js";
 const GAP = 0.06; // left for a pause, of the mean length of what is computed between two
 const PARTS = 5; // into which marks divide an axis, about
 const CLOSEST = 0.6; // of such a part: from one mark to the next, at least
+const NARROW = 1.3; // of such a part: a pulse that follows another by less is marked by its number alone
 
 /**
  * Where times of some runs stand on one axis: end to end, with a small gap for each pause that all of them jumped over.
@@ -78,7 +79,8 @@ export class TimeAxis {
     const found = [];
     for (const [k, [place, words]] of anchors.entries()) {
       const next = anchors[k + 1]?.[0] ?? high + step;
-      if (place >= low && place <= high && !(place - found.findLast((one) => one.isPulse)?.place < CLOSEST * step)) found.push({ place, words, isPulse: true });
+      const since = place - found.findLast((one) => one.isPulse)?.place;
+      if (place >= low && place <= high && !(since < CLOSEST * step)) found.push({ place, words: isTrain && since < NARROW * step ? `${k + 1}` : words, isPulse: true });
       for (let since = step; place + since < next - CLOSEST * step; since += step)
         if (place + since >= low && place + since <= high) found.push({ place: place + since, words: `+${number(since / size)} ${name}` });
     }

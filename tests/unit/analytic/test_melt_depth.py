@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import erf
 
-from lasersph.analytic.melt_depth import melt_depth
+from lasersph.analytic.melt_depth import _Block, melt_depth
 
 SIGMA = 10e-9 / np.sqrt(8 * np.log(2))
 
@@ -85,6 +85,28 @@ def test_heating_without_phase_change_is_the_exact_solution():
     found = melt_depth(**plain)
     exact = 2 * 2.5e10 * np.sqrt(1e-7 / (np.pi * 167 * 2700 * 900))
     assert found.temperature - 300 == pytest.approx(exact, rel=0.02)
+
+
+def test_absurd_energy_is_estimated_at_once(monkeypatch):
+    """A typing error in the fluence takes as many solves as light that boils the metal: the curve
+    goes on beyond all that a cell can take up."""
+    count = [0]
+    solve = _Block._newton_change
+
+    def counted(*given):
+        count[0] += 1
+        return solve(*given)
+
+    monkeypatch.setattr(_Block, "_newton_change", counted)
+    names = ("enthalpy", "temperature", "potential", "melt_fraction")
+    rising = STEEL | {name: np.asarray(STEEL[name])[:-1] for name in names}  # no plateau at its end
+    solves = []
+    for fluence in (1e5, 1e9):
+        count[0] = 0
+        found = melt_depth(**rising, fluence=fluence)
+        solves.append(count[0])
+    assert solves[1] < 2 * solves[0]
+    assert found.temperature > 3273.0 and found.depth > 0.0
 
 
 def test_before_the_light_nothing_melts():

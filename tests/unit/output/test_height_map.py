@@ -80,5 +80,5 @@ def test_refusals(slope, tmp_path):
         slope.write(tmp_path / "crater.obj")
     with pytest.raises(OutputError, match="take csv"):
         height_map(step(2)).write(tmp_path / "crater.stl")
-    with pytest.raises(OutputError, match="2-D or 3-D run with ablation"):
+    with pytest.raises(OutputError, match="run with ablation, or a surface that moves"):
         height_map(step(1))

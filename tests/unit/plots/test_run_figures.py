@@ -1,5 +1,6 @@
 """Figures of a run: drawn from files alone, with units on their axes."""
 
+import json
 import re
 import shutil
 
@@ -117,6 +118,16 @@ def test_without_light_and_melt(tmp_path):
     run = open_run(synthetic_run.make_run(tmp_path / "run", dimension=1, strength=0.1))
     assert over_time.melt_pool_history(run) is None
     assert particle_map(run) is not None
+
+
+def test_without_phase_change_no_empty_map_of_melt(tmp_path):
+    """Where melting was not computed, temperature stands alone; an unfinished run shows both."""
+    folder = synthetic_run.make_run(tmp_path / "run", strength=0.1)
+    assert len(axes_of(particle_map(open_run(folder)))) == 2
+    summary = json.loads((folder / "summary.json").read_text())
+    summary["material"]["solidus_K"] = None
+    (folder / "summary.json").write_text(json.dumps(summary))
+    assert len(axes_of(particle_map(open_run(folder)))) == 1
 
 
 def test_fluences_label_the_curves(run):

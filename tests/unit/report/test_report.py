@@ -7,6 +7,7 @@ import shlex
 import zlib
 from html.parser import HTMLParser
 from itertools import pairwise
+from types import SimpleNamespace
 from typing import ClassVar
 
 import numpy as np
@@ -18,9 +19,10 @@ from lasersph.observers.run_warnings import found_warnings
 from lasersph.output import OutputError, open_run
 from lasersph.output.frame_blocks import particle_index
 from lasersph.report import scene, write_report
-from lasersph.report.headline import error_of, large_numbers, light_text
+from lasersph.report.headline import error_of, large_numbers, light_text, what_was_computed
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
-from lasersph.report.tables import entry
+from lasersph.report.tables import entry, main_rows, summary_rows, with_error
+from lasersph.report.uncertainty_tables import two_digits
 from lasersph.report.write import command_of, report_page
 
 
@@ -142,7 +144,16 @@ def decode(frames, field, number):
         (
             {"fluence": 9000.0, "fluence_kind": "peak", "pulse": {"count": 1, "fwhm": 1e-8}}
             | {"beam": {"kind": "gaussian", "radius_1e2": 5e-6}},
-            " under one pulse of 10 ns with 0.9 J/cm² (peak) in a gaussian beam (radius 5 µm)",
+            " under one pulse of 10 ns with 0.9 J/cm² (peak) in a Gaussian beam (1/e² radius 5 µm)",
+        ),
+        (
+            {"intensity": 1e11, "fluence_kind": "peak", "pulse": {"duration": 2e-6}}
+            | {"beam": {"kind": "gaussian", "diameter_fwhm": 2e-5}},
+            " under one pulse of 2 µs with 1·10⁷ W/cm² (peak) in a Gaussian beam (FWHM 20 µm)",
+        ),
+        (
+            {"power": 40.0, "pulse": {"duration": 2e-6}, "beam": {"kind": "top-hat"}},
+            " under one pulse of 2 µs with 40 W in a top-hat beam",
         ),
         (
             {"pulse_energy": 6e-6, "spot": {"diameter": 5e-5, "definition": "1/e^2"}}
@@ -198,6 +209,35 @@ def test_large_numbers_have_errors(folder):
     Counted.uncertainty = {"numbers": {key: {"error": 0.1 * value}}}
     assert error_of(Counted.summary, Counted.uncertainty, key) == 0.1 * value
     assert "hold about 95 %" in large_numbers(Counted())
+
+
+def test_end_of_the_run_is_no_end_of_the_melt(folder):
+    """Where metal is still fluid no large number says until when it was."""
+    run = open_run(folder)
+    shown = ("temperature_max_K", "title", "dimensions", "numerical_sd", "material")
+    summary = {key: run.summary[key] for key in shown if key in run.summary}
+    for left, count in ((False, 1), (True, 0)):
+        melt = {"end_s": 9e-8, "molten_at_end": left}
+        one = SimpleNamespace(summary={**summary, "melt": melt}, uncertainty=None)
+        assert large_numbers(one).count("melt until") == count
+
+
+@pytest.mark.parametrize(
+    ("title", "name"),
+    [
+        ("Ti-6Al-4V, temperature-dependent", "Ti-6Al-4V"),
+        ("Inconel 718, temperature-dependent", "Inconel 718"),
+        ("AISI 304 stainless steel", "AISI 304 stainless steel"),
+        ("Pure copper, temperature-dependent", "pure copper"),
+        ("High-purity aluminium (Demuth & Lasagni 2020, Table 3)", "high-purity aluminium"),
+    ],
+)
+def test_names_of_metals_inside_a_sentence(folder, title, name):
+    """Common words are small there, symbols and trade names stay."""
+    run = open_run(folder)
+    case = {**run.case, "material": {"title": title}}
+    text = what_was_computed(SimpleNamespace(summary=run.summary, case=case))
+    assert f" of {name} under" in text.replace("\u00a0", " ")
 
 
 def test_page_says_what_was_asked_and_found(page, folder):
@@ -302,6 +342,14 @@ def test_melt_at_the_end_of_a_train_takes_a_new_run():
     assert found_warnings(summary)[0].endswith("; compute it again with a later time.end")
 
 
+def test_melt_thinner_than_half_a_cell_is_warned_of():
+    """Its sizes are 0 though metal melts; a pool that has a depth is not warned of."""
+    melt = {"molten_at_end": False, "end_any_s": 1e-8, "depth_half_max_m": 0.0}
+    summary = {"melt": melt, "time_s": 1e-7, "energy": STILL}
+    assert "no cell was half molten" in found_warnings(summary)[0]
+    assert found_warnings(summary | {"melt": melt | {"depth_half_max_m": 1e-8}}) == []
+
+
 def test_notes(folder):
     """Rounded spacing is noted, melt left at the end is warned of."""
     summary = open_run(folder).summary
@@ -310,9 +358,27 @@ def test_notes(folder):
     notes = note_texts(summary)
     assert any("8 nm was rounded to 8.0128 nm" in text for text in notes)
     assert any("still fluid" in text for text in warning_texts(summary, []))
-    assert any("energies those of the half" in text for text in notes)
+    assert any("energies are those of this half" in text for text in notes)
     whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
     assert not any("of the half" in text for text in note_texts(whole))
+
+
+def test_terminal_says_of_what_half_its_energies_are(folder):
+    """Beside the number of particles; a whole domain says nothing."""
+    summary = open_run(folder).summary
+    assert "as are volumes and energies" in dict(summary_rows(summary))["particles"]
+    whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
+    assert dict(summary_rows(whole))["particles"] == str(summary["particles"])
+
+
+def test_errors_stand_in_the_unit_of_the_value():
+    """A fluence has the unit that it has without an error."""
+    assert with_error(15000.0, 300.0, "J/m^2") == "1.500 ± 0.030 J/cm²"
+    assert two_digits(300.0, "J/m^2") == "0.03 J/cm²"
+    energy = {"absorbed_J": 15000.0, "unit": "J/m^2"}
+    found = {"numbers": {"energy.absorbed_J": {"error": 300.0}}}
+    rows = main_rows({"dimensions": 1, "energy": energy}, found)
+    assert rows[0][:2] == ("absorbed energy", "1.500 ± 0.030 J/cm²")
 
 
 def test_entries_take_their_unit_from_the_key():

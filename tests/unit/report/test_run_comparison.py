@@ -9,9 +9,11 @@ import synthetic_run
 
 import lasersph
 from lasersph.cli import main
+from lasersph.cli.measured import _run_of
 from lasersph.output import OutputError, open_run
 from lasersph.output.particle_file import ParticleFile
 from lasersph.plots.comparison import figures_of_two
+from lasersph.report.run_comparison import _difference, _settings_of
 
 
 @pytest.fixture
@@ -59,6 +61,46 @@ def test_command(two, tmp_path, capsys):
     assert len(capsys.readouterr().err.splitlines()) == 1
     with pytest.raises(OutputError, match="is not a run folder"):
         lasersph.compare_runs(two[0], tmp_path / "empty")
+
+
+def test_runs_of_different_length_share_their_axis(tmp_path):
+    """One unit of time for both: a run of 200 ns ends at 0.2 us beside one of 2 us."""
+    runs = [open_run(synthetic_run.make_run(tmp_path / name)) for name in ("short", "long")]
+    head, *rows = (runs[1].path / "history.csv").read_text().splitlines()
+    assert head.startswith("time_s,")
+    longer = [
+        f"{10.0 * float(time)!r},{rest}" for time, rest in (row.split(",", 1) for row in rows)
+    ]
+    (runs[1].path / "history.csv").write_text("\n".join([head, *longer, ""]))
+    axes = figures_of_two([open_run(run.path) for run in runs], ["a", "b"])["temperature"].axes[0]
+    ends = [float(line.get_xdata()[-1]) for line in axes.lines[:2]]
+    np.testing.assert_allclose(ends, [0.2, 2.0])
+    assert axes.get_xlim() == (0.0, ends[1]) and axes.get_xlabel() == "time [µs]"
+
+
+def test_trains_show_their_last_pulse(tmp_path):
+    """A train is drawn since its last pause, its times from there; a pause is no curve."""
+    single, train = (synthetic_run.make_run(tmp_path / name) for name in ("single", "train"))
+    with (train / "events.jsonl").open("a") as events:
+        events.write('{"event": "pause", "time_s": 1e-7}\n')
+    drawn = figures_of_two([open_run(single), open_run(train)], ["a", "b"])["temperature"]
+    ends = [float(line.get_xdata()[-1]) for line in drawn.axes[0].lines[:2]]
+    np.testing.assert_allclose(ends, [200.0, 100.0])
+
+
+def test_settings_and_large_differences_in_words():
+    """Tables read as in a case file; a percentage that nobody reads is left out."""
+    assert _settings_of('[[probes]]\nname = "top"\ndepth = "0 nm"\n') == {
+        "probes": '{name = "top", depth = "0 nm"}'
+    }
+    assert _difference(5e-8, 2e-3, "s") == "+2 ms"
+    assert _difference(1.0, 11.0, "K") == "+10 K (+1000 %)"
+
+
+def test_profile_of_a_run_leads_to_its_folder(two, tmp_path):
+    """A run of half a period writes half a profile: the other half is in its folder alone."""
+    assert str(two[0]) in _run_of(two[0] / "surface.csv")
+    assert _run_of(tmp_path / "measured.csv") == ""
 
 
 def test_reliefs(tmp_path):

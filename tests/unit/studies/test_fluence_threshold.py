@@ -4,11 +4,13 @@ from types import SimpleNamespace
 
 import pytest
 
+from lasersph.cli import main
 from lasersph.input import Model
 from lasersph.lasers import Laser
 from lasersph.materials import Material, load_material
+from lasersph.output.study_mark import read_mark
 from lasersph.studies import threshold
-from lasersph.studies.fluence_threshold import show_energy, usual_runs
+from lasersph.studies.fluence_threshold import Threshold, Trial, show_energy, usual_runs
 
 STEEL = load_material("steel-304-demuth")
 MELTS, BOILS = 3000.0, 7000.0  # fluences at which the stand-in reaches liquidus and boiling point
@@ -129,3 +131,15 @@ def test_energies_are_shown_to_as_many_digits():
     shown = [show_energy("laser.fluence", value) for value in (2625.0, 2437.5, 2343.75)]
     assert shown == ["0.26250 J/cm^2", "0.24375 J/cm^2", "0.23438 J/cm^2"]
     assert show_energy("laser.pulse_energy", 12345.0) == "12345 J"
+
+
+def test_page_of_a_threshold_tells_its_answer(tmp_path, monkeypatch):
+    """The title of the folder's mark ends in the value with its error, and says which fluence."""
+    trials = (Trial(2340.0, False, 1700.0), Trial(2390.0, True, 1728.0))
+    found = Threshold("melt", "laser.fluence", 2340.0, 2390.0, trials)
+    monkeypatch.setattr("lasersph.studies.threshold", lambda *_, **__: found)
+    assert main(["threshold", "dlip-steel", "--of", "melt", "--out", str(tmp_path / "t")]) == 0
+    mark = read_mark(tmp_path / "t")
+    assert mark.title == (
+        "threshold of dlip-steel to melt: 0.2365 ± 0.0025 J/cm², mean over a period"
+    )
