@@ -35,7 +35,8 @@ def metals_page() -> str:
         "cold metal everywhere.",
         "\n".join(f"- **{metal.name}**: {_extrapolated_ranges(metal)}" for metal in metals),
         "## All numbers of one metal",
-        f"```\n$ lasersph material show copper\n{_show_output('copper')}```",
+        "```{code-block} text\n:class: printed\n\n"
+        f"$ lasersph material show copper\n{_show_output('copper')}```",
     ]
     return "\n\n".join(parts) + "\n"
 
