@@ -80,7 +80,7 @@ def test_named_files_exist():
     assert not missing
 
 
-COMMAND = re.compile(r"^ *(?:\.venv/bin/)?(lasersph [a-z][^\n]*(?:\\\n[^\n]*)*)", re.MULTILINE)
+COMMAND = re.compile(r"^ *(?:\.venv/bin/)?(lasersph [a-z](?:\\\n|[^\n])*)", re.MULTILINE)
 FENCED = re.compile(r"^( *)```(?!toml|python)[^\n]*\n(.*?)^\1```", re.MULTILINE | re.DOTALL)
 COMMANDS = sorted(
     {
