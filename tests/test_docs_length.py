@@ -43,7 +43,7 @@ PLAIN = {
 MADE = re.compile(r"`python docs/_extensions/\w+\.py` writes this page")
 """A page that a script writes is a table to look things up in."""
 COMMIT = re.compile(r"\b(?=[a-f]*[0-9])(?=[0-9]*[a-f])[0-9a-f]{7}\b|\bcommits? [0-9a-f]{7}\b")
-NOTES = "notes/2026"
+NOTES = ("notes/2026", "notes/first-hour")
 """Notes are tables of what was measured once."""
 PAGES = {
     page.relative_to(DOCS).as_posix(): page.read_text(encoding="utf-8")
