@@ -31,7 +31,7 @@ PAGES = tuple(ROOT / name for name in ("README.md", "docs/speed.md", "benchmarks
 MOST_SETTINGS = 3
 """A row with more settings than these does not print them; they stand in the record."""
 BEGIN, END = "<!-- {}: begin -->\n", "<!-- {}: end -->\n"
-"""Marks of the tables "times", "peers", "parts" and "first hour" in a page."""
+"""Marks of the tables "headlines", "times", "peers", "parts" and "first hour" in a page."""
 
 
 def lasersph(arguments: list[str]) -> tuple[float, int]:
@@ -94,12 +94,25 @@ def table(rows: list[dict]) -> str:
     for row in rows:
         if "seconds" not in row:  # not measured yet
             continue
-        particles = f"{row['particles']:,}".replace(",", " ")
-        time, memory = words_of_time(row["seconds"]), f"{row['memory_bytes'] / 2**30:.2g} GiB"
         when = ", ".join(filter(None, (row["date"], row["machine"], row["note"])))
-        numbers = f"{particles} | {time} | {memory} | {when}"
-        lines.append(f"| {row['what']} | {numbers} | `{command_of(row)}` |")
+        lines.append(f"| {row['what']} | {cells_of(row)} | {when} | `{command_of(row)}` |")
     return "\n".join(lines) + "\n"
+
+
+def headline_table(rows: list[dict]) -> str:
+    """The table of the few whole runs that the README shows."""
+    lines = ["| run | particles | time | memory |", "|---|---|---|---|"]
+    for row in rows:
+        if row.get("headline"):
+            lines.append(f"| {row['what']} | {cells_of(row)} |")
+    return "\n".join(lines) + "\n"
+
+
+def cells_of(row: dict) -> str:
+    """Particles, time and memory of a row, as cells of a table."""
+    particles = f"{row['particles']:,}".replace(",", " ")
+    memory = f"{row['memory_bytes'] / 2**30:.2g} GiB"
+    return f"{particles} | {words_of_time(row['seconds'])} | {memory}"
 
 
 def command_of(row: dict) -> str:
@@ -111,7 +124,7 @@ def command_of(row: dict) -> str:
 
 
 def peer_table(peers: list[dict]) -> str:
-    """The table of speeds beside other programs that the README shows; the chart shows all."""
+    """The table of speeds beside other programs in short; the chart shows all."""
     lines = ["| beside | what | times as fast | measured |", "|---|---|---|---|"]
     for one in peers:
         if one["headline"]:
@@ -149,6 +162,7 @@ def first_hour_table(rows: list[dict]) -> str:
 def with_tables(text: str, record: dict) -> str:
     """The text with the tables between its marks made anew."""
     tables = {
+        "headlines": headline_table(record["runs"]),
         "times": table(record["runs"]),
         "peers": peer_table(record["peers"]),
         "parts": part_table(record["parts"]),

@@ -32,6 +32,7 @@ extensions = [
     "sphinxcontrib.bibtex",
     "docstring_equations",
     "generated_pages",
+    "units_in_tables",
 ]
 exclude_patterns = ["_build", "generated/*.md", "generated/ipython"]
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]

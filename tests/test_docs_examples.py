@@ -20,16 +20,16 @@ PAGES = sorted(path for path in (ROOT / "docs").rglob("*.md") if "generated" not
 
 
 def test_example_material_can_be_read():
-    """The material file of the page "Extend" is accepted as it stands."""
-    page = (ROOT / "docs" / "extend.md").read_text(encoding="utf-8")
+    """The material file of the pages "Extend" is accepted as it stands."""
+    page = (ROOT / "docs" / "extend" / "materials.md").read_text(encoding="utf-8")
     (text,) = re.findall(r"^```toml\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
     material = build(Material, parse_toml(text))
     assert material.liquidus == 692.68
 
 
 def test_example_validation_runs(tmp_path, monkeypatch):
-    """The folder of the page "Extend" is a validation that passes, in full and shortened."""
-    page = (ROOT / "docs" / "extend.md").read_text(encoding="utf-8")
+    """The folder of the pages "Extend" is a validation that passes, in full and shortened."""
+    page = (ROOT / "docs" / "extend" / "validations.md").read_text(encoding="utf-8")
     _, _, section = page.partition("\n## Add a validation\n")
     fence = r"^```{code-block} \w+\n:caption: (\S+)\n(.*?)^```"
     files = dict(re.findall(fence, section.partition("\n## Add a room")[0], flags=re.M | re.S))
@@ -49,8 +49,12 @@ def test_example_validation_runs(tmp_path, monkeypatch):
         assert report.figures[0].exists()
 
 
-EXTEND = (ROOT / "docs" / "extend.md").read_text(encoding="utf-8")
-SECTIONS = [text for text in re.split(r"^## ", EXTEND, flags=re.M) if "```python" in text]
+SECTIONS = [
+    text
+    for page in sorted((ROOT / "docs" / "extend").glob("*.md"))
+    for text in re.split(r"^## ", page.read_text(encoding="utf-8"), flags=re.M)
+    if "```python" in text
+]
 
 
 @pytest.mark.parametrize("section", SECTIONS, ids=[text.splitlines()[0] for text in SECTIONS])
@@ -76,7 +80,7 @@ def test_named_files_exist():
     assert not missing
 
 
-COMMAND = re.compile(r"^ *(?:\.venv/bin/)?(lasersph [a-z][^\n]*(?:\\\n[^\n]*)*)", re.MULTILINE)
+COMMAND = re.compile(r"^ *(?:\.venv/bin/)?(lasersph [a-z](?:\\\n|[^\n])*)", re.MULTILINE)
 FENCED = re.compile(r"^( *)```(?!toml|python)[^\n]*\n(.*?)^\1```", re.MULTILINE | re.DOTALL)
 COMMANDS = sorted(
     {

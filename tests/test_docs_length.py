@@ -16,17 +16,18 @@ MOST = 1500
 NO_WORDS = re.compile(r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|\]\([^)]*\)", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]+\)|\{code-cell\}")
 """A picture, or a cell of a notebook, which draws some when the pages are built."""
-LONG = {
-    "extend.md": "a recipe each for ten kinds of things, of which a reader takes one",
-    "results.md": "each file of a run folder, looked up by name",
-}
+LONG: dict[str, str] = {}
 PLAIN = {
     "api.md": "made from docstrings",
     "benchmarks.md": "benchmarks/README.md: commands",
     "cases.md": "a table of keys",
     "cluster.md": "commands and files of a queue",
     "examples.md": "shows the pictures of the examples, put in when it is built",
-    "extend.md": "code",
+    "extend.md": "a list of pages",
+    "extend/materials.md": "a file to copy",
+    "extend/observers.md": "code, which draws its figure",
+    "extend/physics.md": "code",
+    "extend/validations.md": "files to copy",
     "gallery.md": "shows all pictures, put in when it is built",
     "gpu.md": "commands; no run on a card has been made",
     "methods/index.md": "a list of pages",
@@ -42,7 +43,7 @@ PLAIN = {
 MADE = re.compile(r"`python docs/_extensions/\w+\.py` writes this page")
 """A page that a script writes is a table to look things up in."""
 COMMIT = re.compile(r"\b(?=[a-f]*[0-9])(?=[0-9]*[a-f])[0-9a-f]{7}\b|\bcommits? [0-9a-f]{7}\b")
-NOTES = "notes/2026"
+NOTES = ("notes/2026", "notes/first-hour")
 """Notes are tables of what was measured once."""
 PAGES = {
     page.relative_to(DOCS).as_posix(): page.read_text(encoding="utf-8")

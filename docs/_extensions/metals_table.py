@@ -14,10 +14,13 @@ METALS = (
 )
 WORDS = re.compile("the value there | is held")
 LIGHTS = (1064e-9, 532e-9, 355e-9)
-HEAD = (
-    *("metal", "melts [K]", "$L_f$ [kJ/kg]", "boils [K]", "$L_v$ [MJ/kg]", "k at 300 K"),
-    *("k of the melt [W/(m K)]", "rho of the melt [kg/m^3]", "eta [mPa s]", "gamma [N/m]"),
-    *("d gamma/dT [mN/(m K)]", f"{FROM_MEMORY}"),
+HEAT = (
+    *("metal", "melts [K]", "$L_f$ [kJ/kg]", "boils [K]", "$L_v$ [MJ/kg]"),
+    *("$k$ at 300 K [W/(m K)]", "$k$ of the melt [W/(m K)]"),
+)
+MELT = (
+    *("metal", "$\\rho$ [kg/m³]", "$\\eta$ [mPa s]", "$\\gamma$ [N/m]"),
+    *("$\\mathrm d\\gamma/\\mathrm dT$ [mN/(m K)]", f"{FROM_MEMORY}"),
 )
 
 
@@ -26,7 +29,10 @@ def metals_page() -> str:
     metals = [load_material(name) for name in METALS]
     optics = ("metal", *(f"R, depth at {1e9 * light:.0f} nm" for light in LIGHTS))
     parts = [
-        _table(HEAD, (_numbers(metal) for metal in metals)),
+        "## Heat",
+        _table(HEAT, (_heat(metal) for metal in metals)),
+        "## Melt\n\nAt the liquidus.",
+        _table(MELT, (_melt(metal) for metal in metals)),
         "## Optics\n\nReflectivity of a clean cold surface at normal incidence and the depth in "
         "which light falls to 1/e.",
         _table(optics, (_optics(metal) for metal in metals)),
@@ -35,12 +41,13 @@ def metals_page() -> str:
         "cold metal everywhere.",
         "\n".join(f"- **{metal.name}**: {_extrapolated_ranges(metal)}" for metal in metals),
         "## All numbers of one metal",
-        f"```\n$ lasersph material show copper\n{_show_output('copper')}```",
+        "```{code-block} text\n:class: printed\n\n"
+        f"$ lasersph material show copper\n{_show_output('copper')}```",
     ]
     return "\n\n".join(parts) + "\n"
 
 
-def _numbers(metal: Material) -> Iterator[str]:
+def _heat(metal: Material) -> Iterator[str]:
     assert metal.melting and metal.vaporization and metal.liquidus
     T, span = metal.liquidus, f"{metal.solidus:g}"
     yield metal.name
@@ -50,6 +57,12 @@ def _numbers(metal: Material) -> Iterator[str]:
     yield f"{metal.vaporization.latent_heat / 1e6:.2f}"
     yield f"{float(metal.conductivity_at(300.0)):.3g}"
     yield f"{float(metal.conductivity_at(T)):.3g}"
+
+
+def _melt(metal: Material) -> Iterator[str]:
+    assert metal.liquidus
+    T = metal.liquidus
+    yield metal.name
     yield f"{metal.density_liquid:.0f}"
     yield f"{1e3 * float(metal.viscosity_at(T)):.2f}"
     yield f"{float(metal.surface_tension_at(T)):.2f}"

@@ -478,9 +478,9 @@ def test_no_graphics_card(command, tmp_path, monkeypatch, capsys):
     assert not any(tmp_path.iterdir())
 
 
-def test_the_readme_names_every_verb():
+def test_the_start_page_names_every_verb():
     """In a command or in the list of the others."""
-    text = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
+    text = (Path(__file__).parents[3] / "docs" / "start.md").read_text(encoding="utf-8")
     assert [n for n in VERBS if f"`{n}`" not in text and f"lasersph {n} " not in text] == []
 
 
