@@ -180,25 +180,10 @@ def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> No
     the mirror image belongs to it. The height of a texture goes to DIR/height.FORMAT.
     """
     from lasersph.output import OutputError
-    from lasersph.output.height_map import extruded_map, height_map
-    from lasersph.output.surface_files.read import read_surface
+    from lasersph.output.export import export as write_surface
 
-    if (heights := folder / "height.x3p").exists():
-        print(read_surface(heights).write(folder / f"height.{format}"))
-        return
-    run = opened(folder)
-    if not len(run.snapshots):
-        raise WrongCommand(f"{folder} has no snapshots yet")
     time = None if at is None else read_quantity("--at", at, "time")
-    moves = len(run.surface) > 0
-    steps = run.surface if moves else run.snapshots
-    step = steps[-1] if time is None else steps.nearest(time)
     try:
-        if moves:
-            rows, is_half = 2 if format in ("stl", "ply") else 1, run.symmetry_factor == 2
-            surface = extruded_map(step, rows, is_half=is_half)
-        else:
-            surface = height_map(step)
+        print(write_surface(folder, format, at=time))
     except OutputError as error:
-        raise WrongCommand(f"{folder}: {error}") from None
-    print(surface.write(Path(folder) / f"{'surface-profile' if moves else 'crater'}.{format}"))
+        raise WrongCommand(str(error)) from None

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lasersph.input.key_units import suffix
 from lasersph.input.shown_unit import ShownUnit
-from lasersph.observers.quantity import suffix
 from lasersph.plots import style
 
 if TYPE_CHECKING:

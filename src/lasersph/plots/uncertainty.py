@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from lasersph.input import format_with_error
+from lasersph.input.key_units import unit_in
 from lasersph.observers.observer_list import OBSERVERS
-from lasersph.observers.quantity import unit_in
 from lasersph.output import Run
 from lasersph.plots import style
 

@@ -7,7 +7,7 @@ from html import escape
 from typing import Any
 
 from lasersph.input import format_with_error
-from lasersph.observers.quantity import unit_in
+from lasersph.input.key_units import unit_in
 from lasersph.output import Run
 from lasersph.report.page import paragraph
 from lasersph.report.tables import main_results, place_text, quantity, shown, text_of

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from lasersph.input.document import split_settings
+from lasersph.input.key_units import unit_in
 from lasersph.input.shown_unit import in_unit_of
-from lasersph.observers.quantity import Quantity, unit_in
+from lasersph.observers.quantity import Quantity
 from lasersph.output import Run, open_run
 from lasersph.output.atomic import replace_json, replace_text
 from lasersph.output.errors import clear_errors

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from lasersph.input import format_with_error
+from lasersph.input.key_units import unit_in, unit_of
 from lasersph.observers.observer_list import OBSERVERS
-from lasersph.observers.quantity import unit_in
 from lasersph.report.page import details, paragraph, table
-from lasersph.report.tables import Rows, main_results, quantity, shown, unit_of
+from lasersph.report.tables import Rows, main_results, quantity, shown
 
 MEANING = (
     "An error holds about 95 %. Its numerical part is the grid convergence index of this run and"

@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.input import did_you_mean, format_quantity
+from lasersph.input.key_units import unit_in, unit_of
 from lasersph.observers.observer_list import RESULTS
-from lasersph.observers.quantity import unit_in
 from lasersph.plots.process_map import MapAxis, ProcessMap
-from lasersph.report.tables import unit_of
 from lasersph.studies.emulator import box_of
 from lasersph.studies.event_lines import events_of, one_sided_notes, onsets_of
 from lasersph.studies.run_places import RunPlaces

@@ -19,8 +19,9 @@ from typing import Any
 
 from lasersph.analytic.convergence import Convergence, assess
 from lasersph.input import format_quantity
+from lasersph.input.key_units import unit_of
 from lasersph.observers.energy_budget import NUMERICAL
-from lasersph.report.tables import in_words, unit_of
+from lasersph.report.tables import in_words
 from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
 NOT_ANSWERS = re.compile(
