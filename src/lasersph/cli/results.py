@@ -10,7 +10,6 @@ import typer
 
 from lasersph.cli.arguments import RunFolder, Settings, read_quantity
 from lasersph.cli.failures import WrongCommand
-from lasersph.cli.light import light_rows
 from lasersph.cli.sparkline import sparkline
 from lasersph.input.text_table import text_table
 
@@ -142,6 +141,7 @@ def _draw_beams(name: str, settings: Sequence[str], kind: str) -> Path:
     from lasersph.lasers import fluence_maps
     from lasersph.plots import style
     from lasersph.plots.fluence import fluence_figure
+    from lasersph.simulation.light_text import light_rows
 
     case = load_case(name, settings)
     if case.laser is None:

@@ -7,6 +7,7 @@ from typing import Any
 
 from lasersph.case import Case
 from lasersph.case.size import active_share, memory_of, neighbor_count
+from lasersph.input.text_table import text_table
 from lasersph.simulation.case_warnings import absorption_length, penetration_depth, run_warnings
 from lasersph.simulation.heating import HeatingForecast, heating_forecast
 from lasersph.simulation.progress import Span
@@ -22,9 +23,10 @@ SECONDS_PER_STEP = 3e-3
 
 @dataclass(frozen=True)
 class Forecast:
-    """Numbers of `lasersph check`.
+    """What a case will cost; printed, the rows of `lasersph check` and its warnings.
 
     Attributes:
+        case: what was asked about.
         particles, layers: counts. pairs: estimate, of what is active. memory: peak [bytes].
         spacing: finest, as used [m]. fine_depth: of the finest layers [m].
         limits: time-step limits [s] while the light is on. binding: name of the smallest.
@@ -32,8 +34,10 @@ class Forecast:
         absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
         warnings: what a user should think about, a sentence each. flow: of what flows, if anything
             does. heating: what the light does to the surface, if there is any.
+        threads, backend: "cpu" or "cuda", for which the time and the memory were asked.
     """
 
+    case: Case = field(repr=False)
     particles: int
     layers: int
     pairs: float
@@ -49,12 +53,29 @@ class Forecast:
     warnings: tuple[str, ...] = field(default=())
     flow: FlowForecast | None = None
     heating: HeatingForecast | None = None
+    threads: int = 1
+    backend: str = "cpu"
+
+    def __str__(self) -> str:
+        """Rows and warnings, as `lasersph check` prints them."""
+        from lasersph.simulation.forecast_text import forecast_rows
+
+        return "\n".join(
+            [text_table(forecast_rows(self)), *(f"warning: {text}" for text in self.warnings)]
+        )
 
 
-def forecast(case: Case, *, threads: int = 1, recipe: Recipe[Any, Any] | None = None) -> Forecast:
+def forecast(
+    case: Case,
+    *,
+    threads: int = 1,
+    backend: str = "cpu",
+    recipe: Recipe[Any, Any] | None = None,
+) -> Forecast:
     """Forecast of a case, without allocating its particles.
 
     Args:
+        threads: for the expected time. backend: for which it is asked.
         recipe: of the case, where there is one already: its estimates are not made again.
     """
     recipe = recipe_of(case) if recipe is None else recipe
@@ -64,6 +85,7 @@ def forecast(case: Case, *, threads: int = 1, recipe: Recipe[Any, Any] | None = 
     heating = heating_forecast(case, recipe.heating)
     is_fine = layers.thickness <= spacing * (1.0 + 1e-9)
     return Forecast(
+        case=case,
         particles=count,
         layers=layers.thickness.size,
         pairs=pairs,
@@ -79,6 +101,8 @@ def forecast(case: Case, *, threads: int = 1, recipe: Recipe[Any, Any] | None = 
         warnings=(*run_warnings(case, layers, recipe.curve, heating), *recipe.warnings()),
         flow=recipe.flow,
         heating=heating,
+        threads=threads,
+        backend=backend,
     )
 
 

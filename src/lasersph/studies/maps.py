@@ -41,7 +41,11 @@ def process_map(
     target: float | None = None,
     tolerance: float = TOLERANCE,
 ) -> ProcessMap:
-    """The map of a sweep.
+    """The map of a sweep: a number over one or two of its keys.
+
+        found = lasersph.map("runs/sweep", show="melt.depth_half_max_m", target=200e-9)
+        found.field, found.lines["melts"]       # SI; see `plots.process_map.ProcessMap`
+        lasersph.plots.draw_process_map(found)  # a figure
 
     Args:
         runs: the table of a sweep, or its folder.
