@@ -1,7 +1,7 @@
 """Units at the ends of keys: columns of history.csv, keys of summary.json.
 
 A key ends in the unit of what it holds, `_m_s` for m/s. Amounts are named as in 3-D: a 1-D run
-holds a unit area and a 2-D run a unit length, so that `energy_stored_J` of a section is in J/m.
+holds a unit area and a 2-D run a unit length, so that the energy stored in a section is in J/m.
 """
 
 from __future__ import annotations

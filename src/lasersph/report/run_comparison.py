@@ -23,7 +23,7 @@ from lasersph.report.page import figure, heading, page, paragraph, table
 from lasersph.report.tables import in_words, main_results, text_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import Figure
 
 Cells = tuple[str, str, str, str]
 FIGURES = {

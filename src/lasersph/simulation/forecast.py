@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any
 
 from lasersph.case import Case
 from lasersph.case.size import active_share, memory_of, neighbor_count
-from lasersph.input.text_table import text_table
+from lasersph.simulation.case_forecast import Forecast
 from lasersph.simulation.case_warnings import absorption_length, penetration_depth, run_warnings
-from lasersph.simulation.heating import HeatingForecast, heating_forecast
+from lasersph.simulation.heating import heating_forecast
 from lasersph.simulation.progress import Span
-from lasersph.simulation.recipes import FlowForecast, Recipe, StepForecast, recipe_of
+from lasersph.simulation.recipes import Recipe, StepForecast, recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 PAIRS_PER_SECOND = 2.0e8
@@ -19,50 +18,6 @@ PAIRS_PER_SECOND = 2.0e8
 SECONDS_PER_STEP = 3e-3
 """Besides the products [s]: calls of loops, observers, files. Forecast:
 `benchmarks/small_steps.py`."""
-
-
-@dataclass(frozen=True)
-class Forecast:
-    """What a case will cost; printed, the rows of `lasersph check` and its warnings.
-
-    Attributes:
-        case: what was asked about.
-        particles, layers: counts. pairs: estimate, of what is active. memory: peak [bytes].
-        spacing: finest, as used [m]. fine_depth: of the finest layers [m].
-        limits: time-step limits [s] while the light is on. binding: name of the smallest.
-        steps: estimate. wall_time: rough estimate [s] on `threads` threads.
-        absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
-        warnings: what a user should think about, a sentence each. flow: of what flows, if anything
-            does. heating: what the light does to the surface, if there is any.
-        threads, backend: "cpu" or "cuda", for which the time and the memory were asked.
-    """
-
-    case: Case = field(repr=False)
-    particles: int
-    layers: int
-    pairs: float
-    memory: float
-    spacing: float
-    fine_depth: float
-    limits: dict[str, float]
-    binding: str
-    steps: int
-    wall_time: float
-    absorption_length: float | None
-    penetration: float | None
-    warnings: tuple[str, ...] = field(default=())
-    flow: FlowForecast | None = None
-    heating: HeatingForecast | None = None
-    threads: int = 1
-    backend: str = "cpu"
-
-    def __str__(self) -> str:
-        """Rows and warnings, as `lasersph check` prints them."""
-        from lasersph.simulation.forecast_text import forecast_rows
-
-        return "\n".join(
-            [text_table(forecast_rows(self)), *(f"warning: {text}" for text in self.warnings)]
-        )
 
 
 def forecast(

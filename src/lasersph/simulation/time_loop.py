@@ -100,11 +100,9 @@ def run(
     """Compute a case into a run folder.
 
         result = lasersph.run(lasersph.load_case("dlip-steel"), "runs/steel", progress=True)
-        print(result)  # the main numbers, as `lasersph run`
-        result.summary["melt"]["depth_max_m"]
+        print(result)  # the main numbers, as `lasersph run`; all of them: result.summary
 
     Args:
-        case: of `load_case`, or built from models.
         out: folder of the run; must be new or empty unless `resume` or `overwrite`.
         resume: continue from the last checkpoint in `out`; from the start where there is none. The
             case may have a later end, and write its output at other times: a run that is complete

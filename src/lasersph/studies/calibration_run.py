@@ -48,7 +48,7 @@ from lasersph.sweeps.folder import RUNS
 from lasersph.sweeps.table import Row
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import Figure
 
 ANSWER, POINTS, BEST, FIGURE = (
     "calibration.json",

@@ -23,7 +23,7 @@ from lasersph.studies.texture import relief as reliefs
 from lasersph.studies.texture.measurement import NoComparison
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import Figure
 
 COLUMNS = "x_m,y_m,measured_m,computed_m,difference_m"
 """Head of aligned.csv."""

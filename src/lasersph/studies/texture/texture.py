@@ -27,7 +27,7 @@ from lasersph.sweeps import Engine, LocalEngine, Table
 from lasersph.sweeps.points import Value
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import Figure
 
 FIGURE = "texture.png"
 

@@ -1,21 +1,61 @@
-"""What a case will cost, in rows of words: what `lasersph check` prints."""
+"""`Forecast`: what a case will cost, and how `lasersph check` says it."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from math import isfinite
-from typing import TYPE_CHECKING
 
+from lasersph.case import Case
 from lasersph.case.size import in_words, memories
 from lasersph.input import format_duration, format_quantity
+from lasersph.input.text_table import text_table
 from lasersph.materials.viscosity import viscosity_text
+from lasersph.simulation.heating import HeatingForecast
 from lasersph.simulation.light_text import heating_rows, light_rows
-
-if TYPE_CHECKING:
-    from lasersph.case import Case
-    from lasersph.simulation.forecast import Forecast
+from lasersph.simulation.recipes import FlowForecast
 
 
-def forecast_rows(expected: Forecast) -> list[tuple[str, str]]:
+@dataclass(frozen=True)
+class Forecast:
+    """What a case will cost; printed, the rows of `lasersph check` and its warnings.
+
+    Attributes:
+        case: what was asked about.
+        particles, layers: counts. pairs: estimate, of what is active. memory: peak [bytes].
+        spacing: finest, as used [m]. fine_depth: of the finest layers [m].
+        limits: time-step limits [s] while the light is on. binding: name of the smallest.
+        steps: estimate. wall_time: rough estimate [s] on `threads` threads.
+        absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
+        warnings: what a user should think about, a sentence each. flow: of what flows, if anything
+            does. heating: what the light does to the surface, if there is any.
+        threads, backend: "cpu" or "cuda", for which the time and the memory were asked.
+    """
+
+    case: Case = field(repr=False)
+    particles: int
+    layers: int
+    pairs: float
+    memory: float
+    spacing: float
+    fine_depth: float
+    limits: dict[str, float]
+    binding: str
+    steps: int
+    wall_time: float
+    absorption_length: float | None
+    penetration: float | None
+    warnings: tuple[str, ...] = field(default=())
+    flow: FlowForecast | None = None
+    heating: HeatingForecast | None = None
+    threads: int = 1
+    backend: str = "cpu"
+
+    def __str__(self) -> str:
+        """Rows and warnings, as `lasersph check` prints them."""
+        return "\n".join([text_table(_rows(self)), *(f"warning: {text}" for text in self.warnings)])
+
+
+def _rows(expected: Forecast) -> list[tuple[str, str]]:
     """Rows of what a case is and what it will cost, each with its name."""
     case, threads, backend = expected.case, expected.threads, expected.backend
     there = [words.format(in_words(most)) for words, most in memories(backend) if isfinite(most)]
