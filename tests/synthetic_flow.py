@@ -183,6 +183,7 @@ def write_run(folder, views, *, box, end, complete, times=()):
         "material": {"name": "steel-304-demuth"},
         "laser": None if box else {"fluence": 6000.0},
         "domain": {"extent": "full" if box else "half"},
+        "solver": {"dimensions": 2},
         "particles": {"spacing": 50 * NM},
         "time": {"end": end},
     }

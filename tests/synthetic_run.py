@@ -121,6 +121,7 @@ def make_run(
         "material": {"name": "steel-304-demuth", "vaporization": BOILING},
         "laser": {"fluence": fluence, "pulse": {"kind": "gaussian", "duration": 10 * NS}},
         "domain": {"extent": "half"},
+        "solver": {"dimensions": dimension},
         "particles": {"spacing": 50 * NM},
         "time": {"end": END},
     }

@@ -173,7 +173,6 @@ class _Curve:
     def __init__(self, enthalpy, temperature, potential, melt_fraction, most=FARTHEST):
         h = np.asarray(enthalpy, float)
         potential = _slanted(np.asarray(potential, float))
-        # one node more takes the extended last segment
         far = h[-1] + max(1e3 * (h[-1] - h[0]), most)
         self.nodes = np.append(h, far)
         self.columns = {}

@@ -20,7 +20,10 @@ LIBRARY = Path(__file__).parent / "cases"
 
 
 def available_cases() -> dict[str, Path]:
-    """Files of the shipped cases, by name."""
+    """Files of the shipped cases, by name.
+
+    list(lasersph.available_cases())  # as `lasersph cases`
+    """
     return {path.stem: path for path in sorted(LIBRARY.glob("*.toml"))}
 
 
@@ -94,6 +97,9 @@ def load_case(
     name_or_path: str | os.PathLike[str], overrides: Sequence[str] = (), *, quick: bool = False
 ) -> Case:
     """Read a case file or a shipped case.
+
+        case = lasersph.load_case("dlip-steel", ["laser.fluence=0.8 J/cm^2"])
+        case.laser.fluence, case.material.name  # 8000.0 J/m^2
 
     Args:
         name_or_path: "dlip-steel" or "my-case.toml".

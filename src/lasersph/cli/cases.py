@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -17,12 +16,7 @@ from lasersph.cli.arguments import (
     say_what_moved,
 )
 from lasersph.cli.failures import WrongCommand
-from lasersph.cli.light import heating_rows, light_rows
 from lasersph.input.text_table import text_table
-
-if TYPE_CHECKING:
-    from lasersph.case import Case
-    from lasersph.simulation import Forecast
 
 NewFile = Annotated[
     str | None, typer.Argument(metavar="FILE", help="The file to write; must be new.")
@@ -82,73 +76,11 @@ def check(
 ) -> None:
     """Say what a run would need, before anything runs: particles, memory, steps, warnings."""
     from lasersph.case import load_case
-    from lasersph.compute.threads import chosen
-    from lasersph.simulation.acceptance import accepted_forecast
+    from lasersph.simulation import check as check_case
 
     refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
     say_what_moved(loaded)
-    count = chosen(threads)
-    expected = accepted_forecast(loaded, backend, threads=count)
-    print(text_table(_rows(loaded, expected, count, backend)))
-    for warning in expected.warnings:
-        print(f"warning: {warning}")
+    expected = check_case(loaded, threads=threads, backend=backend)
+    print(expected)
     print("the case is right" + ("; think about the warnings" if expected.warnings else ""))
-
-
-def _rows(case: Case, expected: Forecast, threads: int, backend: str) -> list[tuple[str, str]]:
-    from lasersph.case.size import in_words, memories
-    from lasersph.input import format_duration, format_quantity
-    from lasersph.materials.viscosity import viscosity_text
-
-    there = [words.format(in_words(most)) for words, most in memories(backend) if isfinite(most)]
-    time = f"roughly {format_duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}"
-    rows = [
-        ("case", case.title or case.name),
-        ("material", case.material.title or case.material.name),
-        ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {case.solver.scheme_text}"),
-        *([] if case.laser is None else light_rows(case.laser)),
-        *([] if expected.heating is None else heating_rows(case, expected.heating)),
-        ("particles", f"{expected.particles} in {expected.layers} layers"),
-        (
-            "finest spacing",
-            f"{format_quantity(expected.spacing, 'm')} in the top "
-            f"{format_quantity(expected.fine_depth, 'm')}",
-        ),
-        ("memory", ", ".join([f"about {in_words(expected.memory)}", *there])),
-    ]
-    for name, limit in sorted(expected.limits.items(), key=lambda item: item[1]):
-        binds = "  <- binding" if name == expected.binding else ""
-        shown = format_quantity(limit, "s") if isfinite(limit) else "none"
-        rows.append((f"step limit: {name}", shown + binds))
-    if loss := _losses(case):
-        rows.append(("surface loses heat", loss))
-    rows.append(("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"))
-    rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
-    if expected.flow is not None:
-        rows.append(("viscosity of the melt", viscosity_text(case.material)))
-        rows.append(("expected speed", f"up to about {expected.flow.speed:.2g} m/s"))
-    for name, length in (
-        ("moving layer", expected.flow.layer if expected.flow else None),
-        ("absorption length", expected.absorption_length),
-        ("thermal penetration", expected.penetration),
-    ):
-        if length:
-            cells = f"{length / expected.spacing:.2g} spacings"
-            rows.append((name, f"{format_quantity(length, 'm')}, {cells}"))
-    return rows
-
-
-def _losses(case: Case) -> str:
-    """What the surface loses to the surroundings, and who says so; empty where nothing."""
-    from lasersph.input import format_quantity
-
-    boundaries = case.boundaries
-    losses = boundaries.surroundings(case.material, case.initial_temperature)
-    owner = "as given" if boundaries.emissivity is not None else f"of {case.material.name}"
-    parts = []
-    if losses["eps"]:
-        parts.append(f"radiation, emissivity {losses['eps']:g} {owner}")
-    if losses["h_c"]:
-        parts.append(f"convection, {format_quantity(losses['h_c'], 'W/(m^2 K)')}")
-    return f"{'; '.join(parts)}; to {format_quantity(losses['T_a'], 'K')}" if parts else ""

@@ -60,8 +60,8 @@ def draw_map(
     tolerance: Tolerance = 0.05,
 ) -> None:
     """Draw a number of a sweep over its keys, with the lines of melting, boiling and ablation."""
+    from lasersph.input.key_units import unit_of
     from lasersph.report.map_page import write_map
-    from lasersph.report.tables import unit_of
     from lasersph.studies.maps import process_map
 
     unit = unit_of(show)
@@ -81,7 +81,7 @@ def draw_map(
 def sensitivity(folder: SweepFolder, of: Of = "melt.depth_half_max_m") -> None:
     """Tell how much each key of a sweep changes a number: Sobol indices, or effects of Morris."""
     from lasersph.input import in_field_units
-    from lasersph.report.tables import unit_of
+    from lasersph.input.key_units import unit_of
     from lasersph.studies.sensitivity import assess_sensitivity
 
     try:

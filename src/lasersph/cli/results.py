@@ -10,7 +10,6 @@ import typer
 
 from lasersph.cli.arguments import RunFolder, Settings, read_quantity
 from lasersph.cli.failures import WrongCommand
-from lasersph.cli.light import light_rows
 from lasersph.cli.sparkline import sparkline
 from lasersph.input.text_table import text_table
 
@@ -142,6 +141,7 @@ def _draw_beams(name: str, settings: Sequence[str], kind: str) -> Path:
     from lasersph.lasers import fluence_maps
     from lasersph.plots import style
     from lasersph.plots.fluence import fluence_figure
+    from lasersph.simulation.light_text import light_rows
 
     case = load_case(name, settings)
     if case.laser is None:
@@ -180,25 +180,10 @@ def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> No
     the mirror image belongs to it. The height of a texture goes to DIR/height.FORMAT.
     """
     from lasersph.output import OutputError
-    from lasersph.output.height_map import extruded_map, height_map
-    from lasersph.output.surface_files.read import read_surface
+    from lasersph.output.export import export as write_surface
 
-    if (heights := folder / "height.x3p").exists():
-        print(read_surface(heights).write(folder / f"height.{format}"))
-        return
-    run = opened(folder)
-    if not len(run.snapshots):
-        raise WrongCommand(f"{folder} has no snapshots yet")
     time = None if at is None else read_quantity("--at", at, "time")
-    moves = len(run.surface) > 0
-    steps = run.surface if moves else run.snapshots
-    step = steps[-1] if time is None else steps.nearest(time)
     try:
-        if moves:
-            rows, is_half = 2 if format in ("stl", "ply") else 1, run.symmetry_factor == 2
-            surface = extruded_map(step, rows, is_half=is_half)
-        else:
-            surface = height_map(step)
+        print(write_surface(folder, format, at=time))
     except OutputError as error:
-        raise WrongCommand(f"{folder}: {error}") from None
-    print(surface.write(Path(folder) / f"{'surface-profile' if moves else 'crater'}.{format}"))
+        raise WrongCommand(str(error)) from None

@@ -44,11 +44,9 @@ def texture(
 ) -> None:
     """Compute the relief that a pulse leaves in its whole spot, from cells of the pattern."""
     from lasersph.output import OutputError
-    from lasersph.output.image_file import read_maps
-    from lasersph.plots import style
-    from lasersph.plots.texture import texture_figure
-    from lasersph.studies.texture.make import CELLS, MAPS, assemble, link_runs, plan_texture
+    from lasersph.studies.texture.make import CELLS, link_runs, plan_texture
     from lasersph.studies.texture.spot import NoTexture
+    from lasersph.studies.texture.texture import FIGURE, finish_texture
 
     size = None if pixel is None else read_quantity("--pixel", pixel, "length")
     if size is not None and size <= 0.0:
@@ -77,13 +75,13 @@ def texture(
     if not table.is_complete.all():
         raise OutputError(f"not all cells are complete, so no texture; go on with: {again}")
     try:
-        content = assemble(plan, folder, size)
+        content = finish_texture(plan, folder, table, size)
     except NoTexture as error:
         raise OutputError(str(error)) from None
     print(text_table([*_rows(plan), *_answer_rows(content)]))
     for note in content["notes"]:
         print(f"note: {note}")
-    print(style.save(texture_figure(read_maps(folder / MAPS), content), folder / "texture.png"))
+    print(folder / FIGURE)
 
 
 def _setting(text: str) -> tuple[str, Any]:

@@ -32,6 +32,8 @@ KNOWN = (
 def available_materials() -> dict[str, Path]:
     """Files of all materials that can be named, by name; the user's folder comes first.
 
+        list(lasersph.available_materials())  # as `lasersph material list`
+
     Raises CaseError where LASERSPH_MATERIALS names something that is not a folder.
     """
     found = {path.stem: path for path in sorted(LIBRARY.glob("*.toml"))}
@@ -83,6 +85,9 @@ def materials_like(word: str) -> dict[str, Material]:
 
 def load_material(name_or_path: str | os.PathLike[str]) -> Material:
     """Read a material by name ("steel-304") or path ("my-alloy.toml").
+
+        steel = lasersph.load_material("steel-304")
+        steel.conductivity_at([300.0, 1000.0, 2000.0])  # W/(m K)
 
     Raises CaseError with file, line and key for anything wrong with the file.
     """

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.input.key_units import suffix
 from lasersph.observers.box_sections import (
     Box,
     center_lines,
@@ -19,7 +20,7 @@ from lasersph.observers.box_sections import (
 )
 from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.observer import Observer, Row
-from lasersph.observers.quantity import Quantity, suffix
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 EVERY = 50

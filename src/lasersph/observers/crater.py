@@ -13,10 +13,11 @@ from itertools import pairwise
 
 import numpy as np
 
+from lasersph.input.key_units import unit_in
 from lasersph.observers.ablation_view import CONDENSED, AblationView
 from lasersph.observers.crater_shape import CraterShape, crater_shape
 from lasersph.observers.observer import Observer, Row
-from lasersph.observers.quantity import Quantity, unit_in
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View, lower_faces
 
 SIZES = {

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lasersph.input.key_units import suffix, unit_in
 from lasersph.observers.ablation_view import AblationView
 from lasersph.observers.crater import ablation_of
 from lasersph.observers.observer import Observer, Row
-from lasersph.observers.quantity import Quantity, suffix, unit_in
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 RANGES = {"speed": "m/s", "temperature": "K", "angle": "deg"}

@@ -26,10 +26,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from lasersph.input.key_units import unit_in
 from lasersph.observers.ablation_view import CONDENSED, LEAVING
 from lasersph.observers.flow_speed import kinetic_energy
 from lasersph.observers.observer import Observer, Row
-from lasersph.observers.quantity import Quantity, unit_in
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 BOOKED = {

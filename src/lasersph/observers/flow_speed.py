@@ -13,10 +13,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from lasersph.input.key_units import unit_in
 from lasersph.observers.flow_view import FlowView
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.peak import Span
-from lasersph.observers.quantity import Quantity, unit_in
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 

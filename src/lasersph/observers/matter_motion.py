@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from lasersph.input.key_units import unit_in
 from lasersph.observers.crater import ablation_of
 from lasersph.observers.observer import Observer, Row
-from lasersph.observers.quantity import Quantity, unit_in
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 
 

@@ -10,8 +10,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-EXTENSIVE = {"J": ("J/m^2", "J/m", "J"), "kg": ("kg/m^2", "kg/m", "kg"), "m^3": ("m", "m^2", "m^3")}
-"""Units of amounts in 1-D, 2-D and 3-D: a 1-D run holds a unit area, a 2-D run a unit length."""
+from lasersph.input.key_units import suffix
+
 MOMENT = re.compile(r"(?!pulses\.starts)(.*[._])?((start|end)s?|at|time)(_any|_half)?_s")
 """Keys of times that count from the start of the run; those of lengths of time say otherwise."""
 
@@ -23,7 +23,8 @@ class Quantity:
     Attributes:
         key: column of history.csv, or dotted key of summary.json; it ends in the unit (`_m_s`).
             `<name>` in it stands for the name of a probe, a trace, ...
-        unit: SI, "" for a pure number or a text. Amounts: in 3-D, see `EXTENSIVE`.
+        unit: SI, "" for a pure number or a text. Amounts: in 3-D, see
+            `input.key_units.EXTENSIVE`.
         words: what it is, as a table says it.
         largest: key of summary.json for its largest value; `..._at_s` beside it says when.
         end: key of summary.json for its value at the end of the run.
@@ -67,13 +68,3 @@ class Quantity:
             words = f"{self.words}, at the end" if self.largest else self.words
             is_main = self.is_main and not self.largest
             yield replace(self, key=self.end, words=words, is_main=is_main, largest="", end="")
-
-
-def suffix(unit: str) -> str:
-    """End of a key that says the unit: m/s -> _m_s, m^2/s -> _m2_s, 1/s -> _1_s."""
-    return "_" + unit.replace("^", "").replace("/", "_") if unit else ""
-
-
-def unit_in(unit: str, dimension: int) -> str:
-    """Unit in a run of a dimension: amounts are per area in 1-D, per length in 2-D."""
-    return EXTENSIVE[unit][dimension - 1] if unit in EXTENSIVE else unit

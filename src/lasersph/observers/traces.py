@@ -19,11 +19,12 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.input.key_units import suffix
 from lasersph.observers.ablation_view import CONDENSED, EJECTED, AblationView
 from lasersph.observers.crater import ablation_of
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.probes import weights_at
-from lasersph.observers.quantity import Quantity, suffix
+from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
 from lasersph.output.settings import Trace
 

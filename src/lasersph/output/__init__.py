@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lasersph.output.checkpoint import Checkpoint
     from lasersph.output.errors import FolderLocked, FolderRefused, OutputError
-    from lasersph.output.reader import Run, Snapshots, open_run
+    from lasersph.output.reader import Run, RunOrFolder, Snapshots, open_run
     from lasersph.output.run_folder import RunFolder
     from lasersph.output.run_owner import hash_of_case
 
@@ -21,6 +21,7 @@ __all__ = [
     "OutputError",
     "Run",
     "RunFolder",
+    "RunOrFolder",
     "Snapshots",
     "hash_of_case",
     "open_run",
@@ -33,6 +34,7 @@ _FILES = {
     "OutputError": "errors",
     "Run": "reader",
     "RunFolder": "run_folder",
+    "RunOrFolder": "reader",
     "Snapshots": "reader",
     "hash_of_case": "run_owner",
     "open_run": "reader",

@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -41,8 +41,10 @@ class HeightMap:
         top: (ny, nx) number of the uppermost particle in the snapshot; -1 where nothing is left;
             none of a map that is not of particles.
         time: seconds.
+        units: of each of these.
     """
 
+    units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m", "time": "s"}
     x: np.ndarray
     y: np.ndarray
     z: np.ndarray
@@ -80,6 +82,11 @@ class HeightMap:
         else:
             replace_text(path, self.as_ply())
         return path
+
+    def extruded(self) -> HeightMap:
+        """A profile drawn out along y by its width, in two rows."""
+        y = np.array([0.0, self.x[-1] - self.x[0]])
+        return HeightMap(self.x, y, np.repeat(self.z, 2, axis=0), time=self.time)
 
     def as_csv(self) -> str:
         """Lines of x, y, z in meters."""
@@ -157,19 +164,16 @@ def height_map(step: Mapping[str, Any]) -> HeightMap:
     return HeightMap(x, y, z.reshape(shape), top.reshape(shape), float(step["time"]))
 
 
-def extruded_map(step: Mapping[str, Any], rows: int, *, is_half: bool) -> HeightMap:
-    """Height map of a line of a surface: the profile, or extruded along y by its width.
+def profile_map(step: Mapping[str, Any], *, is_half: bool) -> HeightMap:
+    """The line of a surface as a height map of one row.
 
     Args:
-        step: of `Run.surface`. rows: number of rows along y, 1 for the profile.
-        is_half: whether the mirror image about x = 0 belongs to it.
+        step: of `Run.surface`. is_half: whether the mirror image about x = 0 belongs to it.
     """
     x, z = step["position"]
     if is_half:
         x, z = np.concatenate([-x[::-1], x]), np.concatenate([z[::-1], z])
-    y = np.linspace(0.0, float(x[-1] - x[0]), rows) if rows > 1 else np.zeros(1)
-    z = np.broadcast_to(z, (rows, x.size)).copy()
-    return HeightMap(x, y, z, np.full(z.shape, -1), float(step["time"]))
+    return HeightMap(x, np.zeros(1), z[None, :].copy(), time=float(step["time"]))
 
 
 def bins(values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:

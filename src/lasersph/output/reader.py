@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cached_property
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lasersph.input.key_units import unit_in, unit_of
 from lasersph.output.errors import OutputError, clear_errors, install_hint, read_json
 from lasersph.output.generation import Result, read_unchanged
 from lasersph.output.history import read_events, read_history
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
     import anywidget  # pyright: ignore[reportMissingImports]
     import pandas  # pyright: ignore[reportMissingImports]
     import xarray  # pyright: ignore[reportMissingImports]
+
+    from lasersph.output.height_map import HeightMap
 
 
 class Run:
@@ -81,9 +85,22 @@ class Run:
 
     @cached_property
     def history(self) -> dict[str, np.ndarray]:
-        """Columns of history.csv, arrays (steps,), by name; the names end in the unit."""
+        """Columns of history.csv, arrays (steps,), SI, by name; `units` has the unit of each."""
         path = self.path / "history.csv"
         return read_unchanged(self.path, lambda: read_history(path) if path.exists() else {})
+
+    @property
+    def dimensions(self) -> int:
+        """Number of space dimensions of the run."""
+        return int(self.case["solver"]["dimensions"])
+
+    @property
+    def units(self) -> dict[str, str]:
+        """SI unit of each column of the history, empty of numbers and texts.
+
+        Amounts of a 1-D run are per area, those of a 2-D run per length: J/m^2, J/m.
+        """
+        return {name: unit_in(unit_of(name), self.dimensions) for name in self.history}
 
     @cached_property
     def events(self) -> list[dict[str, Any]]:
@@ -99,6 +116,33 @@ class Run:
     def surface(self) -> Snapshots:
         """The line of a surface that moves, at the times of the snapshots; none of a flat one."""
         return Snapshots(self.path / "surface.vtkhdf")
+
+    def relief(self, time: float | None = None) -> HeightMap:
+        """The surface of a crater, or of metal that moved, as arrays in meters.
+
+            relief = lasersph.open_run("runs/texture-steel").relief()
+            relief.x, relief.z[0]  # places and heights of a 2-D run, (nx,) each
+
+        Half a period is mirrored.
+
+        Args:
+            time: of the closest snapshot [s]; the last one where it is not given.
+
+        Raises:
+            OutputError: no snapshots yet, or a surface that stayed flat.
+        """
+        from lasersph.output.height_map import height_map, profile_map
+
+        steps = self.surface if len(self.surface) else self.snapshots
+        if not len(steps):
+            raise OutputError(f"{self.path} has no snapshots yet")
+        step = steps[-1] if time is None else steps.nearest(time)
+        try:
+            if steps is self.surface:
+                return profile_map(step, is_half=self.symmetry_factor == 2)
+            return height_map(step)
+        except OutputError as error:
+            raise OutputError(f"{self.path}: {error}") from None
 
     def show(self) -> anywidget.AnyWidget:
         """The particles in a notebook: turn them, color them, play them; also while a run computes.
@@ -172,10 +216,11 @@ class Snapshots:
 
     @cached_property
     def units(self) -> dict[str, str]:
-        """Unit of each field."""
-        return self._read(
+        """SI unit of each entry of a step: `time`, `position`, and the fields."""
+        fields = self._read(
             lambda file: {n: str(d.attrs["unit"]) for n, d in file["VTKHDF/PointData"].items()}
         )
+        return {"time": "s", "position": "m", **fields}
 
     def _read(self, read: Callable[[Any], Result]) -> Result:
         """What `read` finds in the HDF5 file. Raises OutputError."""
@@ -228,12 +273,22 @@ def from_three_axes(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
     return np.ascontiguousarray(block[:, axes].T)
 
 
-def open_run(path: str | Path) -> Run:
-    """Open the folder of a run, finished or running.
+RunOrFolder = Run | str | PathLike[str]
+"""What functions that read a run take: one that is open, or its folder."""
+
+
+def open_run(path: RunOrFolder) -> Run:
+    """Open the folder of a run, finished or running; a run that is open is given back.
+
+        run = lasersph.open_run("runs/steel")
+        run.history["temperature_max_K"].max(), run.units["temperature_max_K"]
+        run.snapshots[-1]["velocity"], run.snapshots.units["velocity"]  # (dim, n), "m/s"
 
     Raises:
         OutputError: there is no run in the folder.
     """
+    if isinstance(path, Run):
+        return path
     folder = Path(path)
     if not folder.is_dir():
         what = "is a file, not the folder of a run" if folder.exists() else "no such folder"

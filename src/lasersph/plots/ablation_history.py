@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lasersph.output import Run
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.curves import (
     draw_columns,
@@ -29,8 +29,9 @@ AROUND = 0.6
 """Time shown after a particle left, over the time until then."""
 
 
-def crater_history(run: Run) -> Figure | None:
+def crater_history(run: RunOrFolder) -> Figure | None:
     """Depth of the crater and share of the mass ejected over time; None without ablation."""
+    run = open_run(run)
     history = run.history
     if "crater_depth_m" not in history:
         return None
@@ -61,11 +62,12 @@ def crater_history(run: Run) -> Figure | None:
     return figure
 
 
-def trace_figure(run: Run) -> Figure | None:
+def trace_figure(run: RunOrFolder) -> Figure | None:
     """Temperature and speed of the traced particles over time, with the published regions.
 
     None where no particle was traced.
     """
+    run = open_run(run)
     history = run.history
     stages = (key for key in history if key.startswith("trace_") and key.endswith("_stage"))
     names = [key.removeprefix("trace_").removesuffix("_stage") for key in stages]

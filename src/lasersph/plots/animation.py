@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from lasersph.observers.box_sections import Box
-from lasersph.output import OutputError, Run, open_run
+from lasersph.output import OutputError, Run, RunOrFolder, open_run
 from lasersph.output.errors import clear_errors
 from lasersph.output.last_pulse import last_pulse
 from lasersph.plots import style
@@ -61,13 +61,13 @@ MARGIN = 0.1
 """Time shown before and after a melt pool, over its life."""
 
 
-def animate_run(folder: str | Path, *, format: Format = "gif") -> Path:
+def animate_run(folder: RunOrFolder, *, format: Format = "gif") -> Path:
     """Write an animation of a run to `figures/animation.gif` or `.mp4`.
 
     Of a train of pulses with pauses the last pulse is shown.
 
     Args:
-        folder: the run folder; the run has at least 3 snapshots and is in the plane, or an
+        folder: a run, or its folder; the run has at least 3 snapshots and is in the plane, or an
             ablation in 2-D or 3-D.
         format: "gif", or "mp4" where ffmpeg is installed.
 

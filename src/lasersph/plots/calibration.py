@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lasersph.input.key_units import suffix
 from lasersph.input.shown_unit import ShownUnit
-from lasersph.observers.quantity import suffix
 from lasersph.plots import style
 
 if TYPE_CHECKING:
@@ -31,14 +31,14 @@ def calibration_figure(
         content: of calibration.json. points: unknowns and weights (n, p + 1) of posterior.csv.
         profiles: columns x, y, measured, computed (n, 4) [m] of each.
     """
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import NotebookFigure
 
     components = {name for one in content["profiles"] for name in one["components"]}
     every = dict.fromkeys(one["number"] for one in content["data"])
     columns = [column for column in every if column not in components]
     unknowns = content["unknowns"]
     corner = 2.2 * len(unknowns) + 0.6
-    figure = Figure(figsize=(style.WIDTH, 3.0 + corner), layout="constrained")
+    figure = NotebookFigure(figsize=(style.WIDTH, 3.0 + corner), layout="constrained")
     above, below = figure.subfigures(2, 1, height_ratios=(3.0, corner), squeeze=False)[:, 0]
     all_axes = above.subplots(1, len(columns) + len(profiles), squeeze=False)[0]
     for axes, profile in zip(all_axes[len(columns) :], profiles, strict=True):

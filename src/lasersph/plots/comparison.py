@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lasersph.output import Run
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.output.last_pulse import last_pulse
 from lasersph.plots import style
 from lasersph.plots.curves import (
@@ -33,8 +33,11 @@ if TYPE_CHECKING:
 Labels = Sequence[str] | None
 
 
-def surface_temperatures(runs: Sequence[Run], labels: Labels = None, *, title: str = "") -> Figure:
+def surface_temperatures(
+    runs: Sequence[RunOrFolder], labels: Labels = None, *, title: str = ""
+) -> Figure:
     """Temperature at the interference maximum over time, pulse shaded."""
+    runs = [open_run(one) for one in runs]
     figure, (axes,) = style.new_figure(height=4.2)
     draw_pulse(axes, runs[0].history, end_of(runs))
     for run, time, look in looks(runs, labels):
@@ -45,14 +48,15 @@ def surface_temperatures(runs: Sequence[Run], labels: Labels = None, *, title: s
 
 
 def melt_pools(
-    runs: Sequence[Run], labels: Labels = None, *, title: str = "", level: str = ""
+    runs: Sequence[RunOrFolder], labels: Labels = None, *, title: str = "", level: str = ""
 ) -> Figure:
     """(a) width and (b) depth of the melt pool over time.
 
     Args:
         runs, labels, title: see above.
-        level: "" for completely fluid material (f_m = 1), "half_" for 0.5, "any_" for above 0.
+        level: empty for completely fluid material (f_m = 1), `half_` for 0.5, `any_` for above 0.
     """
+    runs = [open_run(one) for one in runs]
     figure, all_axes = style.new_figure(1, 2, height=3.9)
     for axes, letter, size in zip(all_axes, "ab", ("width", "depth"), strict=True):
         column = f"melt_{size}_{level}m"
@@ -73,7 +77,7 @@ def melt_pools(
 
 
 def surface_speeds(
-    runs: Sequence[Run],
+    runs: Sequence[RunOrFolder],
     labels: Labels = None,
     *,
     title: str = "",
@@ -85,6 +89,7 @@ def surface_speeds(
         runs, labels, title: see above.
         column: `flow_below_speed_m_s` for the speed one spacing below, as the paper draws it.
     """
+    runs = [open_run(one) for one in runs]
     figure, (axes,) = style.new_figure(height=4.2)
     draw_pulse(axes, runs[0].history, end_of(runs))
     for run, time, look in looks(runs, labels):
@@ -95,9 +100,10 @@ def surface_speeds(
     return finish(figure, axes, runs, f"largest speed\n{where} [m/s]", title)
 
 
-def reliefs(runs: Sequence[Run], labels: Labels = None) -> Figure:
+def reliefs(runs: Sequence[RunOrFolder], labels: Labels = None) -> Figure:
     """Above: the reliefs at the end of two runs. Below: the second less the first where both are,
     by linear interpolation at the places of the first."""
+    runs = [open_run(one) for one in runs]
     figure, (above, below) = style.new_figure(2, height=5.2, share_x=True)
     lines = [(x, height[-1]) for _, x, height in map(lines_of, runs)]
     along = style.fitting_unit("m", max(float(np.max(np.abs(x))) for x, _ in lines))
@@ -128,8 +134,9 @@ def figures_of_two(runs: Sequence[Run], labels: Labels = None) -> dict[str, Figu
     return found
 
 
-def speed_extrema(runs: Sequence[Run], labels: Labels = None, *, title: str = "") -> Figure:
+def speed_extrema(runs: Sequence[RunOrFolder], labels: Labels = None, *, title: str = "") -> Figure:
     """Inner (full lines) and outer extrema (dashed) of the surface speed."""
+    runs = [open_run(one) for one in runs]
     figure, (axes,) = style.new_figure(height=4.2)
     for run, time, look in looks(runs, labels):
         inner, outer = (

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lasersph.observers.box_sections import Box
-from lasersph.output import Run
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.ablation_fields import Cut, crater_snapshot, cut_frame, has_ablation, plane_cut
 from lasersph.plots.curves import draw_corner_temperatures, material_of
@@ -33,7 +33,7 @@ TO_SCALE: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "
 DPI = 100
 
 
-def crater_cut(run: Run, time: float | None = None) -> Figure | None:
+def crater_cut(run: RunOrFolder, time: float | None = None) -> Figure | None:
     """Temperature of body and ejecta in the cut through the beam's axis, with velocities.
 
     In 1-D the temperature against height.
@@ -44,6 +44,7 @@ def crater_cut(run: Run, time: float | None = None) -> Figure | None:
     Returns:
         The figure; None where the run has no ablation.
     """
+    run = open_run(run)
     if not has_ablation(run):
         return None
     step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
@@ -56,7 +57,7 @@ def crater_cut(run: Run, time: float | None = None) -> Figure | None:
     return figure
 
 
-def ejecta_vectors(run: Run, times: tuple[float, ...] = ()) -> Figure | None:
+def ejecta_vectors(run: RunOrFolder, times: tuple[float, ...] = ()) -> Figure | None:
     """The cut at several times below each other: speed and direction of the ejecta.
 
     Args:
@@ -67,6 +68,7 @@ def ejecta_vectors(run: Run, times: tuple[float, ...] = ()) -> Figure | None:
     Returns:
         The figure; None where nothing was ejected, or in 1-D.
     """
+    run = open_run(run)
     if not has_ablation(run) or run.snapshots.dimension == 1:
         return None
     count = run.history["ejected_count"]

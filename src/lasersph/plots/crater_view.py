@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lasersph.observers.ablation_view import EJECTED
-from lasersph.output import OutputError, Run
+from lasersph.output import OutputError, RunOrFolder, open_run
 from lasersph.output.errors import clear_errors
 from lasersph.output.height_map import HeightMap, height_map
 from lasersph.plots import style
@@ -30,7 +30,7 @@ PIXELS = (1200, 900)
 MICROMETERS = 1e6
 
 
-def crater_view(run: Run, time: float | None = None) -> Figure | None:
+def crater_view(run: RunOrFolder, time: float | None = None) -> Figure | None:
     """Surface of the crater and ejecta of a 3-D run, colored by temperature.
 
     Args:
@@ -39,19 +39,21 @@ def crater_view(run: Run, time: float | None = None) -> Figure | None:
     Returns:
         The figure; None where the run is not in 3-D or has no ablation.
     """
+    run = open_run(run)
     if not has_ablation(run) or run.snapshots.dimension != 3:
         return None
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
-    from matplotlib.figure import Figure
+
+    from lasersph.plots.notebook_figure import NotebookFigure
 
     step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
     surface = height_map(step)
     scale = Normalize(*temperature_range(run))
     colors = colormaps[style.TEMPERATURE_COLORS]
     unit = style.unit_for(float(np.ptp(surface.x)), style.LENGTHS)
-    figure = Figure(figsize=(style.WIDTH, 4.4), layout="constrained")
+    figure = NotebookFigure(figsize=(style.WIDTH, 4.4), layout="constrained")
     axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
     draw_surface(axes, surface, colors(scale(surface_temperature(step, surface))), unit)
     highest = draw_ejecta(axes, step, colors, scale, unit)
@@ -100,7 +102,7 @@ def draw_ejecta(axes: Any, step: Snapshot, colors: Any, scale: Any, unit: style.
     return float(np.max(z))
 
 
-def crater_scene(run: Run, path: Path, time: float | None = None) -> Path:
+def crater_scene(run: RunOrFolder, path: Path, time: float | None = None) -> Path:
     """Draw surface and ejecta of a 3-D run with pyvista into a PNG, off screen.
 
     Args:
@@ -113,6 +115,7 @@ def crater_scene(run: Run, path: Path, time: float | None = None) -> Path:
     Raises:
         OutputError: pyvista is not installed, the run is not in 3-D or has no ablation.
     """
+    run = open_run(run)
     try:
         import pyvista  # pyright: ignore[reportMissingImports]
     except ImportError as error:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lasersph.input.key_units import unit_in
 from lasersph.observers import COLUMNS
-from lasersph.observers.quantity import unit_in
 from lasersph.output import Run
 from lasersph.plots import style
 

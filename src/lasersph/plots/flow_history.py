@@ -9,7 +9,7 @@ import numpy as np
 
 from lasersph.input import format_quantity
 from lasersph.observers.box_sections import Box, CenterLines, center_lines
-from lasersph.output import Run
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.curves import (
     any_above_zero,
@@ -32,8 +32,9 @@ MARGIN = 0.06
 POINTS = 201
 
 
-def speed_history(run: Run) -> Figure | None:
+def speed_history(run: RunOrFolder) -> Figure | None:
     """Largest speeds over time (as Figs. 5 and 10 of [Demuth2020]); None where nothing flowed."""
+    run = open_run(run)
     if not any_above_zero(run, "flow_speed_max_m_s"):
         return None
     lines = {"flow_speed_max_m_s": "of any particle"}
@@ -56,8 +57,9 @@ def speed_history(run: Run) -> Figure | None:
     return figure
 
 
-def extrema_history(run: Run) -> Figure | None:
+def extrema_history(run: RunOrFolder) -> Figure | None:
     """Inner and outer extremum of the surface speed over time (as Fig. 7): speed and place."""
+    run = open_run(run)
     names = ("outer", "inner")
     if not any(any_above_zero(run, f"flow_{name}_speed_m_s") for name in names):
         return None
@@ -74,8 +76,9 @@ def extrema_history(run: Run) -> Figure | None:
     return figure
 
 
-def layer_history(run: Run) -> Figure | None:
+def layer_history(run: RunOrFolder) -> Figure | None:
     """Thickness of the layer that flows outward, and the mean gradient that drives it."""
+    run = open_run(run)
     if not any_above_zero(run, "flow_layer_thickness_m"):
         return None
     figure, (above, below) = style.new_figure(2, height=4.6, share_x=True)
@@ -88,8 +91,9 @@ def layer_history(run: Run) -> Figure | None:
     return figure
 
 
-def surface_pressure_history(run: Run) -> Figure | None:
+def surface_pressure_history(run: RunOrFolder) -> Figure | None:
     """Largest and smallest pressure at the surface beside the recoil pressure."""
+    run = open_run(run)
     lines = {
         "lid_pressure_max_Pa": "of the liquid, largest",
         "lid_pressure_min_Pa": "of the liquid, smallest",
@@ -105,8 +109,9 @@ def surface_pressure_history(run: Run) -> Figure | None:
     return figure
 
 
-def quality_history(run: Run) -> Figure | None:
+def quality_history(run: RunOrFolder) -> Figure | None:
     """Kinetic energy, divergence and smallest distance over time."""
+    run = open_run(run)
     if not any_above_zero(run, "flow_speed_max_m_s"):
         return None
     history = run.history
@@ -127,8 +132,9 @@ def quality_history(run: Run) -> Figure | None:
     return figure
 
 
-def nusselt_history(run: Run) -> Figure | None:
+def nusselt_history(run: RunOrFolder) -> Figure | None:
     """Nusselt numbers of the sides and of the whole box over time; None where there are none."""
+    run = open_run(run)
     names = [name for name in run.history if name.startswith("box_nusselt_")]
     words = {"surface": "surface", "bottom": "bottom", "mean": "domain-averaged"}
     keys = {name: name.removeprefix("box_nusselt_") for name in names}
@@ -167,11 +173,12 @@ def lines_of(run: Run, shares: np.ndarray, number: int = -1) -> CenterLines:
     return center_lines(step["position"], step["velocity"], box, shares)
 
 
-def center_line_figure(run: Run) -> Figure | None:
+def center_line_figure(run: RunOrFolder) -> Figure | None:
     """(a) u over z at half the width and (b) w over x at half the height, at the end.
 
     None where the run is no box or nothing moved.
     """
+    run = open_run(run)
     if not has_flow(run) or not is_box(run):
         return None
     lines = lines_of(run, np.linspace(0.0, 1.0, POINTS))

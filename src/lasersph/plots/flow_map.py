@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lasersph.observers.box_sections import Box
-from lasersph.output import Run
+from lasersph.output import RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.flow_fields import (
     PlaneFlow,
@@ -43,7 +43,7 @@ FLAT = 0.5
 """Height over width of a box below which its panels stand above each other."""
 
 
-def pool_flow_map(run: Run, time: float | None = None) -> Figure | None:
+def pool_flow_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     """Temperature, speed with arrows, and phase with streamlines of the melt pool at one time.
 
     Args:
@@ -52,6 +52,7 @@ def pool_flow_map(run: Run, time: float | None = None) -> Figure | None:
     Returns:
         The figure; None where nothing flowed or the run is a box.
     """
+    run = open_run(run)
     if not has_flow(run) or is_box(run):
         return None
     flow = plane_flow(run, fastest_time(run) if time is None else time)
@@ -69,7 +70,7 @@ def pool_flow_map(run: Run, time: float | None = None) -> Figure | None:
     return figure
 
 
-def box_flow_map(run: Run, time: float | None = None) -> Figure | None:
+def box_flow_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     """Speed with arrows, and streamlines over the temperature where it varies.
 
     Args:
@@ -78,6 +79,7 @@ def box_flow_map(run: Run, time: float | None = None) -> Figure | None:
     Returns:
         The figure; None where the run is no box or nothing moved.
     """
+    run = open_run(run)
     if not has_flow(run) or not is_box(run):
         return None
     flow = plane_flow(run, fastest_time(run) if time is None else time)

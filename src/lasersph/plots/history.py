@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lasersph.observers.energy_budget import IMBALANCE_ALLOWED, IMBALANCE_ALLOWED_WITH_FLOW
-from lasersph.output import Run
+from lasersph.output import RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.curves import (
     any_above_zero,
@@ -26,8 +26,9 @@ if TYPE_CHECKING:
 LEVELS = {"": "$f_m = 1$", "_half": "$f_m = 0.5$", "_any": "$f_m > 0$"}
 
 
-def temperature_history(run: Run) -> Figure:
+def temperature_history(run: RunOrFolder) -> Figure:
     """Temperature of the surface (at x = 0), the largest, and at probes; pulse shaded."""
+    run = open_run(run)
     history = run.history
     figure, (axes,) = style.new_figure()
     at_maximum, largest = history["temperature_at_maximum_K"], history["temperature_max_K"]
@@ -56,11 +57,12 @@ def are_same(first: np.ndarray, second: np.ndarray) -> bool:
     return bool(np.mean(np.abs(first - second)) <= 0.01 * np.max(first))
 
 
-def melt_pool_history(run: Run) -> Figure | None:
+def melt_pool_history(run: RunOrFolder) -> Figure | None:
     """Width and depth of the melt pool at f_m = 1, 0.5 and above 0, and the molten volume.
 
     None where nothing melts.
     """
+    run = open_run(run)
     if not any_above_zero(run, "melt_depth_any_m"):
         return None
     sizes = [size for size in ("width", "depth") if f"melt_{size}_m" in run.history]
@@ -79,8 +81,9 @@ def melt_pool_history(run: Run) -> Figure | None:
     return figure
 
 
-def energy_history(run: Run) -> Figure:
+def energy_history(run: RunOrFolder) -> Figure:
     """Where the absorbed energy is, and how well the balance closes."""
+    run = open_run(run)
     history = run.history
     figure, (above, below) = style.new_figure(2, height=4.6, share_x=True)
     time, time_label = time_axis(history)
@@ -107,8 +110,9 @@ def energy_history(run: Run) -> Figure:
     return figure
 
 
-def time_step_history(run: Run) -> Figure:
+def time_step_history(run: RunOrFolder) -> Figure:
     """The time step, colored by what limited it, and the iterations of each step."""
+    run = open_run(run)
     history = run.history
     counts = [column for column in history if column.startswith("iterations_")]
     figure, all_axes = style.new_figure(1 + bool(counts), height=4.6, share_x=True)

@@ -45,14 +45,14 @@ COLUMNS = 3
 
 def material_figure(material: Material) -> Figure:
     """Figure of all properties of a material that depend on temperature, and of its enthalpy."""
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import NotebookFigure
 
     properties = material.properties()
     panels = [panel for panel in PANELS if panel.name in properties]
     rows = -(-(len(panels) + 2) // COLUMNS)
     notes = _source_lines(material, panels)
     height = 2.9 * rows + 0.15 * len(notes) + 1.0
-    figure = Figure(figsize=(11.0, height), layout=None)
+    figure = NotebookFigure(figsize=(11.0, height), layout=None)
     bottom = (0.15 * len(notes) + 0.8) / height
     margins = {"left": 0.075, "right": 0.985, "top": 1.0 - 0.75 / height, "bottom": bottom}
     grid = figure.add_gridspec(rows, COLUMNS, **margins, wspace=0.3, hspace=0.42)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lasersph.output import Run
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.curves import draw_corner_temperatures, material_of, summary_of
 
@@ -98,7 +98,7 @@ class Cells:
         return np.logical_not(far.any(axis=0))
 
 
-def particle_map(run: Run, time: float | None = None) -> Figure | None:
+def particle_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     """Temperature and melt fraction of the particles near the surface at one time.
 
     In 1-D both are drawn against depth; in 3-D the cells of the cut y = 0 are shown. Half a period
@@ -111,6 +111,7 @@ def particle_map(run: Run, time: float | None = None) -> Figure | None:
     Returns:
         The figure; None where the run has no snapshots.
     """
+    run = open_run(run)
     if not len(run.snapshots):
         return None
     step = run.snapshots.nearest(deepest_melt_time(run) if time is None else time)

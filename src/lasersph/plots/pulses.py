@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lasersph.observers import COLUMNS
-from lasersph.output import Run
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.output.last_pulse import PulseOfRun, starts_after_pauses
 from lasersph.plots import style
 from lasersph.plots.curves import draw_corner_temperatures, material_of
@@ -40,8 +40,9 @@ def eventful_time(run: Run) -> float:
     return float(min(1.33 * time[wet[-1]], time[-1])) if wet.size else float(time[-1])
 
 
-def pulses_compared(run: Run) -> Figure | None:
+def pulses_compared(run: RunOrFolder) -> Figure | None:
     """Temperature, depth and speed after several pulses; None unless a pause was left out."""
+    run = open_run(run)
     pulses = pulses_of(run)
     columns = [name for name in COMPARED if np.any(run.history.get(name, 0.0))]
     if len(pulses) < 2 or not columns:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lasersph.input import format_quantity
-from lasersph.output import Run
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.output.last_pulse import last_pulse
 from lasersph.plots import style
 from lasersph.plots.curves import draw_columns
@@ -37,8 +37,9 @@ def lines_of(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return run.surface.times, x, height
 
 
-def relief_after_pulses(run: Run) -> Figure | None:
+def relief_after_pulses(run: RunOrFolder) -> Figure | None:
     """The surface as it froze after 1, 2, 5, 10 ... pulses; None unless a pause was left out."""
+    run = open_run(run)
     pulses = pulses_of(run)
     if len(pulses) < 2 or len(run.surface) < 2:
         return None
@@ -48,8 +49,9 @@ def relief_after_pulses(run: Run) -> Figure | None:
     return profiles_figure(x, height, words)
 
 
-def relief_profiles(run: Run) -> Figure | None:
+def relief_profiles(run: RunOrFolder) -> Figure | None:
     """The surface at several times while it moves; None in a run whose surface is flat."""
+    run = open_run(run)
     if len(run.surface) < 2:
         return None
     times, x, height = lines_of(last_pulse(run))
@@ -74,8 +76,9 @@ def profiles_figure(x: np.ndarray, height: np.ndarray, words: Sequence[str]) -> 
     return figure
 
 
-def relief_map(run: Run) -> Figure | None:
+def relief_map(run: RunOrFolder) -> Figure | None:
     """Height of the surface over place and time; None where it stays flat."""
+    run = open_run(run)
     if len(run.surface) < 3:
         return None
     times, x, height = lines_of(last_pulse(run))
@@ -99,8 +102,9 @@ def relief_map(run: Run) -> Figure | None:
     return figure
 
 
-def final_relief(run: Run) -> Figure | None:
+def final_relief(run: RunOrFolder) -> Figure | None:
     """The surface at the end over the particles, which tell how far each has ever been molten."""
+    run = open_run(run)
     if not len(run.surface) or not len(run.snapshots) or run.snapshots.dimension != 2:
         return None
     # particles are laid out anew in a pause: what lies where since then
@@ -138,8 +142,9 @@ def largest(height: np.ndarray) -> float:
     return float(np.max(np.abs(height))) or 1e-9
 
 
-def topography_history(run: Run) -> Figure | None:
+def topography_history(run: RunOrFolder) -> Figure | None:
     """Depth and rim over time, and mean heights of the profile; None where the surface is flat."""
+    run = open_run(run)
     if not np.any(run.history.get("topography.peak_to_valley_m", 0.0)):
         return None
     figure, all_axes = style.new_figure(2, height=4.6, share_x=True)

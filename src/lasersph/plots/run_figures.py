@@ -1,4 +1,4 @@
-"""All figures of one run, drawn from its folder into `figures/`."""
+"""The figures of one run, drawn from its folder: one as an object, or all into `figures/`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from lasersph.output import OutputError, Run, open_run
+from lasersph.input import did_you_mean
+from lasersph.output import OutputError, Run, RunOrFolder, open_run
 from lasersph.output.errors import clear_errors
 from lasersph.output.last_pulse import last_pulse, starts_after_pauses
 from lasersph.plots import flow_history, history, style
@@ -260,13 +261,49 @@ def pulse_note(pulses: int) -> str:
     return f"pulse {pulses} of {pulses}; times count from its start"
 
 
-def draw_run(
-    folder: str | Path, *, kind: str = "png", begun: Begun = lambda *_: None
-) -> list[Path]:
-    """Draw all figures of a run into its folder `figures`.
+def captions() -> dict[str, str]:
+    """What each figure of a run shows, by its name, in reading order."""
+    return {drawing.name: drawing.caption for drawing in DRAWINGS}
+
+
+def plot(run: RunOrFolder, name: str) -> Figure:
+    """A figure of a run, as `draw_run` writes it: of a train of pulses the last one, with a note.
+
+        figure = lasersph.plot("runs/dlip-steel", "temperature")
+        figure.axes[0].set_xlim(0.0, 100.0)
+        figure.savefig("temperature.pdf")
+
+    The functions of `lasersph.plots` draw them too, at the times that one wants.
 
     Args:
-        folder: the run folder. kind: "png", "svg" or "pdf".
+        run: a run, or its folder.
+        name: "temperature", "melt-pool", "particles", "flow", "relief", "crater", "energy" ...;
+            `lasersph.plots.captions()` has all, with what they show.
+
+    Raises:
+        OutputError: the run has no history yet, or nothing of what the figure shows.
+        ValueError: there is no figure of this name.
+    """
+    drawing = next((one for one in DRAWINGS if one.name == name), None)
+    if drawing is None:
+        hint = did_you_mean(name, captions()) or f"; there are {', '.join(captions())}"
+        raise ValueError(f'no figure "{name}"{hint}')
+    opened = _with_history(run)
+    figure = _figure_of(opened, last_pulse(opened), drawing)
+    if figure is None:
+        raise OutputError(f'{opened.path} has no figure "{name}": it has nothing of what it shows')
+    return figure
+
+
+def draw_run(
+    folder: RunOrFolder, *, kind: str = "png", begun: Begun = lambda *_: None
+) -> list[Path]:
+    """Draw all figures of a run into its folder `figures`; `plot` gives one of them.
+
+        lasersph.draw_run("runs/dlip-steel", kind="svg")
+
+    Args:
+        folder: a run, or its folder. kind: "png", "svg" or "pdf".
         begun: called before each drawing: name, how many are drawn, of how many.
 
     Returns:
@@ -275,19 +312,30 @@ def draw_run(
     Raises:
         OutputError: the folder is no run folder, has no history yet, or cannot be written.
     """
+    run = _with_history(folder)
+    target, shown, written = run.path / "figures", last_pulse(run), []
+    with clear_errors("write", target):
+        target.mkdir(exist_ok=True)
+        for count, drawing in enumerate(DRAWINGS):
+            begun(drawing.name, count, len(DRAWINGS))
+            figure = _figure_of(run, shown, drawing)
+            if figure is not None:
+                written.append(style.save(figure, target / f"{drawing.name}.{kind}"))
+    return written
+
+
+def _with_history(folder: RunOrFolder) -> Run:
+    """The run in a folder. Raises OutputError where nothing can be drawn of it yet."""
     run = open_run(folder)
     if len(run.history.get("time_s", ())) < 2:
         raise OutputError(f"{run.path} has no history to draw yet")
-    target = run.path / "figures"
-    written = []
-    with clear_errors("write", target):
-        target.mkdir(exist_ok=True)
-        shown, pulses = last_pulse(run), 1 + len(starts_after_pauses(run))
-        for count, drawing in enumerate(DRAWINGS):
-            begun(drawing.name, count, len(DRAWINGS))
-            figure = drawing.draw(run if drawing.has_all_pulses else shown)
-            if figure is not None:
-                if pulses > 1 and not drawing.has_all_pulses:
-                    style.note(figure, pulse_note(pulses))
-                written.append(style.save(figure, target / f"{drawing.name}.{kind}"))
-    return written
+    return run
+
+
+def _figure_of(run: Run, shown: Run, drawing: Drawing) -> Figure | None:
+    """A drawing of a run, whose last pulse is `shown`; None where it does not apply."""
+    figure = drawing.draw(run if drawing.has_all_pulses else shown)
+    pulses = 1 + len(starts_after_pauses(run))
+    if figure is not None and pulses > 1 and not drawing.has_all_pulses:
+        style.note(figure, pulse_note(pulses))
+    return figure

@@ -89,9 +89,9 @@ def new_figure(
     rows: int = 1, columns: int = 1, *, height: float = 3.4, share_x: bool = False
 ) -> tuple[Figure, list[Axes]]:
     """An empty figure and its axes, row by row; `height` in inches."""
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import NotebookFigure
 
-    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    figure = NotebookFigure(figsize=(WIDTH, height), layout="constrained")
     grid = figure.subplots(rows, columns, sharex=share_x, squeeze=False)
     axes = list(grid.ravel())
     for one in axes:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lasersph.input import format_quantity
-from lasersph.output import Run
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.curves import draw_corner_temperatures, material_of
 from lasersph.plots.flow_fields import has_flow
@@ -23,12 +23,13 @@ SLOW = 0.3
 """Times are chosen from those at which the surface is at least this part of its fastest."""
 
 
-def surface_profiles(run: Run, times: Sequence[float] | None = None) -> Figure | None:
+def surface_profiles(run: RunOrFolder, times: Sequence[float] | None = None) -> Figure | None:
     """Temperature along the surface at several times; None in 1-D or without snapshots.
 
     Args:
         run: the run. times: seconds; if not given, times around the hottest one.
     """
+    run = open_run(run)
     if not len(run.snapshots) or run.snapshots.dimension == 1:
         return None
     figure, (axes,) = style.new_figure(height=3.6)
@@ -46,7 +47,7 @@ def surface_profiles(run: Run, times: Sequence[float] | None = None) -> Figure |
     return figure
 
 
-def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Figure | None:
+def surface_flow_profiles(run: RunOrFolder, times: Sequence[float] | None = None) -> Figure | None:
     """(a) temperature, (b) its gradient and (c) velocity along the surface at several times.
 
     Args:
@@ -57,6 +58,7 @@ def surface_flow_profiles(run: Run, times: Sequence[float] | None = None) -> Fig
     Returns:
         The figure; None where no surface moved.
     """
+    run = open_run(run)
     if not has_flow(run) or not np.any(run.history["flow_surface_speed_max_m_s"] > 0.0):
         return None
     steps, looks = steps_at(run, fast_times(run) if times is None else times)

@@ -22,9 +22,9 @@ def texture_figure(maps: Maps, content: dict[str, Any]) -> Figure:
     Args:
         content: of texture.json.
     """
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import NotebookFigure
 
-    figure = Figure(figsize=(style.WIDTH, 7.8), layout="constrained")
+    figure = NotebookFigure(figsize=(style.WIDTH, 7.8), layout="constrained")
     # as high as two square maps side by side are, with their color bars
     parts: Any = figure.subfigures(2, 1, height_ratios=(4.6, 3.2))
     above, below = parts

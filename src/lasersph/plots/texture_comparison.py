@@ -50,10 +50,10 @@ def comparison_maps(x: np.ndarray, y: np.ndarray, measured: np.ndarray, ours: np
     Args:
         x, y: (n,) aligned places [m]. measured, ours: (n,) heights [m].
     """
-    from matplotlib.figure import Figure
+    from lasersph.plots.notebook_figure import NotebookFigure
 
     along = style.unit_for(float(max(np.ptp(x), np.ptp(y))), style.LENGTHS)
-    figure = Figure(figsize=(style.WIDTH, 3.2), layout="constrained")
+    figure = NotebookFigure(figsize=(style.WIDTH, 3.2), layout="constrained")
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
     size = (150.0 / np.sqrt(x.size)) ** 2  # points side by side in a panel 150 points wide
     words = ("measured", "computed", "measured less computed")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from lasersph.input import format_with_error
+from lasersph.input.key_units import unit_in
 from lasersph.observers.observer_list import OBSERVERS
-from lasersph.observers.quantity import unit_in
-from lasersph.output import Run
+from lasersph.output import RunOrFolder, open_run
 from lasersph.plots import style
 
 if TYPE_CHECKING:
@@ -20,9 +20,10 @@ LEAST_SHARE = 1e-9
 """Errors below this share of the value are rounding."""
 
 
-def tornado_chart(run: Run) -> Figure | None:
+def tornado_chart(run: RunOrFolder) -> Figure | None:
     """One panel a main result: bars of its parts in percent of it, the longest above; None without
     uncertainty.json or without any error."""
+    run = open_run(run)
     found = run.uncertainty
     if found is None:
         return None

@@ -6,7 +6,8 @@ import re
 from html import escape
 from typing import Any
 
-from lasersph.observers.quantity import Quantity, unit_in
+from lasersph.input.key_units import unit_in
+from lasersph.observers.quantity import Quantity
 from lasersph.output import Run
 from lasersph.report.page import paragraph
 from lasersph.report.tables import main_results, place_text, quantity, shown, text_of, with_error

@@ -9,13 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from lasersph.input import format_quantity, in_field_units
-from lasersph.observers.quantity import suffix
+from lasersph.input.key_units import suffix, unit_of
 from lasersph.output.atomic import replace_text
 from lasersph.output.errors import clear_errors
 from lasersph.plots import style
 from lasersph.plots.process_map import MapAxis, ProcessMap, draw_process_map
 from lasersph.report.page import figure, heading, page, paragraph
-from lasersph.report.tables import unit_of
 
 RUNS = "runs"
 """Folder of the runs beside the page."""

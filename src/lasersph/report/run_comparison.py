@@ -9,17 +9,22 @@ from dataclasses import dataclass
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lasersph.input.document import split_settings
+from lasersph.input.key_units import unit_in
 from lasersph.input.shown_unit import in_unit_of
-from lasersph.observers.quantity import Quantity, unit_in
-from lasersph.output import Run, open_run
+from lasersph.input.text_table import text_table
+from lasersph.observers.quantity import Quantity
+from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.output.atomic import replace_json, replace_text
 from lasersph.output.errors import clear_errors
 from lasersph.plots import comparison, style
 from lasersph.report.page import figure, heading, page, paragraph, table
 from lasersph.report.tables import in_words, main_results, text_of
+
+if TYPE_CHECKING:
+    from lasersph.plots.notebook_figure import Figure
 
 Cells = tuple[str, str, str, str]
 LAST = " Of a train of pulses the last one is drawn, its times count from its start."
@@ -33,7 +38,7 @@ FIGURES = {
 
 @dataclass(frozen=True, eq=False)
 class RunComparison:
-    """Two runs side by side.
+    """Two runs side by side; printed, a table of settings and one of numbers.
 
     Attributes:
         runs: both. names: their folders, with parents where these alone tell them apart.
@@ -49,6 +54,17 @@ class RunComparison:
     numbers: Mapping[str, tuple[Any, Any]]
     rows: tuple[Cells, ...]
 
+    def __str__(self) -> str:
+        """The settings that differ, and the main numbers."""
+        settings = text_table(list(map(list, self.settings)), ("setting", *self.names))
+        numbers = text_table(list(map(list, self.rows)), ("", *self.names, "difference"))
+        return f"{settings}\n\n{numbers}" if self.settings else numbers
+
+    def figures(self) -> dict[str, Figure]:
+        """By name: "relief" where both surfaces move, "temperature" and "melt" where both have
+        them, a curve each."""
+        return comparison.figures_of_two(self.runs, self.names)
+
     def write(self, folder: str | PathLike[str]) -> Path:
         """Write figures, comparison.json (SI) and a page into a folder, and give the page.
 
@@ -60,7 +76,7 @@ class RunComparison:
             target.mkdir(parents=True, exist_ok=True)
         pictures = {
             name: style.save(drawn, target / f"{name}.png")
-            for name, drawn in comparison.figures_of_two(self.runs, self.names).items()
+            for name, drawn in self.figures().items()
         }
         content = {
             "schema_version": 1,
@@ -85,16 +101,20 @@ class RunComparison:
         return target / "comparison.html"
 
 
-def compare_runs(first: str | PathLike[str], second: str | PathLike[str]) -> RunComparison:
+def compare_runs(first: RunOrFolder, second: RunOrFolder) -> RunComparison:
     """Two complete runs side by side; also two points of a sweep.
 
+        both = lasersph.compare_runs("runs/one", "runs/two")
+        print(both)  # settings that differ, main numbers
+        both.figures()["temperature"]
+
     Args:
-        first, second: run folders.
+        first, second: runs, or their folders.
 
     Raises:
         OutputError: one is no run folder, or not complete.
     """
-    runs = open_run(Path(first)), open_run(Path(second))
+    runs = open_run(first), open_run(second)
     names = runs[0].path.name, runs[1].path.name
     if names[0] == names[1]:
         names = str(runs[0].path), str(runs[1].path)

@@ -11,10 +11,11 @@ from functools import partial
 from typing import Any
 
 from lasersph.input import format_duration, format_number, format_quantity, format_with_error
+from lasersph.input.key_units import unit_in, unit_of
 from lasersph.observers import EnergyBudget, Quantity
 from lasersph.observers.declared import KEY as OWN_OBSERVERS
 from lasersph.observers.declared import AnyObserver, kinds_of
-from lasersph.observers.quantity import MOMENT, suffix, unit_in
+from lasersph.observers.quantity import MOMENT
 from lasersph.output.pulse_starts import pulse_at
 
 Rows = list[tuple[str, ...]]
@@ -33,9 +34,6 @@ quantity = partial(format_quantity, typographic=True)
 shown = partial(format_number, typographic=True)
 MOST_LISTED = 8
 """Longer lists are not written out."""
-UNITS = ("K/s", "K/m", "m^2/s", "m/s^2", "1/s", "1/m", "W/m^2", "Pa", "m/s", "m^3", "m^2", "m", "s")
-UNITS += ("K", "J", "deg")
-"""Units that keys end in, those with two parts first."""
 NOT_NUMBERS = ("warnings", OWN_OBSERVERS)
 """Parts of a summary that tell of numbers and are none."""
 ESTIMATE_HEAD = ("estimate", "value", "cited")
@@ -263,11 +261,6 @@ def entry(key: str, value: Any, energy_unit: str = "J") -> str:
         return f"{len(value)} numbers"
     unit = unit_of(key)
     return in_words(value, energy_unit if unit == "J" else unit) or "–"
-
-
-def unit_of(key: str) -> str:
-    """Unit that a key of summary.json ends in; empty for a pure number."""
-    return next((unit for unit in UNITS if key.endswith(suffix(unit))), "")
 
 
 READABLE = {"J/m^2": (1e-4, "J/cm^2"), "K/m": (1e-6, "K/um")}

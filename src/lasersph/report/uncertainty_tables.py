@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from lasersph.input.key_units import unit_in, unit_of
 from lasersph.observers.observer_list import OBSERVERS
-from lasersph.observers.quantity import unit_in
 from lasersph.report.page import details, paragraph, table
 from lasersph.report.tables import (
     Rows,
@@ -13,7 +13,6 @@ from lasersph.report.tables import (
     main_results,
     quantity,
     shown,
-    unit_of,
     with_error,
 )
 

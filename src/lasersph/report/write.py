@@ -11,7 +11,7 @@ from typing import Any
 from lasersph.input.document import split_settings
 from lasersph.observers import Crater, EnergyBudget, Probes, Steps, Vaporization
 from lasersph.observers.declared import AnyObserver, kinds_of
-from lasersph.output import OutputError, Run, open_run
+from lasersph.output import OutputError, Run, RunOrFolder, open_run
 from lasersph.output.atomic import replace_text
 from lasersph.output.errors import clear_errors
 from lasersph.output.last_pulse import last_pulse, starts_after_pauses
@@ -41,13 +41,16 @@ GIVEN = "given: "
 
 
 def write_report(
-    folder: str | Path, *, with_scene: bool = True, begun: Begun = lambda *_: None
+    folder: RunOrFolder, *, with_scene: bool = True, begun: Begun = lambda *_: None
 ) -> Path:
     """Draw the figures of a complete run and write its report.html.
+
+        lasersph.write_report("runs/dlip-steel")
 
     The page holds its images and needs no other file.
 
     Args:
+        folder: a run, or its folder.
         with_scene: whether it holds the viewer too, with the particles of at most 24 snapshots and
             5 MB; a browser without WebGL shows the figures alone.
         begun: called before each drawing: name, how many are drawn, of how many.

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
 
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.size import Size
+from lasersph.compute.threads import chosen
 from lasersph.input import CaseError
 from lasersph.simulation.forecast import Forecast, forecast
 from lasersph.simulation.recipes import Recipe
@@ -34,11 +35,29 @@ def accepted_forecast(
     """
     try:
         refuse_if_too_large(case, backend)  # an estimate: absurd cases are not even laid out
-        expected = forecast(case, threads=threads, recipe=recipe)
+        expected = forecast(case, threads=threads, backend=backend, recipe=recipe)
         refuse_if_too_large(case, backend, Size(expected.particles, expected.memory))
     except CaseError as error:
         if not anyway:
             raise CaseError(error.problem, f"{error.hint}, {ANYWAY}", key=error.key) from None
-        expected = forecast(case, threads=threads, recipe=recipe)
+        expected = forecast(case, threads=threads, backend=backend, recipe=recipe)
         return replace(expected, warnings=(str(error), *expected.warnings))
     return expected
+
+
+def check(
+    case: Case, *, threads: int | None = None, backend: Literal["cpu", "cuda"] = "cpu"
+) -> Forecast:
+    """What a case would need, before anything runs: particles, memory, steps, time, warnings.
+
+        cost = lasersph.check(lasersph.load_case("dlip-steel"))
+        print(cost)  # as `lasersph check`
+        cost.particles, cost.wall_time, cost.warnings
+
+    Args:
+        threads: for the expected time; all processors if not given. backend: where to compute.
+
+    Raises:
+        CaseError: it needs more memory than there is. NoDevice: no card for "cuda".
+    """
+    return accepted_forecast(case, backend, threads=chosen(threads))

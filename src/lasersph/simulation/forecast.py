@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any
 
 from lasersph.case import Case
 from lasersph.case.size import active_share, memory_of, neighbor_count
+from lasersph.simulation.case_forecast import Forecast
 from lasersph.simulation.case_warnings import absorption_length, penetration_depth, run_warnings
-from lasersph.simulation.heating import HeatingForecast, heating_forecast
+from lasersph.simulation.heating import heating_forecast
 from lasersph.simulation.progress import Span
-from lasersph.simulation.recipes import FlowForecast, Recipe, StepForecast, recipe_of
+from lasersph.simulation.recipes import Recipe, StepForecast, recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 PAIRS_PER_SECOND = 2.0e8
@@ -20,41 +20,17 @@ SECONDS_PER_STEP = 3e-3
 `benchmarks/small_steps.py`."""
 
 
-@dataclass(frozen=True)
-class Forecast:
-    """Numbers of `lasersph check`.
-
-    Attributes:
-        particles, layers: counts. pairs: estimate, of what is active. memory: peak [bytes].
-        spacing: finest, as used [m]. fine_depth: of the finest layers [m].
-        limits: time-step limits [s] while the light is on. binding: name of the smallest.
-        steps: estimate. wall_time: rough estimate [s] on `threads` threads.
-        absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
-        warnings: what a user should think about, a sentence each. flow: of what flows, if anything
-            does. heating: what the light does to the surface, if there is any.
-    """
-
-    particles: int
-    layers: int
-    pairs: float
-    memory: float
-    spacing: float
-    fine_depth: float
-    limits: dict[str, float]
-    binding: str
-    steps: int
-    wall_time: float
-    absorption_length: float | None
-    penetration: float | None
-    warnings: tuple[str, ...] = field(default=())
-    flow: FlowForecast | None = None
-    heating: HeatingForecast | None = None
-
-
-def forecast(case: Case, *, threads: int = 1, recipe: Recipe[Any, Any] | None = None) -> Forecast:
+def forecast(
+    case: Case,
+    *,
+    threads: int = 1,
+    backend: str = "cpu",
+    recipe: Recipe[Any, Any] | None = None,
+) -> Forecast:
     """Forecast of a case, without allocating its particles.
 
     Args:
+        threads: for the expected time. backend: for which it is asked.
         recipe: of the case, where there is one already: its estimates are not made again.
     """
     recipe = recipe_of(case) if recipe is None else recipe
@@ -64,6 +40,7 @@ def forecast(case: Case, *, threads: int = 1, recipe: Recipe[Any, Any] | None = 
     heating = heating_forecast(case, recipe.heating)
     is_fine = layers.thickness <= spacing * (1.0 + 1e-9)
     return Forecast(
+        case=case,
         particles=count,
         layers=layers.thickness.size,
         pairs=pairs,
@@ -79,6 +56,8 @@ def forecast(case: Case, *, threads: int = 1, recipe: Recipe[Any, Any] | None = 
         warnings=(*run_warnings(case, layers, recipe.curve, heating), *recipe.warnings()),
         flow=recipe.flow,
         heating=heating,
+        threads=threads,
+        backend=backend,
     )
 
 

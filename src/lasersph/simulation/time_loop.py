@@ -99,6 +99,9 @@ def run(
 ) -> Result:
     """Compute a case into a run folder.
 
+        result = lasersph.run(lasersph.load_case("dlip-steel"), "runs/steel", progress=True)
+        print(result)  # the main numbers, as `lasersph run`; all of them: result.summary
+
     Args:
         out: folder of the run; must be new or empty unless `resume` or `overwrite`.
         resume: continue from the last checkpoint in `out`; from the start where there is none. The

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.special import gammaincc
 
 from lasersph.input import format_quantity
-from lasersph.report.tables import unit_of
+from lasersph.input.key_units import unit_of
 from lasersph.studies.calibration_plan import CalibrationPlan, NoCalibration
 from lasersph.studies.calibration_profile import ProfileFit, reduce_profiles
 from lasersph.studies.emulator import Emulator, box_of, fit_emulator

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from importlib.util import find_spec
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +24,8 @@ from lasersph.input import CaseError
 from lasersph.output import OutputError, open_run
 from lasersph.output.atomic import replace_json, replace_text
 from lasersph.output.errors import install_hint
+from lasersph.plots import style
+from lasersph.plots.calibration import calibration_figure
 from lasersph.simulation.time_loop import Stopped
 from lasersph.studies.calibration import Calibration, Numbers, Settings, calibrate_with
 from lasersph.studies.calibration_answer import (
@@ -44,6 +46,9 @@ from lasersph.studies.texture.spot import NoTexture
 from lasersph.sweeps import Engine, Event, LocalEngine, Point, Study, Table, make_runs
 from lasersph.sweeps.folder import RUNS
 from lasersph.sweeps.table import Row
+
+if TYPE_CHECKING:
+    from lasersph.plots.notebook_figure import Figure
 
 ANSWER, POINTS, BEST, FIGURE = (
     "calibration.json",
@@ -103,7 +108,18 @@ def calibrate(
     replace_text(path / BEST, best_case_text(found))
     for fit in found.profiles:
         replace_text(path / PROFILE.format(fit.number), profile_text(found, fit))
+    style.save(figure_of_calibration(path), path / FIGURE)
     return content
+
+
+def figure_of_calibration(folder: str | PathLike[str]) -> Figure:
+    """Data over bands of the model, and the posterior, of a calibration that is complete.
+
+    Raises:
+        OutputError: there is none in the folder.
+    """
+    content, points = read_answer(folder)
+    return calibration_figure(content, points, read_profiles(Path(folder), content))
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import ceil, log2
+from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
@@ -68,7 +69,7 @@ def show_energy(key: str, value: float, digits: int = 5) -> str:
 def threshold(
     case: Any,
     of: Event,
-    out: Path,
+    out: str | PathLike[str],
     *,
     tolerance: float = 0.01,
     bracket: tuple[float, float] | None = None,
@@ -79,6 +80,9 @@ def threshold(
     report: Callable[[str], None] | None = None,
 ) -> Threshold:
     """Energy at which the hottest spot just melts completely, just boils, or just ablates.
+
+        found = lasersph.threshold(lasersph.load_case("dlip-steel"), "melt", "runs/threshold")
+        found.value, found.below, found.above  # J/m^2, where `found.key` is a fluence
 
     Args:
         case: the case; its energy is the first guess.
@@ -98,7 +102,7 @@ def threshold(
     if not 0.0 < tolerance < 1.0:
         raise ValueError(f"the tolerance must lie between 0 and 1, not {tolerance}")
     # one value after the other, with those ahead made at the same time
-    search = _Search(case, of, out, tolerance, bracket, largest_factor)
+    search = _Search(case, of, Path(out), tolerance, bracket, largest_factor)
     while (value := search.following(search.known)) is not None:
         if not (search.folder(value) / "summary.json").exists():
             prepare({search.folder(one): search.case_at(one) for one in search.ahead(at_once)})

@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.input import did_you_mean, format_quantity
+from lasersph.input.key_units import unit_in, unit_of
 from lasersph.observers.observer_list import RESULTS
-from lasersph.observers.quantity import unit_in
 from lasersph.plots.process_map import MapAxis, ProcessMap
-from lasersph.report.tables import unit_of
 from lasersph.studies.emulator import box_of
 from lasersph.studies.event_lines import events_of, one_sided_notes, onsets_of
 from lasersph.studies.run_places import RunPlaces
@@ -42,7 +41,11 @@ def process_map(
     target: float | None = None,
     tolerance: float = TOLERANCE,
 ) -> ProcessMap:
-    """The map of a sweep.
+    """The map of a sweep: a number over one or two of its keys.
+
+        found = lasersph.map("runs/sweep", show="melt.depth_half_max_m", target=200e-9)
+        found.field, found.lines["melts"]       # SI; see `plots.process_map.ProcessMap`
+        lasersph.plots.draw_process_map(found)  # a figure
 
     Args:
         runs: the table of a sweep, or its folder.

@@ -182,30 +182,34 @@ class Sensitivity:
 
 
 def assess_sensitivity(
-    runs: Table | str | PathLike[str], column: str, *, seed: int = 1
+    runs: Table | str | PathLike[str], of: str = "melt.depth_half_max_m", *, seed: int = 1
 ) -> Sensitivity:
-    """How much each key of a sweep changes a number: by screening if the sweep was sampled for it,
-    else by Sobol indices, over the ranges of the runs.
+    """How much each key of a sweep changes a number, over the ranges of the runs.
+
+    By screening if the sweep was sampled for it, else by Sobol indices.
+
+        found = lasersph.sensitivity("runs/sweep", of="flow.speed_max_m_s")
+        dict(zip(found.keys, found.sobol.total))
 
     Args:
-        runs: the table of a sweep, or its folder. column: a number of the summaries.
+        runs: the table of a sweep, or its folder. of: a number of the summaries.
 
     Raises:
         ValueError: too few runs with the number. KeyError: no run has it.
         OutputError: no sweep there; scikit-learn is missing.
     """
     table = runs if isinstance(runs, Table) else Table.read(runs)
-    values = sizes_of(table, column)
+    values = sizes_of(table, of)
     points = np.stack([table.values(key) for key in table.varied], axis=1)
     good = np.isfinite(values)
     if not np.any(good):
-        raise ValueError(f"no run has {column} yet")
-    found = Sensitivity(column, table.varied, int(good.sum()))
+        raise ValueError(f"no run has {of} yet")
+    found = Sensitivity(of, table.varied, int(good.sum()))
     box = box_of_runs(points)
     # walks of a screening have their effects; other runs are emulated
     if _is_screening(table):
         return replace(found, screening=screen(points, values, box))
-    noise = numerical_deviation(table, column)
+    noise = numerical_deviation(table, of)
     emulator = fit_emulator(points[good], values[good], box=box, noise=noise, seed=seed)
     indices = sobol_indices(emulator, seed=seed)
     return replace(found, sobol=indices, predictivity=emulator.predictivity)

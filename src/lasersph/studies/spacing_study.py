@@ -14,13 +14,15 @@ import math
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from lasersph.analytic.convergence import Convergence, assess
 from lasersph.input import format_quantity
+from lasersph.input.key_units import unit_of
 from lasersph.observers.energy_budget import NUMERICAL
-from lasersph.report.tables import in_words, unit_of
+from lasersph.report.tables import in_words
 from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
 NOT_ANSWERS = re.compile(
@@ -88,8 +90,8 @@ class SpacingStudy:
 
 def converge(
     case: Any,
-    spacings: Sequence[float],
-    out: Path,
+    spacing: Sequence[float],
+    out: str | PathLike[str],
     *,
     run: Run = simulate,
     prepare: Prepare = prepare_nothing,
@@ -97,9 +99,13 @@ def converge(
 ) -> SpacingStudy:
     """Run a case at each spacing [m] and assess its summary.
 
+        case = lasersph.load_case("dlip-steel")
+        found = lasersph.converge(case, [32e-9, 16e-9, 8e-9], "runs/converge")
+        found["melt.depth_max_m"].convergence.gci
+
     Args:
         case: the case; its particles.spacing is replaced.
-        spacings: three or more, in any order. A run may round them: what counts is the spacing
+        spacing: three or more [m], in any order. A run may round them: what counts is the spacing
             that its summary reports ("spacing_m"), else the one asked for.
         out: folder that receives one run folder for each spacing.
         run: how a case is run. prepare: makes several runs at a time before their turn.
@@ -108,21 +114,21 @@ def converge(
     Raises:
         ValueError: fewer than three different spacings, or two that a run rounds to the same.
     """
-    wanted = sorted(set(spacings))
+    wanted, home = sorted(set(spacing)), Path(out)
     if len(wanted) < 3:
         raise ValueError(
             f"an order needs three different spacings, got {len(wanted)}; give e.g. 32nm,16nm,8nm"
         )
     used, summaries = [], []
     # coarsest first: cheap runs show soonest what is wrong
-    folders = {spacing: out / f"spacing-{1e9 * spacing:.4g}nm" for spacing in reversed(wanted)}
-    cases = {spacing: changed(case, "particles.spacing", spacing) for spacing in folders}
-    prepare({folders[spacing]: each for spacing, each in cases.items()})
-    for number, (spacing, folder) in enumerate(folders.items(), start=1):
+    folders = {size: home / f"spacing-{1e9 * size:.4g}nm" for size in reversed(wanted)}
+    cases = {size: changed(case, "particles.spacing", size) for size in folders}
+    prepare({folders[size]: each for size, each in cases.items()})
+    for number, (size, folder) in enumerate(folders.items(), start=1):
         if report:
-            report(f"run {number} of {len(wanted)}: spacing {format_quantity(spacing, 'm')}")
-        summary = run(cases[spacing], folder).summary
-        used.insert(0, float(summary.get("spacing_m", spacing)))
+            report(f"run {number} of {len(wanted)}: spacing {format_quantity(size, 'm')}")
+        summary = run(cases[size], folder).summary
+        used.insert(0, float(summary.get("spacing_m", size)))
         summaries.insert(0, summary)
     return assess_summaries(summaries, used)
 

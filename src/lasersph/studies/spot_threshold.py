@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -114,8 +115,8 @@ def no_spot(case: Any, fluences: Sequence[float]) -> str:
 
 def spot_threshold(
     case: Any,
-    fluences: Sequence[float],
-    out: Path,
+    fluence: Sequence[float],
+    out: str | PathLike[str],
     *,
     run: Run = simulate,
     prepare: Prepare = prepare_nothing,
@@ -123,8 +124,12 @@ def spot_threshold(
 ) -> SpotThreshold:
     """Run a case with a Gaussian spot at each peak fluence [J/m^2] and fit D^2 over ln F.
 
+        case = lasersph.load_case("spot.toml")
+        found = lasersph.spot(case, [5e4, 1e5, 2e5], "runs/spot")
+        print(found.answer())
+
     Args:
-        case: the case; its laser.fluence is replaced. fluences: two or more, in any order.
+        case: the case; its laser.fluence is replaced. fluence: two or more, in any order.
         out: folder that receives one run folder for each fluence.
         run: how a case is run. prepare: makes several runs at a time before their turn.
         report: called with one line after each run.
@@ -132,20 +137,20 @@ def spot_threshold(
     Raises:
         ValueError: the case has no such spot, or fewer than two of the runs left a crater.
     """
-    if reason := no_spot(case, fluences):
+    if reason := no_spot(case, fluence):
         raise ValueError(reason)
     craters = []
     # one run for each fluence, numbered from the lowest
     cases = {
-        out / f"{number:02d}-fluence-{fluence:.6g}": changed(case, "laser.fluence", fluence)
-        for number, fluence in enumerate(sorted(set(fluences)), start=1)
+        Path(out) / f"{number:02d}-fluence-{peak:.6g}": changed(case, "laser.fluence", peak)
+        for number, peak in enumerate(sorted(set(fluence)), start=1)
     }
     prepare(cases)
     for number, (folder, each) in enumerate(cases.items(), start=1):
-        fluence, summary = each.laser.fluence, run(each, folder).summary
-        craters.append(crater_of(fluence, summary))
+        peak, summary = each.laser.fluence, run(each, folder).summary
+        craters.append(crater_of(peak, summary))
         if report:
-            report(f"run {number}: {1e-4 * fluence:.5g} J/cm2: {craters[-1].diameter * 1e6:.4g} um")
+            report(f"run {number}: {1e-4 * peak:.5g} J/cm2: {craters[-1].diameter * 1e6:.4g} um")
     # runs without a crater say nothing about the line
     deep = [one for one in craters if one.diameter > 0.0]
     threshold, radius, scatter = fit([d.fluence for d in deep], [d.diameter for d in deep])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.report.tables import unit_of
+from lasersph.input.key_units import unit_of
 from lasersph.studies.emulator import Box, box_of
 from lasersph.sweeps import Table
 

@@ -110,6 +110,7 @@ def sweep(
     workers: int | None = None,
     threads: int | None = None,
     retries: int = 2,
+    engine: Engine | None = None,
 ) -> Table:
     """Run a case with many settings; the same call again goes on where it was stopped.
 
@@ -123,7 +124,10 @@ def sweep(
         out: folder of the runs.
         vary, set, sampling, columns: the tables of a plan file; vary has lists or
             {"from": ..., "to": ..., "count": ...}.
-        workers, threads, retries: see `LocalEngine`.
+        workers, threads, retries: see `LocalEngine`. engine: another one in its place.
+
+    Returns:
+        The table of the runs, a row each; `values` gives a number of all of them as an array.
 
     Raises:
         CaseError: every mistake of the plan or its case. FolderRefused: see `make_runs`.
@@ -131,4 +135,6 @@ def sweep(
     if not isinstance(plan, SweepPlan):
         given = {"set": set, "sampling": sampling, "columns": columns}
         plan = read_plan(plan) if vary is None else build_plan(plan, vary, **given)
-    return make_runs(plan.points(), out, plan.study, engine=LocalEngine(workers, threads, retries))
+    return make_runs(
+        plan.points(), out, plan.study, engine=engine or LocalEngine(workers, threads, retries)
+    )

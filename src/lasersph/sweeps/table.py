@@ -17,12 +17,11 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
+from lasersph.input.key_units import suffix, unit_in, unit_of
 from lasersph.input.model import did_you_mean
 from lasersph.input.shown_unit import ShownUnit, units_written
-from lasersph.observers.quantity import suffix, unit_in
 from lasersph.output.atomic import replace_text
 from lasersph.output.errors import OutputError, clear_errors, install_hint, read_json
-from lasersph.report.tables import unit_of
 from lasersph.sweeps.folder import PLAN, RUNS, TABLE, last_events, read_points
 from lasersph.sweeps.points import Value
 

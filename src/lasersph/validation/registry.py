@@ -46,13 +46,16 @@ def known_name(name: str) -> str:
 
 def validate(
     name: str,
-    out_dir: str | Path,
+    out: str | Path,
     *,
     quick: bool = False,
     threads: int | None = None,
     backend: str = "cpu",
 ) -> Report:
-    """Run one validation and draw its figures into `out_dir`.
+    """Run one validation and draw its figures into `out`.
+
+        report = lasersph.validate("stefan", "runs/stefan", quick=True)
+        print(report.table())
 
     Runs that an earlier call with the same sources left there are taken or continued.
 
@@ -64,7 +67,7 @@ def validate(
         CaseError: no such validation; says the nearest name. NoDevice: no graphics card.
     """
     module = import_module(module_of(known_name(name)))
-    folder = Path(out_dir)
+    folder = Path(out)
     folder.mkdir(parents=True, exist_ok=True)
     study = Study(name, folder, quick=quick, threads=threads, backend=backend)
     module.compare(study)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from lasersph.input import format_duration
-from lasersph.observers.quantity import unit_in
+from lasersph.input.key_units import unit_in
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.folder_lock import is_computing
 from lasersph.output.growing_table import last_row, some_values

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import pytest
 import synthetic_run
 
+from lasersph.input.key_units import suffix, unit_in, unit_of
 from lasersph.observers import Observer, Observers, Quantity
 from lasersph.observers.observer import nest
 from lasersph.observers.observer_list import COLUMNS, OBSERVERS, RESULTS
-from lasersph.observers.quantity import suffix, unit_in
 from lasersph.report.tables import measured
 
 
@@ -96,3 +96,9 @@ def test_what_does_not_observe_is_no_observer():
 
     with pytest.raises(TypeError, match="observe"):
         Blind()  # pyright: ignore[reportAbstractUsage]
+
+
+@pytest.mark.parametrize("key", COLUMNS)
+def test_unit_of_a_column_is_read_from_its_name(key):
+    """What `Run.units` says of a column is the unit that its observer declares."""
+    assert unit_of(key) == COLUMNS[key].unit

@@ -14,7 +14,8 @@ from lasersph.cli import main
 from lasersph.observers import Observers, View
 from lasersph.observers.relief import Relief
 from lasersph.observers.topography import Topography
-from lasersph.output import open_run
+from lasersph.output import OutputError, open_run
+from lasersph.output.export import export
 from lasersph.output.particle_file import ParticleFile
 from lasersph.plots import style
 from lasersph.plots.flow_fields import plane_flow, pool_frame, raster
@@ -131,6 +132,29 @@ def test_line_in_the_layout_of_vtkhdf(pool):
     ] * (count - 2)
     for number in (count - 2, count - 1):
         file.append(float(pool.surface.times[number]), before[number], {})
+
+
+def test_relief_as_arrays(pool, tmp_path):
+    """Places and heights of the whole period in meters, at the end or at a time."""
+    relief = pool.relief()
+    assert relief.x == pytest.approx(np.concatenate([-X[::-1], X]))
+    assert relief.z[0] == pytest.approx(np.concatenate([height(1.0)[::-1], height(1.0)]))
+    assert relief.units["z"] == "m"
+    assert np.all(pool.relief(0.0).z == 0.0)
+    flat = open_run(synthetic_flow.make_pool_run(tmp_path / "flat"))
+    with pytest.raises(OutputError, match="flat: a height map needs"):
+        flat.relief()
+
+
+def test_export_at_a_time(pool):
+    """Seconds and a text with a unit are the same; another format is refused."""
+    times = pool.snapshots.times
+    texts = [
+        export(pool, at=at).read_text() for at in (float(times[1]), f"{1e9 * times[1]} ns", None)
+    ]
+    assert texts[0] == texts[1] != texts[2]
+    with pytest.raises(OutputError, match='no format "obj"'):
+        export(pool.path, "obj")
 
 
 def test_export(pool, capsys):

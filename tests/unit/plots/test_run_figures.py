@@ -65,6 +65,18 @@ def test_one_dimension_leaves_out_what_has_no_meaning(folders):
     assert labels == ["temperature [K]", "melt fraction [1]"]
 
 
+def test_units_of_history_and_fields(run, folders):
+    """Amounts of a section are per length; those of a line per area."""
+    assert open_run(run) is run
+    names = ("time_s", "temperature_max_K", "energy_stored_J", "melt_volume_m3", "limit")
+    assert [run.units[name] for name in names] == ["s", "K", "J/m", "m^2", ""]
+    assert open_run(folders[1]).units["energy_stored_J"] == "J/m^2"
+    assert run.units.keys() == run.history.keys()
+    units = run.snapshots.units
+    assert units.keys() == run.snapshots[-1].keys()
+    assert (units["time"], units["position"], units["temperature"]) == ("s", "m", "K")
+
+
 def test_every_axis_names_its_unit(run):
     """Each shown axis label ends in a unit in brackets."""
     figures = [

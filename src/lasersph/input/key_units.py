@@ -1,0 +1,28 @@
+"""Units at the ends of keys: columns of history.csv, keys of summary.json.
+
+A key ends in the unit of what it holds, `_m_s` for m/s. Amounts are named as in 3-D: a 1-D run
+holds a unit area and a 2-D run a unit length, so that the energy stored in a section is in J/m.
+"""
+
+from __future__ import annotations
+
+EXTENSIVE = {"J": ("J/m^2", "J/m", "J"), "kg": ("kg/m^2", "kg/m", "kg"), "m^3": ("m", "m^2", "m^3")}
+"""Units of amounts in 1-D, 2-D and 3-D: a 1-D run holds a unit area, a 2-D run a unit length."""
+UNITS = ("K/s", "K/m", "m^2/s", "m/s^2", "1/s", "1/m", "W/m^2", "N/m", "Pa", "m/s")
+UNITS += ("m^3", "m^2", "m", "s", "K", "J", "kg", "deg")
+"""Units that keys end in, those with two parts first."""
+
+
+def suffix(unit: str) -> str:
+    """End of a key that says the unit: m/s -> _m_s, m^2/s -> _m2_s, 1/s -> _1_s."""
+    return "_" + unit.replace("^", "").replace("/", "_") if unit else ""
+
+
+def unit_of(key: str) -> str:
+    """Unit that a key ends in, amounts as in 3-D; empty for a pure number or a text."""
+    return next((unit for unit in UNITS if key.endswith(suffix(unit))), "")
+
+
+def unit_in(unit: str, dimension: int) -> str:
+    """Unit in a run of a dimension: amounts are per area in 1-D, per length in 2-D."""
+    return EXTENSIVE[unit][dimension - 1] if unit in EXTENSIVE else unit

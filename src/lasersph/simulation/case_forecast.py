@@ -1,0 +1,109 @@
+"""`Forecast`: what a case will cost, and how `lasersph check` says it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import isfinite
+
+from lasersph.case import Case
+from lasersph.case.size import in_words, memories
+from lasersph.input import format_duration, format_quantity
+from lasersph.input.text_table import text_table
+from lasersph.materials.viscosity import viscosity_text
+from lasersph.simulation.heating import HeatingForecast
+from lasersph.simulation.light_text import heating_rows, light_rows
+from lasersph.simulation.recipes import FlowForecast
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What a case will cost; printed, the rows of `lasersph check` and its warnings.
+
+    Attributes:
+        case: what was asked about.
+        particles, layers: counts. pairs: estimate, of what is active. memory: peak [bytes].
+        spacing: finest, as used [m]. fine_depth: of the finest layers [m].
+        limits: time-step limits [s] while the light is on. binding: name of the smallest.
+        steps: estimate. wall_time: rough estimate [s] on `threads` threads.
+        absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
+        warnings: what a user should think about, a sentence each. flow: of what flows, if anything
+            does. heating: what the light does to the surface, if there is any.
+        threads, backend: "cpu" or "cuda", for which the time and the memory were asked.
+    """
+
+    case: Case = field(repr=False)
+    particles: int
+    layers: int
+    pairs: float
+    memory: float
+    spacing: float
+    fine_depth: float
+    limits: dict[str, float]
+    binding: str
+    steps: int
+    wall_time: float
+    absorption_length: float | None
+    penetration: float | None
+    warnings: tuple[str, ...] = field(default=())
+    flow: FlowForecast | None = None
+    heating: HeatingForecast | None = None
+    threads: int = 1
+    backend: str = "cpu"
+
+    def __str__(self) -> str:
+        """Rows and warnings, as `lasersph check` prints them."""
+        return "\n".join([text_table(_rows(self)), *(f"warning: {text}" for text in self.warnings)])
+
+
+def _rows(expected: Forecast) -> list[tuple[str, str]]:
+    """Rows of what a case is and what it will cost, each with its name."""
+    case, threads, backend = expected.case, expected.threads, expected.backend
+    there = [words.format(in_words(most)) for words, most in memories(backend) if isfinite(most)]
+    time = f"roughly {format_duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}"
+    rows = [
+        ("case", case.title or case.name),
+        ("material", case.material.title or case.material.name),
+        ("solver", f"{case.solver.kind}, {case.solver.dimensions}-D, {case.solver.scheme_text}"),
+        *([] if case.laser is None else light_rows(case.laser)),
+        *([] if expected.heating is None else heating_rows(case, expected.heating)),
+        ("particles", f"{expected.particles} in {expected.layers} layers"),
+        (
+            "finest spacing",
+            f"{format_quantity(expected.spacing, 'm')} in the top "
+            f"{format_quantity(expected.fine_depth, 'm')}",
+        ),
+        ("memory", ", ".join([f"about {in_words(expected.memory)}", *there])),
+    ]
+    for name, limit in sorted(expected.limits.items(), key=lambda item: item[1]):
+        binds = "  <- binding" if name == expected.binding else ""
+        shown = format_quantity(limit, "s") if isfinite(limit) else "none"
+        rows.append((f"step limit: {name}", shown + binds))
+    if loss := _losses(case):
+        rows.append(("surface loses heat", loss))
+    rows.append(("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"))
+    rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
+    if expected.flow is not None:
+        rows.append(("viscosity of the melt", viscosity_text(case.material)))
+        rows.append(("expected speed", f"up to about {expected.flow.speed:.2g} m/s"))
+    for name, length in (
+        ("moving layer", expected.flow.layer if expected.flow else None),
+        ("absorption length", expected.absorption_length),
+        ("thermal penetration", expected.penetration),
+    ):
+        if length:
+            cells = f"{length / expected.spacing:.2g} spacings"
+            rows.append((name, f"{format_quantity(length, 'm')}, {cells}"))
+    return rows
+
+
+def _losses(case: Case) -> str:
+    """What the surface loses to the surroundings, and who says so; empty where nothing."""
+    boundaries = case.boundaries
+    losses = boundaries.surroundings(case.material, case.initial_temperature)
+    owner = "as given" if boundaries.emissivity is not None else f"of {case.material.name}"
+    parts = []
+    if losses["eps"]:
+        parts.append(f"radiation, emissivity {losses['eps']:g} {owner}")
+    if losses["h_c"]:
+        parts.append(f"convection, {format_quantity(losses['h_c'], 'W/(m^2 K)')}")
+    return f"{'; '.join(parts)}; to {format_quantity(losses['T_a'], 'K')}" if parts else ""
