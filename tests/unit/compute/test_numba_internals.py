@@ -90,7 +90,9 @@ def test_newer_numba_is_tried(unchecked, monkeypatch):
 
 def test_said_once(unchecked):
     """A part that is lost later is named once, by the first line of the error."""
-    with pytest.warns(RuntimeWarning, match="an error.: results stay the same, but loops") as told:
+    with pytest.warns(
+        RuntimeWarning, match="an error.: results stay the same, but a start"
+    ) as told:
         for _ in range(2):
             numba_internals.lose(Part.MACHINE_CODE, ValueError("an error\nof many lines"))
     assert len(told) == 1
