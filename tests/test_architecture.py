@@ -1,6 +1,7 @@
 """The rules that ARCHITECTURE.md states, as far as the source text and what it loads can show."""
 
 import ast
+import re
 import subprocess
 import sys
 
@@ -124,6 +125,21 @@ def test_library_is_named_in_one_room(library):
         if name.partition(".")[0] == library and room_of(path) not in ONLY_IN[library]
     ]
     assert not wrong, "\n".join(wrong)
+
+
+INTERNALS = PACKAGE / "compute" / "numba_internals.py"
+PRIVATE = re.compile(
+    r"numba\.(core|np|parfors|misc|typed)\b|\bcgutils\b|numba_parallel_for|get_dummy_value"
+    r"|\.(native_name|save_overload|overloads|stats)\b|\bNRT_"
+)
+"""Names of Numba that its documentation does not offer to programs."""
+
+
+def test_private_parts_of_numba_are_in_one_file():
+    """Only one file names what a newer Numba may change without a word."""
+    ours = [path for path in MODULES if room_of(path) == "compute"]
+    found = [path for path in ours if PRIVATE.search(path.read_text(encoding="utf-8"))]
+    assert found == [INTERNALS]
 
 
 SETTINGS = {"ConductionSettings", "MeltPoolSettings", "AblationSettings", "HeatSettings"}

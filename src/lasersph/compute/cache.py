@@ -13,6 +13,7 @@ from __future__ import annotations
 import hashlib
 import importlib.util
 import os
+import re
 import sys
 import tempfile
 import warnings
@@ -22,13 +23,20 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
-from lasersph.compute import machine_code
+from lasersph.compute import machine_code, numba_internals, trial
 from lasersph.compute.compile_lock import compiling_alone
+from lasersph.compute.compiling import reported
+from lasersph.compute.numba_internals import Part
 
 _PREFIX = "loop_"
-SHARED = ("parallel.py", "native.py", "machine_code.py")
+SHARED = ("parallel.py", "native.py", "machine_code.py", "numba_internals.py")
+_UNSTORED = re.compile(r"(, )?cache=True")
+_SPARE = 1 << 20
+"""Bytes that the folder must take before Numba stores machine code there by itself."""
 _loaded: dict[str, ModuleType] = {}
 _entries: dict[str, Entry] = {}
+_callbacks: dict[str, Any] = {}
+"""What holds the machine code of functions that Numba itself has stored."""
 _first_miss: list[Callable[[], None]] = []
 
 
@@ -76,27 +84,36 @@ def load(text: str) -> ModuleType:
 
     Where the disk is full, the loop is compiled without being stored.
     """
-    digest = _digest(text)
     folder = location()
-    path = folder / f"{_PREFIX}{digest}.py"
+    text = _known(text, folder)
+    path = folder / f"{_PREFIX}{_digest(text)}.py"
     name = f"lasersph_{folder_key(folder)}_{path.stem}"
     if name in _loaded:
         return _loaded[name]
     try:
-        if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            _write(path, text.encode())
+        _put_text(path, text)
+        _refuse_full(folder)
         spec = importlib.util.spec_from_file_location(name, path)
         assert spec is not None and spec.loader is not None
         module = sys.modules[name] = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
     except OSError as error:
         _warn(error)
-        module = sys.modules[name] = ModuleType(name)
-        exec(compile(text.replace(", cache=True", ""), str(path), "exec"), module.__dict__)
+        module = _executed(name, path, _UNSTORED.sub("", text))
     _loaded[name] = module
-    for dispatcher in _dispatchers(module):
-        _keep_going(dispatcher)
     return module
+
+
+def _known(text: str, folder: Path) -> str:
+    """The text by what this Numba has of the parts that it does not document."""
+    numba_internals.check(lambda part: trial.passes(folder, part))
+    if not numba_internals.has(Part.WRAPPERS):
+        text = numba_internals.with_public_options(text)
+    if not numba_internals.has(Part.THREADS):
+        from lasersph.compute.parallel import shared_text
+
+        text = shared_text(text)
+    return text
 
 
 def entry(text: str, *, is_fast: bool = True) -> int:
@@ -106,10 +123,12 @@ def entry(text: str, *, is_fast: bool = True) -> int:
         is_fast: whether its sums may be rearranged.
     """
     folder = location()
+    text = _known(text, folder)
     name = f"{_PREFIX}{_digest(text)}"
     key = f"{folder}/{name}"
     if key not in _entries:
-        _entries[key] = _read_entry(folder, name) or _missing_entry(folder, name, text, is_fast)
+        found = _read_entry(folder, name, text, is_fast)
+        _entries[key] = found or _missing_entry(folder, name, text, is_fast)
     return _entries[key].address
 
 
@@ -122,6 +141,7 @@ def at_first_miss(begin: Callable[[], None]) -> Callable[[], None]:
 def compile_ahead(text: str) -> None:
     """Put the function of a text into the folder, unless it lies there or is being compiled."""
     folder = location()
+    text = _known(text, folder)
     name = f"{_PREFIX}{_digest(text)}"
     with compiling_alone(folder, _digest(text), waits=False) as is_ours:
         if is_ours and not _code_file(folder, name).is_file():
@@ -130,46 +150,85 @@ def compile_ahead(text: str) -> None:
 
 def _missing_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
     """The function of a text that the folder lacks: compiled here, or by who compiles it now."""
-    from numba.core import event
-
     while _first_miss:
         _first_miss.pop()()
-    with (
-        event.trigger_event("numba:compile", data={"name": name}),
-        compiling_alone(folder, name.removeprefix(_PREFIX)),
-    ):
-        return _read_entry(folder, name) or _make_entry(folder, name, text, is_fast)
+    with reported(), compiling_alone(folder, name.removeprefix(_PREFIX)):
+        found = _read_entry(folder, name, text, is_fast)
+        return found or _make_entry(folder, name, text, is_fast)
 
 
 def _code_file(folder: Path, name: str) -> Path:
-    """Where the machine code of a function for this processor lies."""
-    return folder / f"{name}-{machine_code.target()}.o"
+    """Where the machine code of a function for this processor lies; where Numba itself keeps it, an
+    empty file that tells so."""
+    end = "o" if numba_internals.keeps_object_files() else "numba"
+    return folder / f"{name}-{machine_code.target()}.{end}"
 
 
-def _read_entry(folder: Path, name: str) -> Entry | None:
+def _read_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry | None:
     """The function whose machine code lies in the folder; None where there is none."""
     try:
         content = _code_file(folder, name).read_bytes()
     except OSError:
         return None
-    address = machine_code.address_of(content, name)
+    if numba_internals.keeps_object_files():
+        try:
+            address = machine_code.address_of(content, name)
+        except Exception as error:
+            numba_internals.lose(Part.MACHINE_CODE, error)
+            return None
+    else:
+        address = _callback_address(folder, name, text, is_fast)
     return None if address is None else Entry(address, True)
 
 
 def _make_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
     """The function of a text, with its text and machine code written to the folder."""
-    path = folder / f"{name}.py"
-    space: dict[str, Any] = {"__name__": f"lasersph_{name}"}
-    exec(compile(text, str(path), "exec"), space)
-    content = machine_code.compile_function(space["loop"], name, is_fast=is_fast)
+    address, content, failed = None, b"", None
+    if numba_internals.keeps_object_files():
+        function = _function_of(folder, name, text)
+        try:
+            content = machine_code.compile_function(function, name, is_fast=is_fast)
+            address = machine_code.address_of(content, name)
+        except Exception as error:  # of Numba's parts, or of the function, which fails again
+            failed = error
+    if address is None:
+        content, address = b"", _callback_address(folder, name, text, is_fast)
+    if failed:
+        numba_internals.lose(Part.MACHINE_CODE, failed)
     try:
-        _write(path, text.encode())
+        _put_text(folder / f"{name}.py", text)
         _write(_code_file(folder, name), content)
     except OSError as error:
         _warn(error)
-    address = machine_code.address_of(content, name)
-    assert address is not None
     return Entry(address, False)
+
+
+def _function_of(folder: Path, name: str, text: str) -> Callable[..., None]:
+    """The function `loop` of a text, not compiled; its module is found by what Numba has stored."""
+    return _executed(f"lasersph_{name}", folder / f"{name}.py", text).loop
+
+
+def _executed(name: str, path: Path, text: str) -> ModuleType:
+    """Module of a text, which need not lie at the path."""
+    module = sys.modules[name] = ModuleType(name)
+    exec(compile(text, str(path), "exec"), module.__dict__)
+    return module
+
+
+def _callback_address(folder: Path, name: str, text: str, is_fast: bool) -> int:
+    """Address of a function that Numba compiles and stores beside its text."""
+    try:
+        _put_text(folder / f"{name}.py", text)
+        _refuse_full(folder)
+        stores = True
+    except OSError as error:
+        _warn(error)
+        stores = False
+    callback = numba_internals.compiled_callback(
+        _function_of(folder, name, text), name, is_fast=is_fast, stores=stores
+    )
+    _callbacks[f"{folder}/{name}"] = callback
+    return callback.address
 
 
 def _digest(text: str) -> str:
@@ -181,6 +240,12 @@ def _digest(text: str) -> str:
 def _shared() -> bytes:
     """Text of what loops call and do not hold."""
     return b"".join(Path(__file__).with_name(name).read_bytes() for name in SHARED)
+
+
+def _put_text(path: Path, text: str) -> None:
+    """Write a text unless it is there: Numba finds its machine code by the time of the file."""
+    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+        _write(path, text.encode())
 
 
 def _write(path: Path, content: bytes) -> None:
@@ -195,24 +260,16 @@ def _write(path: Path, content: bytes) -> None:
         raise
 
 
+def _refuse_full(folder: Path) -> None:
+    """Raise OSError where the folder takes no machine code, which ends what Numba stores there."""
+    with tempfile.TemporaryFile(dir=folder / "__pycache__") as file:
+        file.write(bytes(_SPARE))
+
+
 def _dispatchers(module: ModuleType) -> list[Any]:
-    return [value for value in vars(module).values() if hasattr(value, "stats")]
-
-
-def _keep_going(dispatcher: Any) -> None:
-    """Let a loop run although its machine code cannot be stored (full disk)."""
-    store = getattr(dispatcher, "_cache", None)
-    save = getattr(store, "save_overload", None)
-    if store is None or save is None:
-        return
-
-    def save_if_possible(*arguments: Any) -> None:
-        try:
-            save(*arguments)
-        except OSError as error:
-            _warn(error)
-
-    store.save_overload = save_if_possible
+    """Compiled functions of a module's own."""
+    values = [value for value in vars(module).values() if hasattr(value, "py_func")]
+    return [value for value in values if value.py_func.__module__ == module.__name__]
 
 
 def _warn(error: OSError) -> None:
@@ -225,8 +282,8 @@ def statistics() -> tuple[int, int]:
     compiled = len(_entries) - found
     for module in _loaded.values():
         for dispatcher in _dispatchers(module):
-            found += sum(dispatcher.stats.cache_hits.values())
-            compiled += sum(dispatcher.stats.cache_misses.values())
+            hits, misses = numba_internals.found_and_compiled(dispatcher)
+            found, compiled = found + hits, compiled + misses
     return found, compiled
 
 
@@ -243,8 +300,8 @@ def files() -> list[Path]:
 def _all_files() -> list[Path]:
     folder = location()
     inner = (folder / "__pycache__").glob(f"{_PREFIX}*")
-    own = (folder.glob(f"{_PREFIX}*{end}") for end in (".py", ".o"))
-    return [*(path for paths in own for path in paths), *folder.glob("*.tmp"), *inner]
+    ends = (f"{_PREFIX}*.py", f"{_PREFIX}*.o", f"{_PREFIX}*.numba", f"{trial.PREFIX}*", "*.tmp")
+    return [*(path for end in ends for path in folder.glob(end)), *inner]
 
 
 def size() -> int:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
-from numba.core import event
+from lasersph.compute.numba_internals import compile_events
 
-_EVENT = "numba:compile"
+_listening: list[Compiling] = []
 
 
-class Compiling(event.Listener):
+class Compiling:
     """Counts and times the loops that are compiled inside a `with` block.
 
     Args:
@@ -27,10 +28,12 @@ class Compiling(event.Listener):
     ) -> None:
         self.loops, self.seconds = 0, 0.0
         self._begun, self._done, self._depth, self._start = begun, done, 0, 0.0
+        self._held = ExitStack()
 
     def __enter__(self) -> Self:
         """Listen."""
-        event.register(_EVENT, self)
+        _listening.append(self)
+        self._held.enter_context(compile_events(self.count_begin, self.count_end))
         return self
 
     def __exit__(
@@ -40,20 +43,34 @@ class Compiling(event.Listener):
         traceback: TracebackType | None,
     ) -> None:
         """Listen no more."""
-        event.unregister(_EVENT, self)
+        self._held.close()
+        _listening.remove(self)
 
-    def on_start(self, event: Any) -> None:
-        """A loop, or a function that one calls, is about to be compiled."""
+    def count_begin(self) -> None:
+        """Count a loop, or a function that one calls, that is about to be compiled."""
         if self._depth == 0:
             if self.loops == 0:
                 self._begun()
             self._start = time.perf_counter()
         self._depth += 1
 
-    def on_end(self, event: Any) -> None:
-        """It has been."""
+    def count_end(self) -> None:
+        """Time it once it has been."""
         self._depth -= 1
         if self._depth == 0:
             self.loops += 1
             self.seconds += time.perf_counter() - self._start
             self._done(self)
+
+
+@contextmanager
+def reported() -> Iterator[None]:
+    """Tell who listens that a loop is compiled inside a `with` block."""
+    heard = list(_listening)
+    for one in heard:
+        one.count_begin()
+    try:
+        yield
+    finally:
+        for one in heard:
+            one.count_end()

@@ -9,28 +9,14 @@ from __future__ import annotations
 
 import hashlib
 import importlib
-import re
 from collections.abc import Callable
 from functools import cache
 from importlib.metadata import version
 from typing import Any
 
-FAST = {"reassoc", "contract", "arcp", "nsz"}
-"""What the compiler may do with sums and products of a loop; NaN and infinity stay."""
+from lasersph.compute import numba_internals
+
 _SUM_BYTES = 16
-_RELEASE = re.compile(r"^declare void @NRT_MemInfo_call_dtor\(.*$", re.MULTILINE)
-"""What frees arrays in Numba, and exists only where Numba has compiled something; tables that are
-handed on name it, but a frame owns no array."""
-_RELEASES_NOTHING = "define internal void @NRT_MemInfo_call_dtor(ptr %0) { ret void }"
-_ENTRY = """
-define void @{name}({parameters}) {{
-  %result = alloca ptr
-  %error = alloca ptr
-  %status = call i32 @"{native}"(ptr %result, ptr %error, {parameters})
-  ret void
-}}
-"""
-"""Function that calls another as Numba does; Numba's own for that purpose need Python to run."""
 
 
 @cache
@@ -75,32 +61,17 @@ def compile_function(function: Callable[..., None], name: str, *, is_fast: bool)
         name: what it is called there. is_fast: whether sums may be rearranged.
     """
     import llvmlite.binding as llvm
-    from numba.core import event
 
-    with event.trigger_event("numba:compile", data={"name": name}):
-        module = llvm.parse_assembly(llvm_of(function, name, is_fast=is_fast))
-        code = _machine().emit_object(module)
+    module = llvm.parse_assembly(llvm_of(function, name, is_fast=is_fast))
+    code = _machine().emit_object(module)
     return hashlib.sha256(code).digest()[:_SUM_BYTES] + code
 
 
 def llvm_of(function: Callable[..., None], name: str, *, is_fast: bool) -> str:
     """LLVM's text of a function, with nothing that it does not call; see `compile_function`."""
-    import llvmlite.binding as llvm
-    from numba import cfunc, types
-
-    count = function.__code__.co_argcount
-    function.__qualname__ = name  # enters all names of the module, which then clash with no other
-    compiled = cfunc(
-        types.void(*[types.uint64] * count),
-        fastmath=FAST if is_fast else False,
-        error_model="numpy",
-    )(function)
-    native = compiled.native_name.removeprefix("cfunc.")
-    parameters = ", ".join(f"i64 %{k}" for k in range(count))
-    entry = _ENTRY.format(name=name, native=native, parameters=parameters)
-    module = llvm.parse_assembly(compiled.inspect_llvm() + entry)
+    module = numba_internals.module_of(function, name, is_fast=is_fast)
     _drop_unused(module, name, _machine())
-    return _RELEASE.sub(_RELEASES_NOTHING, str(module))
+    return numba_internals.without_release(str(module))
 
 
 def _drop_unused(module: Any, name: str, machine: Any) -> None:

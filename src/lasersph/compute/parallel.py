@@ -3,22 +3,22 @@
 A loop that Numba parallelizes itself is compiled some four times over: as a function, as the body
 of its parallel region, in the wrapper of that region and in the caller. Here it is compiled once,
 for one block of rows. Called for several, it hands itself to Numba's threads, block by block, with
-the arguments that it has been given.
+the arguments that it has been given (`dispatch_blocks`). The public way is Numba's own parallel
+loop, where the entry of its threads is not known (`shared_text`, `invoke`).
 
 Importing this starts Numba's threads, which also makes their entry known to the compiler.
 """
 
 from __future__ import annotations
 
+import ast
 from typing import Any
 
-from llvmlite import ir
-from numba import get_num_threads, types
-from numba.core import cgutils
+import numpy as np
+from numba import get_num_threads, njit, prange, types
 from numba.extending import intrinsic
 
-_BEGIN = 2
-"""Place of a loop's first argument, after two of Numba's: where its result and an error go."""
+from lasersph.compute import native, numba_internals
 
 get_num_threads()
 
@@ -31,60 +31,88 @@ def dispatch_blocks(_context: Any) -> tuple:
     no result: for each b from `begin` to `end` loop(b, b + 1, threads, ...) runs on one of so many
     threads. An error that a block raises is raised when all are done.
     """
-    return types.none(), _handed_over
+    return types.none(), numba_internals.hand_over
 
 
-def _handed_over(context: Any, builder: Any, _signature: Any, _arguments: Any) -> Any:
-    """Code of `dispatch_blocks`: all arguments in one place, and the call of Numba's threads."""
-    loop = builder.function
-    loop.attributes.add("noinline")
-    word, byte = loop.args[_BEGIN].type, cgutils.voidptr_t
-    with builder.goto_entry_block():
-        frame = builder.alloca(_frame(loop))  # alloca_once would fill it with zeros at each call
-    builder.store(ir.Constant(ir.IntType(32), 0), cgutils.gep_inbounds(builder, frame, 0, 0))
-    for k, argument in enumerate(loop.args):
-        builder.store(argument, cgutils.gep_inbounds(builder, frame, 0, k + 1))
-    begin, end, threads = loop.args[_BEGIN : _BEGIN + 3]
-    number = cgutils.alloca_once_value(builder, builder.inttoptr(begin, byte))
-    count = cgutils.alloca_once_value(builder, builder.sub(end, begin))
-    step = cgutils.alloca_once_value(builder, ir.Constant(word, 1))
-    shape = ir.FunctionType(ir.VoidType(), [byte] * 5 + [word] * 3)
-    run = cgutils.get_or_insert_function(builder.module, shape, "numba_parallel_for")
-    pointers = (_task(builder.module, loop), number, count, step, frame)
-    sizes = [ir.Constant(word, 0), ir.Constant(word, 1), threads]
-    builder.call(run, [*(builder.bitcast(pointer, byte) for pointer in pointers), *sizes])
-    code = builder.load(cgutils.gep_inbounds(builder, frame, 0, 0))
-    with builder.if_then(cgutils.is_not_null(builder, code), likely=False):
-        builder.ret(code)
-    return context.get_dummy_value()
+_ONE = np.uint64(1)
+_invoke_block: Any = native.invoke
 
 
-def _frame(loop: ir.Function) -> ir.Type:
-    """What tasks are given: room for the code of an error, and the loop's arguments."""
-    return ir.LiteralStructType([ir.IntType(32), *(argument.type for argument in loop.args)])
+@njit(parallel=True)
+def _invoke_blocks(address, begin, end, threads, count, frame):
+    """Call the loop at an address for each of its blocks, a share of them on each thread."""
+    for k in prange(np.int64(threads)):
+        share = np.uint64(k)
+        first = begin + (end - begin) * share // threads
+        last = begin + (end - begin) * (share + _ONE) // threads
+        for block in range(first, last):
+            _invoke_block(address, block, block + _ONE, _ONE, count, frame)
 
 
-def _task(module: ir.Module, loop: ir.Function) -> ir.Function:
-    """What threads call, as Numba calls functions of arrays.
+@njit
+def invoke(address, begin, end, threads, count, frame):
+    """`native.invoke` for loops of one block, by `prange` where there are several."""
+    if end - begin > _ONE:
+        _invoke_blocks(address, begin, end, threads, count, frame)
+    else:
+        _invoke_block(address, begin, end, threads, count, frame)
 
-    The pointer to its first operand is no address but the number of a block: it starts at `begin`
-    and grows by a step of one.
+
+_IMPORT = "from lasersph.compute.parallel import dispatch_blocks\n"
+_PUBLIC_IMPORT = "from numba import prange\nfrom lasersph.compute.parallel import invoke\n"
+_SHARED = """
+def {name}(begin, end, threads, {rest}):
+    one = np.uint64(1)
+    for k in prange(np.int64(threads)):
+        share = np.uint64(k)
+        first = begin + (end - begin) * share // threads
+        last = begin + (end - begin) * (share + one) // threads
+        for block in range(first, last):
+            {name}_block(block, block + one, one, {rest})
+"""
+
+
+def shared_text(text: str) -> str:
+    """The text of loops with `prange` in place of `dispatch_blocks`.
+
+    A loop that is called by its address does one block, and `invoke` shares its blocks. One that
+    Python calls, with a decorator, becomes a function of one block and a parallel loop over blocks.
     """
-    word, byte = loop.args[_BEGIN].type, cgutils.voidptr_t
-    pointers = [byte.as_pointer(), word.as_pointer(), word.as_pointer(), byte]
-    task = ir.Function(module, ir.FunctionType(ir.VoidType(), pointers), f"{loop.name}.task")
-    task.linkage = "internal"
-    builder = ir.IRBuilder(task.append_basic_block())
-    numbers, counts, _, data = task.args
-    frame = builder.bitcast(data, _frame(loop).as_pointer())
-    places = (cgutils.gep_inbounds(builder, frame, 0, k + 1) for k in range(len(loop.args)))
-    given: list[Any] = [builder.load(place) for place in places]
-    first = builder.ptrtoint(builder.load(numbers), word)
-    with cgutils.for_range(builder, builder.load(counts)) as blocks:
-        block = builder.add(first, blocks.index)
-        given[_BEGIN : _BEGIN + 2] = block, builder.add(block, ir.Constant(word, 1))
-        code = builder.call(loop, given)
-        with cgutils.if_unlikely(builder, cgutils.is_not_null(builder, code)):
-            builder.store(code, cgutils.gep_inbounds(builder, frame, 0, 0))
-    builder.ret_void()
-    return task
+    if _IMPORT not in text:
+        return text
+    tree = ast.parse(text.replace(_IMPORT, _PUBLIC_IMPORT))
+    parts: list[ast.stmt] = []
+    for part in tree.body:
+        parts.append(part)
+        if not isinstance(part, ast.FunctionDef):
+            continue
+        body = [line for line in part.body if not _dispatches(line)]
+        if len(body) == len(part.body):
+            continue
+        part.body = body
+        if part.decorator_list:
+            rest = ", ".join(one.arg for one in part.args.args[3:])
+            (shared,) = ast.parse(_SHARED.format(name=part.name, rest=rest)).body
+            assert isinstance(shared, ast.FunctionDef)
+            shared.decorator_list = [_parallel(part.decorator_list[0])]
+            part.name, part.decorator_list = f"{part.name}_block", [_serial(part.decorator_list[0])]
+            parts.append(shared)
+    tree.body = parts
+    return ast.unparse(ast.fix_missing_locations(tree)) + "\n"
+
+
+def _dispatches(line: ast.stmt) -> bool:
+    """Whether a statement hands blocks over."""
+    return isinstance(line, ast.If) and "dispatch_blocks()" in ast.unparse(line)
+
+
+def _parallel(decorator: ast.expr) -> ast.expr:
+    """The decorator of a function with a parallel loop."""
+    return ast.parse(
+        ast.unparse(decorator).removesuffix(")") + ", parallel=True)", mode="eval"
+    ).body
+
+
+def _serial(decorator: ast.expr) -> ast.expr:
+    """The decorator of a function that only compiled ones call."""
+    return ast.parse(ast.unparse(decorator).replace(", cache=True", ""), mode="eval").body

@@ -10,6 +10,8 @@ import os
 from functools import cache
 from types import ModuleType
 
+from lasersph.compute import numba_internals
+
 if "OMP_WAIT_POLICY" not in os.environ:
     os.environ["OMP_WAIT_POLICY"] = "passive"
     os.environ.setdefault("GOMP_SPINCOUNT", "2000")
@@ -24,15 +26,10 @@ def available() -> int:
 
 @cache
 def start_numba() -> ModuleType:
-    """Numba, imported without SciPy's linear algebra.
-
-    Numba loads that when its first function is, 0.15 s, to see whether BLAS is there. No loop here
-    calls BLAS; a function of somebody else's that does loads it then.
-    """
+    """Numba, imported without SciPy's linear algebra."""
     import numba
-    from numba.np import linalg
 
-    linalg.ensure_blas = lambda: None
+    numba_internals.skip_blas()
     return numba
 
 

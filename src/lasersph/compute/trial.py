@@ -1,0 +1,109 @@
+"""Trial of parts of Numba that may end a process: once, in a process of its own.
+
+    python -m lasersph.compute.trial PART
+
+runs loops by such a part, and ends with 0 where they do what they should. The answer is kept in the
+cache folder, for one Numba and one processor.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lasersph.compute import machine_code
+from lasersph.compute.arguments import address
+from lasersph.compute.generate import NATIVE, OUTER
+
+PREFIX = "trial_"
+"""Begins the names of the files with answers."""
+_LONGEST = 600.0
+"""Compiling two loops takes seconds [s], on a machine that does nothing else."""
+_BLOCKS = 40
+_BODY = """    if end - begin > np.uint64(1):
+        dispatch_blocks()
+        return
+    for b in range(begin, end):
+        visits[b] += b + np.uint64(1)
+"""
+_ARRAY_LOOP = f"""
+{OUTER.replace(", cache=True", "")}
+def loop(begin, end, threads, visits):
+{_BODY}"""
+"""Adds to each block its number and one; called from Python."""
+_FRAME_LOOP = f"""
+def loop(begin, end, threads, frame):
+    visits = at_uint64(frame)
+{_BODY}"""
+"""The same, called by its address."""
+_PLAIN_LOOP = """
+def loop(begin, end, threads, frame):
+    visits = at_uint64(frame)
+    for b in range(begin, end):
+        visits[b] += b + np.uint64(1)
+"""
+
+
+def passes(folder: Path, part: str) -> bool:
+    """Whether a part, by its name, did what it should when it was tried.
+
+    Args:
+        folder: where the answer is kept.
+    """
+    kept = folder / f"{PREFIX}{part.lower()}-{machine_code.target()}.txt"
+    if kept.is_file():
+        return kept.read_text(encoding="utf-8") == "passes"
+    command = [sys.executable, "-m", __name__, part]
+    try:
+        found = subprocess.run(command, capture_output=True, timeout=_LONGEST, check=False)
+    except subprocess.TimeoutExpired:
+        return False
+    answer = "passes" if found.returncode == 0 else "fails"
+    with suppress(OSError):  # without the file, the next process tries again
+        kept.write_text(answer, encoding="utf-8")
+    return answer == "passes"
+
+
+def _function_of(text: str) -> Any:
+    """The function `loop` of a text."""
+    space: dict[str, Any] = {"__name__": "lasersph_trial"}
+    exec(NATIVE.format(precision="float64") + text, space)
+    return space["loop"]
+
+
+def _visits(part: str) -> list[list[int]]:
+    """What loops over all blocks but two leave of zeros, by the ways that a part serves."""
+    from lasersph.compute import numba_internals
+
+    first, last, threads = np.uint64(1), np.uint64(_BLOCKS - 1), np.uint64(2)
+    found = [np.zeros(_BLOCKS, np.uint64) for _ in range(2)]
+    if part == numba_internals.Part.THREADS.name:
+        _function_of(_ARRAY_LOOP)(first, last, threads, found[0])
+        callback = numba_internals.compiled_callback(
+            _function_of(_FRAME_LOOP), "trial", is_fast=True
+        )
+        entry = callback.address
+    else:
+        found = found[1:]
+        code = machine_code.compile_function(_function_of(_PLAIN_LOOP), "trial", is_fast=True)
+        entry = machine_code.address_of(code, "trial")
+        assert entry is not None
+    call = ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 4)(entry)
+    call(int(first), int(last), int(threads), address(found[-1]))
+    return [one.tolist() for one in found]
+
+
+def main(part: str) -> int:
+    """0 where each block was visited once, else 1."""
+    wanted = [0, *range(2, _BLOCKS), 0]
+    return 0 if all(one == wanted for one in _visits(part)) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
