@@ -52,7 +52,7 @@ def test_no_recoil_where_the_plateau_holds():
     _, solver = solver_of("moving-film", *settings)
     solver.step(2e-10)
     surface = solver.domain.surface
-    assert surface.drives.recoil is None and surface.flux_loss == 0.0
+    assert surface.forcing.recoil is None and surface.flux_loss == 0.0
 
 
 WAVE = (
@@ -106,7 +106,7 @@ def drop_heat(monkeypatch):
 
 def drop_length(monkeypatch):
     """Vapor leaves through the length that is seen from above."""
-    monkeypatch.setattr(MovingSurface, "stretch", lambda surface: None)
+    monkeypatch.setattr(MovingSurface, "length_ratio", lambda surface: None)
 
 
 @pytest.mark.parametrize(

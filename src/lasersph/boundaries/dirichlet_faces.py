@@ -71,10 +71,12 @@ def boundary_coefficients(
         i, j = row[pairs], neighbor[pairs]
         place, weight = filling.position[:, j], weights[pairs]
         if not face.is_wall:
+            # c_ij = n_ij / n_i, and the place where the line from i to j crosses the face
             axis, plane = plane_of(face.name, extents)
             start = filling.position[:, i]
             factor = (place[axis] - start[axis]) / (plane - start[axis])
             place, weight = start + (place - start) / factor, weight * factor
         found[face.name] = BoundaryCoefficients(i, weight, place)
+        # these pairs count by their coefficients alone
         weights[pairs] = 0.0
     return found

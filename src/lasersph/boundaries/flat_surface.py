@@ -149,7 +149,7 @@ class FlatSurface:
             T, gamma = surface_tension_table(material)
             self.table = {"T_nodes": backend.asarray(T), "gamma_nodes": backend.asarray(gamma)}
 
-    def rest(self) -> None:
+    def reset(self) -> None:
         """Nothing outlives the flow below."""
 
     def find(self, position: Array) -> None:
@@ -157,7 +157,7 @@ class FlatSurface:
         out = (self.at_surface, self.near_surface, self.depth)
         self.backend.pointwise(mark_surface, {"x": position}, out, **self._place)
 
-    def stretch(self) -> Array | None:
+    def length_ratio(self) -> Array | None:
         """A plane is seen at its true length."""
         return None
 
@@ -195,8 +195,11 @@ class FlatSurface:
         found = backend.zeros(self.stress.shape[0])
         fields = {"f": neighbors.gather(self.stress), "s": mark}
         terms, finish = extension_terms, extend_from_surface
+        # particles near the surface take the mean stress of those at it
         backend.pair_sum(terms, neighbors.pairs, fields, found, rows=near, finish=finish)
         backend.copy(found, self.stress)
+
+        # where viscosity varies, the pairs across pass on the whole stress with their mean eta
         if neighbors.viscous_weights is not neighbors.weights:
             fields = {"g_ij": neighbors.weights, "w_ij": neighbors.viscous_weights}
             place, finish = {name: self._place[name] for name in ("n", "plane")}, fluidity_across
@@ -209,6 +212,8 @@ class FlatSurface:
                 finish=finish,
                 **place,
             )
+
+        # v beyond the surface, which shows its pairs the stress
         fields = {"tau": self.stress, "depth": self.depth, "fluidity": self._fluidity}
         backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
 
@@ -217,10 +222,10 @@ class FlatSurface:
         (count,) = self.backend.pointwise(mark_of, {"mark": flows}, (None,), reduce=("sum",))
         return count
 
-    def carry(self, now: SurfaceStep) -> None:
+    def advance_first_half(self, now: SurfaceStep) -> None:
         """It stays where it is."""
 
-    def move(self, now: SurfaceStep) -> float:
+    def advance_second_half(self, now: SurfaceStep) -> float:
         """It stays where it is, and keeps its mass."""
         return 0.0
 
@@ -236,7 +241,7 @@ class FlatSurface:
     def restore_arrays(self, arrays: Mapping[str, np.ndarray]) -> None:
         """There is nothing to restore."""
 
-    def trouble(self) -> str:
+    def validity_error(self) -> str:
         """Nothing can be wrong with it."""
         return ""
 
@@ -262,6 +267,7 @@ class FlatSurface:
     ) -> None:
         """Derivative of f along the surface, 0 elsewhere; mark: `at_surface` with ghosts."""
         backend, finish = self.backend, tangential_gradient
+        # corrected gradient from the particles at the surface alone, then its part along it
         backend.fill(self._slope, 0.0)
         fields, n = {"V": neighbors.V, "s": mark, "f": neighbors.gather(f)}, self.normal
         backend.pair_sum(
@@ -272,6 +278,7 @@ class FlatSurface:
 
 def surface_tension_table(material: Material) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Temperatures [K] and surface tension [N/m] up to a constant, from gamma(T) or its slope."""
+    # gamma(T), or the integral of its slope by the trapezoidal rule
     if material.surface_tension_slope is None:
         return material.table("surface_tension", LOWEST, HIGHEST, NODES)
     T, _ = material.table("surface_tension_slope", LOWEST, HIGHEST, NODES)

@@ -43,7 +43,7 @@ WALLS = ("no-slip", "moving-wall")
 
 
 class FlowCondition(Model):
-    """What holds for the flow at one face: a word, or a table with the velocity of the wall."""
+    """Condition for the flow at one face: a word, or a table with the velocity of the wall."""
 
     kind: FlowKind = Field(default="no-slip", description="how the fluid meets the face")
     velocity: Velocity = Field(
@@ -107,6 +107,7 @@ class FlowConditions(Model):
     @model_validator(mode="after")
     def _check_pairs(self) -> FlowConditions:
         problems = []
+        # a period joins two faces, so both say so
         for one, other in face_pairs(2):
             kinds = {side: getattr(self, side).kind for side in (one, other)}
             single = [side for side, kind in kinds.items() if kind == "periodic"]
@@ -119,9 +120,11 @@ class FlowConditions(Model):
                         "kind here",
                     )
                 )
+        # surface tension acts at the top alone
         for side in PLANE[:3]:
             if (kind := getattr(self, side).kind) in FREE:
                 problems.append((side, f'a free surface lies at the top; write surface = "{kind}"'))
+        # heights need a surface that moves
         if self.initial_surface is not None and self.surface.kind != "moving":
             problems.append(
                 (

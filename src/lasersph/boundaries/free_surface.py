@@ -53,6 +53,7 @@ class FreeSurface:
             volume: (N,) [m^dim]. opaque: (N,) 1 for what is condensed or a wall, 0 for what has
                 left.
         """
+        # divergence of the positions (28), and from it marks, normals and areas in one loop
         fields = {"V": volume, "o": opaque}
         out = (self.divergence, self.at_surface, self.normal, self.area)
         self.backend.pair_sum(

@@ -76,9 +76,11 @@ class TabulatedFlow(Model):
         """(2, n) velocity [m/s] at positions (2, n) [m]; the box is not needed."""
         from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 
+        # linear between the places of the table, the nearest one's value outside them
         table = np.array(self.rows)
         places, values = table[:, :2], table[:, 2:]
         nearest = NearestNDInterpolator(places, values)(position.T)
+        # places on one line span no triangles
         if np.linalg.matrix_rank(places - places[0]) < 2:
             return nearest.T.copy()
         linear = LinearNDInterpolator(places, values)(position.T)

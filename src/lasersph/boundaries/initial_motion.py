@@ -59,6 +59,7 @@ class SoundWave(Model):
 
     def displacement(self, z: Array, depth: float, sound_speed: float) -> Array:
         """Displacement along z [m] of particles at heights z of the undisturbed lattice [m]."""
+        # z = z_0 - V/(k c_0) sin(k z_0), from the integral of the strain
         k = self.wave_number(depth)
         return -self.amplitude / (k * sound_speed) * np.sin(k * z)
 

@@ -17,7 +17,7 @@ COLUMNS = ("x_m", "height_m")
 STEEPEST = 1.0
 """Slope up to which the surface is computed. Guard: ghosts across tangents steeper than 45 degrees
 meet."""
-FEWEST_ROWS = 3
+MIN_LAYERS = 3
 """Thickness of the liquid over the spacing, down to which it is. Guard: fewer rows of a box see no
 profile of the flow."""
 BEYOND = 1.0
@@ -55,6 +55,7 @@ class InitialSurface(Model):
     def _check(self) -> InitialSurface:
         is_wave = (self.amplitude is not None, self.period is not None)
         if self.rows and any(is_wave):
+            # a wave has both of its keys or none
             raise refusal(("path", "contradicts the wave beside it; leave it out"))
         if any(is_wave) and not all(is_wave):
             key, example = ("period", "5 um") if is_wave[0] else ("amplitude", "50 nm")
@@ -74,6 +75,7 @@ class InitialSurface(Model):
             return np.interp(x, self.x, [row[1] for row in self.rows])
         if self.amplitude is None or self.period is None:
             return np.zeros(np.shape(x))
+        # the mean of a cosine over a width is the cosine times sinc
         wave = np.cos(2.0 * np.pi * np.asarray(x, float) / self.period)
         return self.amplitude * np.sinc(width / self.period) * wave
 
@@ -92,6 +94,7 @@ class InitialSurface(Model):
     def covers(self, low: float, high: float) -> bool:
         """Whether it has heights from x = low to high [m]; a wave has everywhere."""
         if not self.rows:
+            # columns at the ends of the relief reach half of their width further
             return True
-        room = BEYOND * (self.x[-1] - self.x[0]) / (len(self.rows) - 1)
-        return bool(self.x[0] - room <= low and high <= self.x[-1] + room)
+        margin = BEYOND * (self.x[-1] - self.x[0]) / (len(self.rows) - 1)
+        return bool(self.x[0] - margin <= low and high <= self.x[-1] + margin)

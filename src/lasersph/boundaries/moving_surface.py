@@ -18,8 +18,8 @@ The line goes half of its way through a step with the velocity at its begin, the
 found with particles and line there, and it goes the other half with the velocity at the end: a
 leapfrog, of second order as the particles' own way (71). Curvature and stress are those of the
 middle, with half of the mass gone that leaves in the step. Waves neither grow nor decay by it while
-omega dt < 2 for the fastest of those that the smoothed line shows; half of one is taken.
-Waves shorter than the smoothing length are damped within the time of that wave.
+omega dt < 2 for the fastest that the smoothed line shows; half of one is taken. Waves shorter than
+the smoothing length are damped within the time of that wave.
 """
 
 from __future__ import annotations
@@ -39,40 +39,38 @@ from lasersph.boundaries.surface import (
     upward,
 )
 from lasersph.boundaries.surface_conditions import SurfaceLiquid, find_conditions
-from lasersph.boundaries.surface_drives import Drives
+from lasersph.boundaries.surface_drives import SurfaceForcing
 from lasersph.boundaries.surface_flux import flux_through, volume_flux
 from lasersph.boundaries.surface_line import EVEN, ODD, SurfaceLine
 from lasersph.boundaries.surface_mass import part_due, take_mass
 from lasersph.boundaries.surface_segments import Segment, SurfaceSegments
-from lasersph.boundaries.surface_trouble import trouble_of
+from lasersph.boundaries.surface_trouble import validity_error
 from lasersph.boundaries.surface_waves import fastest_wave, surface_limits
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.particles.neighbor_lists import NeighborList, members_of
 
 HostArray = NDArray[np.float64]
-CLOSEST = 0.2
+MIN_DISTANCE = 0.2
 """Least distance from the surface over the spacing, for pressures, heat and ghosts. Guard: a
 particle that has come out would have its ghost in its own place."""
-GAP = 0.3
+MIN_DEPTH = 0.3
 """Particles stay as far below the surface, over the spacing. Guard: as at faces."""
 THINNEST = 0.5
 """Thickness of melt over the spacing from which its column moves, as a mean of five columns.
 Accuracy: less is no row; with 3 a quarter of the relief of `texture-steel` was lost at 32 nm."""
 END_KINDS = {"pinned": loops.PINNED, "mirror": loops.MIRROR, "periodic": loops.PERIODIC}
 LINE = ("height", "shear", "stretch", "followed")
-"""What of the line survives a step: eta [m], du_t/dn and du_t/ds [1/s], and the evaporated mass per
-area that it has followed [kg/m^2]."""
+"""Arrays of the line that survive a step: eta [m], du_t/dn and du_t/ds [1/s], and the evaporated
+mass per area that it has followed [kg/m^2]."""
 
 
-def shear_rate(
-    tau: HostArray | float, viscosity: HostArray | float, across: HostArray
-) -> HostArray:
+def shear_rate(tau: HostArray | float, viscosity: HostArray, across: HostArray) -> HostArray:
     """du_t/dn [1/s] under a stress tau [Pa], where v changes along the surface by n . dv/ds."""
     return tau / viscosity - across
 
 
-def normal_stress(viscosity: HostArray | float, along: HostArray) -> HostArray:
+def normal_stress(viscosity: HostArray, along: HostArray) -> HostArray:
     """2 mu n . D . n [Pa], from t . dv/ds [1/s]."""
     return -2.0 * viscosity * along
 
@@ -82,8 +80,7 @@ class MovingSurface:
 
     Args:
         count: particles of the whole body. line: columns, at their heights at the start. bottom: z
-            of the wall below [m]. spacing, support: of the particles at the surface [m].
-        has_stress: whether gamma drives the flow.
+            of the wall [m]. spacing, support: of the particles [m]. has_stress: gamma drives it.
 
     Attributes:
         line: the heights. ghosts: what lies beyond.
@@ -100,34 +97,34 @@ class MovingSurface:
         support: float,
         liquid: SurfaceLiquid,
         has_stress: bool,
-        drives: Drives,
+        forcing: SurfaceForcing,
     ) -> None:
         self.backend, self.line, self.bottom, self.spacing = backend, line, bottom, spacing
-        self.liquid, self.has_stress, self.drives = liquid, has_stress, drives
+        self.liquid, self.has_stress, self.forcing = liquid, has_stress, forcing
         self.normal, self.tangent = upward(2), (1.0, 0.0)
         self.normal_velocity = self.heat_flux = 0.0
         self.at_surface, self.near_surface, self.depth = (backend.zeros(count) for _ in range(3))
         self.temperature, self.gradient, self.stress = (backend.zeros(count) for _ in range(3))
         self.ghost_velocity_jump = backend.zeros(count)
         self._distance, self._p_b = backend.zeros(count), backend.zeros(count)
-        vectors = self._n, self._shift, self._jump, self._stress_jump = tuple(
-            backend.zeros((2, count)) for _ in range(4)
-        )
-        self.ghosts = SurfaceGhosts(self._distance, self._p_b, CLOSEST * spacing, *vectors)
+        vectors = tuple(backend.zeros((2, count)) for _ in range(4))
+        self._n, self._shift, self._jump, self._stress_jump = vectors
+        self.ghosts = SurfaceGhosts(self._distance, self._p_b, MIN_DISTANCE * spacing, *vectors)
         self.pressure: PressureCondition | None = None
         self._followed, self._is_overrun = np.zeros(line.count), np.zeros(line.count, bool)
         low, high = (END_KINDS[kind] for kind in line.ends)
         self._grid: Constants = {"start": line.start, "inverse": 1.0 / line.width}
         self._ends = self._grid | {"columns": line.count, "low_end": low, "high_end": high}
         self._nodes = float(line.count + 4)
-        self._marks: Constants = {"near": spacing, "far": support, "closest": CLOSEST * spacing}
+        self._marks: Constants = {"near": spacing, "far": support}
+        self._marks["min_distance"] = MIN_DISTANCE * spacing
         self._columns = {"k": backend.asarray(np.arange(line.count), "index")}
         if has_stress:
             self._gamma_table = surface_tension_table(liquid.material)
         self.flux_loss, self.segments = 0.0, SurfaceSegments(line)
         self._delay, self._lost = 0.0, np.zeros(line.count)
         self._kept: dict[str, HostArray] = {}
-        self.rest()
+        self.reset()
 
     @property
     def arrays(self) -> dict[str, Array]:
@@ -135,13 +132,13 @@ class MovingSurface:
         return {name: self.backend.asarray(values) for name, values in self._on_host().items()}
 
     def _on_host(self) -> dict[str, HostArray]:
-        values = (self.line.height, self._shear, self._stretch, self._followed)
+        values = (self.line.height, self._shear, self._strain_rate, self._followed)
         return {f"surface_{name}": value for name, value in zip(LINE, values, strict=True)}
 
-    def rest(self) -> None:
+    def reset(self) -> None:
         """Forget strain rates, stresses and temperatures along the line."""
         metal, zero = self.liquid.material, np.zeros(self.line.count)
-        self._shear = self._stretch = self._gradient = zero
+        self._shear = self._strain_rate = self._gradient = zero
         self._line_pressure = self._line_temperature = zero
         self._tension = float(metal.surface_tension_at(metal.flow_temperature))
         self._renew()
@@ -149,11 +146,10 @@ class MovingSurface:
     def find(self, position: Array) -> None:
         """Set marks, depths and ghosts of the particles at `position`, shape (2, n) [m]."""
         out = (self.at_surface, self.near_surface, self.depth, self._n, self._distance, self._shift)
-        self.backend.pointwise(
-            loops.surface_geometry, {"x": position}, out, **self._tables, **self._marks
-        )
+        tables: Constants = self._tables | self._marks
+        self.backend.pointwise(loops.surface_geometry, {"x": position}, out, **tables)
 
-    def stretch(self) -> Array:
+    def length_ratio(self) -> Array:
         """(columns,) sqrt(1 + eta_x^2), with the slope at which the particles see the surface."""
         line = self.line
         return self.backend.asarray(np.sqrt(1.0 + line.derivative(line.height) ** 2))
@@ -166,34 +162,36 @@ class MovingSurface:
         """Set what the line gives the particles and their ghosts; see `Surface`."""
         backend, line = self.backend, self.line
         self._set_values(now.position)
-        # velocity and temperature along the line
+        # velocity and temperature along the line, fitted to the particles of five columns
         members = self._members(now.position, now.flows)
-        x, _ = (backend.component(now.position, k) for k in (0, 1))
+        x = backend.component(now.position, 0)
         u, w = (backend.component(now.velocity, k) for k in (0, 1))
         jump_x, jump_z = (backend.component(self._jump, k) for k in (0, 1))
         found = tuple(backend.zeros(line.count) for _ in range(4))
         tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
-        tables |= {"x": x, "T": now.T}
-        tables |= {"depth": self.depth, "u": u, "w": w, "jump_x": jump_x, "jump_z": jump_z}
-        tables |= self._ends | {"spacing": self.spacing}
+        tables |= {"x": x, "T": now.T, "depth": self.depth, "u": u, "w": w}
+        tables |= self._ends | {"spacing": self.spacing, "jump_x": jump_x, "jump_z": jump_z}
         backend.pointwise(loops.surface_velocity, self._columns, found, **tables)
         u_s, w_s, T_s, weight = (backend.to_host(values) for values in found)
+        # columns without melt near the surface, or just reached: what those beside them have
         full = (weight > 0.0) & ~self._is_overrun
-        if full.any() and not full.all():  # columns without melt near the surface, or just reached
+        if full.any() and not full.all():
             u_s, w_s, T_s = (np.interp(line.x, line.x[full], f[full]) for f in (u_s, w_s, T_s))
         self._line_temperature = T_s
-        shape = line.count
-        self._shear, self._stretch, self._gradient = (np.zeros(shape) for _ in range(3))
-        self._line_pressure, largest = np.zeros(shape), 0.0
+        # du_t/dn, du_t/ds and p_b along each part that moves
+        self._shear, self._strain_rate, self._gradient = (np.zeros(line.count) for _ in range(3))
+        self._line_pressure, largest = np.zeros(line.count), 0.0
         self.segments.follow()
         for part in self.segments.parts:
             largest = max(largest, self._set_part(part, now.interval, u_s, w_s, T_s))
         self._tension = largest or self._tension
+        # beside a pool the pressure that holds at its edge
         molten = self.segments.is_molten
-        if molten.any() and not molten.all():  # beside a pool what holds at its edge
+        if molten.any() and not molten.all():
             self._line_pressure = np.interp(line.x, line.x[molten], self._line_pressure[molten])
         self._renew_values()
         self._set_values(now.position)
+        # boundary coefficients of the pressure equation, and the jump that passes on all stress
         relative = self.liquid.relative_viscosity_at(self._line_temperature)
         self.pressure, share = find_conditions(
             backend, line, molten, members, self.ghosts, neighbors, relative
@@ -219,43 +217,43 @@ class MovingSurface:
         (columns, line), liquid = part, self.liquid
         x = self.line.x[columns]
         u, w = line.smooth(u_s[columns], ODD, 0.0), line.smooth(w_s[columns], EVEN, 0.0)
-        # stress: derivatives along s of velocity and surface tension
+        # t . dv/ds and n . dv/ds
         slope = line.slope
         S = np.sqrt(1.0 + slope**2)
         u_x, w_x = line.derivative(u, ODD), line.derivative(w)
         along = (u_x + slope * w_x) / S**2
         across = (-slope * u_x + w_x) / S**2
         T = line.smooth(T_s[columns])
-        if (given := self.drives.temperature) is not None:
+        if (given := self.forcing.temperature) is not None:
             T = np.full(x.size, given.mean)
             T = T if given.wave is None else T + given.wave.mean_over(x, *interval)
+        # tau = d gamma/ds
         tau: HostArray | float = 0.0
         if self.has_stress:
             tau = line.derivative(np.interp(T, *self._gamma_table)) / S
+        # p_b = gamma kappa - 2 mu t . dv/ds + p_e, with recoil in p_e
         tension = liquid.material.surface_tension_at(T)
         viscosity = liquid.viscosity * liquid.relative_viscosity_at(T)
         pressure = tension * line.curvature + normal_stress(viscosity, along)
-        if (wave := self.drives.pressure) is not None:
+        if (wave := self.forcing.pressure) is not None:
             pressure = pressure + wave.mean_over(x, *interval)
-        if self.drives.recoil is not None:
-            pressure = pressure + self.drives.recoil(T)
+        if self.forcing.recoil is not None:
+            pressure = pressure + self.forcing.recoil(T)
         self._line_temperature[columns], self._gradient[columns] = T, line.derivative(T) / S
         self._shear[columns] = shear_rate(tau, viscosity, across)
-        self._stretch[columns], self._line_pressure[columns] = along, pressure
+        self._strain_rate[columns], self._line_pressure[columns] = along, pressure
         return float(np.max(tension))
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
-        """Let what is molten under too thin columns rest; returns how many particles flow.
-
-        Columns over which the melt runs move, however little of it has arrived there.
-        """
+        """Let what is molten under too thin columns rest; returns how many particles flow."""
         backend, line, everywhere = self.backend, self.line, np.ones(self.line.count, bool)
         members = self._members(position, flows)
         found = backend.zeros(line.count)
-        tables = {"row_start": members.row_start, "member": members.neighbor, "V": volume}
-        inverse = self._grid["inverse"]
-        backend.pointwise(loops.thickness_of, self._columns, found, **tables, inverse=inverse)
+        tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
+        tables |= {"V": volume, "inverse": self._grid["inverse"]}
+        backend.pointwise(loops.thickness_of, self._columns, found, **tables)
         thickness = line.mean_of_neighbors(backend.to_host(found), everywhere)
+        # columns over which the melt runs move, however little of it has arrived there
         thick = thickness >= THINNEST * self.spacing
         self._is_overrun = self.segments.overrun(thick) & ~thick
         self.segments.choose(thick | self._is_overrun)
@@ -265,7 +263,7 @@ class MovingSurface:
         (count,) = backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)
         return count
 
-    def carry(self, now: SurfaceStep) -> None:
+    def advance_first_half(self, now: SurfaceStep) -> None:
         """Move the line through the first half of a step, with the velocity at its begin."""
         self._lost = np.zeros(self.line.count)
         due, self._delay = part_due(now.interval[1] - now.interval[0], self._delay)
@@ -275,10 +273,11 @@ class MovingSurface:
         self.flux_loss += float(np.sum(self._lost)) * self.line.width
         self._go_halfway(now)
 
-    def move(self, now: SurfaceStep) -> float:
+    def advance_second_half(self, now: SurfaceStep) -> float:
         """Move the line through the second half of a step, with the velocity at its end, and damp
         short waves; find the particles again, and take from them what has left in the step."""
         self._go_halfway(now)
+        # short waves are damped within the time of the fastest wave that the line shows
         line, moved, step = self.line, self.line.height.copy(), now.interval[1] - now.interval[0]
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
         self.segments.follow()
@@ -288,6 +287,7 @@ class MovingSurface:
         line.height = moved
         self._renew()
         self.find(now.position)
+        # the particles lose what has left through the surface
         if not self._lost.any():
             return 0.0
         density, spacing = self.liquid.particle_density, self.spacing
@@ -310,10 +310,10 @@ class MovingSurface:
         evaporated before, both per area of the surface seen from above."""
         (columns, line), (begin, end) = part, now.interval
         mass = np.zeros(columns.size)
-        if (wave := self.drives.mass_flux) is not None:
+        if (wave := self.forcing.mass_flux) is not None:
             S = np.sqrt(1.0 + line.slope**2)
             mass = (end - begin) * S * wave.mean_over(self.line.x[columns], begin, end)
-        if self.drives.recoil is not None:
+        if self.forcing.recoil is not None:
             gone = self.backend.to_host(self.backend.head(now.evaporated, self.line.count))
             vapor = due * (gone - self._followed)[columns]
             self._followed = self._followed.copy()
@@ -323,12 +323,13 @@ class MovingSurface:
 
     def confine(self, position: Array, flows: Array) -> None:
         """Keep particles that flow below the surface."""
-        fields, gap = {"x": position, "flows": flows}, GAP * self.spacing
-        self.backend.pointwise(loops.below_surface, fields, position, **self._tables, gap=gap)
+        fields = {"x": position, "flows": flows}
+        tables: Constants = self._tables | {"min_depth": MIN_DEPTH * self.spacing}
+        self.backend.pointwise(loops.below_surface, fields, position, **tables)
 
-    def trouble(self) -> str:
+    def validity_error(self) -> str:
         """Slope above 1, or too little liquid below; see `Surface`."""
-        return trouble_of(self.segments, self.bottom, self.spacing)
+        return validity_error(self.segments, self.bottom, self.spacing)
 
     def time_step_limits(self) -> dict[str, float]:
         """Capillary waves, and the viscous stress on the shortest of them [s]."""
@@ -349,8 +350,7 @@ class MovingSurface:
     def restore_arrays(self, arrays: Mapping[str, np.ndarray]) -> None:
         """Continue from the arrays of a checkpoint."""
         found = [np.array(arrays[f"surface_{name}"]) for name in LINE]
-        height, self._shear, self._stretch, self._followed = found
-        self.line.height = height
+        self.line.height, self._shear, self._strain_rate, self._followed = found
         self._renew()
 
     def save(self) -> None:
@@ -370,7 +370,7 @@ class MovingSurface:
         return members_of(self.backend, key, columns)
 
     def _set_values(self, position: Array) -> None:
-        """What the line gives particles and their ghosts."""
+        """Interpolate the values of the line to particles and their ghosts."""
         fields = {"x": position, "n": self._n, "distance": self._distance}
         out = (self._jump, self.ghost_velocity_jump, self._p_b, self.temperature, self.gradient)
         tables = {name: self._tables[name] for name in ("start", "inverse", "nodes")}
@@ -391,7 +391,7 @@ class MovingSurface:
     def _renew_values(self) -> None:
         """Values along the line for loops."""
         odd = {"shear": self._shear, "gradient": self._gradient}
-        even = {"stretch": self._stretch, "p_b": self._line_pressure}
+        even = {"strain_rate": self._strain_rate, "p_b": self._line_pressure}
         even["T_line"] = self._line_temperature
         self._fields = {
             name: self.backend.asarray(self.line.extend(values, parity))

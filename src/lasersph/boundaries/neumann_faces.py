@@ -37,9 +37,12 @@ def face_power(
         row, neighbor: (pairs,) i and j. extents: bounds of the block along each axis [m].
     """
     axis, plane = plane_of(face, extents)
+    # n_j of the dummies beyond the face
     outward = 1.0 if ENDS[face][1] else -1.0
     distance = outward * (filling.position[axis, neighbor] - plane)
     beyond = np.flatnonzero((distance > 0.0) & (weights > 0.0))
+
+    # b_i, scaled to q times the area of the face
     share = np.bincount(row[beyond], weights[beyond] * distance[beyond], minlength=filling.count)
     area = float(np.prod([upper - lower for lower, upper in extents])) / (
         extents[axis][1] - extents[axis][0]

@@ -49,7 +49,7 @@ KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left
 
 
 class SurfaceWave(Model):
-    """What acts on the surface as amplitude cos(2 pi x / period), from `start` to `end`."""
+    """A quantity on the surface with amplitude cos(2 pi x / period), from `start` to `end`."""
 
     amplitude: float = Field(description="at x = 0")
     period: Annotated[Length, Field(gt=0)] = Field(description="wavelength along x")
@@ -81,7 +81,7 @@ class SurfaceWave(Model):
 
 
 class TemperatureWave(SurfaceWave):
-    """What a given temperature of the surface varies by."""
+    """Variation of a given temperature of the surface."""
 
     amplitude: TemperatureDifference = Field(description="at x = 0")
 
@@ -168,12 +168,14 @@ class Boundaries(Model):
         for face, stem in KEYS.items():
             kind = getattr(self, face)
             shown = f'{face} = "{kind}"' if kind else f"{face} is not given"
+            # a temperature without a face that takes it
             if getattr(self, f"{stem}_temperature") is not None and kind not in DIRICHLET:
                 yield (
                     f"{stem}_temperature",
                     f"says nothing where {shown}; leave it out, or set {face} to "
                     '"fixed-temperature" or "wall"',
                 )
+            # a flux without a face that takes it, and such a face without a flux
             given = getattr(self, f"{stem}_flux") is not None
             if given and kind != NEUMANN:
                 yield (
@@ -185,6 +187,7 @@ class Boundaries(Model):
                     f"{stem}_flux",
                     f'is missing; write e.g. {stem}_flux = "1e6 W/m^2", positive into the body',
                 )
+        # the surface has no default: the initial temperature would heat nothing
         if self.surface in DIRICHLET and self.surface_temperature is None:
             yield (
                 "surface_temperature",
@@ -200,6 +203,7 @@ class Boundaries(Model):
 
     def _halves_of_periods(self) -> Iterator[tuple[str, str]]:
         for one, other in ((SURFACE, BOTTOM), (LEFT, RIGHT)):
+            # a period joins two faces, so both say so
             kinds = {face: self.kind_of(face) for face in (one, other)}
             if list(kinds.values()).count("periodic") == 1:
                 face = one if kinds[one] == "periodic" else other
@@ -264,6 +268,7 @@ class Boundaries(Model):
         }
 
     def _given(self, face: str, what: str) -> float | None:
+        # the faces' own key before that of all sides
         own = getattr(self, f"{face}_{what}", None)
         is_lateral = face not in VERTICAL
         return getattr(self, f"side_{what}") if own is None and is_lateral else own

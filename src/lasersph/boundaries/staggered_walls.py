@@ -36,6 +36,7 @@ def wall_particles(
     """
     dimension = len(bounds)
     faces: dict[str, Array] = {}
+    # x last: faces of earlier axes close the corners
     for axis in reversed(range(dimension)):
         for is_upper, face in enumerate(face_pairs(dimension)[axis]):
             if face in walled:
@@ -53,6 +54,7 @@ def _face(
 ) -> Array:
     """All layers of one face. Axes before its own are covered beyond their walls, others within."""
     layers, pairs = [], face_pairs(len(bounds))
+    # lattice of one layer: a place along the normal, places along all other axes
     for layer in range(LAYERS):
         away = (layer + 0.5) * spacing
         lower, upper = bounds[axis]
@@ -62,6 +64,8 @@ def _face(
             beyond = [LAYERS if face in walled and other < axis else 0 for face in pairs[other]]
             repeats = pairs[other][0] in periodic
             coordinates.append(_row(bounds[other], spacing, beyond, layer % 2 == 1, repeats))
+
+        # all combinations, with the axes in their order
         points = np.array(list(product(*coordinates))).T
         ordered = np.empty_like(points)
         ordered[[axis, *others]] = points
@@ -83,5 +87,6 @@ def _row(
     number = np.arange(-beyond[0], count + beyond[1], dtype=np.float64)
     if not is_staggered:
         return lower + (number + 0.5) * width
+    # staggered: in the gaps of the layer beside it, one fewer where that reaches beyond the end
     inner = number if repeats or beyond[0] == 0 else number[1:]
     return lower + inner * width

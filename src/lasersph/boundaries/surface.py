@@ -24,7 +24,7 @@ def upward(dimension: int) -> Vector:
 
 
 class PressureCondition(NamedTuple):
-    """What a surface gives the pressure equation, arrays (n,) or None for none.
+    """Boundary condition of the pressure equation at a surface, arrays (n,) or None for none.
 
     coefficient: cross-section over distance a [m^(d-2)]. value: p_b [Pa]. flux: sum of
     cross-section times dp/dn, n outward [Pa m^(d-2)].
@@ -38,7 +38,7 @@ class PressureCondition(NamedTuple):
 class SurfaceGhosts(NamedTuple):
     """Ghosts across the local tangent of a surface that is no plane, by their sources.
 
-    distance: (n,) from the tangent [m]. pressure: (n,) p_b at the surface [Pa]. closest: least
+    distance: (n,) from the tangent [m]. pressure: (n,) p_b at the surface [Pa]. min_distance: least
     distance that counts [m]. normal: (2, n) of the surface, outward. shift: (2, n) from source to
     ghost [m]. jump: (2, n) velocity of the ghost over its source [m/s]; stress_jump: that with
     which pairs across pass on the whole stress, however they lie.
@@ -46,7 +46,7 @@ class SurfaceGhosts(NamedTuple):
 
     distance: Array
     pressure: Array
-    closest: float
+    min_distance: float
     normal: Array
     shift: Array
     jump: Array
@@ -102,10 +102,12 @@ class Surface(Protocol):
             those beyond a surface that is no plane have; None for a plane.
     """
 
+    # the plane, and what crosses it
     normal: Vector
     tangent: Vector
     normal_velocity: float
     heat_flux: float
+    # fields of the particles, set anew in each step
     at_surface: Array
     near_surface: Array
     depth: Array
@@ -129,11 +131,12 @@ class Surface(Protocol):
         """Condition for the pressure; None for dp/dn = 0."""
         ...
 
-    def carry(self, now: SurfaceStep) -> None:
+    # the step, in the order of its calls
+    def advance_first_half(self, now: SurfaceStep) -> None:
         """Follow the melt through the first half of a step; `now` is from its begin."""
         ...
 
-    def rest(self) -> None:
+    def reset(self) -> None:
         """Forget what the flow below has left at the surface, but for its heights."""
         ...
 
@@ -141,7 +144,7 @@ class Surface(Protocol):
         """Set marks and depths of the particles at `position`, shape (dim, n) [m]."""
         ...
 
-    def stretch(self) -> Array | None:
+    def length_ratio(self) -> Array | None:
         """(columns,) true length of the surface over that seen from above; None for a plane."""
         ...
 
@@ -165,7 +168,7 @@ class Surface(Protocol):
         """
         ...
 
-    def move(self, now: SurfaceStep) -> float:
+    def advance_second_half(self, now: SurfaceStep) -> float:
         """Follow the melt through the second half; `now` is from the end of the step. Mass that
         leaves is taken from its particles; returns the heat that leaves with it [J/m]."""
         ...
@@ -174,7 +177,7 @@ class Surface(Protocol):
         """Keep particles that flow, (n,) 1, below a surface that is not the domain's face."""
         ...
 
-    def trouble(self) -> str:
+    def validity_error(self) -> str:
         """Why the run cannot go on: "what, where; what to change"; empty where it can."""
         ...
 
@@ -182,6 +185,7 @@ class Surface(Protocol):
         """Named limits of the next step [s]."""
         ...
 
+    # retries and checkpoints
     def save(self) -> None:
         """Remember `arrays`, for `go_back`."""
         ...

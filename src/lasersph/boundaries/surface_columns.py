@@ -30,6 +30,7 @@ def column_at_end(x, low, inverse, right, columns):
     """
     place = (x[0] - low) * inverse - 0.5
     column = floor(place)
+    # shares c of a width of one column that begins within another
     beyond = place - column
     number = int(min(max(column + right, 0.0), columns - 1.0))
     return number, (beyond if right > 0.0 else 1.0 - beyond)
@@ -46,16 +47,16 @@ def mean_of_ends(cover, weighted, cover_right, weighted_right):
     return (weighted + weighted_right) / max(whole, 1.0e-300), whole
 
 
-def shared_area(left, cover_left, right, cover_right, covers, stretch, width):
+def shared_area(left, cover_left, right, cover_right, covers, length_ratio, width):
     """Area that a particle stands for [m]: its shares of two columns.
 
     Args:
         left, right: numbers of the columns. covers: table of the sums over their particles.
-            stretch: table of their true lengths over the width.
+            length_ratio: table of their true lengths over the width.
     """
     return width * (
-        cover_left / max(covers[left], 1.0e-300) * stretch[left]
-        + cover_right / max(covers[right], 1.0e-300) * stretch[right]
+        cover_left / max(covers[left], 1.0e-300) * length_ratio[left]
+        + cover_right / max(covers[right], 1.0e-300) * length_ratio[right]
     )
 
 
@@ -85,24 +86,27 @@ class SurfaceColumns:
         self.area = backend.zeros(count)
         self._grid: dict[str, Any] = {"low": low, "inverse": 1.0 / width, "columns": float(columns)}
         self._mean, self._covers = backend.zeros(columns), backend.zeros(columns)
-        self._flat = self._stretch = backend.asarray(np.ones(columns))
+        self._flat = self._length_ratio = backend.asarray(np.ones(columns))
         self._sums = {side: tuple(backend.zeros(columns) for _ in "12") for side in ("", "_right")}
         self._ends: list[tuple[Array, Array, NeighborList]] = []
 
-    def find(self, position: Array, rows: Rows, stretch: Array | None = None) -> None:
+    def find(self, position: Array, rows: Rows, length_ratio: Array | None = None) -> None:
         """Let the particles `rows` at their positions (2, n) [m] share the surface.
 
         Args:
-            stretch: (columns,) its true length over that seen from above; None for a plane.
+            length_ratio: (columns,) its true length over that seen from above; None for a plane.
         """
         backend, size = self.backend, rows.shape[0]
-        self._stretch = self._flat if stretch is None else stretch
+        self._length_ratio = self._flat if length_ratio is None else length_ratio
         backend.scatter(backend.zeros(self.rows.shape[0]), self.rows, self.area)
+        # the particles that were at the surface stand for no area any more
         self.rows = rows
         # loops over columns ask for fields at least as long
         length = max(size, self.count)
         x = backend.zeros((2, size))
         backend.gather(position, rows, x)
+
+        # the column at each end of each particle, and the particles of each column
         self._ends, self._values = [], backend.zeros(length)
         for right in (0.0, 1.0):
             column, cover = backend.zeros(length, "index"), backend.zeros(length)
@@ -110,13 +114,15 @@ class SurfaceColumns:
             out = (backend.head(column, size), backend.head(cover, size))
             backend.pointwise(column_at_end, {"x": x}, out, **self._grid, right=right)
             self._ends.append((column, cover, members_of(backend, column, self.count)))
+
+        # sums of c over the columns, then the area that each particle stands for
         self._average()
         fields = {}
         for (column, cover, _), side in zip(self._ends, ("left", "right"), strict=True):
             fields |= {side: backend.head(column, size)}
             fields |= {f"cover_{side}": backend.head(cover, size)}
         area = backend.zeros(size)
-        tables = {"covers": self._covers, "stretch": self._stretch}
+        tables = {"covers": self._covers, "length_ratio": self._length_ratio}
         backend.pointwise(shared_area, fields, area, **tables, width=self._width)
         backend.scatter(area, rows, self.area)
 
@@ -140,7 +146,7 @@ class SurfaceColumns:
 
     def mean_from_above(self, flux: Array) -> Array:
         """(columns,) mean of a flux (n,) through the surface, per area that is seen from above."""
-        fields = {"a": self.mean(flux), "b": self._stretch}
+        fields = {"a": self.mean(flux), "b": self._length_ratio}
         self.backend.pointwise(product, fields, self._mean)
         return self._mean
 

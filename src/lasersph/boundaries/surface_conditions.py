@@ -1,4 +1,4 @@
-"""What the pairs across a moving surface do: its pressure, and how much of its stress they pass on.
+"""Pairs across a moving surface: the pressure they see, and how much of its stress they pass on.
 
 A pair across the surface sees g_ij (d_i + d_j) of its length, which sums up to the whole where
 particles lie in rows. Rows a fiftieth of a spacing lower see 2 % less, and so much of the stress
@@ -64,12 +64,14 @@ def find_conditions(
             (columns,) of the surface over that at the liquidus.
     """
     count = neighbors.pairs.row_start.shape[0] - 1
+    # boundary coefficient, p_b and length of surface seen, for each particle
     a, p_b, length = (backend.zeros(count) for _ in range(3))
     fields = {"g_ij": neighbors.weights, "across": neighbors.across}
     fields |= {"distance": neighbors.gather(ghosts.distance)}
     fields |= {"p_b": neighbors.gather(ghosts.pressure)}
     terms, finish = loops.given_pressure, loops.given_pressure_of_row
     backend.pair_sum(terms, neighbors.pairs, fields, (a, p_b, length), finish=finish)
+    # where viscosity varies, the length counts as the stress of the pairs does
     if neighbors.viscous_weights is not neighbors.weights:
         fields["g_ij"], unused = neighbors.viscous_weights, backend.zeros((2, count))
         out = (*(backend.component(unused, k) for k in (0, 1)), length)

@@ -1,4 +1,4 @@
-"""What acts on a surface that moves, beside the melt below it."""
+"""Forcing of a surface that moves, beside the melt below it."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from lasersph.boundaries.settings import SurfaceWave
 
 
 @dataclass(frozen=True)
-class Drives:
-    """What a case imposes on the surface, and the push of its vapor.
+class SurfaceForcing:
+    """Temperature, pressure and mass flux that a case imposes on the surface, and vapor's recoil.
 
     Attributes:
         temperature: [K]. pressure: [Pa]. mass_flux: that leaves [kg/(m^2 s)].

@@ -1,4 +1,4 @@
-"""What flows through the sides of the columns below a moving surface."""
+"""Volume that flows through the sides of the columns below a moving surface, per time."""
 
 from __future__ import annotations
 
@@ -24,10 +24,13 @@ def volume_flux(
         bottom: z of the wall below [m]. ends: start, inverse width and number of the columns, kinds
             of the ends.
     """
+    # particles above the wall below, solid ones as well, by column
     key = backend.zeros(now.flows.shape[0], "index")
     grid = {"start": ends["start"], "inverse": ends["inverse"], "columns": float(line.count)}
     backend.pointwise(loops.column_above, {"x": now.position}, key, **grid, bottom=bottom)
     members = members_of(backend, key, line.count)
+
+    # mean velocity around each side, and how thick the solid is there
     x, u = backend.component(now.position, 0), backend.component(now.velocity, 0)
     found = backend.zeros(line.count + 1), backend.zeros(line.count + 1)
     tables = {"row_start": members.row_start, "member": members.neighbor, "V": now.volume}
@@ -35,6 +38,8 @@ def volume_flux(
     places = {"k": backend.asarray(np.arange(line.count + 1), "index")}
     backend.pointwise(loops.mean_velocity, places, found, **tables, **ends)
     mean, solid = (backend.to_host(values) for values in found)
+
+    # the melt stands from the wall, over the solid, to the mean height of both columns
     height = line.extend(line.height)[1:-1]
     return mean * np.maximum(0.5 * (height[1:] + height[:-1]) - bottom - solid, 0.0)
 
@@ -42,6 +47,7 @@ def volume_flux(
 def flux_through(part: SurfaceLine, columns: NDArray[np.int64], flux: HostArray) -> HostArray:
     """Q through the sides of a part of the line, none through ends that are no period [m^2/s]."""
     sides = flux[np.append(columns, columns[-1] + 1)]
+    # an end that is a wall, a plane of symmetry or the edge of a pool lets nothing through
     if part.ends[0] != "periodic":
         sides[[0, -1]] = 0.0
     return sides

@@ -89,6 +89,7 @@ class Smoothing:
         """F of values (count,) with heights (pins,) of the pinned ends."""
         (D, P), (D_T, P_T) = (self.differences, self.pins), self.transposed
         f = np.zeros(values.size)
+        # iterative refinement: each pass solves for the residual of the one before
         for _ in range(1 + REFINEMENTS):
             f = f + self.inverse.solve(values - f - D_T @ (D @ f) - P_T @ (P @ f - pinned))
         return f
@@ -125,9 +126,12 @@ class SurfaceLine:
         from scipy.sparse import csc_matrix, identity, vstack
         from scipy.sparse.linalg import splu
 
+        # D: n-th differences, so scaled that waves of length lambda_c keep half of their height
         order = PINNED_ORDER if "pinned" in self.ends else ORDER
         strength = (self.cutoff / (2.0 * pi * self.width)) ** order
         D = strength * differences(self.count, order, self.ends, parity)
+
+        # P: the cubic through four columns meets each pinned end
         rows = []
         for end, kind in enumerate(self.ends):
             if kind == "pinned" and passes_pins:
@@ -135,6 +139,8 @@ class SurfaceLine:
                 row[:4] = sqrt(PIN_WEIGHT) * AT_END
                 rows.append(row if end == 0 else row[::-1])
         P = csc_matrix(np.array(rows).reshape(len(rows), self.count))
+
+        # the matrix of the normal equations 1 + D^T D + P^T P, factorized once
         both = vstack([D, P]).tocsc()
         return Smoothing(D, P, splu((identity(self.count) + both.T @ both).tocsc()))
 
@@ -192,6 +198,8 @@ class SurfaceLine:
         is small.
         """
         change = self.smoothed - self.height
+
+        # no volume may come or go: the mean change is taken back, none of it at the pins
         change -= self._raised * (np.sum(change) / np.sum(self._raised))
         self.height = self.height + min(share, 1.0) * change
 
@@ -223,11 +231,14 @@ class SurfaceLine:
     def mean_of_neighbors(self, values: Array, counts: NDArray[np.bool_]) -> Array:
         """Binomial mean (count,) of five columns, of those that count; fewer beside a pin."""
         modes: dict[End, Literal["symmetric", "wrap", "constant"]]
+        # the columns beyond the ends count as far as the line goes on there
         modes = {"mirror": "symmetric", "periodic": "wrap", "pinned": "constant"}
         left, right = modes[self.ends[0]], modes[self.ends[1]]
         both = np.stack([values * counts, counts.astype(float)])
         both = np.pad(both, ((0, 0), (2, 0)), mode=left)[:, : self.count + 2]
         both = np.pad(both, ((0, 0), (0, 2)), mode=right)
+
+        # weighted sums of the values and of the weights, and their quotient
         sums = [np.convolve(row, BINOMIAL, mode="valid") for row in both]
         return sums[0] / np.maximum(sums[1], 1.0)
 
@@ -239,6 +250,7 @@ class SurfaceLine:
 def _extrapolate(values: Array) -> Array:
     """The next two values beyond the first of five, on the quartic through them."""
     a, b, c, d, e = values
+    # the fifth difference vanishes on a quartic
     first = 5.0 * a - 10.0 * b + 10.0 * c - 5.0 * d + e
     return np.array([first, 5.0 * first - 10.0 * a + 10.0 * b - 5.0 * c + d])
 
@@ -254,11 +266,14 @@ def differences(count: int, order: int, ends: tuple[End, End], parity: float) ->
     binomial = [(-1) ** j * comb(order, j) for j in range(order + 1)]
     entries: list[tuple[int, int, float]] = []
     row = 0
+    # differences that reach into the line, and lie within it beside a pinned end
     for begin in range(-order, count):
         places = [_place(begin + j, count, ends, parity) for j in range(order + 1)]
         inside = [0 <= begin + j < count for j in range(order + 1)]
         if None in places or not any(inside) or (begin < 0 and ends[0] == "periodic"):
             continue
+
+        # those of a period count once; those across a plane of symmetry are seen from both sides
         share = 1.0 if all(inside) or "periodic" in ends else 0.5**0.5
         for weight, place in zip(binomial, places, strict=True):
             assert place is not None

@@ -1,4 +1,4 @@
-"""What a moving surface computes in loops: from its line to the particles, and back.
+"""Loops of a moving surface: from its line to the particles, and back.
 
 The line is given at nodes in the middle of its columns, two more at either end: tables, with the
 place of the first column `start`, 1/width `inverse` and the number of columns. Places are counted
@@ -14,10 +14,10 @@ from lasersph.compute.vectors import dot, vector
 
 PINNED, MIRROR, PERIODIC = 0.0, 1.0, 2.0
 """Kinds of ends in loops. Format: names as numbers."""
-ROW = 1.5
+TEMPERATURE_DEPTH = 1.5
 """Particles whose temperature is that of the surface lie within as many spacings of it. Geometry:
 two rows; with one a column is empty where particles part."""
-DEEP = 2.5
+VELOCITY_DEPTH = 2.5
 """The same for velocities, which are carried on with their curvature. Geometry: a parabola of the
 depth takes two rows."""
 LEAST_SHARE = 0.05
@@ -72,19 +72,22 @@ def below_line(x, start, inverse, nodes, height, slope):
     return line_height(place, low, 1.0 / inverse, height, slope) - x[1]
 
 
-def surface_geometry(x, start, inverse, nodes, height, slope, near, far, closest):
+def surface_geometry(x, start, inverse, nodes, height, slope, near, far, min_distance):
     """Marks, depth along z, normal, distance from the tangent, and the way to the ghost across it.
 
     Args:
-        near, far: depths that are at and near the surface [m]. closest: least distance [m], for
-            particles that have just come out.
+        near, far: depths that are at and near the surface [m]. min_distance: least distance from
+            it [m], for particles that have just come out.
     """
+    # place among the nodes, and the cubic of the line there
     place = node_place(x[0], start, inverse)
     low = node_before(place, nodes)
     inclination = line_slope(place, low, 1.0 / inverse, height, slope)
     depth = line_height(place, low, 1.0 / inverse, height, slope) - x[1]
+
+    # unit normal, and the distance from the tangent: both turn with the slope
     S = sqrt(1.0 + inclination * inclination)
-    distance = max(depth / S, closest)
+    distance = max(depth / S, min_distance)
     n = vector(-inclination / S, 1.0 / S)
     return (
         (1.0 if depth < near else 0.0),
@@ -96,14 +99,17 @@ def surface_geometry(x, start, inverse, nodes, height, slope, near, far, closest
     )
 
 
-def surface_values(x, n, distance, start, inverse, nodes, shear, stretch, p_b, T_line, gradient):
+def surface_values(
+    x, n, distance, start, inverse, nodes, shear, strain_rate, p_b, T_line, gradient
+):
     """Velocity of a ghost over its source, its tangential part, pressure, temperature, gradient.
 
     2 d (du_t/dn t + du_n/dn n) [m/s] with du_n/dn = -du_t/ds, since nothing is compressed.
     """
+    # du_t/dn and du_n/dn there, then 2 d times their vector sum
     place = node_place(x[0], start, inverse)
     low = node_before(place, nodes)
-    a, b = linear(place, low, shear), linear(place, low, stretch)
+    a, b = linear(place, low, shear), linear(place, low, strain_rate)
     jump = 2.0 * distance * vector(a * n[1] - b * n[0], -a * n[0] - b * n[1])
     return (
         jump,
@@ -162,14 +168,15 @@ def b_spline(distance):
 
 
 def mean_velocity(k, row_start, member, x, u, V, flows, start, inverse, columns, low_end, high_end):
-    """Mean u of what flows around the k-th side of the columns [m/s]; how thick the rest is [m].
+    """Mean u of what flows around the k-th side of the columns [m/s]; how thick the solid is [m].
 
     Args:
         k: 0 for the left end. row_start, member: particles of each column. x, u: [m], [m/s].
         V: volume [m^2]. flows: 1 or 0.
     """
     side = int(k)
-    flow, volume, rest = 0.0, 0.0, 0.0
+    flow, volume, solid = 0.0, 0.0, 0.0
+    # particles of the columns around the side, with images beyond the ends
     for c in range(side - 2, side + 2):
         column = source_column(c, columns, low_end, high_end)
         if column >= 0:
@@ -177,11 +184,12 @@ def mean_velocity(k, row_start, member, x, u, V, flows, start, inverse, columns,
             for p in range(row_start[column], row_start[column + 1]):
                 j = member[p]
                 place = seen_place((x[j] - start) * inverse, c, columns, low_end, high_end)
+                # each with its volume and a B-spline of its distance
                 share = b_spline(abs(place - side)) * V[j]
                 flow += flows[j] * sign * share * u[j]
                 volume += flows[j] * share
-                rest += (1.0 - flows[j]) * share
-    return flow / max(volume, 1.0e-300), rest * inverse
+                solid += (1.0 - flows[j]) * share
+    return flow / max(volume, 1.0e-300), solid * inverse
 
 
 def thickness_of(k, row_start, member, V, inverse):
@@ -237,22 +245,27 @@ def surface_velocity(
     it by half their ghosts' jump, which leaves a parabola of the depth: that is fitted too. 0 and
     the weight 0 where there are no particles.
     """
+    # moments of the place r along the surface and of the squared depth d
     center, middle = int(k), k + 0.5
     s_0, s_1, s_2, s_d, s_1d, s_dd = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     u_0, u_1, u_d, w_0, w_1, w_d = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     n_0, n_1, n_2, T_0, T_1 = 0.0, 0.0, 0.0, 0.0, 0.0
+
+    # particles of five columns, with images beyond the ends
     for c in range(center - 2, center + 3):
         column = source_column(c, columns, low_end, high_end)
         if column >= 0:
             sign = seen_sign(c, columns, low_end, high_end)
             for p in range(row_start[column], row_start[column + 1]):
                 j = member[p]
-                rows = depth[j] / spacing
-                if rows < DEEP:
+                layers = depth[j] / spacing
+                if layers < VELOCITY_DEPTH:
                     place = seen_place((x[j] - start) * inverse, c, columns, low_end, high_end)
-                    r, d = place - middle, rows * rows
+                    # weights fall along the surface and with the depth
+                    r, d = place - middle, layers * layers
                     near = max(1.0 - r * r / (WINDOW * WINDOW), 0.0)
-                    share = max(1.0 - rows / DEEP, LEAST_SHARE) * near * near
+                    share = max(1.0 - layers / VELOCITY_DEPTH, LEAST_SHARE) * near * near
+                    # velocity carried on to the surface by half of the ghost's jump
                     u_j, w_j = sign * (u[j] + 0.5 * jump_x[j]), w[j] + 0.5 * jump_z[j]
                     s_0 += share
                     s_1 += share * r
@@ -266,13 +279,16 @@ def surface_velocity(
                     w_0 += share * w_j
                     w_1 += share * r * w_j
                     w_d += share * d * w_j
-                    if rows < ROW:
-                        share = max(1.0 - rows / ROW, LEAST_SHARE) * near * near
+                    # moments for the temperature, of the uppermost two layers alone
+                    if layers < TEMPERATURE_DEPTH:
+                        share = max(1.0 - layers / TEMPERATURE_DEPTH, LEAST_SHARE) * near * near
                         n_0 += share
                         n_1 += share * r
                         n_2 += share * r * r
                         T_0 += share * T[j]
                         T_1 += share * r * T[j]
+
+    # linear fit of the temperature, the mean where the particles lie on one spot
     T_s, det = T_0 / max(n_0, 1.0e-300), n_0 * n_2 - n_1 * n_1
     if det > 1.0e-9 * n_0 * n_0:
         T_s = (n_2 * T_0 - n_1 * T_1) / det
@@ -291,13 +307,13 @@ def surface_velocity(
     )
 
 
-def below_surface(x, flows, start, inverse, nodes, height, slope, gap):
-    """Place of a particle [m] that flows, at least `gap` below the line."""
+def below_surface(x, flows, start, inverse, nodes, height, slope, min_depth):
+    """Place of a particle [m] that flows, at least `min_depth` below the line."""
     if flows <= 0.0:
         return 1.0 * x
     place = node_place(x[0], start, inverse)
     low = node_before(place, nodes)
-    top = line_height(place, low, 1.0 / inverse, height, slope) - gap
+    top = line_height(place, low, 1.0 / inverse, height, slope) - min_depth
     return vector(x[0], min(x[1], top))
 
 

@@ -39,7 +39,7 @@ CATCH_UP = 0.05
 """How much more a step takes, over its share, of what longer steps before it have evaporated.
 Study: the least that ends a delay; with 0.1 steps of a third of the length change the temperature
 of steel under 1e11 W/m2 by 2.6 K, with 0.05 by 1.2 K."""
-LEAST_ROW = 0.2
+MIN_VOLUME_RATIO = 0.2
 """Part of its volume that a particle keeps in a step in which mass leaves, at least. Guard: mass
 that leaves takes less than a thousandth of a row in a step."""
 
@@ -74,6 +74,7 @@ def recede(
     """
     if column >= columns:
         return 1.0 * x, 1.0 * V, 1.0 * m, 1.0 * h, 1.0 * v, 0.0
+    # volume within reach, volume above the particle, and its upper and lower neighbor
     s, total, above, upper, lower = share[column], 0.0, 0.0, -1, -1
     for p in range(row_start[column], row_start[column + 1]):
         j = member[p]
@@ -90,10 +91,14 @@ def recede(
         source, entering = upper, s * (above - total)
     if source < 0:
         source = int(i)
+
+    # the particle shrinks, and its enthalpy and velocity mix with those that enter, m' h'
     left = (1.0 - s) * V
     mass = m - density * s * V
     enthalpy = h + density * entering / mass * (h_j[source] - h)
     change = vector(u_j[source] - v[0], w_j[source] - v[1])
+
+    # it sinks by what has left below its middle
     place = vector(x[0], x[1] - s * inverse * (total - above - 0.5 * V))
     return place, left, mass, enthalpy, v + entering / left * change, m * h - mass * enthalpy
 
@@ -130,17 +135,20 @@ def take_mass(
         gone: (columns,) since the start [m]. spacing: of the particles [m]. density: [kg/m^3].
     """
     count, inverse = line.count, 1.0 / line.width
-    reach = backend.asarray(np.maximum(loops.ROW * spacing, SHARE * gone))
+    # particles within reach of the surface, by column
+    reach = backend.asarray(np.maximum(loops.TEMPERATURE_DEPTH * spacing, SHARE * gone))
     grid: Constants = {"start": line.start, "inverse": inverse, "columns": float(count)}
     fields = {"x": now.position, "depth": depth, "flows": now.flows}
     column, found = backend.zeros(now.flows.shape[0], "index"), backend.zeros(count)
     backend.pointwise(loops.at_column, fields, column, **grid, reach=reach)
     members = members_of(backend, column, count)
+
+    # the part s of them that is lost, bounded
     places = {"k": backend.asarray(np.arange(count), "index")}
     tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
     backend.pointwise(loops.thickness_of, places, found, **tables, V=now.volume, inverse=inverse)
-    thickness = np.maximum(backend.to_host(found), LEAST_ROW * spacing)
-    share = np.clip(lost / thickness, 1.0 - 1.0 / LEAST_ROW, 1.0 - LEAST_ROW)
+    thickness = np.maximum(backend.to_host(found), MIN_VOLUME_RATIO * spacing)
+    share = np.clip(lost / thickness, 1.0 - 1.0 / MIN_VOLUME_RATIO, 1.0 - MIN_VOLUME_RATIO)
     # what particles have now, as fields and as tables of their neighbors in the column
     old = now.position, now.volume, now.mass, now.enthalpy, now.velocity
     new = tuple(backend.zeros(values.shape) for values in old)
@@ -149,6 +157,8 @@ def take_mass(
     tables |= {"depth": depth, "V_j": now.volume, "h_j": now.enthalpy}
     tables |= {name: backend.component(now.velocity, k) for k, name in enumerate(("u_j", "w_j"))}
     tables |= {"share": backend.asarray(share), "columns": float(count)}
+
+    # m', h' and v' of every particle from the values before, and the heat that leaves in all
     tables |= {"inverse": inverse, "density": density}
     sums = (*(None for _ in new), "sum")
     (heat,) = backend.pointwise(recede, fields, (*new, None), reduce=sums, **tables)

@@ -51,20 +51,25 @@ class SurfaceSegments:
     def choose(self, thick: NDArray[np.bool_]) -> None:
         """Take the runs of columns under which the melt is thick, (count,), where long enough."""
         whole, count = self.whole, self.whole.count
+        # one pool under the whole line
         if thick.all():
             self.is_molten = thick
             self.parts = [Segment(np.arange(count), whole)]
             return
         repeats = whole.ends[0] == "periodic"
         first = int(np.argmin(thick)) if repeats else 0  # of a solid column, to cut a period there
+
+        # runs of thick columns: where the marks rise and where they fall
         marks = np.concatenate([[False], np.roll(thick, -first), [False]]).astype(np.int8)
         begins, ends = np.flatnonzero(np.diff(marks) == 1), np.flatnonzero(np.diff(marks) == -1)
         self.parts, self.is_molten = [], np.zeros(count, bool)
         for begin, end in zip(begins, ends, strict=True):
+            # ends of the domain stay as they are, the others are pinned
             left: End = whole.ends[0] if begin == 0 and not repeats else "pinned"
             right: End = whole.ends[1] if end == count and not repeats else "pinned"
             with_image = 2 if "mirror" in (left, right) else 1
             if with_image * (end - begin) < FEWEST:
+                # too short for a curvature: its heights stay
                 continue
             columns = (np.arange(begin, end) + first) % count
             self.is_molten[columns] = True
@@ -76,6 +81,7 @@ class SurfaceSegments:
         """(count,) columns over which melt advances from the thick ones, (count,), beside them."""
         whole, found = self.whole, np.zeros(self.whole.count, bool)
         for shift, first in ((1, 0), (-1, -1)):  # from the left, from the right
+            # melt higher than half a column over a column that does not move falls onto it
             rise = np.roll(whole.height, shift) - whole.height
             beside = np.roll(thick, shift) & (rise > ADVANCE * whole.width)
             beside[first] &= whole.ends[0] == "periodic"
@@ -87,8 +93,10 @@ class SurfaceSegments:
         whole = self.whole
         for columns, line in self.parts:
             if line is whole:
+                # the whole line is its own segment
                 continue
             line.height = whole.height[columns]
+            # height of the solid beside each end, the line's own pin at an end of the domain
             beside = (columns[0] - 1) % whole.count, (columns[-1] + 1) % whole.count
             pins = (whole.height[beside[0]], whole.height[beside[1]])
             at_ends = columns[0] == 0, columns[-1] == whole.count - 1

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lasersph.boundaries.initial_surface import FEWEST_ROWS, STEEPEST
+from lasersph.boundaries.initial_surface import MIN_LAYERS, STEEPEST
 from lasersph.input import format_quantity
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ STEEPEST_EDGE = 2.0
 below, stands at up to 52 degrees in textures; above 63 it would fall over its own foot."""
 
 
-def trouble_of(segments: SurfaceSegments, bottom: float, spacing: float) -> str:
+def validity_error(segments: SurfaceSegments, bottom: float, spacing: float) -> str:
     """Slope above 1, above 2 at the edge of a pool, or too little liquid above the wall at
     z = `bottom` [m]; empty for none.
 
@@ -28,10 +28,14 @@ def trouble_of(segments: SurfaceSegments, bottom: float, spacing: float) -> str:
     slope, thickness = np.abs(line.slope), line.height - bottom
     thin = int(np.argmin(thickness))
     if slope.max() > STEEPEST:
+        # columns with solid within a smoothing length: the edge of a pool, where steeper melt is
+        # computed
         window = np.ones(2 * round(line.cutoff / line.width) + 1)
         solid_near = np.convolve(~segments.is_molten, window)[window.size // 2 :][: line.count]
         limit = np.where(solid_near > 0.0, STEEPEST_EDGE, STEEPEST)
         steep = int(np.argmax(slope / limit))
+
+        # the steepest place, measured by the limit that holds there
         if slope[steep] > limit[steep]:
             place = f"the slope {slope[steep]:.3g} at x = {format_quantity(line.x[steep], 'm', 3)}"
             what = f"the surface has {place}"
@@ -44,10 +48,12 @@ def trouble_of(segments: SurfaceSegments, bottom: float, spacing: float) -> str:
                 f"{what}; none above {limit[steep]:.0f} is computed there, take a weaker drive or "
                 "an earlier end"
             )
-    if thickness[thin] < FEWEST_ROWS * spacing:
+
+    # the shallowest place
+    if thickness[thin] < MIN_LAYERS * spacing:
         return (
             f"the liquid is {format_quantity(thickness[thin], 'm', 3)} thick at x = "
-            f"{format_quantity(line.x[thin], 'm', 3)}, less than {FEWEST_ROWS} spacings of "
+            f"{format_quantity(line.x[thin], 'm', 3)}, less than {MIN_LAYERS} spacings of "
             "particles; take a finer spacing, a weaker drive or an earlier end"
         )
     return ""

@@ -20,6 +20,7 @@ def fastest_wave(tension: float, density: float, cutoff: float) -> float:
     omega^2 = gamma k^3 F(k)/rho, F = 1/(1 + (k/k_c)^(2n)): largest at (k/k_c)^(2n) = 3/(2n - 3).
     """
     share = 3.0 / (2.0 * ORDER - 3.0)
+    # k of the maximum of omega^2 over all waves
     k = 2.0 * pi / cutoff * share ** (1.0 / (2.0 * ORDER))
     return sqrt(tension * k**3 / (1.0 + share) / density)
 

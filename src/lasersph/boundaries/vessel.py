@@ -11,19 +11,20 @@ from pydantic import Field
 
 from lasersph.input import Length, Model
 
-Room = Annotated[Length, Field(ge=0)]
+Clearance = Annotated[Length, Field(ge=0)]
 
 
 class Vessel(Model):
-    """Free room between the block and the walls around it."""
+    """Clearance between the block and the walls around it."""
 
-    left: Room = Field(default=0.0, description="between the block and the wall at smaller x")
-    right: Room = Field(default=0.0, description="between the block and the wall at larger x")
-    above: Room = Field(default=0.0, description="height of the side walls over the surface")
+    left: Clearance = Field(default=0.0, description="between the block and the wall at smaller x")
+    right: Clearance = Field(default=0.0, description="between the block and the wall at larger x")
+    above: Clearance = Field(default=0.0, description="height of the side walls over the surface")
 
     def box(self, bounds: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
         """Bounds of the vessel [m] around a block of given bounds, x first and z last."""
         *lateral, (bottom, top) = bounds
+        # only x has walls: vessels are two-dimensional
         if lateral:
             lower, upper = lateral[0]
             lateral[0] = (lower - self.left, upper + self.right)

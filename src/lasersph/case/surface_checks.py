@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.boundaries.initial_surface import FEWEST_ROWS, STEEPEST, InitialSurface
+from lasersph.boundaries.initial_surface import MIN_LAYERS, STEEPEST, InitialSurface
 from lasersph.case.solver_choice import computes_flow
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
@@ -73,14 +73,14 @@ def _start(
     """Whether a surface can begin as it is given."""
     key = "solver.flow.initial_surface." + ("path" if start.rows else "amplitude")
     depth = case.domain.depth if case.flow is not None else case.particles.fine_depth
-    if depth is not None and depth - start.extent < FEWEST_ROWS * case.particles.spacing:
+    if depth is not None and depth - start.extent < MIN_LAYERS * case.particles.spacing:
         what, right = "liquid", "a smaller amplitude"
         if case.flow is None:
             what, right = "the finest layers", "a larger particles.fine_depth"
         yield (
             key,
             f"leaves {format_quantity(depth - start.extent, 'm')} of {what}, less than "
-            f"{FEWEST_ROWS} spacings; write {right}",
+            f"{MIN_LAYERS} spacings; write {right}",
         )
     steepest = start.steepest(SLOPE_COLUMNS * case.particles.spacing)
     if steepest > STEEPEST:

@@ -54,6 +54,7 @@ def areal_parameters(z: np.ndarray, dx: float, dy: float) -> ArealParameters:
 def least_squares_plane(z: np.ndarray) -> np.ndarray:
     """The plane through heights (ny, nx) that leaves the least squares, at the same places."""
     ny, nx = z.shape
+    # places scaled to -1 ... 1, so that the three unknowns are of one size
     rows, columns = np.mgrid[-1.0 : 1.0 : ny * 1j, -1.0 : 1.0 : nx * 1j]
     terms = np.stack([np.ones_like(rows), columns, rows], axis=-1)
     known = np.isfinite(z)
@@ -62,10 +63,12 @@ def least_squares_plane(z: np.ndarray) -> np.ndarray:
 
 def developed_area_ratio(z: np.ndarray, dx: float, dy: float) -> float:
     """Sdr: by how much the area of a surface exceeds that of its projection."""
+    # corners of the cells, each cut along both of its diagonals
     a, b, c, d = z[:-1, :-1], z[:-1, 1:], z[1:, 1:], z[1:, :-1]
     areas = []
     for along, up in ((b - a, c - b), (c - d, d - a), (b - a, d - a), (c - d, c - b)):
         # of the triangle with these rises along x and y: half of |(dx, 0, along) x (0, dy, up)|
         areas.append(0.5 * np.sqrt((dx * dy) ** 2 + (along * dy) ** 2 + (up * dx) ** 2))
+    # half of the four triangles: the mean of both cuts
     cell = 0.5 * np.sum(areas, axis=0)
     return float(np.nanmean(cell)) / (dx * dy) - 1.0

@@ -78,6 +78,7 @@ class BoxFlow(Observer):
             for name, words in EDDIES.items()
         ),
     )
+    # centers and eddies of the last measurement go into a checkpoint
     kept = ("edges", "found")
 
     def __init__(self) -> None:
@@ -88,6 +89,7 @@ class BoxFlow(Observer):
 
     def observe(self, view: View) -> Row:
         """Extrema on the center lines [m/s] and of the stream function [m^2/s]."""
+        # the box is that of the first view: particles move, its walls do not
         if not self.edges:
             box = Box.around(view.position, view.width)
             self.edges = [box.left, box.right, box.bottom, box.top]
@@ -97,6 +99,7 @@ class BoxFlow(Observer):
         self._measure()
         center, eddies = self.found["center"], self.found["stream_function"]
         values = (
+            # history: the last measurement until the next one
             *(center[f"{name}_m_s"] for name in CENTER),
             *(eddies[f"{name}_m2_s"] for name in EDDIES),
         )
@@ -122,6 +125,7 @@ class BoxFlow(Observer):
         return {"box": self.found} if self.found else {}
 
     def state(self) -> dict[str, Any]:
+        # a checkpoint must not change when the run measures next
         """State for `restore`; `found` as if the run ended here."""
         ahead = BoxFlow()
         ahead.edges, ahead.unseen, ahead.found = self.edges, self.unseen, self.found
@@ -139,6 +143,7 @@ def lines_of(view: View, box: Box) -> dict[str, Any]:
     shares = np.linspace(0.0, 1.0, LINE)
     lines = center_lines(view.position, flow_of(view).velocity, box, shares)
     center: dict[str, float] = {}
+    # u along the upright line, w along the level one
     for name in CENTER:
         upward = name.startswith("u")
         places, values = (lines.z, lines.u) if upward else (lines.x, lines.w)
@@ -154,6 +159,7 @@ def eddies_of(view: View, box: Box) -> dict[str, float]:
     x, z, psi = stream_function(view.position, flow_of(view).velocity, box, NODES)
     found: dict[str, float] = {}
     for name, k in (("max", int(np.argmax(psi))), ("min", int(np.argmin(psi)))):
+        # row and column of the largest and the smallest node
         row, column = divmod(k, NODES)
         found[f"{name}_m2_s"] = float(psi[row, column])
         found[f"{name}_x_m"], found[f"{name}_z_m"] = float(x[column]), float(z[row])

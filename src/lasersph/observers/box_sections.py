@@ -82,6 +82,7 @@ def center_lines(
         position, velocity: (2, n) [m], [m/s].
         shares: (m,) of the height and of the width, from 0 to 1.
     """
+    # both lines in one call: half the width upright, half the height level
     middle = np.full(shares.size, 0.5)
     x, z = box.across(shares), box.up(shares)
     upward = np.stack([box.across(middle), z])
@@ -104,6 +105,8 @@ def stream_function(
     Returns:
         x (count,), z (count,) [m] and psi (count, count) [m^2/s], rows along z.
     """
+
+    # psi counts from the bottom: trapezoidal rule on a finer grid upward
     x = box.across(np.linspace(0.0, 1.0, count))
     z = box.up(np.linspace(0.0, 1.0, FINER * (count - 1) + 1))
     nodes = np.array([grid.ravel() for grid in np.meshgrid(x, z)])
@@ -121,6 +124,7 @@ def wall_temperature(
     Args:
         position: (2, n) [m]. temperature: (n,) [K]. count: points along the side.
     """
+    # places in the middle of equal parts of the side
     points = box.along(side, (np.arange(count) + 0.5) / count)
     return float(np.mean(interpolate(position, temperature, points, degree=2)))
 
@@ -136,6 +140,7 @@ def extremum(places: np.ndarray, values: np.ndarray, sign: float) -> tuple[float
     k = int(np.argmax(sign * values))
     if not 0 < k < values.size - 1:
         return float(places[k]), float(values[k])
+    # vertex of the parabola through three samples
     before, here, after = (float(values[k + i]) for i in (-1, 0, 1))
     bend = before - 2.0 * here + after
     shift = 0.5 * (before - after) / bend if bend else 0.0

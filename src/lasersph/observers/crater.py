@@ -84,6 +84,7 @@ class Crater(Observer):
             axis: where the beam's axis meets the surface, x and y [m].
             pulse_starts: times at which the pulses begin [s].
         """
+        # a 1-D run has a depth alone; volumes are per area there
         self.names = list(SIZES) if dimension > 1 else list(SIZES)[:3]
         self.unit = unit_in("m^3", dimension)
         end = self.unit.replace("^", "")
@@ -103,14 +104,18 @@ class Crater(Observer):
     def observe(self, view: View) -> Row:
         """Sizes of the crater [m] and volumes at this step."""
         seen = ablation_of(view)
+        # the bottom of the body, which a hole through it reaches
         if self.bottom is None:
             self.bottom = float(np.max(lower_faces(view)))
         self.shape = crater_shape(
             seen.column_center, seen.column_width, seen.column_top, self.axis, self.bottom
         )
+        # depth at the start of each pulse, so that each pulse has its own
         for start in self.pulse_starts[len(self.depth_at_start) :]:
             if view.time >= start:
                 self.depth_at_start.append(self.shape.depth)
+
+        # what has left, and what the vaporized shares at the surface add to it
         self.removed = seen.ejected_mass / seen.density_reference
         exposed = view.surface[seen.stage[view.surface] == CONDENSED]
         share = float(np.sum(view.vapor_fraction[exposed] * view.volume[exposed]))

@@ -21,7 +21,7 @@ RIM = 0.5
 """Depth from which a column belongs to the crater, in columns' widths."""
 UPPER, LOWER = 0.1, 0.9
 """Parts of the largest depth between which the taper is taken."""
-SAME = 1e-6
+DISTANCE_TOLERANCE = 1e-6
 """Distances that differ by less than this part of a column's width are equal."""
 
 
@@ -61,6 +61,7 @@ def crater_shape(
         bottom: depth of the body [m], which stands for columns where nothing is left.
     """
     lateral = center.shape[0]
+    # columns without condensed matter are holes through the body
     depth = np.where(np.isnan(top), bottom, np.maximum(-top, 0.0))
     is_open = depth > RIM * width
     images = mirror_counts(center, width, axis)
@@ -68,6 +69,7 @@ def crater_shape(
     if not np.any(is_open):
         return CraterShape(depth=at_axis, mirror_images=int(np.prod(images)))
     largest = float(np.max(depth))
+    # sizes that any dimension has, the mirrored half included
     shape = {
         "depth": at_axis,
         "depth_mean": float(np.mean(depth[is_open])),
@@ -77,6 +79,7 @@ def crater_shape(
     }
     if lateral == 0:
         return CraterShape(**shape)
+    # width of the row through the axis, in columns that stand there
     row = is_open if lateral == 1 else is_open & in_row(center, width, axis)
     across = width * np.unique(np.round((center[0, row] - center[0, 0]) / width)).size
 
@@ -84,6 +87,7 @@ def crater_shape(
         area = np.count_nonzero(depth > level) * width**lateral * float(np.prod(images))
         return 0.5 * area if lateral == 1 else float(np.sqrt(area / np.pi))
 
+    # radii of the areas that lie deeper than both levels: the taper between them
     fall = radius(UPPER * largest) - radius(LOWER * largest)
     return CraterShape(
         **shape,
@@ -95,16 +99,17 @@ def crater_shape(
 
 def mirror_counts(center: np.ndarray, width: float, axis: np.ndarray) -> np.ndarray:
     """For each lateral axis 2 where the beam's axis lies at an edge of the columns, else 1."""
+    # ends of the columns; without lateral axes there are none
     low = np.min(center, axis=1, initial=np.inf) - 0.5 * width
     high = np.max(center, axis=1, initial=-np.inf) + 0.5 * width
-    near = SAME * width
+    near = DISTANCE_TOLERANCE * width
     return np.where((np.abs(axis - low) < near) | (np.abs(axis - high) < near), 2, 1)
 
 
 def nearest_columns(center: np.ndarray, width: float, axis: np.ndarray) -> np.ndarray:
     """Which columns (m,) lie closest to the axis, all of equal distance."""
     distance = np.sqrt(np.sum((center - axis[:, None]) ** 2, axis=0))
-    return distance <= np.min(distance) + SAME * width
+    return distance <= np.min(distance) + DISTANCE_TOLERANCE * width
 
 
 def in_row(center: np.ndarray, width: float, axis: np.ndarray) -> np.ndarray:

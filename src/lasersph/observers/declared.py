@@ -38,6 +38,7 @@ def declarations(members: Iterable[Observer]) -> list[dict[str, Any]]:
     return [
         {
             "title": one.title or type(one).__name__,
+            # keys and units as the observer declares them
             "note": one.note,
             "quantities": [asdict(quantity) for quantity in one.all_results()],
         }
@@ -53,6 +54,7 @@ def kinds_of(summary: Mapping[str, Any]) -> tuple[AnyObserver, ...]:
 
 def _declared(found: Mapping[str, Any]) -> DeclaredObserver:
     """An observer from its declaration; all that it measured is shown where space is short."""
+    # a later version may know more about a quantity than this one
     known = {one.name for one in fields(Quantity)}
     quantities = []
     for given in found["quantities"]:

@@ -102,6 +102,7 @@ class Ejecta(Observer):
     def observe(self, view: View) -> Row:
         """Totals since the start, and means over all that left so far; 0 before any did."""
         seen = ablation_of(view)
+        # those that left since the last view
         new = seen.ejecta_time > self.seen_until
         if np.any(new):
             self._add(seen, new)
@@ -121,17 +122,20 @@ class Ejecta(Observer):
         """Take the particles that just left into account."""
         velocity = seen.ejecta_velocity[:, new]
         speed = np.sqrt(np.sum(velocity * velocity, axis=0))
+        # cosine of the angle from the vertical
         upward = velocity[-1] / np.maximum(speed, 1e-300)
         self.ranges["speed"].add(speed)
         self.ranges["temperature"].add(seen.ejecta_temperature[new])
         self.ranges["angle"].add(np.degrees(np.arccos(np.clip(upward, -1.0, 1.0))))
         self.vapor_pressure = max(self.vapor_pressure, float(np.max(seen.vapor_pressure)))
+        # first and last time of leaving
         times = seen.ejecta_time[new]
         first = self.times[0] if self.times else float(np.min(times))
         self.times = [first, float(np.max(times))]
 
     def values(self) -> dict[str, object]:
         """Numbers and units, and what the particles had when they left."""
+        # nothing has left: no times, no vapor pressure
         first, last = self.times or (None, None)
         found: dict[str, object] = {
             "ejecta.count": self.counts[0],

@@ -47,7 +47,7 @@ BOOKED = {
     "pauses": "heat taken away in pauses between pulses that are jumped over",
     "newton_residual": "sum of the |residuals| of implicit steps, which joined the enthalpies",
 }
-"""What solvers book since the start; a `View` holds them."""
+"""Terms that solvers book since the start; a `View` holds them."""
 NUMERICAL = ("unassigned", "discarded", "shifting", "ejection_work", "newton_residual")
 """Those of them that numerics or a rule bring in, and no physics."""
 NUMERICAL_ALLOWED = 1e-4
@@ -58,7 +58,7 @@ SUMMED = {
     "latent": "latent heat in it",
     "kinetic": "kinetic energy of the metal, summed from the particles",
 }
-"""What the observer sums from the fields."""
+"""Terms that the observer sums from the fields."""
 TERMS = BOOKED | SUMMED
 IMBALANCE_ALLOWED = 1e-6
 """Relative imbalance up to which a run can be trusted: rounding of some 1e5 steps stays below."""
@@ -106,15 +106,18 @@ class EnergyBudget(Observer):
     def observe(self, view: View) -> Row:
         """The terms since the start, and the relative imbalance."""
         heat, latent, kinetic, ejecta = sum_energies(view)
+        # a run that is resumed counts from its own start, which a checkpoint keeps
         if self.start is None:
             self.start = heat if view.step == 0 else 0.0
         terms = {name: float(view.energy.get(name, 0.0)) for name in BOOKED}
         terms |= {"stored": heat - self.start, "latent": latent, "kinetic": kinetic}
+        # largest energy moved or held so far, over which the imbalance is given
         held = float(np.sum(np.abs(view.mass * view.enthalpy)))
         self.scale = max(self.scale, terms["absorbed"], abs(terms["lost"]), held)
         difference = abs(imbalance(terms)) + abs(terms["removed"] - ejecta)
         relative = difference / self.scale if self.scale > 0.0 else 0.0
         row = self.record(view.time, (*terms.values(), relative))
+        # numerical terms may change sign: their largest size counts
         for name in NUMERICAL:
             self.peak[f"energy_{name}_J"].update(abs(terms[name]), view.time)
         return row
@@ -126,8 +129,11 @@ class EnergyBudget(Observer):
 
 def imbalance(terms: dict[str, float]) -> float:
     """Energy that the metal has beyond what the bookings explain [J], by TERMS."""
+
+    # what came, less what went, is what must be found in the fields
     came = terms["absorbed"] + terms["shifting"] + terms["ejection_work"]
     went = terms["lost"] + terms["removed"] + terms["discarded"] + terms["pauses"]
+    # without light the motion was there from the start, and no heat pays for it
     kinetic = terms["kinetic"] if terms["incident"] > 0.0 else 0.0
     return terms["stored"] + kinetic - (came - went)
 
@@ -138,6 +144,8 @@ def sum_energies(view: View) -> tuple[float, float, float, float]:
     Heat counts from the initial temperature on. Where no particle leaves, what evaporates is known
     from the booking alone, which then stands for the last one.
     """
+
+    # latent heat by both changes of phase
     heat = view.mass * view.enthalpy
     latent = 0.0 * heat
     for latent_heat, fraction in zip(
@@ -145,10 +153,14 @@ def sum_energies(view: View) -> tuple[float, float, float, float]:
     ):
         if latent_heat:
             latent = latent + latent_heat * (view.mass * fraction)
+
+    # matter that stays as it is: all of it is metal
     if view.ablation is None:
         kinetic = 0.0 if view.flow is None else kinetic_energy(view)
         removed = float(view.energy.get("removed", 0.0))
         return float(np.sum(heat)), float(np.sum(latent)), kinetic, removed
+
+    # matter that ablates: condensed, on its way, and gone
     stage, velocity = view.ablation.stage, view.ablation.velocity
     motion = 0.5 * view.mass * np.sum(velocity * velocity, axis=0)
     stays, is_condensed = stage <= LEAVING, stage <= CONDENSED

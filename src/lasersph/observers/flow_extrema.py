@@ -97,6 +97,7 @@ class FlowExtrema(Observer):
         if not self.last_place:
             self.widest = 0.0
         outer, inner = found.get("outer", (0.0, 0.0)), found.get("inner", (0.0, 0.0))
+        # how long each state lasted: steps in which it holds
         both = len(found) == 2
         for name, holds in zip(
             STATES, ("inner" in found, both, both and inner[0] > outer[0]), strict=True
@@ -113,10 +114,12 @@ class FlowExtrema(Observer):
         """
         inside = max(edge, self.last_place.get("inner", 0.0))
         outer = self.last_place.get("outer", 0.0)
+        # halfway between both extrema, once both have been seen
         return 0.5 * (inside + outer) if inside > 0.0 and outer > 0.0 else 0.0
 
     def _by_name(self, extrema: list[Place], line: float) -> dict[str, Place]:
         """At most one extremum on each side of the line, by name."""
+        # largest inner extremum; outer one as the last place tells
         inner = [place for place in extrema if place[1] < line]
         outer = [place for place in extrema if place[1] >= line]
         last = self.last_place.get("outer")
@@ -147,6 +150,7 @@ def zone_edge(view: View) -> float:
     if view.vaporization is None:
         return 0.0
     row = flow_of(view).surface
+    # cells at the boiling point, but for rounding
     boils = view.temperature[row] >= view.vaporization * NEARLY
     if not np.any(boils):
         return 0.0
@@ -163,16 +167,19 @@ def surface_extrema(view: View, margin: float = 0.0, line: float = 0.0) -> list[
     """
     flow = flow_of(view)
     x = view.position[0, flow.surface]
+    # half of the surface at x > 0, closed by zeros at both ends
     chosen = flow.flows[flow.surface] & (x > 0.0)
     if np.count_nonzero(chosen) < 3:
         return []
     speed = np.concatenate([[0.0], np.abs(flow.surface_velocity[chosen]), [0.0]])
     place = np.concatenate([[0.0], x[chosen], [0.0]])
+    # peaks that stand out, and their places by the weight of their tops
     least = PROMINENCE * float(np.max(speed))
     found, rise = local_maxima(speed, least)
     center = centers_of_tops(place, speed, found, least, line)
     edge = float(np.max(place)) - margin * float(view.width[0, flow.surface[0]])
     inside = np.flatnonzero(place[found] <= edge)
+    # the two that stand out most, in order of x
     most = np.sort(inside[np.argsort(-rise[inside], kind="stable")[:2]])
     return [(float(speed[found[k]]), float(center[k])) for k in most]
 
@@ -188,6 +195,7 @@ def centers_of_tops(
         place, speed: (n,) [m], [m/s]; speeds are zero at both ends. peaks: (m,) their numbers.
         line: place [m].
     """
+    # each peak has the part between the valleys at its sides, on one side of the line
     valleys = [a + int(np.argmin(speed[a:b])) for a, b in pairwise(peaks)]
     ends = [0, *valleys, speed.size]
     centers = np.zeros(peaks.size)
@@ -207,6 +215,7 @@ def local_maxima(values: np.ndarray, least: float) -> tuple[np.ndarray, np.ndarr
     """
     from scipy.signal import find_peaks
 
+    # nothing moves
     if float(np.max(values)) <= 0.0:
         return np.zeros(0, dtype=np.int64), np.zeros(0)
     found, properties = find_peaks(values, prominence=max(least, 1e-300))

@@ -81,15 +81,18 @@ class FlowSpeed(Observer):
     def observe(self, view: View) -> Row:
         """Largest speed [m/s], kinetic energy, divergence [1/s], smallest distance [m]."""
         flow = flow_of(view)
+        # largest |v_i|, and the rate 1/s by which it crosses a spacing
         fastest = float(np.sqrt(np.max(np.sum(flow.velocity * flow.velocity, axis=0))))
         count = int(np.count_nonzero(flow.flows))
         largest = fastest / float(np.min(view.width))
         self.span.update(count > 0, view.time)
         self.particles_max = max(self.particles_max, count)
+        # smallest spacing while something flows: a lattice at rest has its own
         if count > 0:
             least = self.spacing_min
             now = float(flow.spacing_min)
             self.spacing_min = now if least is None else min(least, now)
+        # sqrt(2 E / m) over what flows
         energy = kinetic_energy(view)
         mass = flow.density * float(np.sum(np.where(flow.flows, view.volume, 0.0)))
         values = (

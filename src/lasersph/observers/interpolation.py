@@ -41,20 +41,28 @@ def local_fit(
     from scipy.spatial import KDTree
 
     fields = np.atleast_2d(values)
+    # the closest particles of each place, by a tree
     wanted = min(NEIGHBORS[degree], position.shape[1])
     distance, near = KDTree(position.T).query(places.T, k=wanted)
     distance, near = distance.reshape(-1, wanted), near.reshape(-1, wanted)
+
+    # weights that vanish at the farthest one
     radius = MARGIN * np.maximum(distance[:, -1:], 1e-300)
     weight = (1.0 - (distance / radius) ** 2) ** 2
+
+    # monomials of the offset over the radius, so that moments are of one size
     x, z = (position[:, near] - places[:, :, None]) / radius
     basis = [np.ones_like(x), x, z]
     if degree == 2:
         basis += [x * x, x * z, z * z]
     terms = np.stack(basis, axis=-1)
+
+    # normal equations; what the particles do not span is left out by the pseudo-inverse
     weighted = terms * weight[:, :, None]
     moments = np.einsum("mka,mkb->mab", weighted, terms)
     sums = np.einsum("mka,fmk->maf", weighted, fields[:, near])
     found = np.linalg.pinv(moments, rcond=CONDITION, hermitian=True) @ sums
+    # slopes in 1/m again
     slopes = found[:, 1:3] / radius[:, :, None]
     result = np.concatenate([found[:, :1], slopes], axis=1).transpose(1, 2, 0)
     return result if np.ndim(values) == 2 else result[:, 0]

@@ -43,6 +43,7 @@ class MatterMotion(Observer):
     def observe(self, view: View) -> Row:
         """Values of the columns at this step."""
         seen = ablation_of(view)
+        # how far particles reach, by half of their width
         ends = 0.5 * np.max(2.0 * view.position + view.width, axis=1)
         values = (
             0.5 * seen.particle_mass * float(np.sum(seen.velocity * seen.velocity)),

@@ -120,10 +120,12 @@ class MeltPool(Observer):
 
     def observe(self, view: View) -> Row:
         """Sizes of the pool at this step [m]; 0 where nothing is fluid."""
+        # melt fraction that has not left; none at all is most of a run
         fraction = remaining_fraction(view)
         largest = float(np.max(fraction))
         width, area = dict.fromkeys(LEVELS, 0.0), dict.fromkeys(LEVELS, 0.0)
         depth = pool_depths(view, fraction) if largest > 0.0 else dict.fromkeys(LEVELS, 0.0)
+        # levels in turn: seen, how wide, how large
         for level, (least, _) in LEVELS.items():
             exists = largest > 0.0 and largest >= least
             self.span[level].update(exists, view.time)
@@ -138,6 +140,7 @@ class MeltPool(Observer):
 
     def values(self) -> dict[str, object]:
         """Times, None where no such cell was seen; in 1-D there are no widths."""
+        # a 1-D run has no widths
         absent = (one for column in WIDTHS for one in (column.largest, column.largest_at))
         found: dict[str, object] = {one: None for one in absent if self.dimension == 1}
         for level, span in self.span.items():
@@ -171,6 +174,7 @@ def pool_depths(view: View, fraction: np.ndarray) -> dict[str, float]:
     Args:
         fraction: (n,) melt fractions without what has been ejected.
     """
+    # lower faces of the cells, and where each level ends there
     faces = lower_faces(view)
     ends = {level: melt_ends(view, fraction, faces, least) for level, (least, _) in LEVELS.items()}
     half = ends["_half"]
@@ -196,22 +200,29 @@ def melt_ends(
     fluid = is_fluid(fraction, least)
     if not np.any(fluid):
         return None
+    # lowest cell of the level, and the hottest of its row
     deepest = largest_depth(faces, fluid)
     half_cell = 0.5 * float(np.min(view.width[-1]))
     # particles of the lowest row, which flow moves up and down by a part of a cell
     lowest = np.flatnonzero(fluid & (faces >= max(deepest - half_cell, 0.0)))
     if lowest.size == 0:  # all of it on a rim, above the original surface
         return 0.0, 0.0
+
+    # the cell below it in its column, between which the end lies
     upper = int(lowest[np.argmax(view.enthalpy[lowest])])
     lower = cell_below(view, faces, upper, ~fluid)
     if lower is None or view.solidus is None or view.liquidus is None:
         return float(faces[upper]), float(faces[upper])
+    # where f_m falls to 0.5 between them
     share = by_fraction = (fraction[upper] - HALF) / (fraction[upper] - fraction[lower])
     hot, cold = view.temperature[upper], view.temperature[lower]
+
+    # where the temperature passes the level's own, of what is linear between both
     if hot > cold:  # else both are at the melting point, and the fractions alone tell
         passed = view.solidus + least * (view.liquidus - view.solidus)
         share = (hot - passed) / (hot - cold)
     by_temperature = min(max(share, 0.0), 1.0)
+    # places along the line between both cells
     top, step = view.position[-1, upper], view.position[-1, lower] - view.position[-1, upper]
     return float(-(top + by_fraction * step)), float(-(top + by_temperature * step))
 
@@ -219,6 +230,7 @@ def melt_ends(
 def cell_below(view: View, faces: np.ndarray, upper: int, chosen: np.ndarray) -> int | None:
     """The highest of some cells (n,) that lies below a cell in its column; None where none does."""
     is_below = (faces > faces[upper]) & chosen
+    # beside the cell along each lateral axis
     for axis in range(view.dimension - 1):
         side = np.abs(view.position[axis] - view.position[axis, upper])
         is_below = is_below & (side < 0.5 * view.width[axis])
@@ -234,6 +246,7 @@ def pool_width(view: View, least: float) -> float:
         least: melt fraction that a fluid cell has at least; 0: any above 0.
     """
     row = surface_row(view)
+    # the pool around the hottest cell, out to the next solid one at either side
     fluid = is_fluid(view.melt_fraction[row], least)
     seed = int(np.argmax(view.enthalpy[row]))
     if not fluid[seed]:
@@ -243,9 +256,11 @@ def pool_width(view: View, least: float) -> float:
     first = int(solid[after - 1]) + 1 if after > 0 else 0
     last = int(solid[after]) - 1 if after < solid.size else row.size - 1
     edge = cell_edges(view, row)
+    # whole cells, and at f_m = 0.5 the interpolated parts beyond them
     total = float(edge[last + 1] - edge[first])
     if least == HALF:
         total += _beyond_edge(view, row, first, first - 1) + _beyond_edge(view, row, last, last + 1)
+    # both halves of a pool whose mirror is the edge of the domain
     mirrors = (True, True) if view.symmetry_factor == 2 else view.halves_spot
     is_half = (first == 0 and mirrors[0]) or (last == row.size - 1 and mirrors[1])
     return 2.0 * total if is_half else total
@@ -268,6 +283,7 @@ def cell_edges(view: View, row: np.ndarray) -> np.ndarray:
     Half a period begins at x = 0.
     """
     x, half = view.position[0, row], 0.5 * view.width[0, row]
+    # half way between the faces of neighbors, the plane of symmetry at 0
     between = 0.5 * ((x[:-1] + half[:-1]) + (x[1:] - half[1:]))
     first = 0.0 if view.symmetry_factor == 2 else x[0] - half[0]
     return np.concatenate([[first], between, [x[-1] + half[-1]]])
@@ -281,6 +297,7 @@ def _beyond_edge(view: View, row: np.ndarray, last: int, beyond: int) -> float:
     if not 0 <= beyond < row.size:
         return 0.0
     inner, outer = view.melt_fraction[row[last]], view.melt_fraction[row[beyond]]
+    # f_m = 0.5 between the centers of both cells
     distance = abs(view.position[0, row[beyond]] - view.position[0, row[last]])
     return float(((inner - HALF) / (inner - outer) - 0.5) * distance)
 
@@ -289,6 +306,7 @@ def surface_row(view: View) -> np.ndarray:
     """Indices of the surface cells along x through the hottest one, in order of x."""
     cells = view.surface
     if view.dimension == 3:
+        # in 3-D those in a row with the hottest, along x
         hottest = cells[hottest_surface_cell(view)]
         distance = np.abs(view.position[1, cells] - view.position[1, hottest])
         cells = cells[distance < 0.5 * view.width[1, hottest]]

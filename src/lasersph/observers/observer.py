@@ -36,6 +36,7 @@ class Observer(ABC):
     results: tuple[Quantity, ...] = ()
     kept: tuple[str, ...] = ()
 
+    # peaks of the columns that say so, and the last row
     def __init__(self) -> None:
         self.peak = {one.key: Peak() for one in self.columns if one.largest}
         self.last: Row = dict.fromkeys((one.key for one in self.columns), 0.0)
@@ -51,6 +52,8 @@ class Observer(ABC):
 
     def record(self, time: float, values: Sequence[float | int | str]) -> Row:
         """The row of some values, in the order of the columns, which it takes into account."""
+
+        # values in the order of the columns, and what they do to the peaks
         keys = (one.key for one in self.columns)
         self.last = dict(zip(keys, values, strict=True))
         for key, peak in self.peak.items():
@@ -65,6 +68,7 @@ class Observer(ABC):
         """Its part of summary.json."""
         found: dict[str, object] = {}
         for one in self.columns:
+            # a column of which the largest counts, and one of which the end does
             if one.largest:
                 found[one.largest] = self.peak[one.key].value
                 found[one.largest_at] = time_of(self.peak[one.key])
@@ -92,6 +96,7 @@ def nest(flat: Mapping[str, object]) -> dict[str, Any]:
     result: dict[str, Any] = {}
     for key, value in flat.items():
         *sections, name = key.split(".")
+        # walk to the section of each key, made where it is missing
         part = result
         for section in sections:
             part = part.setdefault(section, {})
@@ -110,6 +115,7 @@ def to_plain(value: Any) -> Any:
 
 def rebuild(old: Any, value: Any) -> Any:
     """A plain value with the data classes of the one that it replaces."""
+    # data classes of the state that is replaced
     if is_dataclass(old) and not isinstance(old, type):
         return type(old)(**value)
     if isinstance(old, dict) and isinstance(value, dict):

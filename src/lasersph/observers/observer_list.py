@@ -66,6 +66,7 @@ def numerical_sd(summary: Mapping[str, Any]) -> dict[str, float]:
         By dotted key of the summary. dx is its finest spacing; deeper layers may be coarser.
     """
     found: dict[str, float] = {}
+    # value of each quantity that jumps by cells, where the summary has it
     for key, one in RESULTS.items():
         value: Any = summary
         for name in key.split("."):
@@ -81,6 +82,7 @@ class Observers:
     def __init__(self, members: Sequence[Observer]) -> None:
         """Raises ValueError where two observers fill the same column."""
         self.members = tuple(members)
+        # two observers of one column would overwrite each other
         if len(set(self.columns)) < len(self.columns):
             raise ValueError("two observers fill the same history column")
 
@@ -100,6 +102,7 @@ class Observers:
         """Results of all observers at the end; sections of one name are joined."""
         result: dict[str, Any] = {}
         for member in self.members:
+            # a section that two observers fill is one in the summary
             for name, part in member.summary().items():
                 joined = isinstance(part, dict) and name in result
                 result[name] = {**result[name], **part} if joined else part
@@ -170,6 +173,8 @@ def flow_observers(
     flow: tuple[Observer, ...] = (FlowSpeed(dimension), SurfaceSpeed(), SurfacePressure())
     if topography is not None:
         flow = (*flow, topography)
+
+    # a closed box has no pool and no vapor, but walls and eddies
     if box:
         here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
         return Observers([*here, *flow, BoxFlow(), WallExchange()])
@@ -197,6 +202,8 @@ def ablation_observers(
     """
     heat = heat_observers(dimension, pulses=pulses, probes=probes, iterations=iterations)
     members: list[Observer] = [*heat.members]
+
+    # a beam makes a crater; without light matter moves as a whole
     if axis is not None:
         crater = Crater(dimension, axis=axis, pulse_starts=tuple(pulse_starts))
         members += [crater, Ejecta(dimension)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-SAME = 1e-12
+VALUE_TOLERANCE = 1e-12
 """Relative difference of two values that are the same but for rounding."""
 
 
@@ -22,9 +22,11 @@ class Peak:
 
     def update(self, value: float, time: float) -> None:
         """Take a value at a time into account."""
-        if self.first is None or value > self.value + SAME * abs(self.value):
+        # a new largest value, beyond rounding
+        if self.first is None or value > self.value + VALUE_TOLERANCE * abs(self.value):
             self.value, self.first, self.last = value, time, time
-        elif value >= self.value - SAME * abs(self.value):
+        # the same one still stands, within rounding
+        elif value >= self.value - VALUE_TOLERANCE * abs(self.value):
             self.value, self.last = max(value, self.value), time
 
     @property

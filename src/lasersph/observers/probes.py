@@ -67,6 +67,7 @@ class Probes(Observer):
     def observe(self, view: View) -> Row:
         """Temperature of each probe [K]."""
         values = []
+        # weights of each probe, and the temperature and place that they give
         for k, probe in enumerate(self.probes):
             particles, weights = self._weights(k, probe, view)
             values.append(limited_mean(view.temperature[particles], weights, view.vaporization))
@@ -76,6 +77,7 @@ class Probes(Observer):
     def _weights(self, k: int, probe: Probe, view: View) -> tuple[np.ndarray, np.ndarray]:
         """Particles and weights of a probe, found again only when the particles have moved."""
         found = self._found[k]
+        # particles that do not move keep their weights
         if found is not None:
             particles, weights, place = found
             if np.array_equal(view.position[:, particles], place):
@@ -107,6 +109,7 @@ def mean_place(position: np.ndarray, weights: np.ndarray, method: str) -> list[f
     `even` combines z^2, not z.
     """
     place = position @ weights
+    # a field even in z is linear in z^2, so the depth too is a mean of squares
     if method == "even" and weights.size > 1:
         place[-1] = -np.sqrt(max(float(position[-1] ** 2 @ weights), 0.0))
     return [float(value) for value in place]
@@ -118,6 +121,7 @@ def limited_mean(temperature: np.ndarray, weights: np.ndarray, vaporization: flo
     Beside a plateau at T_v a straight line would overshoot it.
     """
     value = float(weights @ temperature)
+    # no mean of solid and liquid may pass the boiling point of a metal that does not boil there
     if vaporization is not None and float(np.max(temperature)) <= vaporization:
         value = min(value, vaporization)
     return value
@@ -136,20 +140,26 @@ def weights_at(
     Returns:
         Indices (k,) and weights (k,), which add up to 1.
     """
+
+    # the nearest alone where asked for, or where too few particles span a plane
     offset = position - place[:, None]
     square = np.sum(offset * offset, axis=0)
     dimension, count = position.shape
     if method == "nearest" or count <= dimension:
         return np.array([np.argmin(square)]), np.ones(1)
+    # the closest ones, in order of their numbers where they are as close
     wanted = min(SUPPORT[dimension], count)
     particles = np.argpartition(square, wanted - 1)[:wanted]
     particles = particles[np.lexsort((particles, square[particles]))]
+
+    # linear weights, those near the probe most, over the distance of the farthest
     scale = float(np.sqrt(square[particles[-1]]))
     near = offset[:, particles] / scale
     closeness = 1.0 / (np.sum(near * near, axis=0) + 1e-12) ** 2
     linear = np.vstack([np.ones(wanted), near])
     if method == "even":
         linear[-1] = (position[-1, particles] ** 2 - place[-1] ** 2) / scale**2
+    # normal equations of a plane through them, solved by the pseudo-inverse
     moments = (linear * closeness) @ linear.T
     target = np.zeros(dimension + 1)
     target[0] = 1.0

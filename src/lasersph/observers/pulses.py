@@ -52,9 +52,11 @@ class Pulses(Observer):
 
     def observe(self, view: View) -> Row:
         """Nothing goes to the history."""
+        # the pulse that this time belongs to
         pulse = pulse_at(view.time, self.starts)
         fluid = bool(np.max(remaining_fraction(view)) >= FULL)
         self.span["melt"][pulse].update(fluid, view.time)
+        # metal that boils, or lies at its boiling point but for rounding
         if view.vaporization is not None:
             hottest = float(np.max(view.temperature[view.surface]))
             boils = hottest >= view.vaporization * (1.0 - TOLERANCE)

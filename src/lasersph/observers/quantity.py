@@ -46,6 +46,7 @@ class Quantity:
     def __post_init__(self) -> None:
         """Raises ValueError where a key does not say the unit."""
         for key in (self.key, self.largest, self.end):
+            # the last part of a key says the unit, so that a reader of numbers knows it
             if key and suffix(self.unit) + "_" not in key + "_":
                 raise ValueError(f'"{key}" must have "{suffix(self.unit)}" at its end: {self.unit}')
 
@@ -61,9 +62,11 @@ class Quantity:
 
     def results(self) -> Iterator[Quantity]:
         """The keys of summary.json that follow from a column."""
+        # a largest value has its own key, with the time at which it was reached
         if self.largest:
             words, at = f"largest {self.words}", (self.largest_at, *self.at)
             yield replace(self, key=self.largest, words=words, at=at, largest="", end="")
+        # a last value too, named so where both are there
         if self.end:
             words = f"{self.words}, at the end" if self.largest else self.words
             is_main = self.is_main and not self.largest

@@ -26,6 +26,7 @@ class Relief:
 
     def __post_init__(self) -> None:
         """Raises ValueError where the columns are fewer than three, or not equally wide."""
+        # three columns or more, all of one width
         if self.x.size < 3 or self.x.shape != self.height.shape:
             raise ValueError("a relief needs three columns or more, each with its height")
         if np.ptp(np.diff(self.x)) > WHOLE * abs(self.spacing):
@@ -52,11 +53,13 @@ class Relief:
     def _vertex(self, column: int) -> tuple[float, float]:
         """Vertex of the parabola through a column and its neighbors [m]."""
         z, last = self.height, self.x.size - 1
+        # neighbors of the ends: as the kind of the end says
         beyond = {"mirror": (z[0], z[-1]), "periodic": (z[-1], z[0])}.get(self.beyond)
         if beyond is None and column in (0, last):
             return float(self.x[column]), float(z[column])
         left = z[column - 1] if column > 0 else beyond[0] if beyond else z[0]
         right = z[column + 1] if column < last else beyond[1] if beyond else z[-1]
+        # vertex of the parabola through three heights, inside the column
         bend, rise = left - 2.0 * z[column] + right, 0.5 * (right - left)
         share = float(np.clip(-rise / bend, -0.5, 0.5)) if bend else 0.0
         height = z[column] + share * rise + 0.5 * share**2 * bend

@@ -62,6 +62,7 @@ def _energy(summary: Mapping[str, Any]) -> Iterator[str]:
         share = "a ten-thousandth" if "flow" in summary else "a millionth"
         yield f"the energy balance does not close within {share} of the energy moved"
     for name in NUMERICAL:
+        # one numerical term over the energy moved
         share = energy.get(f"{name}_max_J", 0.0) / max(exchanged(energy), 1e-300)
         if share > NUMERICAL_ALLOWED:
             yield f"the {TERMS[name]} is {format_number(100.0 * share, 3)} % of the energy moved"
@@ -69,6 +70,7 @@ def _energy(summary: Mapping[str, Any]) -> Iterator[str]:
 
 def _near_critical(vapor: Mapping[str, Any]) -> Iterator[str]:
     """A surface so hot that the curve of vapor pressure does not hold."""
+    # near the critical point the curve of vapor pressure is an extrapolation
     if vapor.get("near_critical_start_s") is None:
         return
     place = vapor["near_critical_x_m"]
@@ -84,6 +86,7 @@ def _near_critical(vapor: Mapping[str, Any]) -> Iterator[str]:
 def _held_at_boiling(summary: Mapping[str, Any]) -> Iterator[str]:
     """Metal that took up its whole heat of vaporization and stayed; ejecta tell of ablation."""
     depth = summary.get("vaporization", {}).get("depth_max_m")
+    # ejecta tell of this already
     if not depth or "crater" in summary:
         return
     wrong = "the depth of the melt and the relief are" if _moves(summary) else "its depth is"
@@ -110,12 +113,14 @@ def _still_molten(summary: Mapping[str, Any], last: Mapping[str, Any]) -> Iterat
     melt, moves = summary.get("melt"), _moves(summary)
     if melt is None:
         return
+    # a surface that moves needs all of the melt gone, else what was fluid
     is_left = melt["end_any_s"] == summary["time_s"] if moves else melt["molten_at_end"]
     if not is_left:
         return
     depth = last.get("melt_depth_any_m" if moves else "melt_depth_m")
     metal = f"metal down to {format_quantity(depth, 'm')}" if depth else "metal"
     late = "the relief is not final" if moves else "melting ends later than given"
+    # a run that jumps over pauses is not resumed to a later end
     # a run that jumps over pauses is not resumed to a later end
     how = "compute it again" if _jumps(summary) else "go on"
     yield (

@@ -1,4 +1,4 @@
-"""What a snapshot of all particles holds."""
+"""Fields of a snapshot of all particles."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
     above the particles (`surface_temperature`, ...) are 0 for particles that do not lie at it. With
     ablation `stage` tells ejecta from the body, see `AblationView`.
     """
+    # bytes mark the particles at the surface
     count = view.temperature.size
     surface = np.zeros(count, dtype=np.uint8)
     surface[view.surface] = 1
@@ -35,6 +36,7 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
         "width": view.width,
     }
     marks = {"surface": surface}
+    # a flow has fields of its own, at the surface as well
     if view.flow is not None:
         flow = view.flow
         fields["velocity"] = flow.velocity
@@ -50,6 +52,7 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
             fields[name] = np.zeros(count)
             fields[name][flow.surface] = values
         marks["flows"] = flow.flows.astype(np.uint8)
+    # so has matter that ablates
     if view.ablation is not None:
         seen = view.ablation
         fields["velocity"], fields["pressure"] = seen.velocity, seen.pressure
@@ -57,5 +60,6 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
         fields["density"], fields["vapor_pressure"] = seen.density, seen.vapor_pressure
         fields["normal"] = seen.normal
         marks["stage"] = seen.stage.astype(np.uint8)
+    # mass and enthalpy in double precision: budgets are summed from them
     exact = {"mass": np.array(view.mass), "enthalpy": np.array(view.enthalpy)}
     return {**{name: a.astype(np.float32) for name, a in fields.items()}, **exact, **marks}

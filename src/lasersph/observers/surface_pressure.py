@@ -71,6 +71,7 @@ class SurfacePressure(Observer):
         """Largest and smallest pressure of the surface and largest recoil pressure [Pa]."""
         flow = flow_of(view)
         wet = np.flatnonzero(flow.flows[flow.surface])
+        # a surface that is solid has no pressure to show
         if wet.size == 0:
             self.means = []
             return self.record(view.time, (0.0, 0.0, 0.0))
@@ -78,12 +79,15 @@ class SurfacePressure(Observer):
 
     def _measure(self, view: View, flow: FlowView, wet: np.ndarray) -> tuple[float, ...]:
         vapor = flow.recoil_pressure
+        # recoil pressure of the same particles, where vapor leaves
         self.has_vapor = vapor is not None
         recoil = np.zeros(wet.size) if vapor is None else vapor[wet]
         pressure, x = flow.surface_pressure[wet], view.position[0, flow.surface[wet]]
+        # highest and lowest pressure of this step, and where
         high, low = int(np.argmax(pressure)), int(np.argmin(pressure))
         now = [float(pressure[high]), float(pressure[low])]
         span = AVERAGED_STEPS * flow.full_step
+        # running mean, first value as it is
         share = 1.0 - exp(-(view.time - self.seen_at) / span) if self.means and span else 1.0
         old = self.means or now
         self.means = [mean + share * (p - mean) for mean, p in zip(old, now, strict=True)]
@@ -92,6 +96,7 @@ class SurfacePressure(Observer):
         self.largest.update(values[0], view.time)
         self.lowest.update(-values[1], view.time)
         self.recoil.update(values[2], view.time)
+        # where each extreme was, and the recoil there
         for name, peak, k in (("max", self.largest, high), ("min", self.lowest, low)):
             if peak.last == view.time:
                 self.places[name] = [float(x[k]), float(recoil[k])]

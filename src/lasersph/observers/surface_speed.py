@@ -111,6 +111,7 @@ class SurfaceSpeed(Observer):
         flow = flow_of(view)
         is_wet = flow.flows[flow.surface]
         values = (0.0,) * len(self.columns)
+        # the row of particles and the surface over it
         if np.any(is_wet):
             speed = np.where(is_wet, np.abs(flow.surface_velocity), 0.0)
             of_row = float(np.max(np.abs(flow.velocity[0, flow.surface])))
@@ -118,6 +119,7 @@ class SurfaceSpeed(Observer):
             mean = mean_along(view.position[0, flow.surface], speed, is_wet)
             values = (float(np.max(speed)), mean, of_row, *below_the_peak(view, flow, fastest))
         row = self.record(view.time, values)
+        # at the time of the fastest surface: the layer below it and its estimates
         surface = self.peak["flow_surface_speed_max_m_s"]
         if surface.last == view.time and surface.value > 0.0:
             self.at_peak = {key: float(row[column]) for column, key in AT_PEAK.items()}
@@ -134,6 +136,7 @@ class SurfaceSpeed(Observer):
         estimate = self.at_peak["flow.estimate.speed_m_s"]
         surface = self.peak["flow_surface_speed_max_m_s"].value
         found["flow.estimate.time_s"] = found["flow.estimate.surface_speed_over_estimate"] = None
+        # eqs. (79) and (80): speed of the layer, and time to cross half of the width
         if estimate > 0.0:
             found["flow.estimate.time_s"] = 0.5 * self.at_peak["period"] / estimate
             found["flow.estimate.surface_speed_over_estimate"] = surface / estimate
@@ -151,7 +154,9 @@ def mean_along(x: np.ndarray, values: np.ndarray, chosen: np.ndarray) -> float:
     moves the mean as one of many.
     """
     if x.size < 2:
+        # one particle has no length to average over
         return float(np.mean(values[chosen]))
+    # length that each particle stands for, of neighbors along x
     order = np.argsort(x, kind="stable")
     length = np.empty(x.size)
     length[order] = np.gradient(x[order])
@@ -161,10 +166,14 @@ def mean_along(x: np.ndarray, values: np.ndarray, chosen: np.ndarray) -> float:
 def below_the_peak(view: View, flow: FlowView, place: int) -> tuple[float, ...]:
     """The columns from the fastest place on, for surface particle number `place`."""
     x = float(view.position[0, flow.surface[place]])
+
+    # largest speed against the surface's, on its side
     u = float(flow.surface_velocity[place])
     direction = 1.0 if u >= 0.0 else -1.0
     side = view.position[0] * np.sign(x) >= 0.0
     against = np.max(-direction * flow.velocity[0], where=flow.flows & side, initial=0.0)
+
+    # the layer below, its thickness, and the speed one spacing down
     depth, along = velocity_below(view, flow, place)
     thickness = zero_of(depth, direction * along)
     gradient = mean_gradient(view, flow, x)
@@ -185,12 +194,14 @@ def velocity_below(view: View, flow: FlowView, place: int) -> tuple[np.ndarray, 
     """
     step = spacing_at(view, flow)
     x = view.position[0, flow.surface[place]]
+    # a column of particles around the place, as deep as the liquid there
     near = np.flatnonzero(np.abs(view.position[0] - x) < COLUMN_WIDTH * step)
     wet = near[flow.flows[near]]
     over = wet[np.abs(view.position[0, wet] - x) < step]
     bottom = float(-np.min(view.position[-1, over])) + 0.5 * step
     depth = np.arange(0.5, max(bottom / step, 1.0) + 0.5, 0.5) * step
     fine = near[view.position[-1, near] > -bottom - COLUMN_WIDTH * step]
+    # values at each half spacing, the surface itself first
     places = np.stack([np.full(depth.size, x), -depth])
     along = interpolate(view.position[:, fine], flow.velocity[0, fine], places)
     first = float(flow.surface_velocity[place])
@@ -201,6 +212,7 @@ def zero_of(depth: np.ndarray, values: np.ndarray) -> float:
     """Smallest depth at which values (m,) that begin above zero reach it; else the last depth."""
     below = np.flatnonzero(values <= 0.0)
     if below.size == 0 or below[0] == 0:
+        # no change of sign: the whole depth, or none of it
         return float(depth[-1]) if below.size == 0 else 0.0
     k = int(below[0])
     share = values[k - 1] / (values[k - 1] - values[k])

@@ -57,12 +57,15 @@ class SurfaceTemperature(Observer):
     def observe(self, view: View) -> Row:
         """Temperatures at this step [K]."""
         surface = view.temperature[view.surface]
+        # where the light is strongest, at x = 0
         cell = view.surface[cell_at_light_maximum(view)]
         at_maximum = float(view.temperature[cell])
+        # rates of that cell; steps of rounding say nothing
         if self.previous is not None and view.time - self.previous[0] > SHORTEST * view.time:
             rate = (at_maximum - self.previous[1]) / (view.time - self.previous[0])
             self.heating_rate = max(self.heating_rate, rate)
             self.cooling_rate = max(self.cooling_rate, -rate)
+        # what the next step compares with
         self.previous = [view.time, at_maximum]
         self.symmetry = view.symmetry_factor
         self.depth = float(-view.position[-1, cell])

@@ -61,6 +61,7 @@ def first_harmonic(relief: Relief, period: float) -> float:
         raise ValueError(
             f"a width of {relief.width:g} m holds no whole half periods of {period:g} m"
         )
+    # midpoint rule: exact for the harmonics that the columns resolve
     return 2.0 * float(np.mean(relief.height * np.cos(2.0 * np.pi * relief.x / period)))
 
 
@@ -103,6 +104,7 @@ class Topography(Observer):
 
     def __init__(self, period: float | None = None) -> None:
         self.period = period
+        # a pattern has a harmonic, a spot has none
         if period is None:
             self.columns = self.columns[:-1]
         super().__init__()
@@ -115,6 +117,7 @@ class Topography(Observer):
             raise ValueError("the surface of this run does not move")
         (lowest_x, lowest), (rim_x, rim) = relief.lowest(), relief.highest()
         self.places = [lowest_x, rim_x]
+        # one relief for each pulse of a train whose pauses are jumped over
         if view.limit == "pause":  # jumped over after a pulse
             self.after_pulses.append(rim - lowest)
         parameters = profile_parameters(relief)

@@ -55,6 +55,7 @@ class Life:
 
     def update(self, view: View, seen: AblationView) -> None:
         """Look at the particle once more; one that the view leaves out has stayed as it was."""
+        # a list of particles in flight may leave this one out
         k = self.particle
         if k >= view.temperature.size:
             return
@@ -62,17 +63,22 @@ class Life:
         self.speed = float(np.linalg.norm(seen.velocity[:, k]))
         self.height = float(view.position[-1, k])
         self.stage = int(seen.stage[k])
+        # largest temperature, and the first melt of the particle
         self.temperature_max = max(self.temperature_max, self.temperature_end)
         if self.melted_at is None and view.melt_fraction[k] > 0.0:
             self.melted_at = view.time
+
+        # first at the boiling point, or on its way from the surface
         boils = view.vaporization is not None and self.temperature_end >= view.vaporization * (
             1.0 - AT_BOILING
         )
         if self.boiled_at is None and (boils or self.stage != CONDENSED):
             self.boiled_at = view.time
+        # first of the velocity of the vapor
         if self.moved_at is None and self.stage != CONDENSED:
             self.moved_at, self.speed_moved = view.time, self.speed
             self.step_moved = view.time_step
+        # leaves what is condensed
         if self.left_at is None and self.stage >= EJECTED:
             self.left_at, self.temperature_left = view.time, self.temperature_end
             self.speed_left = self.speed
@@ -83,6 +89,8 @@ class Life:
         """Mean acceleration in region III [m/s^2]; None before the particle has left."""
         if self.left_at is None or self.moved_at is None or self.speed_left is None:
             return None
+
+        # mean over region III; over one step where it began and ended in the same one
         lasted = self.left_at - self.moved_at
         if lasted > 0.0:
             return (self.speed_left - self.speed_moved) / lasted
@@ -124,6 +132,7 @@ class Traces(Observer):
     def __init__(self, traces: tuple[Trace, ...]) -> None:
         """Raises ValueError where two traces have the same name."""
         self.traces = traces
+        # names make keys of history and summary
         if len({trace.name for trace in traces}) < len(traces):
             raise ValueError("two traces have the same name")
         self.columns = tuple(one.of(t.name) for t in traces for one in type(self).columns)

@@ -83,13 +83,16 @@ class Vaporization(Observer):
 
     def observe(self, view: View) -> Row:
         """Largest vapor fraction, depth of its occurrence and evaporated thickness [m]."""
+        # shares of the heat of vaporization, of which most runs have none
         fraction = view.vapor_fraction
         largest = float(np.max(fraction))
         faces = lower_faces(view) if largest > 0.0 else np.zeros(0)
+        # times at the boiling point, but for rounding
         if view.vaporization is not None:
             surface = float(np.max(view.temperature[view.surface]))
             self.span.update(surface >= view.vaporization * (1.0 - TOLERANCE), view.time)
             self._look_near_critical(view, surface)
+        # evaporated thickness of each column, where the run evaporates
         evaporated = np.zeros(1) if view.evaporated is None else view.evaporated
         values = (
             largest,
@@ -117,6 +120,7 @@ class Vaporization(Observer):
         self.critical = view.critical
         if view.critical is None:
             return
+        # the hottest place is kept as long as nothing hotter comes
         is_near = surface > NEAR_CRITICAL * view.critical
         self.near.update(is_near, view.time)
         if is_near and surface > self.hottest:

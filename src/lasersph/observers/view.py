@@ -44,6 +44,7 @@ class View:
         ablation: crater and ejecta; None in a run without ablation.
     """
 
+    # the step, and the particles after it
     time: float
     step: int
     time_step: float
@@ -56,16 +57,19 @@ class View:
     melt_fraction: np.ndarray
     vapor_fraction: np.ndarray
     surface: np.ndarray
+    # of the whole run
     symmetry_factor: int = 1
     halves_spot: tuple[bool, bool] = (False, False)
     energy: dict[str, float] = field(default_factory=dict)
     latent_heats: tuple[float, float] = (0.0, 0.0)
     iterations: dict[str, int] = field(default_factory=dict)
     limit: str = ""
+    # of the metal
     solidus: float | None = None
     liquidus: float | None = None
     vaporization: float | None = None
     critical: float | None = None
+    # parts that only some runs have
     evaporated: np.ndarray | None = None
     relief: Relief | None = None
     flow: FlowView | None = None
@@ -74,6 +78,7 @@ class View:
     def __getattr__(self, name: str) -> NoReturn:
         """Say where a quantity is that belongs to one of the parts. Raises AttributeError."""
         parts = {"flow": FlowView, "relief": Relief, "ablation": AblationView}
+        # a quantity of a part is told as such, with the view that has it
         found = [f"view.{part}.{name}" for part, kind in parts.items() if name in names_of(kind)]
         if found:
             text = f"it is {' or '.join(found)}, where the run has that"

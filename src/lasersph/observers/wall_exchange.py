@@ -1,4 +1,4 @@
-"""What the walls of a closed box exchange with its liquid, as the steps book it.
+"""Heat and force that the walls of a closed box exchange with its liquid, as the steps book them.
 
 With the heat Q that has entered through a side since the start, its area A per length, and the
 distance L and the temperatures of the two opposite sides that drive the flow,
@@ -101,13 +101,17 @@ class WallExchange(Observer):
     def observe(self, view: View) -> Row:
         """Heat [J], Nusselt numbers and forces [N/m] of the step; 0 where there are none."""
         flow, before = flow_of(view), self.sums
+        # sides are extrapolated from particles, which takes longer than a step
         if view.step % EVERY == 0:
             self._look_at_sides(view)
         mean = self._averaged(view)
+
+        # sums since the start; their differences are means over any span of time
         self.sums = {"time": view.time, MEAN: before[MEAN] + view.time_step * mean}
         self.sums |= {f"heat_{side}": flow.wall_heat.get(side, 0.0) for side in PLANE}
         self.sums |= {f"drag_{side}": flow.wall_impulse.get(side, 0.0) for side in PLANE}
         self.sums |= {f"pressing_{side}": flow.wall_pressing.get(side, 0.0) for side in PLANE}
+        # marks of the sums, for the mean over the last quarter
         if view.step % EVERY == 0:
             self.marks.append(self.sums)
         rate = rates(before, self.sums)
@@ -122,6 +126,7 @@ class WallExchange(Observer):
 
     def values(self) -> dict[str, object]:
         """Means over the last quarter of the time."""
+        # latest mark before the last quarter
         start = max(
             (one for one in self.marks if one["time"] <= (1.0 - LAST) * self.sums["time"]),
             key=lambda one: one["time"],
@@ -131,6 +136,7 @@ class WallExchange(Observer):
         found: dict[str, object] = {"box.walls.from_s": start["time"]}
         for force in (f"{force}_{side}" for force in FORCES for side in PLANE):
             found[f"box.walls.{force}_N_m"] = rate[force]
+        # temperatures and fluxes of the sides, Nusselt numbers of those that drive the flow
         for side, temperature in self.temperature.items():
             found[f"box.heat.temperature_{side}_K"] = temperature
             found[f"box.heat.flux_{side}_W_m2"] = rate[f"heat_{side}"] / self._area(side)
@@ -147,24 +153,31 @@ class WallExchange(Observer):
         """Size of the box, temperatures of its sides, and which two of them drive the flow."""
         flow = flow_of(view)
         self.conductivity = flow.conductivity
+        # bounds once: walls stay where they are
         if not any(self.size):
             box = Box.around(view.position, view.width)
             self.size = [box.left, box.right, box.bottom, box.top]
         box = Box(*self.size)
+        # one temperature everywhere: no side drives a flow
         known = np.append(view.temperature, list(flow.wall_temperature.values()))
         if float(np.ptp(known)) <= SMALLEST_DIFFERENCE * float(np.max(known)):
             self.temperature, self.between = {}, []
             return
+
+        # given temperatures, else those that particles have at the side
         self.temperature = {
             side: flow.wall_temperature[side]
             if side in flow.wall_temperature
             else wall_temperature(view.position, view.temperature, box, side, NODES)
             for side in PLANE
         }
+
+        # pairs of sides of given temperatures first, else pairs that let heat through
         given, crossed = (
             [pair for pair in face_pairs(2) if all(side in sides for side in pair)]
             for sides in (flow.wall_temperature, flow.conducting_sides)
         )
+        # the pair that differs most drives the flow
         differences = {pair: self._difference(*pair) for pair in given or crossed}
         self.between = list(max(differences, key=lambda one: differences[one], default=()))
 
@@ -178,6 +191,7 @@ class WallExchange(Observer):
         if not self.between:
             return 0.0
         box = Box(*self.size)
+        # k dT/L between the sides that drive the flow, across the box between them
         length = box.width if tuple(self.between) == LATERAL[0] else box.height
         return self.conductivity * self._difference(*self.between) / length
 
@@ -192,6 +206,8 @@ class WallExchange(Observer):
         flow, conduction = flow_of(view), self._conduction()
         if conduction == 0.0:
             return 0.0
+
+        # 1 + <u T>, of enthalpies so that melting counts
         axis = 0 if tuple(self.between) == LATERAL[0] else 1
         lower, upper = (self.temperature[side] for side in self.between)
         weight = view.volume / np.sum(view.volume)

@@ -18,6 +18,7 @@ def place_along(x, low, inverse, count, wraps):
         x: coordinate [m]. low: of the box [m]. inverse: 1 / width of a cell [1/m].
     """
     u = (x - low) * inverse
+    # a place in a period, counted from its lower end
     return u - count * floor(u / count) if wraps > 0 else u
 
 
@@ -29,6 +30,7 @@ def cell_along(u, count):
 def cell_number(x, low, inverse, shape):
     """Number of the cell at x [m], with the last axis fastest."""
     number = cell_along((x[0] - low[0]) * inverse[0], int(shape[0]))
+    # the last axis runs fastest
     if len(x) > 1:
         number = number * int(shape[1])
         number = number + cell_along((x[1] - low[1]) * inverse[1], int(shape[1]))
@@ -66,6 +68,7 @@ class CellGrid:
         Args:
             low: lower corner of the box [m]. extent: along each axis [m].
         """
+        # at least as wide as asked for, so rounded down
         shape = np.maximum(1, np.floor(extent / width))
         return cls(low, shape, shape / np.maximum(extent, width))
 

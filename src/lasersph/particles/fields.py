@@ -34,6 +34,7 @@ def _table(*fields: Field) -> dict[str, Field]:
     return {field.name: field for field in fields}
 
 
+# what every solver has
 GEOMETRY = _table(
     Field("position", "x", "m", "place of the center", "vector", is_kept=True),
     Field("width", "w", "m", "edges of the cell", "vector"),
@@ -44,6 +45,7 @@ GEOMETRY = _table(
     Field("normal", "normal", "1", "outward normal of the surface", "vector"),
     Field("surface", "surface", "1", "1 at the surface", storage="flag"),
 )
+# heat and change of phase; the enthalpies of two steps extrapolate the start of an iteration
 HEAT = _table(
     Field("enthalpy", "h", "J/kg", "specific enthalpy", is_kept=True),
     Field("temperature", "T", "K", "temperature"),
@@ -76,6 +78,7 @@ HEAT = _table(
     ),
     Field("absorbed_light", "E", "J", "light absorbed in the step"),
 )
+# flow of a liquid
 FLOW = _table(
     Field("velocity", "v", "m/s", "velocity", "vector", is_kept=True),
     Field("speed", "speed", "m/s", "size of the velocity"),
@@ -101,6 +104,7 @@ FLOW = _table(
     Field("surface_velocity", "v_s", "m/s", "velocity of the surface over it"),
     Field("lid_pressure", "p_s", "Pa", "pressure under the flat surface over it"),
 )
+# matter that moves, tears and leaves
 ABLATION = _table(
     Field("density", "rho", "kg/m^3", "density", is_kept=True),
     Field("acting_volume", "V_a", "m^d", "volume that acts on neighbors"),

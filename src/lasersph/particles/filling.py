@@ -76,17 +76,20 @@ def fill(
     kinds[SURFACE] = surface
     total = layers.thickness.size
     starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
+    # layers of the extended lattice, from the uppermost dummies down to the lowest
     first = 0 if surface == FREE else -min(GHOSTS, total)
     last = total if bottom == FREE else total + min(GHOSTS, total)
     real, dummies = [], []
     for number in range(first, last):
         inside = _inside(number, total, is_periodic=surface == PERIODIC)
+        # face that gives the temperature of these dummies
         face = 0
         if number < 0 and surface == DIRICHLET:
             face = FACES.index(SURFACE)
         if number >= total and bottom == DIRICHLET:
             face = FACES.index(BOTTOM)
         block = _layer(layers, number, inside, int(starts[inside]), face, kinds)
+        # real particles come first, so cells are sorted after
         is_real = np.logical_and(block["real"], 0 <= number < total)
         real.append({key: value[..., is_real] for key, value in block.items()})
         dummies.append({key: value[..., ~is_real] for key, value in block.items()})
@@ -110,8 +113,10 @@ def fill(
 
 def _inside(number: int, total: int, *, is_periodic: bool) -> int:
     """The layer of the block that layer `number` of the extended lattice repeats or mirrors."""
+    # the pattern repeats
     if is_periodic:
         return number % total
+    # mirrored at the surface, at the bottom
     if number < 0:
         return -1 - number
     return number if number < total else 2 * total - 1 - number
@@ -136,6 +141,7 @@ def _layer(
     is_uniform = np.ptp(layers.thickness) <= 1e-9 * layers.thickness[0]
     beyond = GHOSTS if is_uniform else GRADED_GHOSTS
     axes, sources, reals, widths, holders = [], [], [], [], []
+    # along each axis: places, widths, real or not, source, and the face that gives the temperature
     for axis, (lower, _upper) in enumerate(layers.bounds):
         low, high = LATERAL[axis]
         columns = int(layers.columns[axis, inside])
@@ -153,6 +159,8 @@ def _layer(
             holder[index >= columns] = FACES.index(high)
         holders.append(holder)
         widths.append(width)
+
+    # all combinations of x (and y) in this layer
     shape = tuple(axis.size for axis in axes)
     position = np.empty((layers.dimension, int(np.prod(shape))))
     is_real = np.ones(shape, bool)
@@ -163,6 +171,7 @@ def _layer(
         view[axis] = -1
         position[axis] = np.broadcast_to(values.reshape(view), shape).ravel()
         is_real &= reals[axis].reshape(view)
+        # a dummy in a corner belongs to the face of the layer, then to that of x, then of y
         dirichlet = np.where(dirichlet == 0, holders[axis].reshape(view), dirichlet)
         source = source * int(layers.columns[axis, inside]) + sources[axis].reshape(view)
     position[-1] = z
@@ -191,6 +200,7 @@ def _above(layers: Layers, lateral: Array) -> NDArray[np.int64]:
     for axis, (lower, _upper) in enumerate(layers.bounds):
         columns = int(layers.columns[axis, 0])
         width = float(layers.column_width()[axis, 0])
+        # number of the cell of the first layer, the last axis fastest
         place = np.clip(np.floor((lateral[axis] - lower) / width), 0, columns - 1)
         found = found * columns + place.astype(np.int64)
     return found

@@ -30,9 +30,9 @@ SLANTED = 2.5
 """Search radii beside a lateral face within which ghosts across a tangent are mirrored: one, and
 the way across twice one, 2 sin 45 degrees."""
 SPARE = 8
-"""Part of the ghosts for which there is room beside them."""
+"""Part of the ghosts for which there is capacity beside them."""
 BOTH = 3
-"""What `near_faces` says of a particle close to both faces of an axis, LOWER + UPPER."""
+"""Mark of a particle close to both faces of an axis in `near_faces`, LOWER + UPPER."""
 
 
 @dataclass(frozen=True)
@@ -52,10 +52,13 @@ class FacePair:
         kind, plane = (
             (self.lower_kind, self.lower) if face == LOWER else (self.upper_kind, self.upper)
         )
+        # no ghosts: no source is ever near
         if kind == OPEN:
             return 1.0, 0.0, np.inf
+        # shifted by the surface itself
         if kind == TANGENT:
             return 1.0, 0.0, plane
+        # mirrored about the plane
         if kind == MIRROR:
             return -1.0, 2.0 * plane, plane
         # the ghost beyond one face of a period belongs to a particle near the other
@@ -86,10 +89,12 @@ class GhostTypes:
 
 def ghost_types_of(faces: tuple[FacePair, FacePair]) -> GhostTypes:
     """Types of the faces along x and z; those of x come first."""
+    # rule by face: sign, offset and place of the sources; face 0 is the particle itself
     rules = [{0: (1.0, 0.0, np.inf)} for _ in faces]
     for rule, pair in zip(rules, faces, strict=True):
         for face in (LOWER, UPPER):
             rule[face] = pair.beyond(face)
+    # types are all combinations of a face of x and one of z, none included
     is_there = [
         [f for f, (_, _, near) in rule.items() if f == 0 or near < np.inf] for rule in rules
     ]
@@ -104,6 +109,7 @@ def ghost_types_of(faces: tuple[FacePair, FacePair]) -> GhostTypes:
 
 def near_faces(x, search_radius, low_0, high_0, low_1, high_1):
     """Faces of x and of z that a particle is near: 0, LOWER, UPPER or BOTH; 1 where near any."""
+    # LOWER and UPPER add up to BOTH
     across, along = 0.0, 0.0
     if abs(x[0] - low_0) < search_radius:
         across += 1.0
@@ -123,6 +129,7 @@ def near_surface(x, distance, radius, search_radius, low_0, high_0, low_1, high_
     tangent far from it, in the melt of a valley. Ghosts across an inclined tangent are seen beyond
     a lateral face though their source is not within the radius of it.
     """
+    # ghosts across a tangent may lie beyond a side though their source is further from it
     wide, _lowest, _is_wide = near_faces(x, SLANTED * search_radius, low_0, high_0, low_1, low_1)
     narrow, below, _is_near = near_faces(x, search_radius, low_0, high_0, low_1, low_1)
     along = 2.0 if distance < radius else 0.0
@@ -139,6 +146,7 @@ def makes_ghost(near, face):
 
 def is_ghost(k, near, across, along, crossed_x, crossed_z, size):
     """1 where the k-th pair of type and particle near a face makes a ghost, type after type."""
+    # pairs are ordered type after type
     place = near[k % size]
     ghost_type = k // size + 1
     if makes_ghost(across[place], crossed_x[ghost_type]) and makes_ghost(
@@ -150,10 +158,12 @@ def is_ghost(k, near, across, along, crossed_x, crossed_z, size):
 
 def origin(k, count, total, size, near, found):
     """Source and type of particle k among all `count` with their ghosts, 0 beyond these."""
+    # a particle stands for itself
     if k < count:
         return k, 0 * k
     if k >= total:
         return 0 * k, 0 * k
+    # a ghost for its source
     pair = found[k - count]
     return near[pair % size], pair // size + 1
 
@@ -217,9 +227,10 @@ class GhostParticles:
         # source and type of each particle and each ghost
         ghosts = found.shape[0]
         total = self.total = count + ghosts
+        # arrays grow in steps, so that loops keep theirs
         if self.source.shape[0] < total:
-            room = total + ghosts // SPARE
-            self.source, self.ghost_type = (backend.zeros(room, "index") for _ in range(2))
+            capacity = total + ghosts // SPARE
+            self.source, self.ghost_type = (backend.zeros(capacity, "index") for _ in range(2))
         fields = {"k": self._numbers_below(self.source.shape[0])}
         out, tables = (self.source, self.ghost_type), {"near": near, "found": found}
         sizes = {"count": count, "total": total, "size": max(size, 1)}

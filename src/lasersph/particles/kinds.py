@@ -11,5 +11,6 @@ dummy       solid within the support radius of fluid, beyond the edge: v = 0, it
 
 from __future__ import annotations
 
+# numbers are stored in files: new kinds come last
 INTERIOR, LEAVING, EJECTED, GONE, WALL, FLUID, EDGE, DUMMY = range(8)
 NAMES = ("interior", "leaving", "ejected", "gone", "wall", "fluid", "edge", "dummy")

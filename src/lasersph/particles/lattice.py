@@ -57,6 +57,7 @@ class Lattice(Model):
 
     @model_validator(mode="after")
     def _check_sizes(self) -> Lattice:
+        # layers can grow downward only
         if self.arrangement == "graded" and self.coarsest < self.spacing:
             raise ValueError(
                 f"coarsest ({format_quantity(self.coarsest, 'm')}) is finer than the spacing "

@@ -79,13 +79,16 @@ def stack(domain: Domain, lattice: Lattice, dimensions: int, fine_depth: float) 
     bounds = domain.lateral(dimensions)
     spacing = lattice.spacing
     if bounds:
+        # whole numbers of columns across, so that a period closes
         extent = bounds[0][1] - bounds[0][0]
         spacing = extent / max(1, round(extent / spacing))
+    # whole numbers of layers, or layers that grow downward
     if lattice.arrangement == "uniform":
         count = max(1, round(domain.depth / spacing))
         thickness = np.full(count, domain.depth / count)
     else:
         thickness = _graded(spacing, lattice, domain.depth, fine_depth)
+    # columns of each layer as wide as it is thick
     columns = [
         np.maximum(1, np.rint((upper - lower) / thickness)).astype(np.int64)
         for lower, upper in bounds
@@ -97,15 +100,18 @@ def stack(domain: Domain, lattice: Lattice, dimensions: int, fine_depth: float) 
 
 def _graded(spacing: float, lattice: Lattice, depth: float, fine_depth: float) -> Array:
     """Thicknesses that grow from `spacing` to `lattice.coarsest` and end at `depth`."""
+    # at least one fine layer; rounding must not add another
     fine = max(1, int(np.ceil(min(fine_depth, depth) / spacing - 1e-9)))
     layers = [spacing] * fine
     bottom = spacing * fine
+    # each layer thicker by 1/ratio, up to the coarsest
     while bottom < depth * (1.0 - 1e-9):
         full = min(layers[-1] / lattice.ratio, max(lattice.coarsest, spacing))
-        rest = depth - bottom
-        if rest < SMALLEST_CUT * full:
-            layers[-1] += rest
+        remaining = depth - bottom
+        # a thin last layer would cut the time step: the one above takes it
+        if remaining < SMALLEST_CUT * full:
+            layers[-1] += remaining
             break
-        layers.append(min(full, rest))
+        layers.append(min(full, remaining))
         bottom += layers[-1]
     return np.array(layers)

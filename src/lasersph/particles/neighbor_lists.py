@@ -62,6 +62,7 @@ class NeighborList:
 
     def with_neighbors(self, backend: Backend, neighbor: Rows) -> NeighborList:
         """The same rows with other neighbors, all among the particles that have rows."""
+        # loops take as many particles as the list has positions
         count, position, support = self.row_start.shape[0] - 1, self.position, self.support
         assert position is not None and support is not None
         ends = (backend.head(position, count), backend.head(support, count))
@@ -108,11 +109,13 @@ def find_neighbors(
     Raises:
         EscapedParticle: a position that is not finite, or not in the box.
     """
+    # around all particles, with room for a support on each side
     if box is None:
         host, margin = backend.to_host(position), float(np.max(backend.to_host(support)))
         ends = host.min(axis=1) - margin, host.max(axis=1) + margin
         low, high = (tuple(float(v) for v in end) for end in ends)
         box = Box(low, high, (0.0,) * host.shape[0])
+    # what lies behind the first `total` is spare
     reach, there = support if radius is None else radius, position.shape[1]
     row_start, neighbor = search.neighbor_list(
         backend,
@@ -153,6 +156,7 @@ def search_pairs(
         return search.neighbor_list(
             backend, position, radius, total, mean=common, period=period, room=room
         )
+    # members alone, in arrays of their own
     size = subset.members.shape[0]
     x, radii = backend.zeros((position.shape[0], size)), backend.zeros(size)
     backend.gather(position, subset.members, x)
@@ -163,6 +167,8 @@ def search_pairs(
     # from places among the members to numbers of particles
     neighbor = backend.zeros(local.shape[0], "index")
     backend.pointwise(element, {"place": local}, neighbor, table=subset.members)
+
+    # rows of all particles: those of no member are empty
     counts, lengths = backend.zeros(total, "index"), backend.zeros(size, "index")
     backend.pointwise(row_length, {"place": subset.places}, lengths, start=start)
     backend.scatter(lengths, subset.members, counts)
@@ -184,6 +190,7 @@ def members_of(
         key: (n,) of kind "index"; `count` stands for none. position: (dim, n) [m], where loops
             read it. into: an earlier list of as many, whose arrays are written; None for new ones.
     """
+    # particles sorted by their key; what has no key comes last
     start, order = backend.rows_by_key(key, count + 1)
     if into is not None:
         backend.copy(backend.head(start, count + 1), into.row_start)

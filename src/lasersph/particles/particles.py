@@ -57,6 +57,7 @@ class Particles:
             field = FIELDS[given] if isinstance(given, str) else given
             if field.name in self.table:
                 raise ValueError(f"particles already have the field {field.name}")
+            # (n,), (dim, n) or (dim, dim, n)
             lead = {"scalar": 0, "vector": 1, "tensor": 2}[field.shape] * (self.dimension,)
             self.table[field.name] = field
             self._arrays[field.name] = self.backend.zeros((*lead, self.capacity), field.storage)
@@ -104,6 +105,7 @@ class Particles:
 
     def save(self) -> None:
         """Remember the kept fields, for `go_back`."""
+        # copies are made at the first call: few runs go back
         if not self._saved.keys() >= self.kept.keys():
             for name, array in self.kept.items():
                 self._saved[name] = self.backend.zeros(array.shape, self.table[name].storage)

@@ -49,6 +49,7 @@ def cell_extremes(high_j, low_j):
 
 def difference_square(most, least, most_around, least_around):
     """Square of the largest difference of a component [m^2]; 0 of a cell without particles."""
+    # a cell without particles has -inf and inf as its extremes
     difference = max(max(most_around - least, most - least_around), 0.0)
     return difference * difference
 
@@ -89,6 +90,7 @@ class RelativeDisplacement:
         low, high = np.array(box.low), np.array(box.high)
         width = WIDTH * distance
         self._grid = CellGrid.over(low, high - low, width)
+        # no more cells than particles, so that looking costs less than pairs
         while self._grid.count > total:
             width *= WIDER
             self._grid = CellGrid.over(low, high - low, width)
@@ -103,10 +105,12 @@ class RelativeDisplacement:
     def _cells_along(self, axis: int) -> NeighborList:
         """The cells up to `RANGE` away along an axis from each, as rows of a list."""
         shape, backend = self._grid.shape, self.backend
+        # numbers of the cells on the line through each, folded or cut off at the ends
         near = np.arange(shape[axis])[:, None] + np.arange(-RANGE, RANGE + 1)
         if self.period[axis] > 0.0:
             near %= shape[axis]
         near = np.clip(near, 0, shape[axis] - 1)
+        # an end counts twice where the line is cut off, which changes no extreme
         stride = int(np.prod(shape[axis + 1 :]))
         cell = np.arange(self._grid.count)
         number = cell // stride % shape[axis]
@@ -122,6 +126,7 @@ class RelativeDisplacement:
         """The bound [m] after `step` [s] at the velocities that particles have now."""
         backend = self.backend
         if self._members is None:
+            # cells of the particles when their pairs were found
             cell = self._grid.find_cells(backend, self._fields["x_listed"])
             self._members = members_of(backend, cell, self._grid.count)
         backend.pointwise(predicted_displacement, self._fields, self._displacement, dt=step)

@@ -10,7 +10,7 @@ half of one in a column, how deep a relief ever is, and their volume is what lie
 
 What particles carry goes along in three steps, each of which keeps the sum of V f: those of a
 column, one on the other from the top, become as many even levels as there are fine layers; columns
-that hold more than lies below the relief pass the rest on to their neighbors, of every level as
+that hold more than lies below the relief pass the excess on to their neighbors, of every level as
 much; the levels become the cells. Within an old part f is linear, with van Leer's slope of those
 beside it [vanLeer1974]: no new extremes.
 """
@@ -51,10 +51,11 @@ def lay_below(layers: Layers, height: Array) -> ReliefLayout:
     fine = int(np.count_nonzero(layers.thickness <= layers.spacing * (1.0 + 1e-9)))
     columns, depth = height.size, layers.fine_depth
     thickness = depth + height
+    # largest remainders: whole cells, the last ones where most of a cell was cut off
     wanted = thickness / np.mean(thickness) * fine
     count = np.floor(wanted).astype(np.int64)
-    rest = np.argsort(count - wanted, kind="stable")[: fine * columns - int(count.sum())]
-    count[rest] += 1
+    remainder = np.argsort(count - wanted, kind="stable")[: fine * columns - int(count.sum())]
+    count[remainder] += 1
     if count.min() < 1:
         raise ValueError("the relief reaches the lower end of the finest layers")
     column = np.repeat(np.arange(columns), count)
@@ -100,6 +101,8 @@ def carry_over(
         means[:, :, alike] = resample(edges, fields[:, rows], levels).swapaxes(1, 2)
     # what a column holds too much goes to the next
     new_volume = layout.volume * (volume.sum() / layout.volume.sum())
+
+    # volume that passes each side, toward larger x where positive, with the means upwind of it
     wanted = np.bincount(layout.column, new_volume, columns)
     passed = np.cumsum(held - wanted)[:-1]
     carried = passed * np.where(passed > 0.0, means[:, :, :-1], means[:, :, 1:])
@@ -141,6 +144,8 @@ def resample(edges: Array, values: Array, new_edges: Array) -> Array:
         edges: (c, n + 1) of each of c columns, or (1, n + 1) of all. Old and new ones begin and end
             at the same places.
     """
+
+    # van Leer's slope: the harmonic mean of both rises, none at an extreme
     size = np.diff(edges)
     rise = np.diff(values) / (0.5 * (size[:, 1:] + size[:, :-1]))
     up, down = rise[..., :-1], rise[..., 1:]
@@ -151,10 +156,13 @@ def resample(edges: Array, values: Array, new_edges: Array) -> Array:
     content = values * size
     total = np.cumsum(content, axis=2) - content
     after = np.array([np.searchsorted(one, new_edges, side="right") for one in edges])
+    # old part that each new edge lies in, and how far the edge is from both of its ends
     part = np.clip(after - 1, 0, size.shape[1] - 1)
-    way = new_edges - np.take_along_axis(edges, part, 1)
-    rest = way - np.take_along_axis(size, part, 1)
+    entered = new_edges - np.take_along_axis(edges, part, 1)
+    remaining = entered - np.take_along_axis(size, part, 1)
+    # tables of all columns in a row, so that one index serves for column and part
     fields, columns, old = values.shape
     place = part + old * np.arange(columns)[:, None]
     v, s, t = (one.reshape(fields, -1).take(place, axis=1) for one in (values, slope, total))
-    return np.diff(t + way * (v + 0.5 * s * rest)) / np.diff(new_edges)
+    # total before each new edge and integral of the linear piece up to it; means are differences
+    return np.diff(t + entered * (v + 0.5 * s * remaining)) / np.diff(new_edges)

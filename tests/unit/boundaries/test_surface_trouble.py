@@ -5,7 +5,7 @@ import pytest
 
 from lasersph.boundaries.surface_line import SurfaceLine
 from lasersph.boundaries.surface_segments import SurfaceSegments
-from lasersph.boundaries.surface_trouble import trouble_of
+from lasersph.boundaries.surface_trouble import validity_error
 
 COLUMNS, WIDTH = 200, 1e-8
 
@@ -16,7 +16,7 @@ def trouble(steep, slope, bottom=-1e-6):
     line.height = slope * np.clip(line.x - steep, -5e-8, 5e-8)
     segments = SurfaceSegments(line)
     segments.choose(np.arange(COLUMNS) < COLUMNS // 2)
-    return trouble_of(segments, bottom, WIDTH)
+    return validity_error(segments, bottom, WIDTH)
 
 
 @pytest.mark.parametrize(

@@ -123,7 +123,7 @@ class Block(GhostExtension):
         near = SKIN * float(lattice.weighing.mean(self.moving_support, largest))
         self._even_above = near - fine_depth
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
-        self.closest = 1e-30 if self._beyond is None else self._beyond.closest
+        self.closest = 1e-30 if self._beyond is None else self._beyond.min_distance
         self._set_rules()
         self._set_factors()
         self._geometry, self._room = PairGeometry(backend, lattice.weighing), Room()

@@ -54,8 +54,8 @@ class HeatPairs:
         Pairs across it see its length where rows are a spacing high. Those from which mass has
         evaporated are lower: three rows in D/v took 10 % more than the flux.
         """
-        stretch = None if block.surface is None else block.surface.stretch()
-        if stretch is None or not block.has_walls:
+        length_ratio = None if block.surface is None else block.surface.length_ratio()
+        if length_ratio is None or not block.has_walls:
             return
         backend, fields = self.backend, {"g_ij": block.weights, "across": block.across}
         fields |= {name: block.rules[name] for name in ("flux", "normal", "plane")}
@@ -65,7 +65,7 @@ class HeatPairs:
         )
         if seen > 0.0:
             low, high = block.conditions.box[0]
-            length = (high - low) * float(np.mean(backend.to_host(stretch)))
+            length = (high - low) * float(np.mean(backend.to_host(length_ratio)))
             fields = {"flux": fields["flux"], "across": block.across}
             backend.pointwise(scaled_flux, fields, fields["flux"], factor=length / seen)
 

@@ -76,7 +76,7 @@ class LayoutRenewal:
         self.volume += float(np.sum(layout.volume) - np.sum(self._fine("volume")))
         self.recedes = False
         if surface is not None:
-            surface.rest()
+            surface.reset()
         mass = self.body.material.density_reference * layout.volume
         self._place({"position": layout.position, "volume": layout.volume, "mass": mass})
 

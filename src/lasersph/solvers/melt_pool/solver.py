@@ -193,8 +193,8 @@ class MeltPool:
             return step
         self.heat.refuse_supercritical(lambda: self.backend.to_host(self.position))
         surface = self.domain.surface
-        if surface is not None and (trouble := surface.trouble()):
-            raise SurfaceTrouble(trouble)
+        if surface is not None and (error := surface.validity_error()):
+            raise SurfaceTrouble(error)
         refuse_unstable(self.flow, self.domain, self.position, self.heat.end_of_pulse)
         self.layout_renewal.follow_recession()
         self._keep()
@@ -237,7 +237,7 @@ class MeltPool:
         if block is not flow.current_block:
             flow.enter(block, domain.periods)
         if domain.surface is not None:
-            domain.surface.carry(self._surface_step(self.position, step))
+            domain.surface.advance_first_half(self._surface_step(self.position, step))
             domain.surface.find(self._advected)
         block.find_pairs(self._advected, self._rows_to_find(block, self._advected), has_kernel=True)
         self.kinds.find_walls(block)
@@ -253,7 +253,7 @@ class MeltPool:
         fields = {"x": self.position, "v_old": self.flow.before, "v": self.flow.velocity}
         self.backend.pointwise(move, fields, self.position, step=step)
         if self.domain.surface is not None:
-            left = self.domain.surface.move(self._surface_step(self.position, step))
+            left = self.domain.surface.advance_second_half(self._surface_step(self.position, step))
             self.state.energy["removed"] += left
         block.move(self.position)
         self.flow.correct_kernel(self.kinds.fluid_rows)
@@ -275,8 +275,8 @@ class MeltPool:
         mark, columns = backend.zeros(self.body.count), self.surface_columns
         fields = {"depth": self._depth, "V": self.particles["volume"]}
         backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
-        stretch = self.domain.surface.stretch() if self.domain.surface else None
-        columns.find(self.position, backend.rows_where(mark, 1.0), stretch)
+        length_ratio = self.domain.surface.length_ratio() if self.domain.surface else None
+        columns.find(self.position, backend.rows_where(mark, 1.0), length_ratio)
         exchange.follow(columns)
         volume = fields["V"] if self.domain.surface_moves else None
         light.distribute(self.position, self._depth, columns, volume)

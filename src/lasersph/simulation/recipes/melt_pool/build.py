@@ -14,7 +14,7 @@ from lasersph.boundaries.moving_surface import MovingSurface
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.boundaries.surface import Surface
 from lasersph.boundaries.surface_conditions import SurfaceLiquid
-from lasersph.boundaries.surface_drives import Drives
+from lasersph.boundaries.surface_drives import SurfaceForcing
 from lasersph.boundaries.surface_line import End, SurfaceLine, cutoff_of
 from lasersph.case import Case
 from lasersph.materials.viscosity import relative_viscosity_table
@@ -79,7 +79,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
                 case.material,
             ),
             has_stress=settings.marangoni,
-            drives=Drives(
+            forcing=SurfaceForcing(
                 _given_temperature(case),
                 case.boundaries.surface_pressure_wave,
                 case.boundaries.surface_mass_flux_wave,

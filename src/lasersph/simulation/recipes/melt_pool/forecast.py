@@ -43,7 +43,7 @@ expected time depends."""
 MOLTEN_PULSES = 8.0
 """How long a pool lasts, in durations of the pulse. Forecast: those of the texturing cases last 3
 to 5."""
-FEWEST_ROWS = 8
+MIN_LAYERS = 8
 """Rows of melt below which there is hardly a flow. Forecast: `lasersph check` says so."""
 SPEED_NODES = 65
 """Nodes of the means of viscosity and surface tension. Forecast: over the melt's temperatures."""
@@ -219,9 +219,9 @@ def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
 
 
 def _warnings(layer: float | None, spacing: float) -> list[str]:
-    if layer is None or layer >= FEWEST_ROWS * spacing:
+    if layer is None or layer >= MIN_LAYERS * spacing:
         return []
     return [
         f"the layer that the surface drags along is about {format_quantity(layer, 'm', 3)} thick, "
-        f"less than {FEWEST_ROWS} spacings of {format_quantity(spacing, 'm', 3)}: take a finer one"
+        f"less than {MIN_LAYERS} spacings of {format_quantity(spacing, 'm', 3)}: take a finer one"
     ]
