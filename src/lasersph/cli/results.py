@@ -138,7 +138,7 @@ def plot(
 def _draw_beams(name: str, settings: Sequence[str], kind: str) -> Path:
     """Draw the fluence of a pulse of a case into NAME-beams.KIND here."""
     from lasersph.case import load_case
-    from lasersph.lasers import fluence_maps
+    from lasersph.lasers.fluence_map import fluence_maps
     from lasersph.plots import style
     from lasersph.plots.fluence import fluence_figure
     from lasersph.simulation.light_text import light_rows

@@ -12,7 +12,6 @@ laser                 all of them together, and the energy that sets the scale
 
 from lasersph.lasers.absorption import Absorption, BeerLambertAbsorption, SurfaceAbsorption
 from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
-from lasersph.lasers.fluence_map import FluenceMap, fluence_maps
 from lasersph.lasers.interference import InterferenceBeam
 from lasersph.lasers.laser import Beam, Laser
 from lasersph.lasers.path import LinearPath, Path, TabulatedPath
@@ -25,7 +24,6 @@ __all__ = [
     "Absorption",
     "Beam",
     "BeerLambertAbsorption",
-    "FluenceMap",
     "GaussianBeam",
     "GaussianPulse",
     "InterferenceBeam",
@@ -43,5 +41,4 @@ __all__ = [
     "TopHatBeam",
     "UniformBeam",
     "Wave",
-    "fluence_maps",
 ]
