@@ -54,7 +54,8 @@ def melt_pools(
 
     Args:
         runs, labels, title: see above.
-        level: empty for completely fluid material (f_m = 1), `half_` for 0.5, `any_` for above 0.
+        level: empty for completely fluid material (f_m = 1), "half" and "any" with an underscore
+            behind for 0.5 and above 0.
     """
     runs = [open_run(one) for one in runs]
     figure, all_axes = style.new_figure(1, 2, height=3.9)

@@ -29,7 +29,7 @@ lies half a cell below it and counts as far as a spacing, the next 1.5 cells dee
 would count as that at the surface, or none."""
 WORN = 0.6
 """Volume of a particle over that of a cell of the lattice below which the surface recedes.
-Geometry: a row of it lies as deep as `moving_surface.GAP`. In deep melt four spacings have
+Geometry: a row of it lies as deep as `moving_surface.MIN_DEPTH`. In deep melt four spacings have
 evaporated then."""
 
 
