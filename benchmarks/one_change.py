@@ -134,7 +134,7 @@ def coexistence(one: Run, least: float) -> tuple[float, float]:
         speed = np.concatenate([[0.0], speed, [0.0]])
         found, _ = local_maxima(speed, least * float(np.max(speed)))
         both += found.size > 1
-        faster += found.size > 1 and speed[found[0]] > speed[found[-1]]
+        faster += bool(found.size > 1 and speed[found[0]] > speed[found[-1]])
     return 0.1 * both, 0.1 * faster
 
 

@@ -15,6 +15,7 @@ import pytest
 from hot_loops.ceilings import bandwidth
 
 from lasersph import compute
+from lasersph.compute.graph import graph
 from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
@@ -75,10 +76,11 @@ class Diagonal:
     def prepare(self, position, mask, volume, boundary_coefficient):
         """Nothing to do."""
 
+    @graph
     def correct(self, r, diagonal, mask, z):
-        """z = r / d; returns r z."""
+        """z = r / d; reduces r z."""
         fields = {"r": r, "d": diagonal, "mask": mask}
-        return self.backend.pointwise(divided, fields, (z, None), reduce=(None, "sum"))[0]
+        self.backend.pointwise(divided, fields, (z, None), reduce=(None, "sum"))
 
 
 def divided(r, d, mask):

@@ -64,7 +64,7 @@ BREAKS = {
 
 
 def _loops(total):
-    """One loop of each kind: sums over pairs, reductions, a search, a splice, sweeps, a phase."""
+    """One loop of each kind: sums over pairs, reductions, a search, a splice, sweeps."""
     from lasersph import compute
     from lasersph.compute import key_order, search, splice, sweeps
 

@@ -1,8 +1,8 @@
 """Pages that people finish: 1 500 words at most, with a picture and without commits; those that
 cannot be short or show a picture say why here.
 
-Counted are words outside of code, formulas and addresses of links. All pages with their counts:
-`python tests/test_docs_length.py`.
+Paragraphs of the texts of validations have 100 words at most. Counted are words outside of code,
+formulas and addresses of links. All pages with their counts: `python tests/test_docs_length.py`.
 """
 
 import re
@@ -10,9 +10,14 @@ from pathlib import Path
 
 import pytest
 
+from lasersph.validation import names
+from lasersph.validation.study import home_of
+
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 MOST = 1500
 """Words of a page: seven minutes of reading."""
+MOST_IN_A_PARAGRAPH = 100
+"""Words of a paragraph: half a minute of reading."""
 NO_WORDS = re.compile(r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|\]\([^)]*\)", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]+\)|\{code-cell\}")
 """A picture, or a cell of a notebook, which draws some when the pages are built."""
@@ -52,6 +57,8 @@ PAGES = {
 }
 PAGES = {page: text for page, text in PAGES.items() if not MADE.search(text)}
 
+VALIDATIONS = {name: (home_of(name) / "README.md").read_text(encoding="utf-8") for name in names()}
+
 
 def words_of(text: str) -> int:
     """Words of a page, its tables and heads among them."""
@@ -75,6 +82,14 @@ def test_page_has_a_picture(page):
 def test_page_names_no_commit(page):
     """Readers want a date; commits stand in the records that numbers come from."""
     assert COMMIT.findall(PAGES[page]) == []
+
+
+@pytest.mark.parametrize("text", VALIDATIONS.values(), ids=VALIDATIONS)
+def test_paragraphs_of_a_validation_are_short(text):
+    """One thought each; lists and tables are no paragraphs."""
+    for paragraph in re.split(r"\n\s*\n|\n- |\n\d+\. ", NO_WORDS.sub(" ", text)):
+        if not paragraph.startswith("|"):
+            assert words_of(paragraph) <= MOST_IN_A_PARAGRAPH, paragraph
 
 
 def test_listed_pages_exist():

@@ -31,7 +31,7 @@ OLD_WORDS = {
     r"\bsoundness\b": ("diagnostics", ""),
     r"\bclass (Matter|Level|Layout|Start|Numbers)\b": (
         "particle state, time level, geometry, initial state, parameters",
-        "src/lasersph/linear_solvers/grid_correction.py",  # a level of the multigrid
+        "src/lasersph/linear_solvers/grid_levels.py",  # a level of the multigrid
     ),
     r"\bclass (Sides|Roles?)\b": ("flow conditions, particle kind", ""),
     r"\bclass (Exposure|Rearrangement|Carried|Images|Ways)\b": (

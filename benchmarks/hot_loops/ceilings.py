@@ -61,10 +61,9 @@ def bandwidth(backend: Backend, large: int = LARGE) -> float:
     b, c, out = (backend.zeros(large) for _ in range(3))
     for array, value in ((b, 1.0), (c, 2.0), (out, 0.0)):
         backend.fill(array, value)
-    move = backend.prepare(triad, {"b": b, "c": c}, out, s=0.5)
 
     def run() -> int:
-        move()
+        backend.pointwise(triad, {"b": b, "c": c}, out, s=0.5)
         backend.wait()
         return 1
 
@@ -88,12 +87,12 @@ def rate(
             where.fill(fields[name], value)
         return fields
 
-    launch = backend.prepare(function, fields_on(backend, count), None, reduce="sum")
-    one = counting.prepare(function, fields_on(counting, 1), None, reduce="sum")
+    many, one = fields_on(backend, count), fields_on(counting, 1)
 
     def run() -> int:
         for _ in range(LAUNCHES):
-            launch()
+            backend.pointwise(function, many, None, reduce="sum")
         return LAUNCHES
 
-    return count * of(counting.least(one)) / seconds(run, ROUNDS)
+    least = counting.least(lambda: counting.pointwise(function, one, None, reduce="sum"))
+    return count * of(least) / seconds(run, ROUNDS)

@@ -86,18 +86,18 @@ for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
 
 
 class Table:
-    """A table of real numbers whose entries are counted."""
+    """A table of real numbers, vectors or tensors whose entries are counted."""
 
     def __init__(self, array: np.ndarray, tally: Tally) -> None:
         self.array, self.tally = array, tally
 
     def __len__(self) -> int:
         """Number of entries."""
-        return self.array.shape[0]
+        return self.array.shape[-1]
 
-    def __getitem__(self, place: int) -> Counted:
-        """One entry."""
-        return Counted(self.array[place], self.tally)
+    def __getitem__(self, place: int) -> Any:
+        """One entry: a number, vector or tensor."""
+        return as_counted(self.array[..., place], self.tally)
 
 
 def as_counted(value: Any, tally: Tally) -> Any:

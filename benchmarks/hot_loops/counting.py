@@ -10,7 +10,6 @@ from hot_loops.least import Least, least_of
 from lasersph.compute.backend import Backend
 from lasersph.compute.launch import Bound, Launch
 from lasersph.compute.loops import Loops
-from lasersph.compute.phase import Phase
 from lasersph.compute.signature import Call
 
 
@@ -19,25 +18,21 @@ class CountingBackend(Backend):
 
     def __init__(self, threads: int | None) -> None:
         super().__init__(threads, "float64")
-        self._loops = _CountedLoops(self.precision, self.launcher(), self.unwrap)
-
-    def phase(self, run: Callable[..., Any]) -> Phase:
-        """A phase that is run as it is, so that its loops are counted each time."""
-        return Phase(self._loops, run, checks=True)
+        self.loops = _CountedLoops(self.precision, self.launcher(), self.unwrap)
 
     def least(self, run: Callable[[], Any]) -> Least:
-        """Run `run` once; returns the sum over its loops, called, prepared or recorded."""
+        """Run `run` once; returns the sum over its loops, called or those of graphs."""
         total = Least()
 
         def note(call: Call) -> None:
             nonlocal total
             total += least_of(call)
 
-        self._loops.note = note
+        self.loops.note = note
         try:
             run()
         finally:
-            self._loops.note = _ignore
+            self.loops.note = _ignore
         return total
 
 
@@ -46,17 +41,21 @@ def _ignore(call: Call) -> None:
 
 
 class _CountedLoops(Loops):
-    """Loops that tell of each launch."""
+    """Loops that tell of each launch; graphs are run as they are, so that each time counts."""
 
     note: Callable[[Call], None] = staticmethod(_ignore)
+
+    def __init__(self, *given: Any) -> None:
+        super().__init__(*given)
+        self.records = False
 
     def run(self, call: Call) -> tuple[float, ...]:
         if self.recorder.recording is None:
             self.note(call)
         return super().run(call)
 
-    def prepared(self, call: Call, again: Launch | None = None) -> Launch:
-        return super().prepared(call)
+    def _bind_again(self, call: Call, again: Launch | None) -> Launch:
+        return self.bind(call)
 
     def bind(self, call: Call) -> Launch:
         bound = self._bound(self.given(call))

@@ -185,7 +185,8 @@ class _Given:
         """A number, a vector, or a table."""
         value = self.call.constants[name]
         if isinstance(value, np.ndarray):
-            return Table(value, tally) if value.dtype.kind == "f" else value
+            # entries lie along the last axis of a table
+            return Table(value, tally) if value.dtype.kind == "f" else np.moveaxis(value, -1, 0)
         return np.array(value) if isinstance(value, tuple | list) else value
 
 

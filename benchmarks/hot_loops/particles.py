@@ -8,7 +8,7 @@ import numpy as np
 
 from lasersph.compute import search
 from lasersph.compute.backend import Backend
-from lasersph.particles.cell_grid import CellGrid
+from lasersph.compute.cell_grid import CellGrid
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.particles.support import arithmetic
 

@@ -91,7 +91,7 @@ def multigrid_cycle(backend: Backend, operator: PairOperator) -> HotLoop | None:
     r, z = _noise(backend, count), backend.zeros(count)
 
     def run() -> int:
-        multigrid.correction(r, z, ones)()
+        multigrid.correct(r, z, ones, STIFF_STEP)
         return 1
 
     return HotLoop("multigrid cycle", count, run)
@@ -107,7 +107,7 @@ def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
     r, z = _noise(backend, count), backend.zeros(count)
 
     def run() -> int:
-        correction.correction(r, diagonal, ones, z)()
+        correction.correct(r, diagonal, ones, z)
         return 1
 
     return HotLoop("pressure grid cycle", count, run)

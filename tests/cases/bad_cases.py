@@ -50,6 +50,7 @@ BAD_CASES = {
     "unknown key": (FLUENCE, 'fluense = "0.6 J/cm^2"', ':6: laser.fluense: unknown key; do you mean "fluence"?'),
     "unknown table": ("[domain]", "[domian]", ':12: domian: unknown key; do you mean "domain"?'),
     "key of another table": ("[domain]", '[domain]\nspacing = "8 nm"', ':13: domain.spacing: unknown key; leave it out: particles.spacing is given'),
+    "kind of a table without kinds": (BEAM, BEAM + '\nspot = { kind = "gaussian", diameter = "60 um", definition = "1/e^2" }', ":9: laser.spot.kind: unknown key; known here: diameter, definition, image, pixel_size, image_digest, extent, place, shift, scan_speed"),
     "key without a table": ("title", 'fluence = "1 J/cm^2"\ntitle', ':1: fluence: unknown key; leave it out: laser.fluence is given'),
     "duplicate key": (FLUENCE, FLUENCE + "\n" + FLUENCE, ":7: fluence: given twice; remove one"),
     "duplicate table": ("", "\n[laser]\n", ":41: [laser]: given twice; remove one"),

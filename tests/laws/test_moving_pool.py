@@ -29,7 +29,7 @@ def test_relief():
     line = moving_pool().domain.surface.line
     assert line.height[0] < -1e-12
     assert line.height.max() > 1e-12
-    assert not line.height[line.x > EDGE].any()
+    assert not line.height[line.centers() > EDGE].any()
     assert abs(line.height.sum()) < 1e-10 * np.abs(line.height).sum()
 
 
@@ -54,7 +54,7 @@ def test_one_row_of_melt_moves():
     solver.backend.copy(solver.backend.asarray(position), solver.position)
     go(solver, 1)
     moves = solver.domain.surface.segments.is_molten
-    assert np.array_equal(moves, solver.domain.surface.line.x < EDGE)
+    assert np.array_equal(moves, solver.domain.surface.line.centers() < EDGE)
     assert solver.fluid_count == np.count_nonzero(moves)
     assert solver.flow.largest_speed > 0.0
 
@@ -94,7 +94,7 @@ def drop_on_solid(tmp_path):
 
 def kept_line(solver):
     """Arrays of the line, by the names of a checkpoint."""
-    return {k: solver.backend.to_host(v) for k, v in solver.domain.surface.arrays.items()}
+    return {k: solver.backend.to_host(v) for k, v in solver.domain.surface.state.kept.items()}
 
 
 def test_drop_spreads_to_the_advancing_angle(tmp_path):
@@ -103,7 +103,7 @@ def test_drop_spreads_to_the_advancing_angle(tmp_path):
     and what is restored on the way has the same bits."""
     solver = drop_on_solid(tmp_path)
     segments, line = solver.domain.surface.segments, solver.domain.surface.line
-    area = line.height.sum() * line.width
+    area = line.height.sum() * line.widths[0]
     go(solver, 30)
     again = drop_on_solid(tmp_path)
     again.restore(host_fields(solver) | kept_line(solver), solver.checkpoint_scalars())
@@ -113,7 +113,7 @@ def test_drop_spreads_to_the_advancing_angle(tmp_path):
         assert np.array_equal(values, host_fields(again)[name]), name
     assert solver.flow.largest_speed < 10.0
     go(solver, 40)
-    assert abs(line.height.sum() * line.width / area - 1.0) < 1e-12
+    assert abs(line.height.sum() * line.widths[0] / area - 1.0) < 1e-12
     assert np.abs(line.height - line.height[::-1]).max() < 1e-12 * line.height.max()
     chord = 2.0 * np.sqrt(area / (np.pi / 4.0 - 0.5)) * np.sin(np.pi / 4.0)
-    assert abs(segments.is_molten.sum() * line.width - chord) < line.width
+    assert abs(segments.is_molten.sum() * line.widths[0] - chord) < line.widths[0]

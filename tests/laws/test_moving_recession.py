@@ -61,16 +61,16 @@ def test_nothing_is_lost_but_what_leaves(pool):
     line, count = solver.domain.surface.line, 12
     gone = np.mean(host(solver, "evaporated_mass")[:count])
     # the line follows what the step of heat before has evaporated
-    followed = np.mean(solver.domain.surface._followed)
+    followed = np.mean(solver.domain.surface.loss.followed)
     assert 0.9 * gone < followed < gone
-    width = count * line.width
-    body = EXACT.density * width * 48 * line.width
+    width = count * line.widths[0]
+    body = EXACT.density * width * 48 * line.widths[0]
     assert host(solver, "mass").sum() == pytest.approx(body - followed * width, rel=1e-12)
-    assert -line.height.sum() * line.width == pytest.approx(followed / EXACT.density * width)
+    assert -line.height.sum() * line.widths[0] == pytest.approx(followed / EXACT.density * width)
     assert host(solver, "volume").sum() * EXACT.density == pytest.approx(host(solver, "mass").sum())
     assert imbalance(case, solver) < 1e-9
     assert solver.layout_renewal.recedes
-    assert host(solver, "volume").min() > 0.8 * line.width**2
+    assert host(solver, "volume").min() > 0.8 * line.widths[0] ** 2
 
 
 def test_a_short_step_does_not_cool_the_surface(pool):

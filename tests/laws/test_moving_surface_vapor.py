@@ -5,12 +5,11 @@ import numpy as np
 import pytest
 from law_runs import go, host, solver_of, start_from
 
-from lasersph.boundaries import moving_surface
-from lasersph.boundaries.moving_surface import MovingSurface
-from lasersph.boundaries.surface_mass import take_mass
 from lasersph.irradiation.layered import LayeredLight
-from lasersph.physics.evaporation import saturation_pressure, vapor_constants
-from lasersph.physics.knudsen_layer import gauge_recoil_pressure, outflow_tables
+from lasersph.physics.recoil import recoil_at
+from lasersph.surface import moving_surface
+from lasersph.surface.moving_surface import MovingSurface
+from lasersph.surface.recession import take_mass
 
 FILM = (
     *("solver.kind=melt-pool", "initial_temperature=3500 K", "particles.spacing=40 nm"),
@@ -30,20 +29,16 @@ def test_recoil_presses_and_mass_leaves(pressure):
     for _ in range(4):
         T = surface._line_temperature
         solver.step(2e-10)
-    constants, (ratio, _, mach) = vapor_constants(case.material.vaporization), outflow_tables()
     ambient = case.boundaries.pressure_of_surroundings
     T = surface._line_temperature
-    recoil = [
-        gauge_recoil_pressure(saturation_pressure(float(t), **constants), ambient, ratio, mach)
-        for t in T
-    ]
+    recoil = recoil_at(T, case.material.vaporization, ambient)
     assert np.min(recoil) > 1e4
     # nothing bends a flat surface, and a film that sinks evenly is at rest
-    assert surface._line_pressure == pytest.approx(np.array(recoil), rel=1e-3)
-    gone = surface._followed / surface.liquid.density
+    assert surface._line_pressure == pytest.approx(recoil, rel=1e-3)
+    gone = surface.loss.followed / surface.liquid.density
     assert np.all(gone > 1e-13)
     assert line.height.sum() == pytest.approx(-gone.sum(), rel=1e-10)
-    assert surface.flux_loss == pytest.approx(gone.sum() * line.width, rel=1e-10)
+    assert surface.loss.volume == pytest.approx(gone.sum() * line.widths[0], rel=1e-10)
 
 
 def test_no_recoil_where_the_plateau_holds():
@@ -52,7 +47,7 @@ def test_no_recoil_where_the_plateau_holds():
     _, solver = solver_of("moving-film", *settings)
     solver.step(2e-10)
     surface = solver.domain.surface
-    assert surface.forcing.recoil is None and surface.flux_loss == 0.0
+    assert surface.forcing.recoil is None and surface.loss.volume == 0.0
 
 
 WAVE = (
@@ -73,18 +68,18 @@ def evaporate_wave():
     start_from(solver, np.full(solver.particle_count, h_0))
     mass, height = host(solver, "mass").sum(), line.height.sum()
     heat = np.sum(host(solver, "mass") * host(solver, "enthalpy"))
-    slope = 0.2e-6 * np.pi / 1e-6 * np.sin(np.pi * line.x / 1e-6)
+    slope = 0.2e-6 * np.pi / 1e-6 * np.sin(np.pi * line.centers() / 1e-6)
     solver.step(1e-10)
     solver.step(1e-10)
     columns, density = line.count, surface.liquid.density
-    gone = surface._followed.sum() * line.width
+    gone = surface.loss.followed.sum() * line.widths[0]
     books = solver.state.energy
     now = np.sum(host(solver, "mass") * host(solver, "enthalpy"))
     left = books["lost"] + books["removed"]
     flux = host(solver, "evaporated_mass")[:columns] / np.sqrt(1.0 + slope**2)
     return {
         "mass": (mass - host(solver, "mass").sum()) / gone - 1.0,
-        "volume": (height - line.height.sum()) * line.width * density / gone - 1.0,
+        "volume": (height - line.height.sum()) * line.widths[0] * density / gone - 1.0,
         "heat": (heat - now - left) / (gone * h_0),
         "length": np.ptp(flux) / np.mean(flux),
     }
@@ -137,10 +132,10 @@ def test_half_of_the_mass_has_left_in_the_middle_of_a_step(is_late, monkeypatch)
 
         def leave_at_the_end(surface, now):
             share = 2.0 if surface.is_second else 0.0
-            surface.is_second, lost = not surface.is_second, surface._lost
-            surface._lost = share * lost
+            surface.is_second, lost = not surface.is_second, surface.loss.lost
+            surface.loss.lost = share * lost
             go_halfway(surface, now)
-            surface._lost = lost
+            surface.loss.lost = lost
 
         monkeypatch.setattr(MovingSurface, "is_second", False, raising=False)
         monkeypatch.setattr(MovingSurface, "_go_halfway", leave_at_the_end)
@@ -171,8 +166,8 @@ def light_errors():
     light, line, host = solver.body.light, solver.domain.surface.line, solver.backend.to_host
     light.absorb(solver.particles["temperature"])
     E, (x, z) = host(light.deposit), host(solver.position)
-    depth = np.interp(x, line.x, line.height) - z
-    column = np.clip(((x - line.start) / line.width).astype(int), 0, line.count - 1)
+    depth = np.interp(x, line.centers(), line.height) - z
+    column = np.clip(((x - line.start) / line.widths[0]).astype(int), 0, line.count - 1)
     taken = np.bincount(column, E, line.count)
     mean = np.bincount(column, E * depth, line.count) / taken
     entering = (light.incident - light.reflected) / line.count

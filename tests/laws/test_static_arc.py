@@ -54,7 +54,7 @@ def test_static_arc():
     while solver.state.time < END * (1.0 - 1e-12):
         solver.step(binding_limit(solver.time_step_limits() | {"mark": END - solver.state.time})[1])
     line = solver.domain.surface.line
-    kappa = arc_curvature(line.width * line.height.sum())
+    kappa = arc_curvature(line.widths[0] * line.height.sum())
     assert line.curvature == pytest.approx(kappa, rel=0.01)
     pressure = solver.backend.to_host(solver.flow.pressure)
     assert np.mean(pressure) == pytest.approx(TENSION * kappa, rel=0.01)

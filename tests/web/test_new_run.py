@@ -55,6 +55,16 @@ def test_run_is_typed_started_stopped_and_resumed(open_page, serve, tmp_path):
     expect(page.locator("pre").last).to_contain_text("resumed at step")
 
 
+def test_long_warnings_stay_beside_the_form(open_page, address):
+    """They do not make the page wider than the window; time is told of one thread or of several."""
+    page = open_page(f"{address}#/new/texture-steel", width=1400).page
+    expect(page.locator(".result .warnings")).to_be_visible()
+    expect(page.locator(".result")).to_contain_text(
+        re.compile(r"on (1 thread(?!s)|[2-9]\d* threads)")
+    )
+    assert width_of(page) == 1400
+
+
 def test_list_of_a_case_is_edited_with_the_keyboard(open_page, address):
     """Rows of cells: the wrong one is marked, rows are added and removed; also on 390 pixels."""
     watched = open_page(f"{address}#/new/dlip-steel", width=390)

@@ -6,6 +6,7 @@ import json
 import re
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -42,7 +43,7 @@ class Server(http.server.ThreadingHTTPServer):
     def index(self):
         """The index, cut to `frames` as of a run that computes; without the mirror image, so that
         the hot corner is a corner."""
-        found = particle_index(self.folder) | {"mirrored": False}
+        found: dict[str, Any] = particle_index(self.folder) | {"mirrored": False}
         if self.frames is not None:
             cut = slice(self.frames)
             found |= {"times": found["times"][cut], "counts": found["counts"][cut]}

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Phase:
+class PhaseProperties:
     """Constant properties of one phase: k [W/(m K)], c [J/(kg K)]."""
 
     conductivity: float
@@ -55,8 +55,8 @@ class Melting:
     initial_temperature: float
     latent_heat: float
     density: float
-    liquid: Phase
-    solid: Phase | None = None
+    liquid: PhaseProperties
+    solid: PhaseProperties | None = None
 
     def __post_init__(self):
         if not self.surface_temperature > self.melting_temperature >= self.initial_temperature:
@@ -68,7 +68,7 @@ class Melting:
         if not self.latent_heat > 0.0:
             raise ValueError(f"the latent heat must be positive, not {self.latent_heat} J/kg")
 
-    def diffusivity(self, phase: Phase) -> float:
+    def diffusivity(self, phase: PhaseProperties) -> float:
         """D = k/(rho c) [m^2/s]."""
         return phase.conductivity / (self.density * phase.specific_heat)
 

@@ -1,4 +1,4 @@
-"""Boundaries: named regions and what holds there."""
+"""Conditions at faces and walls, and what a run starts from."""
 
 from lasersph.boundaries.flow_conditions import FlowCondition, FlowConditions
 from lasersph.boundaries.initial_motion import InitialMotion

@@ -21,7 +21,8 @@ class Case(CaseContents):
 
     @model_validator(mode="after")
     def _check_together(self) -> Self:
-        """What no room can see alone."""
+        """Refuse contradictions that no room can see alone."""
+        # A refusal names every key that is at fault, not the first one only.
         found = problems_of(self)
         if found:
             raise refusal(*found)
@@ -44,8 +45,11 @@ class Case(CaseContents):
 
     def named(self, name: str, text: str, conversion_note: str = "") -> Self:
         """The same case with the name, the text and the conversion note of its file."""
+        # The model is frozen: the copy is named before anybody sees it.
         copy = self.model_copy()
-        copy._name, copy._text, copy._conversion_note = name, text, conversion_note
+        copy._name = name
+        copy._text = text
+        copy._conversion_note = conversion_note
         return copy
 
     def resolved(self) -> dict[str, Any]:

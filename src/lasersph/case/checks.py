@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterator
-from functools import partial
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.flow_checks import flow_problems
+from lasersph.case.light_checks import light_problems, pulse_problems
 from lasersph.case.motion_checks import motion_problems, no_axis
-from lasersph.case.pulse_checks import pulse_problems
 from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
@@ -20,13 +18,10 @@ from lasersph.case.size import (
     memories,
     size_of,
 )
-from lasersph.case.solver_choice import SELECTIVE_KEYS, computes_flow, reader_of
+from lasersph.case.solver_choice import SELECTIVE_KEYS, reader_of
 from lasersph.case.surface_checks import surface_problems
 from lasersph.input import CaseError, Model, format_quantity
-from lasersph.lasers import InterferenceBeam, Laser
-from lasersph.materials import NoOptics
 from lasersph.output.settings import SnapshotSchedule
-from lasersph.solvers.solver_settings import SolverSettings
 
 if TYPE_CHECKING:
     from lasersph.case.contents import CaseContents
@@ -44,12 +39,13 @@ GRADED = ("fine_depth", "coarsest", "ratio")
 
 def problems_of(case: CaseContents) -> list[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of everything that the rooms contradict in."""
+    # Without a block there is nothing that the other checks could be about.
     found = list(_domain(case))
     if found:
         return found
     return [
         *_material(case),
-        *_laser(case),
+        *light_problems(case),
         *_unread_keys(case),
         *_idle_keys(case),
         *_points(case),
@@ -66,12 +62,13 @@ def refuse_if_too_large(case: CaseContents, backend: str = "cpu", size: Size | N
     """Refuse a case whose particles do not fit into the memory of this machine, or of its card.
 
     Args:
-        size: what it needs where that is known; else it is estimated, and some room left.
+        size: particles and bytes where they are known; else estimated, with some reserve.
 
     Raises:
         CaseError: with the size, before anything is allocated.
         NoDevice: the backend is "cuda" and there is no graphics card.
     """
+    # An estimate may be off by a tenth; an exact size may take all of the memory.
     needed, share = (size_of(case), LARGEST_COST_SHARE) if size is None else (size, 1.0)
     for words, memory in memories(backend):
         if needed.bytes > share * memory:
@@ -83,7 +80,7 @@ def refuse_if_too_large(case: CaseContents, backend: str = "cpu", size: Size | N
 
 
 def _unread_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
-    """What the solver of the case would ignore."""
+    """Keys that the solver of the case would ignore."""
     for key in sorted(SELECTIVE_KEYS - case.solver.reads):
         if getattr(case, key):
             yield (
@@ -95,10 +92,12 @@ def _unread_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 def _idle_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Keys whose values would change nothing, where they are not the default."""
+    # Explicit steps follow from stability, not from accuracy.
     if case.solver.is_explicit:
         why = "says nothing where steps are explicit, as stability limits them; leave it out"
         yield from ((f"time.{key}", why) for key in _changed(case.time, IMPLICIT_STEPS))
         yield from ((f"solver.{key}", why) for key in _changed(case.solver, IMPLICIT_SOLUTION))
+    # A uniform block has one size of particles.
     if case.particles.arrangement == "uniform":
         why = 'belongs to graded particles; leave it out or write arrangement = "graded"'
         yield from ((f"particles.{key}", why) for key in _changed(case.particles, GRADED))
@@ -111,7 +110,10 @@ def _changed(model: Model, keys: tuple[str, ...]) -> list[str]:
 
 
 def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
-    domain, lattice, dimensions = case.domain, case.particles, case.solver.dimensions
+    domain = case.domain
+    lattice = case.particles
+    dimensions = case.solver.dimensions
+    # More than one dimension needs a width; a period of the light is the best guess.
     if dimensions > 1 and domain.width is None:
         period = getattr(getattr(case.laser, "beam", None), "lateral_period", None)
         width = format_quantity(period or USUAL_WIDTH, "m", 10)
@@ -120,6 +122,7 @@ def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
         return
     if dimensions == 1 and domain.extent == "half":
         yield "domain.extent", 'half of a 1-D column means nothing; write extent = "full"'
+    # Each side holds a few particles at least.
     for key, length in (("depth", domain.depth), ("width", domain.width)):
         if key == "width" and dimensions == 1:
             continue
@@ -136,6 +139,8 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Whether the faces fit the domain and its dimensions."""
     boundaries, dimensions = case.boundaries, case.solver.dimensions
     left = boundaries.kind_of("left")
+
+    # Half a block ends in a plane of symmetry.
     if case.domain.extent == "half" and left != "adiabatic":
         key = "left" if boundaries.left else "sides"
         yield (
@@ -143,6 +148,8 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
             f'half a block is symmetric at x = 0, "{left}" does not fit; write '
             f'extent = "full" in [domain] or {key} = "adiabatic"',
         )
+
+    # Faces along x exist from two dimensions on, and each is said once.
     for face in ("left", "right"):
         if dimensions == 1 and getattr(boundaries, face) is not None:
             yield (
@@ -169,16 +176,19 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 
 def _material(case: CaseContents) -> Iterator[tuple[str, str]]:
+    # A box of fluid has no phase change of its own.
     changes = case.solver.phase_change and case.flow is None
     try:
         case.material.caloric_curve(
             case.initial_temperature, case.solver.curve_plateau, phase_change=changes
         )
     except ValueError as error:
+        # The curve refuses a start outside its range, or what the metal lacks.
         text = str(error)
         is_start = text.startswith("the initial temperature")
         yield "initial_temperature" if is_start else "material", text
     yield from _evaporation(case)
+    # An ambient temperature counts only where heat leaves by convection or radiation.
     losses = case.boundaries.surroundings(case.material, case.initial_temperature)
     if case.boundaries.ambient_temperature is not None and not losses["h_c"] and not losses["eps"]:
         yield (
@@ -188,9 +198,10 @@ def _material(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 
 def _evaporation(case: CaseContents) -> Iterator[tuple[str, str]]:
-    """What vapor that leaves the surface needs."""
+    """Data that vapor which leaves the surface needs."""
     vapor, has_flux = case.material.vaporization, case.solver.has_vapor_flux
     key, right = ("vaporization", "plateau") if has_flux else ("plateau", "hold")
+    # Both ways of evaporating need the molar mass, a flux the critical temperature as well.
     if has_flux or (case.solver.evaporates and case.solver.phase_change):
         if vapor is None or vapor.molar_mass is None:
             yield (
@@ -216,124 +227,9 @@ def _evaporation(case: CaseContents) -> Iterator[tuple[str, str]]:
         )
 
 
-def _laser(case: CaseContents) -> Iterator[tuple[str, str]]:
-    laser = case.laser
-    if laser is None:
-        return
-    surface = case.boundaries.surface
-    if surface in DIRICHLET or surface == "periodic":
-        what = "holds its temperature" if surface in DIRICHLET else "has none"
-        yield (
-            "boundaries.surface",
-            f'a laser heats the surface, "{surface}" {what}; remove one of the two',
-        )
-    found: dict[str, str] = {}
-    for key, ask in (
-        ("laser.absorption.absorption_coefficient", laser.absorption_coefficient),
-        ("laser.reflectivity", partial(laser.reflectivity_table, lower=1.0, upper=1e4)),
-    ):
-        try:
-            ask(case.material)
-        except NoOptics as error:
-            found["laser.wavelength"] = str(error)
-        except ValueError as error:
-            found[key] = str(error)
-    yield from found.items()
-    yield from _beam(case, laser)
-
-
-def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
-    """Whether beam, domain and symmetry fit together."""
-    dimensions, domain = case.solver.dimensions, case.domain
-    if dimensions == 1 and not laser.beam.is_uniform:
-        yield (
-            "laser.beam.kind",
-            f'a "{laser.beam.kind}" beam varies along the surface, which a 1-D run does not have; '
-            "write dimensions = 2 in [solver], or a uniform beam",
-        )
-        return
-    holds_spot = laser.spot is not None and laser.spot.extent == "whole"
-    if dimensions == 1 and holds_spot:
-        yield "laser.spot.extent", 'a 1-D run cannot hold a spot; write extent = "cell"'
-        return
-    if domain.extent == "half" and not laser.first_pulse.is_even:
-        yield (
-            "domain.extent",
-            'this beam is not symmetric about x = 0; write extent = "full"',
-        )
-    yield from _position(laser, dimensions)
-    if not isinstance(laser.beam, InterferenceBeam):
-        return
-    if dimensions == 2 and laser.beam.varies_along_y:
-        yield _pattern_across(laser.beam, case.solver)
-    if holds_spot:
-        return
-    is_moved_off = bool(laser.beam.pulse_shift) and not laser.is_even
-    if is_moved_off and case.boundaries.kind_of("left") == "adiabatic":
-        yield (
-            "laser.beam.shift",
-            "takes the pattern away from the planes of symmetry at the sides; shift by half a "
-            'period, or write sides = "periodic" in [boundaries] and extent = "full" in [domain]',
-        )
-    repeating = ("adiabatic", "periodic")
-    ends = {case.boundaries.kind_of("left"), case.boundaries.kind_of("right")}
-    if ends & set(repeating):
-        yield from _whole_periods("width", domain.width, laser.beam.lateral_period)
-    if dimensions == 3 and case.boundaries.sides in repeating:
-        yield from _whole_periods(
-            "breadth", domain.breadth or domain.width, laser.beam.lateral_period_y
-        )
-
-
-def _position(laser: Laser, dimensions: int) -> Iterator[tuple[str, str]]:
-    """Light that is the same wherever its axis lies."""
-    x, y = laser.position
-    if laser.is_bounded or (x, y) == (0.0, 0.0):
-        return
-    if laser.beam.is_uniform:
-        right = "leave it out" if laser.spot is None else "write spot.place instead"
-        yield "laser.position", f"says nothing of light that is the same everywhere; {right}"
-    elif dimensions == 2 and y != 0.0:
-        yield (
-            "laser.position",
-            "its y says nothing where the light is the same at all y; write "
-            f'position = ["{format_quantity(x, "m")}", "0 m"]',
-        )
-
-
-def _pattern_across(beam: InterferenceBeam, solver: SolverSettings) -> tuple[str, str]:
-    """The refusal of a pattern that no plane section shows."""
-    key, right = "beams", "beams = 2"
-    if beam.waves:
-        key, right = "waves", "waves whose azimuths are all 0 or 180 deg"
-    period = beam.lateral_period_y
-    every = "" if period is None else f", every {format_quantity(period, 'm', 4)}"
-    solid = ' with solver.kind = "conduction"' if computes_flow(solver) else ""
-    return (
-        f"laser.beam.{key}",
-        f"the pattern varies along y{every}, but a 2-D run is a section with the same light at all "
-        f"y; write {right}, or solver.dimensions = 3{solid}",
-    )
-
-
-def _whole_periods(
-    key: str, length: float | None, period: float | None
-) -> Iterator[tuple[str, str]]:
-    """Patterns must fill a periodic or mirrored domain a whole number of times."""
-    if length is None or period is None:
-        return
-    count = max(1, round(length / period))
-    if not math.isclose(length, count * period, rel_tol=1e-6):
-        yield (
-            f"domain.{key}",
-            f"{format_quantity(length, 'm')} is no whole number of the pattern's periods of "
-            f"{format_quantity(period, 'm', 7)}; write "
-            f'{key} = "{format_quantity(count * period, "m", 10)}"',
-        )
-
-
 def _size(case: CaseContents) -> Iterator[tuple[str, str]]:
     size = size_of(case)
+    # Numbers of particles are 32-bit integers.
     if size.particles > LARGEST_PARTICLES:
         yield (
             "particles.spacing",
@@ -352,6 +248,7 @@ def _points(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Probes and traces: each of one name, inside the domain."""
     dimensions = case.solver.dimensions
     bounds = dict(zip("xy", case.domain.lateral(dimensions), strict=False))
+    # Names become columns of the history and must differ.
     for key, points in (("probes", case.probes), ("traces", case.traces)):
         what = key.removesuffix("s")
         for name, count in Counter(point.name for point in points).items():
@@ -378,6 +275,7 @@ def _points(case: CaseContents) -> Iterator[tuple[str, str]]:
 def _snapshots(case: CaseContents) -> Iterator[tuple[str, str]]:
     if case.end_of_pulse <= 0.0:  # which `pulse_problems` tells
         return
+    # Snapshots end with the run, or with the pulse where pauses are jumped over.
     late = [time for time in case.output.snapshots.times if time > case.end_of_pulse]
     if late:
         yield (

@@ -94,7 +94,8 @@ class CaseContents(Model):
 
     @property
     def pause(self) -> Literal["compute", "spread", "remove"]:
-        """What is done between the pulses of a train, see `TimeSettings.pause`."""
+        """Treatment of the pauses between the pulses of a train, see `TimeSettings.pause`."""
+        # One pulse has no pause; with several, a surface that moves is worth the time of melt only.
         if self.laser is None or self.laser.pulse.count == 1:
             return "compute"
         return self.time.pause or ("remove" if self.surface_moves else "compute")

@@ -39,6 +39,7 @@ def convert(document: Document) -> tuple[Document, list[str]]:
 
     A file that says to be of the present version is left as it is.
     """
+    # A file of the present version has its keys where it says.
     version = document.data.get("schema_version")
     if version not in (1, None):
         return document, []
@@ -46,6 +47,7 @@ def convert(document: Document) -> tuple[Document, list[str]]:
     for old, new in MOVED.items():
         if _move(data, old, new):
             moved.append(f"{dotted(old)} is {dotted(new)}")
+    # A file without a version stays without one.
     if version is not None:
         data["schema_version"] = SCHEMA_VERSION
     lines = {present_place(path): line for path, line in document.lines.items()}
@@ -54,11 +56,13 @@ def convert(document: Document) -> tuple[Document, list[str]]:
 
 def _move(data: dict[Any, Any], old: Path, new: Path) -> bool:
     """Move a key; where its place is taken or it is not there, nothing happens."""
+    # Down to the table that holds the key.
     (*tables, key), source = old, data
     for step in tables:
         source = source.get(step, {}) if isinstance(source, dict) else {}
     if not isinstance(source, dict) or key not in source:
         return False
+    # A new place that is taken belongs to the reader: nothing is overwritten.
     target = data.setdefault(new[0], {})
     if not isinstance(target, dict) or new[-1] in target:
         return False

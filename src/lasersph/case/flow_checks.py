@@ -39,7 +39,8 @@ def flow_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 
 def _liquid(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
-    """What the liquid must know."""
+    """Properties that the liquid must have."""
+    # Flow needs a viscosity, and a slope of surface tension where the surface pulls.
     material = case.material
     given = material.properties()
     base = f'beside base = "{material.name}" ' if material.name in available_materials() else ""
@@ -73,6 +74,7 @@ def _heat_faces(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 def _pool(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
     """A pool in a block that is solid at first."""
+    # A pool melts into a solid: by phase change, and by some heat.
     if case.material.melting is None:
         yield (
             "material",
@@ -100,6 +102,7 @@ def _pool(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, s
 
 def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
     """A closed box that is all fluid."""
+    # A box is fluid everywhere, with one size of particles.
     if case.material.melting is not None and case.solver.phase_change:
         yield (
             "solver.phase_change",
@@ -111,6 +114,8 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
             "particles.arrangement",
             'particles that flow through the whole box need one size; write "uniform"',
         )
+
+    # A side repeats for heat and for flow, or for neither.
     for side in PLANE:
         heat, kind = case.boundaries.kind_of(side), flow.faces[side].kind
         if (heat == "periodic") == (kind == "periodic"):
@@ -127,6 +132,8 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
             f'"{given}", but {side} is periodic in [{other}]; write "periodic" in both or in '
             "neither",
         )
+
+    # Half a box ends in a plane of symmetry of the flow.
     if case.domain.extent == "half" and flow.left.kind not in ("symmetry", "free-slip"):
         yield (
             "solver.flow.left",
@@ -139,6 +146,7 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
 
 def _vortices(case: CaseContents, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]:
     """Vortices must fill the box: the walls lie between them."""
+    # Walls lie between vortices, half a period apart.
     (x,) = case.domain.lateral(2)
     period = initial.period or x[1] - x[0]
     for key, length in (("width", x[1] - x[0]), ("depth", case.domain.depth)):
@@ -156,6 +164,8 @@ def _vortices(case: CaseContents, initial: TaylorGreenFlow) -> Iterator[tuple[st
 def _steps(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
     """Speeds and viscosities that no number of steps follows."""
     spacing, end = case.particles.spacing, case.time.end
+
+    # Speeds that the case itself names; others follow from the run.
     speeds = {}
     if case.flow is not None:
         speeds = {
@@ -164,6 +174,8 @@ def _steps(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, 
         }
         if isinstance(case.flow.initial, TaylorGreenFlow):
             speeds["solver.flow.initial.speed"] = case.flow.initial.speed
+
+    # Courant number: steps of at most C dx / u.
     for key, speed in speeds.items():
         steps = end * speed / (LARGEST_COURANT * spacing)
         if steps > LARGEST_STEPS:
@@ -172,6 +184,8 @@ def _steps(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, 
                 f"{speed:.3g} m/s needs {steps:.2g} steps to the end, more than "
                 f"{LARGEST_STEPS:.0g}; take a lower speed, a coarser spacing or an earlier end",
             )
+
+    # Diffusion number of explicit viscosity: steps of at most d dx^2 / nu.
     if solver.viscosity == "explicit" and (case.material.melting or case.material.is_liquid):
         try:
             viscosity = float(case.material.kinematic_viscosity_at(case.material.flow_temperature))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeVar
 
@@ -36,15 +36,18 @@ def case_file(name_or_path: str | os.PathLike[str]) -> Path:
         CaseError: neither a shipped case nor a file; says the nearest name.
     """
     text = os.fspath(name_or_path)
+    # A shipped name first, then a path.
     if not isinstance(name_or_path, Path) and text in available_cases():
         return available_cases()[text]
     path = Path(text).expanduser()
+    # A name can be no path at all, of a null character or too long.
     try:
         exists = path.exists()
     except (OSError, ValueError):
         exists = False
     if exists or text.endswith(".toml") or os.sep in text:
         return path
+    # Neither: the nearest shipped name, or all of them.
     near = nearest(text, available_cases())
     hint = f'do you mean "{near}"?' if near else "shipped: " + ", ".join(available_cases())
     raise CaseError(f'no case "{text}"', hint)
@@ -59,6 +62,7 @@ class CaseFile:
 
     def __init__(self, name_or_path: str | os.PathLike[str]) -> None:
         self.document, moved = convert(read_toml(case_file(name_or_path), tolerant=True))
+        # A plan names a case; the verbs for many runs read it.
         if "case" in self.document.data and "particles" not in self.document.data:
             file = self.document.file
             right = f"lasersph sweep, calibrate or find {file} computes it"
@@ -78,8 +82,20 @@ class CaseFile:
         case = self._built(Case, overrides)
         moved = [*self._moved, *moved_settings(overrides)]
         note = f"read as schema version {SCHEMA_VERSION}: {', '.join(moved)}" if moved else ""
-        text = with_settings(self.document.text, overrides)
+        text = with_settings(self.document.text, [*self._files(), *overrides])
         return case.named(Path(self.document.file).stem, text, note)
+
+    def _files(self) -> Iterator[str]:
+        """Settings that name the files beside this one by their whole paths: what is kept of the
+        case is read in another folder."""
+        folder = Path(self.document.file).absolute().parent
+        for path in (("material",), ("laser", "spot", "image")):
+            name = self.document.at(path)
+            is_name = not isinstance(name, str) or not (Path(name).suffix or "/" in name)
+            if is_name or name.startswith(("/", "~")):
+                continue
+            if (folder / name).is_file():
+                yield f"{'.'.join(path)}={folder / name}"
 
     def _built(self, model: type[M], overrides: Sequence[str]) -> M:
         document = override(self.document, overrides)
@@ -110,6 +126,7 @@ def load_case(
         CaseError: every problem of the case in one line: file, line, key, what is wrong.
     """
     file = CaseFile(name_or_path)
+    # Coarser values follow from the case with its overrides, which win over them.
     if quick:
         overrides = [*quick_settings(file.case(overrides)), *overrides]
     return file.case(overrides)

@@ -52,6 +52,7 @@ def _located(name: str | Path, folder: Path | None) -> str | Path:
 
 def _whole(table: dict[str, Any]) -> dict[str, Any]:
     """The data of a material written into the case."""
+    # Plain values and sections as they are, properties with a source.
     data: dict[str, Any] = {"name": UNNAMED}
     for key, value in table.items():
         if value is None or key in PLAIN:
@@ -60,6 +61,7 @@ def _whole(table: dict[str, Any]) -> dict[str, Any]:
             data[key] = _changed_section({}, value) if isinstance(value, dict) else value
         else:
             data[key] = _sourced(value)
+    # k = D rho c_p where a constant diffusivity stands in for the conductivity.
     if "conductivity" not in data and "diffusivity" in data:
         conductivity = _conductivity(data)
         if conductivity is not None:
@@ -88,6 +90,7 @@ def _conductivity(data: dict[str, Any]) -> dict[str, Any] | None:
 
 def _changed(table: dict[str, Any], folder: Path | None) -> dict[str, Any]:
     """The data of the base with the table's changes."""
+    # The base as its file has it.
     base = table["base"]
     if not isinstance(base, str):
         raise ValueError('base must be the name or path of a material; write e.g. "steel-304"')
@@ -95,12 +98,16 @@ def _changed(table: dict[str, Any], folder: Path | None) -> dict[str, Any]:
     material = load_material(located)
     data = read_toml(material_file(located)).data
     changes = {key: value for key, value in table.items() if key != "base"}
+
+    # A viscosity that is set replaces both of the base; the density of the melt was their quotient.
     if len(changes.keys() & VISCOSITIES) == 1:
         if data.keys() >= set(VISCOSITIES) and "density" not in changes:
             data["density"] = _with_melt(data["density"], material.density_liquid)
         data = {key: value for key, value in data.items() if key not in VISCOSITIES}
     if changes:
         data["note"] = f"{data.get('note', '')} Changed in the case: {', '.join(changes)}.".strip()
+
+    # Changes: sections keep the base's other numbers, properties are replaced whole.
     for key, value in changes.items():
         if key in SECTIONS and isinstance(value, dict):
             data[key] = _changed_section(data.get(key, {}), value)
@@ -108,6 +115,8 @@ def _changed(table: dict[str, Any], folder: Path | None) -> dict[str, Any]:
             data[key] = value
         else:
             data[key] = _sourced(value)
+
+    # The diffusivity of a changed metal gives its conductivity, if nothing else does.
     if "diffusivity" in changes:
         conductivity = _conductivity(data)
         if "conductivity" in changes or conductivity is None:
@@ -126,12 +135,14 @@ def _with_melt(density: dict[str, Any], melt: float) -> dict[str, Any]:
 
 
 def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    # One source for all numbers of the section becomes a source for each.
     merged = dict(section)
     source = merged.get("source", {})
     sources = source if isinstance(source, dict) else dict.fromkeys(merged, source)
     sources = {key: sources[key] for key in sources if key not in UNSOURCED + SOURCED_BELOW}
     stated = {key: u for key, u in merged.get("uncertainty", {}).items() if key not in changes}
     merged["uncertainty"] = stated  # that of the base says nothing about a changed number
+    # Each changed number is from the case; laws and tables have sources of their own.
     for key, value in changes.items():
         if value is None:
             continue
@@ -148,6 +159,7 @@ def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[s
         else:
             merged[key] = value
             sources[key] = SET_HERE
+    # A source in words covers the whole section.
     if not isinstance(changes.get("source"), str):
         merged["source"] = sources | dict(changes.get("source", {}))
     return merged
@@ -157,6 +169,7 @@ def _sourced(value: Any) -> Any:
     """A property given in short ("20 W/(m K)") or without source as a table with one."""
     if not isinstance(value, dict):
         return {"value": value, "source": SET_HERE}
+    # Laws of solid and liquid have a source each.
     laws = {key: _sourced(value[key]) for key in ("solid", "liquid") if value.get(key) is not None}
     return value | laws if laws else {"source": SET_HERE} | value
 
@@ -168,6 +181,7 @@ class _MaterialSchema:
         self, _schema: CoreSchema, _handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
         """Quantities may be text or a table with their law, so that they have no type."""
+        # Keys of the material, in the form in which a case may write them.
         whole = Material.model_json_schema()
         keys: dict[str, Any] = {
             "base": {
@@ -182,7 +196,10 @@ class _MaterialSchema:
             below = leaf.get("properties", {})
             if name in SECTIONS:
                 needed = [key for key in leaf.get("required", ()) if key != "source"]
-                found = {key: _told(below[key], whole["$defs"], key in needed) for key in below}
+                found = {
+                    key: _key_description(below[key], whole["$defs"], key in needed)
+                    for key in below
+                }
                 keys[name] = {
                     "type": "object",
                     "description": leaf["description"],
@@ -191,7 +208,7 @@ class _MaterialSchema:
                     "x-needed": False,
                 }
             else:
-                keys[name] = _told(
+                keys[name] = _key_description(
                     part, whole["$defs"], name in whole["required"] and name != "name"
                 )
         return {
@@ -208,7 +225,9 @@ def _resolved(part: dict[str, Any], definitions: dict[str, Any]) -> dict[str, An
     return definitions[part["$ref"].rpartition("/")[2]] if "$ref" in part else part
 
 
-def _told(part: dict[str, Any], definitions: dict[str, Any], is_needed: bool) -> dict[str, Any]:
+def _key_description(
+    part: dict[str, Any], definitions: dict[str, Any], is_needed: bool
+) -> dict[str, Any]:
     """Meaning of a key, kind, unit and an example of the value that may stand there.
 
     "x-law" is true where that may be a law of the temperature as well, "x-needed" says whether a
@@ -216,6 +235,7 @@ def _told(part: dict[str, Any], definitions: dict[str, Any], is_needed: bool) ->
     """
     leaf = _resolved(part, definitions)
     value = _resolved(leaf.get("properties", {}).get("value", leaf), definitions)
+    # Unit, kind and example are those of the value, where the key may be a law.
     found = {key: value[key] for key in ("x-unit", "x-kind", "examples") if value.get(key)}
     if value is not leaf:
         found["x-law"] = True

@@ -33,6 +33,7 @@ def motion_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 
 def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
+    # Faces that hold their temperature belong to bodies at rest.
     dimensions = case.solver.dimensions
     for face in faces_of(dimensions):
         kind = case.boundaries.kind_of(face)
@@ -42,6 +43,7 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
             yield f"boundaries.{key}", f'"{kind}" {REFUSED[kind]}'
     if case.vessel is None:
         return
+    # Walls of the vessel need a side to stand at.
     for side in LATERAL[0]:
         if getattr(case.vessel, side) > 0.0 and dimensions == 1:
             yield f"solver.vessel.{side}", "a 1-D column has no sides; leave it out"
@@ -55,6 +57,7 @@ def _particles(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[s
     width = case.domain.width
     if width is None or solver.dimensions == 1:
         return
+    # A particle must not meet the same neighbor on both sides of a period.
     ratio = case.particles.support_over_spacing
     shortest = 2.0 * (ratio + solver.skin) * case.particles.spacing
     for key, length, face in (
@@ -72,6 +75,7 @@ def _particles(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[s
 
 def _motion(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, str]]:
     motion = case.motion
+    # A sound wave repeats in z and stays linear.
     if isinstance(motion, SoundWave):
         if case.boundaries.surface != "periodic":
             yield (
@@ -91,12 +95,16 @@ def _motion(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str,
 
 def _light(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, str]]:
     material = case.material
+
+    # Ejection is the work of light on an open surface.
     if case.laser is None:
         if case.ejection is not None:
             yield "solver.ejection", "nothing leaves without a [laser]; add one or leave it out"
         return
     if case.boundaries.surface not in ("free", "adiabatic"):
         yield "boundaries.surface", 'a surface that ablates lies open; write "free"'
+
+    # The velocity of vapor follows from its molar mass.
     vapor = material.vaporization
     if vapor is None or vapor.molar_mass is None:
         mass = 'molar_mass = "55 g/mol"'
@@ -120,6 +128,8 @@ def _light(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, 
             "the enthalpy model of ejection is about latent heats; leave it out, or write model = "
             '"published" in [solver.ejection]',
         )
+
+    # A preset of the published rule brings a reflectivity, which must be that of the laser.
     rule = case.ejection
     if rule is None or rule.reflectivity is None:
         return
@@ -134,6 +144,7 @@ def _light(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, 
 
 def _idle_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Keys that need an open surface, walls at the sides, or light that goes below a surface."""
+    # A surface that is held or repeats exchanges nothing with surroundings.
     boundaries = case.boundaries
     if boundaries.surface in (*DIRICHLET, "periodic"):
         for key in ("convection", "emissivity"):
@@ -152,6 +163,7 @@ def _idle_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
             "matter that moves takes all light in at what it meets first; write absorption = "
             '{ kind = "surface" }',
         )
+    # A uniform motion along an axis that the run does not have.
     if isinstance(case.motion, Uniform):
         for axis, least in (("x", 2), ("y", 3)):
             if case.solver.dimensions < least and getattr(case.motion, axis) != 0.0:

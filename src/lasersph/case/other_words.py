@@ -1,4 +1,4 @@
-"""What other programs call the keys of a case, so that `check` can say ours.
+"""Words of other programs for the keys of a case, so that `check` can say ours.
 
 A key in full, or beginning with a dot inside its own table; several are tried in turn. What begins
 with a semicolon is what to do where lasersph has no such key. Words may name their table first.

@@ -30,6 +30,7 @@ def override(document: Document, settings: Iterable[str]) -> Document:
     data, origins = copy.deepcopy(document.data), dict(document.origins)
     for setting in settings:
         where = f"--set {setting if len(setting) <= 80 else setting[:77] + '...'}"
+        # The key as it is named today; files named on the command line lie where it runs.
         path, value = _parse(setting, where)
         path = present_place(path)
         if path == ("material",) and isinstance(value, str):
@@ -53,6 +54,7 @@ def _parse(setting: str, where: str) -> tuple[tuple[str | int, ...], Any]:
     key, equals, text = setting.partition("=")
     if not equals or not key.strip():
         raise CaseError("is not key=value", "write e.g. --set laser.fluence=0.8J/cm2", file=where)
+    # One step a name, and another for the index behind it.
     path: list[str | int] = []
     for step in key.strip().split("."):
         match = _STEP.fullmatch(step.strip())
@@ -66,6 +68,7 @@ def _parse(setting: str, where: str) -> tuple[tuple[str | int, ...], Any]:
     return tuple(path), _value(text.strip())
 
 
+# TOML first; what is none is text.
 def _value(text: str) -> Any:
     if not text:
         return None
@@ -83,6 +86,7 @@ def _from_here(name: str) -> str:
 
 
 def _put(data: Any, path: tuple[str | int, ...], value: Any, where: str) -> None:
+    # Walk down, and make the tables that are missing.
     for number, step in enumerate(path[:-1]):
         if isinstance(step, int):
             data = _element(data, step, where)
@@ -90,6 +94,7 @@ def _put(data: Any, path: tuple[str | int, ...], value: Any, where: str) -> None
         following = path[number + 1]
         if not isinstance(data, dict):
             raise CaseError(f'"{path[number - 1]}" is not a table', file=where)
+        # A change inside a material that is given by name makes it the base of a table.
         if step == "material" and number == 0 and isinstance(data.get(step), str):
             data[step] = {"base": data[step]}
         data = data.setdefault(step, [] if isinstance(following, int) else {})

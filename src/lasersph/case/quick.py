@@ -6,10 +6,10 @@ from lasersph.analytic.half_space import ablated_depth
 from lasersph.case.case import Case
 from lasersph.input import format_quantity
 
-COARSER = 4.0
+SPACING_FACTOR = 4.0
 FEWEST_CELLS = 10
-LONGER = 2.0
-SHOWN = 1.25
+STEP_FACTOR = 2.0
+LAYERS_OF_CRATER = 1.25
 """Particles that a depth needs to be seen: where it is estimated a fifth too large, one is left."""
 
 
@@ -19,36 +19,41 @@ def quick_settings(case: Case) -> list[str]:
     At least 10 cells stay along each side of the domain, and a crater that is expected stays deeper
     than a particle.
     """
+    # Coarser, but with cells along each side and in the crater.
     largest = largest_spacing(case)
-    spacing = max(case.particles.spacing, min(COARSER * case.particles.spacing, largest))
+    spacing = max(case.particles.spacing, min(SPACING_FACTOR * case.particles.spacing, largest))
     settings = [f"particles.spacing={spacing!r} m"]
     if case.particles.arrangement == "graded" and case.particles.coarsest < spacing:
         settings.append(f"particles.coarsest={spacing!r} m")
     if case.particles.fine_depth is not None and case.particles.fine_depth < spacing:
         settings.append(f"particles.fine_depth={spacing!r} m")
+    # Longer steps; explicit ones follow from the spacing.
     if case.time.step is not None and not case.solver.is_explicit:
-        settings.append(f"time.step={LONGER * case.time.step!r} s")
+        settings.append(f"time.step={STEP_FACTOR * case.time.step!r} s")
     return settings
 
 
 def largest_spacing(case: Case) -> float:
     """Coarsest spacing that still shows what the case is about [m]."""
+    # The narrowest side holds a few cells; an expected crater is deeper than one.
     sides = [high - low for low, high in case.domain.lateral(case.solver.dimensions)]
     largest = min([case.domain.depth, *sides]) / FEWEST_CELLS
     crater = expected_crater(case)
-    return min(largest, crater / SHOWN) if crater else largest
+    return min(largest, crater / LAYERS_OF_CRATER) if crater else largest
 
 
 def expected_crater(case: Case) -> float:
     """Depth that light is expected to ablate by heat alone [m]; 0 where nothing can be ablated."""
     laser, material = case.laser, case.material
     boiling = material.vaporization
+    # A crater needs light, a boiling point and a solver that lets particles leave.
     if laser is None or boiling is None or "ejection" not in type(case.solver).model_fields:
         return 0.0
     cold = case.initial_temperature
     reflectivity = float(laser.reflectivity_table(material, cold, cold + 1.0)[1][0])
     if case.ejection is not None and case.ejection.reflectivity is not None:
         reflectivity = case.ejection.reflectivity
+    # Depth of ablation by heat alone, with melting as a part of the heat.
     return ablated_depth(
         (1.0 - reflectivity) * laser.peak_fluence,
         laser.pulse.on_time or 100.0 * laser.pulse.resolution,

@@ -78,9 +78,11 @@ def estimate_count(domain: Domain, lattice: Lattice, dimensions: int) -> float:
     def per_layer(thickness: float) -> float:
         return math.prod(max(1.0, side / thickness) for side in sides)
 
+    # One spacing everywhere.
     if lattice.arrangement == "uniform":
         count = max(1.0, domain.depth / lattice.spacing) * per_layer(lattice.spacing)
     else:
+        # Graded: the fine layers, then layers that grow by 1/ratio, then the coarsest.
         fine = min(lattice.fine_depth or ASSUMED_FINE_DEPTH, domain.depth)
         count = max(1.0, fine / lattice.spacing) * per_layer(lattice.spacing)
         depth, thickness = fine, lattice.spacing / lattice.ratio
@@ -95,6 +97,7 @@ def estimate_count(domain: Domain, lattice: Lattice, dimensions: int) -> float:
 
 def machine_memory() -> float:
     """Memory of this machine [bytes]; infinite where the system does not tell."""
+    # Memory of the system, which containers may limit further.
     try:
         return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
     except (AttributeError, OSError, ValueError):
@@ -102,7 +105,7 @@ def machine_memory() -> float:
 
 
 def memories(backend: str) -> list[tuple[str, float]]:
-    """What a run must fit into, as words with a place for the number, and how much it is [bytes].
+    """Memories that a run must fit into: words with a place for the number, and the size [bytes].
 
     Raises:
         NoDevice: the backend is "cuda" and there is no graphics card.
@@ -138,5 +141,6 @@ def active_share(case: CaseContents, support: float) -> float:
     """
     if not has_active_region(case):
         return 1.0
+    # Heat has gone 9.6 sqrt(D t) deep at the end; supports ahead of it are active, too.
     heat = PENETRATIONS * math.sqrt(case.material.diffusivity_reference * case.time.end)
     return min(1.0, (heat + SUPPORTS * support) / case.domain.depth)

@@ -68,6 +68,7 @@ def with_vaporization(solver: SolverSettings, material: Material) -> SolverSetti
     moves: there it leaves as a flux. Where nothing moves, and in a box that is all fluid, the
     plateau keeps the temperature, as in [Demuth2020].
     """
+    # What the case says stays.
     if not chooses_vaporization(solver) or solver.vaporization is not None:
         return solver
     wants = wants_vapor_flux(solver, material) and "plateau" not in solver.model_fields_set

@@ -17,11 +17,12 @@ FEWEST_COLUMNS = 12
 """Columns of a line whose differences of fifth order see both of its ends."""
 SLOPE_COLUMNS = 6.0
 """Columns over which the slope of a relief from a file counts; single ones have noise."""
-DRIVES = ("surface_pressure_wave", "surface_mass_flux_wave")
+SURFACE_FORCES = ("surface_pressure_wave", "surface_mass_flux_wave")
 
 
 def surface_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that concerns a surface that moves."""
+    # A wave that begins or ends in the run changes the flow, which only a pool follows.
     wave, moves = case.boundaries.surface_temperature_wave, case.surface_moves
     is_timed = wave is not None and (wave.start, wave.end) != (0.0, None)
     if is_timed and not computes_flow(case.solver):
@@ -29,7 +30,8 @@ def surface_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
             "boundaries.surface_temperature_wave",
             'start and end need [solver] kind = "melt-pool"; leave them out',
         )
-    for name in DRIVES:
+    # Pressure and mass flux act on a surface that can give way.
+    for name in SURFACE_FORCES:
         if getattr(case.boundaries, name) is not None and not moves:
             yield (
                 f"boundaries.{name}",
@@ -57,6 +59,7 @@ def _tension(case: CaseContents) -> Iterator[tuple[str, str]]:
 def _shape(case: CaseContents) -> Iterator[tuple[str, str]]:
     spacing = case.particles.spacing
     (x,) = case.domain.lateral(2)
+    # Differences of fifth order need their columns.
     if x[1] - x[0] < FEWEST_COLUMNS * spacing:
         yield (
             "particles.spacing",
@@ -71,6 +74,7 @@ def _start(
     case: CaseContents, start: InitialSurface, x: tuple[float, float]
 ) -> Iterator[tuple[str, str]]:
     """Whether a surface can begin as it is given."""
+    # Liquid below the deepest place of the surface at the start.
     key = "solver.flow.initial_surface." + ("path" if start.rows else "amplitude")
     depth = case.domain.depth if case.flow is not None else case.particles.fine_depth
     if depth is not None and depth - start.extent < MIN_LAYERS * case.particles.spacing:
@@ -82,6 +86,7 @@ def _start(
             f"leaves {format_quantity(depth - start.extent, 'm')} of {what}, less than "
             f"{MIN_LAYERS} spacings; write {right}",
         )
+    # A slope over a few columns; single points of a measured relief are noise.
     steepest = start.steepest(SLOPE_COLUMNS * case.particles.spacing)
     if steepest > STEEPEST:
         yield (
@@ -89,6 +94,7 @@ def _start(
             f"is a slope of {steepest:.3g}, more than {STEEPEST:.0f}; write a smaller "
             "amplitude or a longer period",
         )
+    # A relief from a file must reach from side to side.
     if not start.covers(*x):
         yield (
             key,
@@ -107,6 +113,7 @@ def _solver(case: CaseContents) -> Iterator[tuple[str, str]]:
         )
     if case.flow is None:
         return
+    # The ends of the line are pinned to walls that rest.
     for side in ("left", "right"):
         if case.flow.faces[side].kind == "moving-wall":
             yield (

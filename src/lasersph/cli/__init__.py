@@ -26,7 +26,7 @@ OTHER_VERBS = {
     "simulate": "run",
     "start": "run",
 }
-"""What other programs call our verbs."""
+"""Verbs of other programs, and ours for them."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -43,6 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # BLAS gets small matrices here: its threads would only wait, on a busy machine for seconds
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     gc.set_threshold(ALLOCATIONS_BETWEEN_COLLECTIONS)
+    # --debug may stand anywhere; all else belongs to the verb.
     given = list(sys.argv[1:] if arguments is None else arguments)
     wants_traceback = "--debug" in given
     given = [argument for argument in given if argument != "--debug"]
@@ -55,12 +56,13 @@ def _run(given: Sequence[str]) -> int:
     from lasersph.cli.app import VERBS, command_of, complete_in_shell, top_help
     from lasersph.cli.failures import WrongCommand
 
-    verb, *rest = given or ["--help"]
+    verb, *others = given or ["--help"]
+    # The shell asks for completions, which needs all verbs.
     if verb == "--install-completion" or COMPLETION in os.environ:
         complete_in_shell(given)
         return 0
     if verb == "help":  # as other programs have it: help run
-        verb, rest = (rest[0], ["--help"]) if rest else ("--help", [])
+        verb, others = (others[0], ["--help"]) if others else ("--help", [])
     if verb in ("-h", "--help"):
         print(top_help())
         return 0
@@ -68,11 +70,12 @@ def _run(given: Sequence[str]) -> int:
         print(f"lasersph {__version__}")
         return 0
     if not any(verb in verbs for verbs in VERBS.values()):
+        # No such verb: that of another program, or one spelt alike.
         from lasersph.input import did_you_mean
 
         names = [name for verbs in VERBS.values() for name in verbs]
         other = OTHER_VERBS.get(verb)
         near = f' (do you mean "{other}"?)' if other else did_you_mean(verb, names)
         raise WrongCommand(f'no verb "{verb}"{near}; see lasersph --help')
-    code = command_of(verb)(rest)
+    code = command_of(verb)(others)
     return code if isinstance(code, int) else 0

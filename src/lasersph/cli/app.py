@@ -114,7 +114,7 @@ VERBS = {
 The summaries are the first lines of the functions' docstrings, which a test compares.
 """
 HELP = {"help_option_names": ["-h", "--help"]}
-"""What asks for the help of a verb, as typer names it."""
+"""Options that ask for the help of a verb, as typer names them."""
 OPTIONS = {
     "--version": "Print the version.",
     "--install-completion": "Complete verbs and options in your shell with the Tab key.",
@@ -131,6 +131,7 @@ def top_help() -> str:
         "Simulate what a laser pulse does to metal, with smoothed particle hydrodynamics.",
         "Start with: lasersph run dlip-steel",
     ]
+    # A section a heading, with the options of the program itself at the end.
     sections = {
         heading: {name: summary for name, (_, summary) in verbs.items()}
         for heading, verbs in VERBS.items()
@@ -156,13 +157,14 @@ def command_of(verb: str) -> Callable[[Sequence[str]], object]:
 
 
 FIRST_TAB = '_lasersph_completion "$@"'
-"""What zsh calls when it loads typer's file, which only defines it: the first Tab did nothing."""
+"""Call for zsh, whose first Tab did nothing: typer's file only defines the function."""
 
 
 def complete_in_shell(arguments: Sequence[str]) -> object:
     """Install or answer the completion of verbs and options, which needs all verbs at once."""
     import typer
 
+    # One application of all verbs: a verb of one command is a command, others keep their own.
     whole = typer.Typer()
     for name in (name for verbs in VERBS.values() for name in verbs):
         app = app_of(name)
@@ -174,6 +176,7 @@ def complete_in_shell(arguments: Sequence[str]) -> object:
     try:
         return whole(list(arguments), prog_name="lasersph", standalone_mode=False)
     finally:  # typer leaves the program once it has written
+        # The first Tab after the installation would only define the function in zsh.
         zsh = Path("~/.zfunc/_lasersph").expanduser()
         is_new = "--install-completion" in arguments and zsh.is_file()
         if is_new and FIRST_TAB not in zsh.read_text(encoding="utf-8"):
@@ -191,6 +194,7 @@ def app_of(verb: str) -> typer.Typer:
     module, _, name = places[verb].partition(".")
     import typer
 
+    # A module may have several commands under its verb; any other function is the verb itself.
     target = getattr(import_module(f"lasersph.cli.{module}"), name)
     if isinstance(target, typer.Typer):
         return target

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def completion_of(room: str, lister: str) -> Callable[[str], list[str]]:
-    """What completes a name: those that a function of a room lists and that begin so. A shell adds
+    """Completion of a name: those that a function of a room lists and that begin so. A shell adds
     files where there is none."""
 
     def complete(begun: str) -> list[str]:
@@ -104,6 +104,7 @@ def read_quantities(option: str, text: str, kind: str) -> list[float]:
     Raises:
         WrongCommand: one is no quantity of that kind, or not above zero.
     """
+    # Empty parts, as of a comma at the end, are no values.
     texts = [one.strip() for one in text.split(",") if one.strip()]
     values = [read_quantity(option, one, kind) for one in texts]
     for one, value in zip(texts, values, strict=True):

@@ -24,6 +24,7 @@ Cases = Annotated[
 
 def cache(action: Action = "show", cases: Cases = None) -> None:
     """Show, fill or clear the cache of compiled loops."""
+    # Cases and fill belong together.
     if (action == "fill") != bool(cases):
         raise WrongCommand(
             "cases are for fill: lasersph cache fill CASE"
@@ -54,6 +55,7 @@ def _fill(name: str) -> None:
     from lasersph.case import load_case
     from lasersph.compute.compiling import Compiling
 
+    # A coarse copy calls the same loops in seconds.
     case = load_case(name, quick=True)
 
     def begun() -> None:

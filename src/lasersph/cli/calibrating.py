@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 import sys
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -26,7 +27,7 @@ from lasersph.input.text_table import text_table
 if TYPE_CHECKING:
     from lasersph.studies.calibration_plan import CalibrationPlan
     from lasersph.studies.find_runs import FindPlan
-    from lasersph.sweeps import Point
+    from lasersph.sweeps import Point, Table
 
 PlanName = Annotated[
     Path,
@@ -68,6 +69,7 @@ def calibrate(
     from lasersph.studies.calibration_reading import read_calibration_plan
     from lasersph.sweeps import Table
 
+    # The plan is read, and refused, before an engine starts.
     loaded = read_calibration_plan(plan)
     if dry_run:
         _forecast_calibration(loaded, engine)
@@ -77,6 +79,8 @@ def calibrate(
     points, most = _first_points(loaded)
     more = ", and two checks" * loaded.runs.check
     say_forecast(points, engine, folder, loaded.study, most, more)
+
+    # A signal ends the runs in hand with a checkpoint; the same command goes on.
     with StopSignals() as signals:
         try:
             found = calibration_run.calibrate(
@@ -105,8 +109,10 @@ def find(
     from lasersph.output import OutputError
     from lasersph.simulation.time_loop import Stopped
     from lasersph.studies import find_runs
+    from lasersph.studies.find_settings import parse_target
     from lasersph.sweeps import Table
 
+    # A folder has its runs, a plan makes them: each has options of its own.
     folder = place if place.is_dir() else out or Path("runs") / place.stem
     if place.is_dir() and (out is not None or engine.words() or dry_run or not want):
         raise WrongCommand(
@@ -119,6 +125,8 @@ def find(
     if plan is not None and dry_run:
         _forecast_find(plan, engine)
         return
+
+    # The engine refuses contradicting options before anything is written.
     chosen = engine.engine()
     if plan is not None:
         say_forecast(plan.sweep.points(), engine, folder, plan.study, plan.budget.most)
@@ -136,13 +144,20 @@ def find(
         except Stopped as error:
             raise _stopped(error, signals.code, "find", place, folder, engine) from None
         except CaseError:
+            # A case that is refused says so itself; anything else is said as a wrong command.
             raise
         except (QuantityError, OutputError, ValueError, KeyError) as error:
             raise WrongCommand(str(error.args[0])) from None
-    if not found:
-        raise WrongCommand(f"no settings inside the runs of {folder} do all of this")
     table = Table.read(folder)
+    if not found:
+        targets = plan.targets if plan is not None else [parse_target(text) for text in want or ()]
+        reached = ", ".join(dict.fromkeys(_reached(table, one.column) for one in targets))
+        raise WrongCommand(
+            f"no settings inside the runs of {folder} do all of this; they reach {reached}"
+        )
     tell_warnings(table)
+
+    # Settings in the units of the plan, numbers in those of their columns.
     units = table.shown_units()
     rows = []
     for one in found:
@@ -156,10 +171,19 @@ def find(
         _say("note: none of these is likelier than not; more runs near them may help")
 
 
+def _reached(table: Table, column: str) -> str:
+    """A number of the runs of a sweep, with its least and its largest value."""
+    from lasersph.input import format_quantity
+
+    values, unit = [one for one in table.values(column) if isfinite(one)], table.number_unit(column)
+    low, high = (format_quantity(float(one), unit) for one in (min(values), max(values)))
+    return f"{column} from {low} to {high}"
+
+
 def _stopped(
     error: Exception, code: int, verb: str, plan: Path, folder: Path, engine: EngineOptions
 ) -> StoppedBySignal:
-    """What a signal has stopped, and how to go on."""
+    """Error for what a signal has stopped, which says how to go on."""
     words = ["lasersph", verb, str(plan), "--out", str(folder), *engine.words()]
     return StoppedBySignal(f"{error}; continue with: {shlex.join(words)}", code)
 
@@ -169,6 +193,7 @@ def _first_points(plan: CalibrationPlan) -> tuple[list[Point], int]:
     from lasersph.studies.calibration import first_settings
 
     settings, spot = first_settings(plan), plan.spot
+    # Cells of the spots count each once, however many spots share them.
     if spot is None:
         return [plan.template.point(dict(one)) for one in settings], plan.runs.most
     cells = {point.hash: point for one in settings for point in spot.points(one)}
@@ -180,6 +205,7 @@ def _forecast_calibration(plan: CalibrationPlan, engine: EngineOptions) -> None:
 
     points, most = _first_points(plan)
     count = count_words(points, most) + refused_words(points) + ", and two checks" * plan.runs.check
+    # The box of the unknowns in the units in which the plan gives them.
     box, shown = zip(plan.keys, *plan.box(), strict=True), units_written(plan.text, plan.units)
     print(
         text_table(
@@ -202,7 +228,7 @@ def _forecast_calibration(plan: CalibrationPlan, engine: EngineOptions) -> None:
 def _forecast_find(plan: FindPlan, engine: EngineOptions) -> None:
     points, most = plan.sweep.points(), plan.budget.most
     rows = [
-        ("wanted", ", ".join(dict.fromkeys(one.column for one in plan.wishes))),
+        ("wanted", ", ".join(dict.fromkeys(one.column for one in plan.targets))),
         ("varied", ", ".join(plan.sweep.choices)),
         ("runs", count_words(points, most) + refused_words(points)),
     ]

@@ -34,6 +34,7 @@ PlanKind = Annotated[
 def new(case: CaseName, file: NewFile = None, plan: PlanKind = None) -> None:
     """Write a commented case file, or a plan for many runs, to start from."""
     if plan is not None:
+        # A plan may go without a case: then it is one for the case of the manual.
         from lasersph.sweeps.new_plan import write_new_plan
 
         case, target = ("dlip-steel", case) if file is None else (case, file)
@@ -79,6 +80,7 @@ def check(
     from lasersph.simulation import check as check_case
 
     refuse_backend(backend, threads)
+    # Read, convert, forecast; the case is right once nothing has refused it.
     loaded = load_case(case, settings or (), quick=quick)
     say_what_moved(loaded)
     expected = check_case(loaded, threads=threads, backend=backend)

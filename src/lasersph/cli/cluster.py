@@ -1,4 +1,4 @@
-"""What verbs that make many runs on a cluster write and say."""
+"""Files and messages of verbs that make many runs on a cluster."""
 
 from __future__ import annotations
 
@@ -42,6 +42,7 @@ def write_scripts(
     """Write the scripts for Slurm that are asked for, and say what to do with them."""
     from lasersph.sweeps.slurm import write_array_script, write_dask_script
 
+    # An array of runs, or a scheduler with workers that take them.
     if slurm is not None:
         count = write_array_script(plan, out, slurm)
         if count:
@@ -72,9 +73,11 @@ class RunsInHand:
         """Take in an event."""
         from lasersph.sweeps.progress import ENDS
 
+        # A run that has ended is in nobody's hands.
         if event.kind in (*ENDS, "retry"):
             self._runs.pop(event.run, None)
             return
+        # A run keeps its start as long as its worker is the same.
         since = f"{datetime.now():%H:%M:%S}"
         worker, before, _ = self._runs.get(event.run, (event.worker, since, 0.0))
         since = before if worker == event.worker else since
@@ -85,6 +88,7 @@ class RunsInHand:
         if time.monotonic() - self._said < LINE_EVERY:
             return
         self._said = time.monotonic()
+        # The run by its number, its worker, its start, and the part that is done.
         runs = [
             f"{run.partition('-')[0]} on {worker} since {since} ({100 * done:.0f} %)"
             for run, (worker, since, done) in sorted(self._runs.items())

@@ -28,7 +28,7 @@ def say_cost(
     """Say on standard error how many runs there are, how long they take and where they go.
 
     Args:
-        cases: of all runs. more: follows their number. instead: what would be quicker.
+        cases: of all runs. more: follows their number. instead: a quicker way.
     """
     time = "" if backend != "cpu" else f", roughly {_duration(cases, engine)}"
     _say(f"{len(cases)} runs{more}{time}, in {folder}")
@@ -40,6 +40,7 @@ def expected_seconds(cases: Sequence[Case], threads: int) -> float:
     """Expected wall time of runs one after the other [s], from some of them where they are many."""
     from lasersph.simulation import forecast
 
+    # Forecast some, spread over all, and scale: each takes up to a third of a second.
     chosen = cases[:: -(-len(cases) // SAMPLED)] if cases else ()
     seconds = sum(forecast(case, threads=threads).wall_time for case in chosen)
     return seconds * len(cases) / max(1, len(chosen))
@@ -50,6 +51,7 @@ def _duration(cases: Sequence[Case], engine: EngineOptions) -> str:
     from lasersph.compute.threads import available, chosen
     from lasersph.input import format_duration
 
+    # Workers share the processors.
     count = min(engine.at_once, len(cases))
     threads = chosen(engine.threads) if count == 1 else max(1, available() // count)
     seconds = expected_seconds(cases, threads) / count

@@ -24,7 +24,7 @@ Workers = Annotated[
 
 @dataclass(frozen=True)
 class EngineOptions:
-    """What is given of the engine; see the page on sweeps for what is taken where nothing is."""
+    """Options of the engine as given; the page on sweeps has the defaults."""
 
     workers: Workers = None
     threads: Annotated[
@@ -81,7 +81,7 @@ class EngineOptions:
         return self.scheduler_file is not None or self.scheduler is not None
 
     def engine(self) -> Engine:
-        """What computes the runs.
+        """Engine that computes the runs.
 
         Raises:
             WrongCommand: options that contradict each other, or that the engine refuses.
@@ -89,6 +89,7 @@ class EngineOptions:
         from lasersph.output import OutputError
         from lasersph.sweeps import DaskEngine, LocalEngine
 
+        # Options of a scheduler without one, and both ways to name it.
         for name in ("tls", "worker_wait"):
             if getattr(self, name) is not None and not self.is_distant:
                 raise WrongCommand(f"{_option(name)} is for --scheduler-file or --scheduler")
@@ -101,6 +102,7 @@ class EngineOptions:
                 "--workers is for this machine: the scheduler has workers of its own"
             )
         waits = {} if self.worker_wait is None else {"worker_wait": self.worker_wait}
+        # A refusal of the engine is one of the command: nothing has been written.
         try:
             return DaskEngine(
                 self.scheduler_file, self.scheduler, self.tls, self.threads, self.retries, **waits
@@ -109,7 +111,8 @@ class EngineOptions:
             raise WrongCommand(str(error)) from None
 
     def words(self) -> list[str]:
-        """What was given, as words of a command."""
+        """Options that were given, as words of a command."""
+        # Only what differs from the default, so that the command stays short.
         given = {one.name: getattr(self, one.name) for one in fields(self)}
         changed = [one.name for one in fields(self) if given[one.name] != one.default]
         return [word for name in changed for word in (_option(name), str(given[name]))]
@@ -121,6 +124,7 @@ def _option(name: str) -> str:
 
 def takes_engine(verb: Callable[..., Any]) -> Callable[..., Any]:
     """The verb with the options of `EngineOptions` in place of its parameter `engine`."""
+    # Parameters of the verb without its engine, and those of the engine behind them.
     signature, hints = inspect.signature(verb), get_type_hints(verb, include_extras=True)
     shared, kinds = fields(EngineOptions), get_type_hints(EngineOptions, include_extras=True)
     parameters = [
@@ -143,6 +147,7 @@ def takes_engine(verb: Callable[..., Any]) -> Callable[..., Any]:
         engine = EngineOptions(**{one.name: given.pop(one.name) for one in shared})
         return verb(**given, engine=engine)
 
+    # The names that typer reads.
     del command.__wrapped__  # typer would ask it for its parameters
     command.__signature__ = signature.replace(parameters=parameters)  # pyright: ignore[reportAttributeAccessIssue]
     command.__annotations__ = {one.name: one.annotation for one in parameters}

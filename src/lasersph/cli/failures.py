@@ -1,4 +1,4 @@
-"""What a failure says, in one line, and which exit code it gives.
+"""Message of a failure in one line, and its exit code.
 
 0 done    1 the run failed    2 the case or the command is wrong, nothing was written
 130, 143 stopped by Ctrl-C or SIGTERM
@@ -10,7 +10,11 @@ import os
 import sys
 from collections.abc import Callable
 
-DONE, FAILED, WRONG, INTERRUPTED, TERMINATED = 0, 1, 2, 130, 143
+DONE = 0
+FAILED = 1
+WRONG = 2
+INTERRUPTED = 130
+TERMINATED = 143
 
 
 PAGES = {
@@ -20,7 +24,7 @@ PAGES = {
     "compare": "texture",
     "converge": "methods/uncertainty",
     "export": "results",
-    "find": "calibration",
+    "find": "find",
     "info": "results",
     "map": "maps",
     "material": "metals",
@@ -61,6 +65,7 @@ def exit_code_of(command: Callable[[], int], *, wants_traceback: bool, verb: str
         verb: whose page of the documentation a refusal names.
     """
     try:
+        # A reader who has left is noticed at the flush.
         code = command()
         sys.stdout.flush()
         return code
@@ -70,6 +75,7 @@ def exit_code_of(command: Callable[[], int], *, wants_traceback: bool, verb: str
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     except Exception as error:
+        # Everything else: one line and its code; --debug shows the traceback of a failed run.
         text, code = _described(error)
         if wants_traceback and code == FAILED:
             raise
@@ -83,6 +89,7 @@ def page_of(error: Exception, verb: str) -> str:
     from lasersph.compute.cuda_device import NoDevice
     from lasersph.input import CaseError
 
+    # A metal has a page of its own; a case without a key in its message needs none.
     if isinstance(error, NoDevice):
         return "gpu"
     if isinstance(error, CaseError) and verb not in WITH_PLANS:
@@ -101,10 +108,13 @@ def _say(text: str, code: int) -> int:
 
 def _described(error: Exception) -> tuple[str, int]:
     """Text and exit code of an exception."""
+    # Signals and wrong commands carry their own words.
     if isinstance(error, StoppedBySignal):
         return str(error), error.code
     if isinstance(error, WrongCommand):
         return str(error), WRONG
+
+    # Usage errors: without their decoration, and with the page of help.
     if hasattr(error, "format_message"):  # usage errors of typer, whichever click it brings
         text = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
         context = getattr(error, "ctx", None)
@@ -113,6 +123,8 @@ def _described(error: Exception) -> tuple[str, int]:
         return f"{text}; see {verb} --help", WRONG
     if type(error).__name__ == "Abort":
         return "interrupted", INTERRUPTED
+
+    # Rooms are loaded only where an error could be theirs.
     from lasersph.compute.cuda_device import NoDevice
 
     if isinstance(error, NoDevice):
@@ -123,9 +135,12 @@ def _described(error: Exception) -> tuple[str, int]:
         return str(error), WRONG
     from lasersph.output import FolderRefused, OutputError
 
+    # The run failed, or the folder was refused before anything was written.
     if isinstance(error, OutputError):
         return str(error), WRONG if isinstance(error, FolderRefused) else FAILED
     if isinstance(error, MemoryError):
         return "not enough memory; take a coarser spacing or a smaller domain", FAILED
+
+    # An error that nobody expected, in one line as well.
     what = " ".join(str(error).split()) or type(error).__name__
     return f"the run failed: {what} (--debug shows where)", FAILED

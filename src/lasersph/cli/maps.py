@@ -65,10 +65,12 @@ def draw_map(
     from lasersph.studies.maps import process_map
 
     unit = unit_of(show)
+    # Values with units, as the column has them.
     wanted = None if target is None else _read_value("--target", target, unit)
     steps = [_read_value("--levels", one, unit) for one in (levels or "").split(",") if one.strip()]
     if levels is not None and (len(steps) < 2 or sorted(set(steps)) != steps):
         raise WrongCommand("--levels: give two or more values that rise, e.g. 100nm,200nm")
+    # The map itself refuses a key or a column that the sweep does not have.
     try:
         found = process_map(folder, x, y, show, emulate=emulate, target=wanted, tolerance=tolerance)
     except (KeyError, ValueError) as error:
@@ -88,6 +90,8 @@ def sensitivity(folder: SweepFolder, of: Of = "melt.depth_half_max_m") -> None:
         found = assess_sensitivity(folder, of)
     except (KeyError, ValueError) as error:
         raise WrongCommand(str(error.args[0])) from None
+
+    # Sobol indices: share of the variance by one key alone, and with all others.
     if found.sobol is not None:
         rows, one = [], found.sobol
         columns = (one.first, one.first_error, one.total, one.total_error)
@@ -99,8 +103,12 @@ def sensitivity(folder: SweepFolder, of: Of = "melt.depth_half_max_m") -> None:
             f"from {found.runs} runs; left out one at a time and predicted from the others, "
             f"{known:.3g} % of how they differ is explained"
         )
+
+    # Morris: mean size and deviation of the effects of a key over its whole range.
     if found.screening is not None:
-        rows, one, unit = [], found.screening, unit_of(of)
+        rows = []
+        one = found.screening
+        unit = unit_of(of)
         for key, *sizes, count in zip(
             found.keys, one.mean_size, one.deviation, one.count, strict=True
         ):
@@ -126,14 +134,17 @@ def _say(found: ProcessMap) -> None:
     from lasersph.input import in_field_units
 
     for note in found.notes:
+        # Notes first, then events in words, then lines by their ends.
         print(f"note: {note}")
     for event, text in found.onset_words():
         print(f"{event}{', ' if len(found.axes) == 2 else ': '}{text}")
     in_words = {one.event for one in found.onsets}
     for name, parts in found.lines.items():
+        # Events were said already.
         if name in in_words:
             continue
         points = [point for part in parts for point in part]
+        # Ends of the line: the points that are first and last in order.
         ends: Sequence = (min(points, key=tuple), max(points, key=tuple))
         said = [
             ", ".join(in_field_units(at, a.unit) for at, a in zip(end, found.axes, strict=True))

@@ -44,6 +44,7 @@ def list_materials(word: Word = "") -> None:
     from lasersph.materials import available_materials
     from lasersph.materials.loading import materials_like
 
+    # All materials, or those that the word finds.
     found = materials_like(word)
     if not found:
         known = ", ".join(available_materials())
@@ -59,6 +60,7 @@ def show(name: Name, plot: Plot = None) -> None:
     material = load_material(name)
     if plot is not None:
         _draw(material, plot)
+    # Title, note, numbers with sources, and uncertainties where they are stated.
     print(material.title or material.name)
     if material.note:
         print(" ".join(material.note.split()))
@@ -77,6 +79,7 @@ def check(name: Name, plot: Plot = None) -> None:
     material = load_material(name)
     if plot is not None:
         _draw(material, plot)
+    # Findings have a level; only warnings count against the material.
     findings = check_material(material)
     rows = [(found.level, found.subject, found.text) for found in findings]
     print(text_table(rows, ("level", "subject", "what")))
@@ -95,6 +98,7 @@ def _values(material: Material, name: str, law: Law[Any]) -> str:
     from lasersph.materials.checking import LIQUID_ONLY, UNITS
 
     unit = UNITS[name]
+    # A property of the liquid begins at the liquidus, any other at the reference temperature.
     bottom = material.liquidus if name in LIQUID_ONLY else None
     top = material.vaporization.temperature if material.vaporization else 3000.0
     ends = max(law.lower, bottom or material.reference_temperature), min(law.upper, top)
@@ -111,6 +115,7 @@ def _span(law: Law[Any]) -> str:
 
 def _rows(material: Material) -> list[tuple[str, str, str, str]]:
     """Quantity, value, range, source of every number."""
+    # Laws by property and phase, then the single numbers of each section.
     rows = []
     for name, property_ in material.properties().items():
         for phase, law in property_.laws().items():
@@ -135,18 +140,20 @@ def _rows(material: Material) -> list[tuple[str, str, str, str]]:
             if number is not None:
                 source = section.source_of(name)
                 rows.append((f"{group}, {name}", f"{number:.5g} {unit}".strip(), "", source))
+    # Optics by wavelength; text in a cell stays on one line.
     rows += _spectral_rows(material)
     return [tuple(" ".join(cell.split()) for cell in row) for row in rows]  # pyright: ignore[reportReturnType]
 
 
 def _spectral_rows(material: Material) -> list[tuple[str, str, str, str]]:
-    """What follows from n and k at each wavelength; the sources of R begin with them."""
+    """Values that follow from n and k at each wavelength; the sources of R begin with them."""
     from lasersph.input import format_quantity
     from lasersph.materials.optics import in_nanometers
 
     rows = []
     for wavelength in material.optics.wavelengths() if material.optics else ():
         optics = material.optics.at(wavelength) if material.optics else None
+        # Without n and k there is nothing beyond the numbers above.
         if optics is None or optics is material.optics or optics.reflectivity is None:
             continue
         where = f"optics at {in_nanometers(wavelength)}"

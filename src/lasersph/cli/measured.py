@@ -32,6 +32,7 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
         found = compare(folder, profile)
     except (OutputError, NoComparison) as error:
         raise WrongCommand(f"{error}{_run_of(profile)}") from None
+    # The folder of the answer has the name of the other side.
     other = profile.resolve().name if profile.is_dir() else profile.stem
     print(found)
     print(found.write(out or folder / f"compare-{other}"))
@@ -39,6 +40,7 @@ def compare(folder: Ours, profile: Profile, out: Out = None) -> None:
 
 def _run_of(profile: Path) -> str:
     """A hint where a profile is that of a run, of which half a period may have been computed."""
+    # The file of a run is known by its neighbor.
     if not (profile.parent / "resolved.json").is_file():
         return ""
     return f"; to compare with the run that wrote it name its folder, {profile.parent}"

@@ -61,6 +61,7 @@ class ProgressDisplay(Generic[S]):
 
     def __exit__(self, *_: object) -> None:
         """Leave the line as it stands."""
+        # The last line stays on the terminal.
         if self._line:
             _write(f"{CLEAR}{self._line}\n")
 
@@ -76,16 +77,19 @@ class ProgressDisplay(Generic[S]):
         _write(f"{CLEAR if self._line else ''}{text}\n{self._line}")
 
     def _draw(self, status: S) -> None:
+        # The bar, then the words, on one line of the terminal.
         done = BAR * min(status.work_done, 1.0)
         bar = ("=" * int(done)).ljust(BAR)
         # longer than the terminal, the line could not be drawn over
         self._line = f"[{bar}] {self._describe(status)}"[: shutil.get_terminal_size().columns - 1]
+        # Terminals are slow: not every step is drawn.
         now = time.monotonic()
         if now - self._drawn_at >= REDRAW:
             self._drawn_at = now
             _write(CLEAR + self._line)
 
     def _print(self, status: S) -> None:
+        # Elsewhere a line for each tenth of the work.
         lines = int(LINES * min(status.work_done, 1.0))
         if self._lines_shown is None:  # a resumed run does not repeat what it has shown
             self._lines_shown = lines
@@ -111,6 +115,7 @@ class RunDisplay(ProgressDisplay["RunProgress"]):
     def __call__(self, status: RunProgress) -> None:
         """Show how far the run is."""
         self._steps_since_compiling += 1
+        # Time that is left is unknown while loops are compiled.
         if self._steps_since_compiling <= STILL_COMPILING:
             status = replace(status, remaining_s=None)
         super().__call__(status)
@@ -122,11 +127,12 @@ class RunDisplay(ProgressDisplay["RunProgress"]):
     def compiled(self, compiling: Compiling) -> None:
         """Another loop is: how many now, and how long the rest may take."""
         self._steps_since_compiling = 0
+        # What is left at the rate so far, at most.
         count, took = compiling.loops, compiling.seconds
-        rest = max(self._loops - count, 0) * took / count
+        remaining = max(self._loops - count, 0) * took / count
         text = (
             f"compiled {count} loops of up to {max(self._loops, count)} in {took:.0f} s, "
-            f"{rest:.0f} s more at most"
+            f"{remaining:.0f} s more at most"
         )
         if self.is_terminal:
             self._line = text[: shutil.get_terminal_size().columns - 1]
@@ -158,6 +164,7 @@ class WarningsOnce:
 
     def show(self, text: str, say: Callable[[str], None]) -> None:
         """Hand a warning to what shows lines, unless one of its kind was shown before."""
+        # One of each kind, with the numbers of the first run that has it.
         from lasersph.sweeps.run_warnings import warning_kind
 
         if (kind := warning_kind(text)) not in self._shown:

@@ -56,16 +56,19 @@ def info(folder: RunFolder) -> None:
     from lasersph.report.summary_text import warning_texts
     from lasersph.report.tables import summary_rows
 
+    # What holds of every run: its case and its light.
     found = opened(folder)
     computed = found.summary.get("laser") if found.is_complete else None
     words = light_text(found.case.get("laser") or {}, computed).strip().rstrip(",")
     light = [("light", words)] if words else []
+    # A complete run has its numbers.
     if found.is_complete:
         rows = summary_rows(found.summary, found.uncertainty)
         _print_tables([rows[0], *light, *rows[1:]], _curves(found))
         _print_warnings(warning_texts(found.summary, found.events))
         print(f"{folder}: complete")
         return
+    # One that is not has come to some time of its end.
     times = [float(time) for time in found.history.get("time_s", ())]
     end = format_quantity(float(found.case["time"]["end"]), "s")
     now = format_quantity(times[-1] if times else 0.0, "s")
@@ -92,11 +95,13 @@ def _curves(run: Run) -> list[tuple[str, str]]:
     from lasersph.input import format_quantity
     from lasersph.output.last_pulse import last_pulse
 
+    # Of a train of pulses only the last shows more than strokes.
     shown = last_pulse(run)
     history, number = shown.history, "" if shown is run else ", last pulse"
     curves = {"temperature over time": ("temperature_max_K", "K")}
     curves["melt depth over time"] = ("melt_depth_half_m", "m")
     rows = []
+    # Nothing is drawn of what never was above zero.
     for name, (column, unit) in curves.items():
         values = [float(value) for value in history.get(column, ())]
         if values and max(values) > 0.0:
@@ -117,12 +122,14 @@ def plot(
     """Draw the figures of a run into DIR/figures, or an animation or a 3-D scene of it."""
     from lasersph.plots import animate_run, crater_scene, draw_run
 
+    # A case has light before it has a run.
     if beams:
         print(_draw_beams(str(folder), settings or (), kind))
         return
     if settings:
         raise WrongCommand("--set changes a case and belongs to --beams")
     run = opened(folder)
+    # A scene or an animation instead of the figures.
     if scene:
         target = run.path / "figures" / "crater-scene.png"
         target.parent.mkdir(exist_ok=True)
@@ -146,6 +153,7 @@ def _draw_beams(name: str, settings: Sequence[str], kind: str) -> Path:
     case = load_case(name, settings)
     if case.laser is None:
         raise WrongCommand(f"{name} has no laser")
+    # Not every beam has a finite picture.
     try:
         maps = fluence_maps(case.laser)
     except ValueError as error:

@@ -93,6 +93,7 @@ def run(
     from lasersph.case import load_case
     from lasersph.cli.progress import WarningsOnce
 
+    # Refuse all that is wrong before anything is written.
     refuse_backend(backend, threads)
     loaded = load_case(case, settings or (), quick=quick)
     say_what_moved(loaded)
@@ -106,6 +107,8 @@ def run(
             "--workers is for the companions of --uncertainty; one run has --threads"
         )
     refuse_workers(engine, backend, precision)
+
+    # Inputs of --uncertain, the folder, and the command that would go on after a signal.
     inputs = _uncertain_inputs(loaded, uncertain or (), wanted=uncertainty)
     folder = out or RUNS / loaded.name
     command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
@@ -117,10 +120,13 @@ def run(
     command += [word for given in uncertain or () for word in ("--uncertain", given)]
     command += ["--workers", str(workers)] if engine.at_once > 1 else []
     command += ["--anyway"] if anyway else []
+
+    # Options of every run of this command.
     options = {"threads": threads, "precision": precision, "backend": backend, "anyway": anyway}
     options |= {"wait": LONGEST_WAIT if until_stdin_closes else 0.0}
     warnings = WarningsOnce()
 
+    # Companions of --uncertainty lie below the run and always go on where they stopped.
     def make(case: Case, path: Path) -> Result:
         is_own = path == folder
         again = resume or not is_own  # companions lie in our own folder
@@ -128,6 +134,7 @@ def run(
             given = {**options, "resume": again, "overwrite": overwrite and is_own}
             return _compute(case, path, signals, warnings, shlex.join(command), given)
 
+    # One run, or a run with its companions.
     if uncertainty:
         from lasersph.cli.costs import say_cost
         from lasersph.studies import assess_uncertainty
@@ -154,6 +161,7 @@ def _uncertain_inputs(case: Case, given: Sequence[str], *, wanted: bool) -> list
     from lasersph.input import QuantityError
     from lasersph.studies import read_input
 
+    # An uncertain input needs companions that change it.
     if not wanted:
         raise WrongCommand("--uncertain says how uncertain an input is: add --uncertainty")
     try:
@@ -177,6 +185,7 @@ def _compute(
     from lasersph.simulation.known_loops import known_loops
     from lasersph.simulation.time_loop import Stopped
 
+    # Loops are compiled on the way; a signal stops the run between two steps.
     with RunDisplay(known_loops(case) or USUAL_LOOPS) as progress:
         try:
             with Compiling(progress.compiling, progress.compiled) as compiling:
@@ -215,7 +224,7 @@ def _draw(folder: Path) -> None:
 
     _say("drawing figures and report")
     with ProgressDisplay[Drawn](lambda one: f"drawing {one.name}") as display:
-
+        # Elsewhere than on a terminal one line for all figures is enough.
         def show(name: str, count: int, total: int) -> None:
             if display.is_terminal:
                 display(Drawn(count, total, name))

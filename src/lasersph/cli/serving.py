@@ -50,6 +50,7 @@ def serve(
     allow_run: AllowRun = False,
 ) -> None:
     """Show the runs and sweeps of a folder as a page in a browser: live curves, particles, maps."""
+    # The web libraries are an extra.
     missing = [name for name in ("starlette", "uvicorn") if find_spec(name) is None]
     if missing:
         from lasersph.output.reader import install_hint
@@ -58,21 +59,28 @@ def serve(
     from lasersph.web import server
     from lasersph.web.starting import StartingPages
 
+    # Refuse a wrong folder, token or address before the server starts.
     if not folder.is_dir():
         raise WrongCommand(f"{folder} is not a folder: give one that holds runs")
     token = os.environ.get(TOKEN) or secrets.token_urlsafe(24)
     if len(token) < SHORTEST_TOKEN or not token.isascii():
         raise WrongCommand(f"${TOKEN} needs {SHORTEST_TOKEN} or more plain letters")
     listening = bound_socket(host, port)
+
+    # Beyond this machine the token travels in the open.
     if not is_loopback(host):
         print(
             f"warning: whoever reaches {host} and knows the token sees all runs, and it is sent "
             "without encryption: an ssh tunnel (ssh -L) is safer",
             file=sys.stderr,
         )
+
+    # Names under which the page may be asked for.
     hosts = [*(allow_host or ()), *([] if is_loopback(host) else [host, socket.gethostname()])]
     pages = StartingPages(folder) if allow_run else server.Pages(folder)
     app = server.make_app(folder, token=token, hosts=hosts, pages=pages)
+
+    # The address with the token is what a browser needs.
     name = f"[{host}]" if ":" in host else host
     address = f"http://{name}:{listening.getsockname()[1]}/?token={token}"
 
@@ -94,6 +102,7 @@ def bound_socket(host: str, port: int | None) -> socket.socket:
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     reason = ""
+    # The usual port first, then any that is free; a port that is asked for is the only one.
     for wanted in (PORT, 0) if port is None else (port,):
         listening = socket.socket(family, socket.SOCK_STREAM)
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -34,6 +34,7 @@ def preparation(engine: EngineOptions, again: str) -> Callable[[Mapping[Path, Ca
     chosen = engine.engine()
 
     def report(event: Event) -> None:
+        # Starts and progress of each run would drown the rest.
         if event.kind not in ("started", "progress", "waiting"):
             text = f"{event.run}: {event.kind}" + (f": {event.message}" if event.message else "")
             print(text, file=sys.stderr, flush=True)
@@ -41,6 +42,7 @@ def preparation(engine: EngineOptions, again: str) -> Callable[[Mapping[Path, Ca
     def prepare(cases: Mapping[Path, Case]) -> None:
         from lasersph.sweeps.make import make_folders
 
+        # One worker makes the runs as they are asked for.
         if engine.at_once == 1 or not cases:
             return
         with StopSignals() as signals:

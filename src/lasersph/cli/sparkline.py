@@ -20,15 +20,18 @@ def sparkline(times: Sequence[float], values: Sequence[float]) -> str:
     Args:
         times, values: (n,), n >= 1, rising times.
     """
+    # Largest value in each part of the time.
     start, span = times[0], (times[-1] - times[0]) or 1.0
     tops: list[float | None] = [None] * CURVE_WIDTH
     for time, value in zip(times, values, strict=True):
         k = min(int((time - start) / span * CURVE_WIDTH), CURVE_WIDTH - 1)
         top = tops[k]
         tops[k] = value if top is None else max(top, value)
+    # Blocks where the output can show them.
     low, high = min(values), max(values)
     encoding = sys.stdout.encoding or "ascii"
     marks = BLOCKS if encoding.lower().startswith("utf") else PLAIN
+    # A part in which no step ends keeps the value before it.
     line, last = [], values[0]
     for top in tops:
         last = last if top is None else top

@@ -1,4 +1,4 @@
-"""What asks a command to stop: Ctrl-C, SIGTERM, the end of standard input."""
+"""Signals that ask a command to stop: Ctrl-C, SIGTERM, the end of standard input."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ class StopSignals:
 
     def __enter__(self) -> StopSignals:
         """Listen."""
+        # The handlers of before come back at the end.
         for number in (signal.SIGINT, signal.SIGTERM):
             self._before[number] = signal.signal(number, self._note)
         return self
@@ -35,6 +36,7 @@ class StopSignals:
             signal.signal(number, handler)
 
     def _note(self, number: int, _frame: FrameType | None) -> None:
+        # A second Ctrl-C interrupts at once.
         if self.code and number == signal.SIGINT:
             raise KeyboardInterrupt
         self.code = INTERRUPTED if number == signal.SIGINT else TERMINATED

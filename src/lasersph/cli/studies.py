@@ -75,12 +75,14 @@ def converge(
     from lasersph.output.study_mark import StudyMark
     from lasersph.studies.variation import changed
 
+    # Read and refuse before anything is written.
     options = _options(engine, backend)
     wanted = read_quantities("--spacing", spacing, "length")
     if len(set(wanted)) < 3:
         raise WrongCommand("--spacing: an order needs three different spacings, e.g. 32nm,16nm,8nm")
     loaded = load_case(case, settings or ())
     _refuse_missing_folder(json_file)
+    # Say the cost, mark the folder, compute.
     folder = _folder(out or Path("runs") / f"{loaded.name}-converge", resume)
     cases = [changed(loaded, "particles.spacing", one) for one in sorted(set(wanted))]
     say_cost(cases, engine, backend, folder)
@@ -116,6 +118,7 @@ def threshold(
     from lasersph.studies.fluence_threshold import usual_runs
     from lasersph.sweeps.points import find_key
 
+    # The case must have light and the phase change that is asked for.
     options = _options(engine, backend)
     loaded = load_case(case, settings or (), quick=quick)
     if loaded.laser is None:
@@ -125,22 +128,28 @@ def threshold(
     section = loaded.material.melting if of == "melt" else loaded.material.vaporization
     if section is None or not (loaded.solver.phase_change or of == "ablate"):
         raise WrongCommand(f"{loaded.name} computes no phase change to {of}, so no threshold")
+
+    # Say the cost: bisection needs about as many runs as halvings.
     _refuse_missing_folder(json_file)
     folder = _folder(out or Path("runs") / f"{loaded.name}-threshold", resume)
     runs = usual_runs(tolerance) * [loaded]
     more = " or more, where the threshold is further than twice or half the energy of the case"
     quicker = "" if quick else "--quick makes coarser ones, in less time"
     say_cost(runs, engine, backend, folder, more=more, instead=quicker)
+
+    # The key that the case itself gives its light by.
     key = next(f"laser.{name}" for name in AMOUNTS if getattr(loaded.laser, name) is not None)
     unit = KINDS[find_key(loaded, key)[1]].unit
     mark = StudyMark("threshold", f"threshold of {loaded.name} to {of}", key, unit)
     mark.write(folder)
+
+    # Bisect, and put the answer into the title of the folder.
     found = studies.threshold(
         loaded, of, folder, tolerance=tolerance, at_once=engine.at_once, **options
     )
     kind = FLUENCES.get(loaded.laser.fluence_kind or "", "") * (key == "laser.fluence")
-    told = in_field_units(found.value, unit, found.tolerance * found.value)
-    replace(mark, title=f"{mark.title}: {told}{kind.rstrip(',')}").write(folder)
+    answer = in_field_units(found.value, unit, found.tolerance * found.value)
+    replace(mark, title=f"{mark.title}: {answer}{kind.rstrip(',')}").write(folder)
     print(_answer(found, loaded.laser))
     print(f"runs of all fluences: {folder}")
     _write(json_file, asdict(found))
@@ -167,11 +176,13 @@ def spot(
     from lasersph.plots.spot_threshold import spot_threshold_figure
     from lasersph.studies.variation import changed
 
+    # The case must have a Gaussian spot whose craters can be measured.
     options = _options(engine, backend)
     wanted = read_quantities("--fluence", fluence, "fluence")
     loaded = load_case(case, settings or (), quick=quick)
     if reason := studies.no_spot(loaded, wanted):
         raise WrongCommand(f"{loaded.name}: {reason}")
+    # Say the cost, mark the folder, compute, draw.
     folder = _folder(out or Path("runs") / f"{loaded.name}-spot", resume)
     cases = [changed(loaded, "laser.fluence", one) for one in sorted(set(wanted))]
     say_cost(cases, engine, backend, folder)
@@ -225,6 +236,7 @@ def _runner(threads: int | None, backend: str) -> Any:
     warnings = WarningsOnce()
 
     def make(case: Any, folder: Path) -> Any:
+        # A study compares numbers: no run of it may have changed since.
         options = {"resume": True, "same_case": True, "threads": threads, "backend": backend}
         options |= {"warn": lambda text: warnings.show(text, _report)}
         with StopSignals() as signals:

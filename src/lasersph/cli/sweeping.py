@@ -47,6 +47,7 @@ def sweep(
     table: OnlyTable = False,
 ) -> int:
     """Run a case with many settings by a plan; the same command again goes on."""
+    # The table alone, anew from the folder.
     if table:
         return _remake(plan)
     from lasersph.sweeps import read_plan
@@ -56,6 +57,7 @@ def sweep(
             f"{plan} is a folder: give the plan, {plan / 'plan.toml'} if it is of a sweep, or add "
             "--table"
         )
+    # Read the plan with its notes; then forecast, scripts, or runs.
     loaded = read_plan(plan)
     for note in loaded.notes():
         _say(f"note: {note}")
@@ -78,6 +80,7 @@ def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
     from lasersph.sweeps import DaskEngine, make_runs
     from lasersph.sweeps.progress import SweepProgress
 
+    # Progress of all runs, and of a cluster also which worker has which.
     progress = SweepProgress()
     with StopSignals() as signals, ProgressDisplay(describe) as display:
         in_hand = RunsInHand(display.say) if isinstance(engine, DaskEngine) else None
@@ -90,6 +93,7 @@ def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
         def report(event: Event, table: Table) -> None:
             if in_hand is not None:
                 in_hand.note(event)
+            # Failures are said above the line of progress.
             status = progress.step(event, table)
             if event.kind in ("failed", "wrong", "retry"):
                 word = "tried again" if event.kind == "retry" else event.kind
@@ -104,6 +108,8 @@ def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
             report=report,
             should_stop=should_stop,
         )
+
+    # Complete runs need no continuation.
     if signals.code and not table.is_complete.all():
         raise StoppedBySignal(
             f"stopped with {table.count('complete')} of {len(table.rows)} runs complete; continue "
@@ -132,6 +138,7 @@ def tell(table: Table) -> int:
     """Say what is complete and what is not, and why; the exit code."""
     from lasersph.sweeps.folder import RUNS, TABLE
 
+    # What is complete, and the first of what is not, with its reason.
     for line in table.unknown_columns():
         _say(f"warning: {line}")
     others = [row for row in table.rows if row.status != "complete"]
@@ -142,6 +149,7 @@ def tell(table: Table) -> int:
     if len(others) > MOST_SHOWN:
         print(f"and {len(others) - MOST_SHOWN} more, see {table.path / TABLE}")
     tell_warnings(table)
+    # A failed run has a log of its own.
     failed = next((row for row in others if row.status == "failed"), None)
     if failed is not None:
         print(f"look at one with: lasersph info {table.path / RUNS / failed.run}")
@@ -202,6 +210,7 @@ def say_forecast(
     """
     from lasersph.sweeps.folder import complete_hashes
 
+    # Complete runs of an earlier call count as done.
     there = complete_hashes(folder, study)
     left = [point for point in points if point.hash not in there]
     known = len(points) - len(left)
@@ -214,6 +223,7 @@ def say_forecast(
 
 def count_words(points: Sequence[Point], most: int = 0) -> str:
     """How many runs there are: 4, or 4 to 6 where a study adds some, `most` in all."""
+    # Points that the case refuses make no run.
     right = sum(point.case is not None for point in points)
     return f"{right} to {most}" if most > len(points) else f"{right}"
 
@@ -239,8 +249,10 @@ def forecast_rows(
     right = sum(point.case is not None for point in points)
     if not right:
         return []
+    # Workers share the processors, unless the threads of each are given.
     count = min(engine.workers or available(), right)
     of_each = engine.threads or max(1, available() // count)
+    # Some runs are forecast, and where a study may add runs, both ends are said.
     seconds, sampled = forecast_seconds(points, of_each)
     shares = (1.0, most / len(points)) if most > len(points) else (1.0,)
 

@@ -48,6 +48,7 @@ def texture(
     from lasersph.studies.texture.spot import NoTexture
     from lasersph.studies.texture.texture import FIGURE, finish_texture
 
+    # Read and refuse before anything is written.
     size = None if pixel is None else read_quantity("--pixel", pixel, "length")
     if size is not None and size <= 0.0:
         raise WrongCommand(f'--pixel: "{pixel}" must be greater than 0')
@@ -59,13 +60,18 @@ def texture(
             forecast(plan.cells, engine)
             return
         folder = out or Path("runs") / f"{plan.case.name}-texture"
+        # Equal runs of other sweeps are linked, not computed again.
         link_runs(plan.cells, folder / CELLS, share or [])
     except (NoTexture, OutputError) as error:
         raise WrongCommand(str(error)) from None
+
+    # The command that would go on after a signal.
     words = ["lasersph", "texture", case, *(w for s in settings or () for w in ("--set", s))]
     words += ["--cells", str(cells), "--out", str(folder), *engine.words()]
     again = shlex.join(words + (["--pixel", pixel] if pixel else []))
     chosen = engine.engine()
+
+    # Make the cells; a texture needs all of them.
     say_forecast(plan.cells.points(), engine, folder / CELLS, plan.cells.study)
     table = make(plan.cells, folder / CELLS, chosen, again)
     for row in table.rows:
@@ -74,6 +80,8 @@ def texture(
     tell_warnings(table)
     if not table.is_complete.all():
         raise OutputError(f"not all cells are complete, so no texture; go on with: {again}")
+
+    # The relief from the cells, its numbers and its figure.
     try:
         content = finish_texture(plan, folder, table, size)
     except NoTexture as error:
@@ -88,6 +96,7 @@ def _setting(text: str) -> tuple[str, Any]:
     """Key and value of a --set. Raises WrongCommand."""
     import tomllib
 
+    # A value as TOML, else as text.
     key, sign, value = text.partition("=")
     if not sign:
         raise WrongCommand(f'--set: "{text}" has no "="; write e.g. laser.fluence=0.8J/cm2')
@@ -114,6 +123,7 @@ def _answer_rows(content: dict[str, Any]) -> list[tuple[str, str]]:
     """The main numbers of texture.json."""
     from lasersph.input import format_quantity
 
+    # Sizes, depths and speeds of the whole texture.
     areal, errors = content["areal_parameters"], content["interpolation_error"]
     sizes = ", ".join(f"{n} {format_quantity(areal[n], 'm')}" for n in ("Sa", "Sq", "Sz"))
     rows = [
@@ -124,6 +134,7 @@ def _answer_rows(content: dict[str, Any]) -> list[tuple[str, str]]:
         ("largest speed", format_quantity(content["speed_max_m_s"], "m/s")),
         ("ISO 25178", f"{sizes}, Ssk {areal['Ssk']:.3g}, Sdr {areal['Sdr']:.3g}"),
     ]
+    # Errors of the interpolation: each cell predicted from the others.
     for name, one in errors.items():
         shown = [format_quantity(one[k], one["unit"], 2) for k in ("largest", "rms")]
         share = 100.0 * one["largest"] / (one["largest_value"] or 1.0)

@@ -63,14 +63,20 @@ def validate(
     if only_list:
         print(text_table(validation.titles().items()))
         return
+
+    # Options that exclude each other.
     if every and names:
         raise WrongCommand("--all is for no NAME")
     of_records = record is not None or status or confirm
     if of_records and (quick or json_file is not None or (status and confirm)):
         raise WrongCommand("--record, --status and --confirm go without --quick and --json")
+
+    # Each name once, in its order.
     wanted = list(dict.fromkeys(map(validation.known_name, names or validation.names())))
     refuse_backend(backend, threads)
     folder, out = record or RECORDS, out or RUNS
+
+    # Say, confirm or compute records; else compute and judge.
     if status:
         _say_states(wanted, folder)
     elif confirm:
@@ -93,6 +99,7 @@ def _cost(names: list[str], *, quick: bool) -> str:
     from lasersph.input import format_duration
     from lasersph.validation.records import recorded_seconds
 
+    # Times as they were recorded, where they were.
     known = [recorded_seconds(name, RECORDS, quick=quick) for name in names]
     seconds = [one for one in known if one is not None]
     form = "shortened " if quick else ""
@@ -115,9 +122,11 @@ def _compute(
     """Print a table of each, and a verdict of all; exit code 1 where one did not pass."""
     from lasersph import validation
 
+    # An answer that could not be written is noticed before hours of runs.
     if json_file is not None:
         _write(json_file, backend, {})
     reports: dict[str, dict[str, Any]] = {}
+    # One after the other, each stored when it is finished.
     for name in names:
         folder = out / "short" / name if quick else out / name
         report = validation.validate(name, folder, quick=quick, threads=threads, backend=backend)
@@ -137,6 +146,7 @@ def _say_states(names: Iterable[str], folder: Path) -> None:
     from lasersph.input.text_table import text_table
     from lasersph.validation.records import state_of
 
+    # A line a record; anything but current and confirmed fails.
     states = [state_of(name, folder) for name in names]
     rows = [(state.name, state.word, state.text) for state in states]
     print(text_table(rows, ("validation", "record", "of")))
@@ -150,6 +160,7 @@ def _record(
     """Compute what is out of date, one after the other, each stored when it is finished."""
     from lasersph.validation.records import make_record, state_of
 
+    # What is current is not computed again.
     left = [name for name in names if state_of(name, folder).is_out_of_date]
     if left:
         print(_cost(left, quick=False), file=sys.stderr, flush=True)
@@ -165,6 +176,7 @@ def _confirm(names: Iterable[str], folder: Path, out: Path, threads: int | None)
 
     for name in names:
         state = state_of(name, folder)
+        # Stale records can be confirmed by their shortened form, missing ones cannot.
         if state.record is not None and state.changes:
             print(f"{name}: computing its shortened form", flush=True)
             for text in confirm(state, folder, out, threads=threads)[:4]:

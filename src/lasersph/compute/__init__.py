@@ -1,6 +1,8 @@
 """Loops over particles and pairs, generated from plain Python functions and compiled by Numba.
 
-The only room that names Numba. Importing it starts nothing: a backend does.
+The only room that names Numba. Importing it starts nothing: a backend does. Loops are called in
+two ways: one by one, as methods of the backend (`backend.pair_sum`), or together, in a method that
+reads as the equation and whose loops run again without Python (`graph.graph`).
 """
 
 from __future__ import annotations

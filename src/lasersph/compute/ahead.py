@@ -73,11 +73,13 @@ class CompilingAhead:
     def _begin(self) -> None:
         """Start a process for each further processor, unless another process has done so, or
         nothing is known."""
+        # only where loops are known, and by one process for a folder
         if self._name not in places_of(self._file):
             return
         folder = cache.location()
         if not self._held.enter_context(compiling_alone(folder, _ONE_STARTER, waits=False)):
             return
+        # processes that compile the list into the same folder, and end with this one
         silent = subprocess.DEVNULL
         environment = os.environ | {"LASERSPH_CACHE": str(folder)}
         command = [sys.executable, "-m", __name__, str(self._file), self._name, str(os.getpid())]
@@ -94,6 +96,7 @@ def write_lists(file: Path, lists: dict[str, list[Loop]]) -> None:
     Raises:
         ValueError: a loop that has no record. OSError: the file cannot be written.
     """
+    # each loop once, and lists of its places
     lines: dict[str, int] = {}
     places = {
         name: [lines.setdefault(json.dumps(record_of(loop)), len(lines)) for loop in loops]
@@ -142,6 +145,7 @@ def compile_list(file: Path, name: str, parent: int | None = None) -> None:
         parent: number of that process, if it is another.
     """
     for loop in read_lists(file).get(name, ()):
+        # nobody waits for the rest once the process that asked for it is gone
         if parent not in (None, os.getppid()):
             return
         try:

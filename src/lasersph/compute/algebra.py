@@ -55,10 +55,12 @@ _COMPARE = {
 
 def binary(lines: Lines, op: str, a: Term, b: Term) -> Term:
     """a op b for + - * / // % and **."""
+    # literals are computed here; whole numbers stay whole but for / and **
     if isinstance(a, Number) and isinstance(b, Number):
         return Number(_FOLD[op](a.value, b.value))
     if is_integer(a) and is_integer(b) and op not in ("/", "**"):
         return scalar(f"({integer_text(a)} {op} {integer_text(b)})", "int")
+    # all else is real: powers, then component by component
     if op == "**":
         return power(lines, a, b)
     left, right = shape_of(a), shape_of(b)
@@ -69,9 +71,11 @@ def binary(lines: Lines, op: str, a: Term, b: Term) -> Term:
     shape = left or right
     first, second = real_parts(a), real_parts(b)
     count = max(len(first), len(second))
+    # a scalar beside a vector: evaluated once, for all components
     if shape and not left:
         first = (lines.atom(first[0]),) * count
     if shape and not right:
+        # one division and products in place of a division for each component
         if op == "/" and count > 1:
             op, second = "*", (f"real(1.0) / {second[0]}",)
         second = (lines.atom(second[0]),) * count
@@ -84,11 +88,13 @@ def power(lines: Lines, base: Term, exponent: Term) -> Term:
     shape = shape_of(base)
     if shape_of(exponent) != ():
         raise LoopSourceError("an exponent must be a scalar")
+    # an exponent that no product gives
     if not isinstance(exponent, Number) or (2 * exponent.value) % 1:
         text = real_parts(exponent)[0]
         text = lines.atom(text) if shape else text
         parts = tuple(f"math.pow({part}, {text})" for part in real_parts(base))
         return Value("real", shape, parts)
+    # large exponents are left to pow()
     if abs(exponent.value) > 8:
         text = real_parts(exponent)[0]
         parts = tuple(f"math.pow({part}, {text})" for part in real_parts(base))
@@ -102,9 +108,11 @@ def _product(lines: Lines, base: str, exponent: float) -> str:
     """Text of base ** exponent by repeated squaring and one square root."""
     if exponent == 0:
         return "real(1.0)"
+    # half an exponent is a square root, the rest products
     base = lines.atom(base)
     whole, half = int(abs(exponent)), abs(exponent) % 1
     factors = [f"math.sqrt({base})"] if half else []
+    # binary digits of the exponent: a square for each, a factor where it is 1
     square = base
     while whole:
         if whole & 1:
@@ -131,6 +139,7 @@ def compare(op: str, a: Term, b: Term) -> Term:
         return Number(_COMPARE[op](a.value, b.value))
     if shape_of(a) or shape_of(b):
         raise LoopSourceError("vectors have no order; compare components or norms")
+    # whole numbers are compared as such, all others in the working precision
     if is_integer(a) and is_integer(b):
         return scalar(f"({integer_text(a)} {op} {integer_text(b)})", "bool")
     return scalar(f"({real_parts(a)[0]} {op} {real_parts(b)[0]})", "bool")
@@ -148,6 +157,7 @@ def select(lines: Lines, condition: Term, a: Term, b: Term) -> Term:
     if is_integer(a) and is_integer(b):
         test = boolean_text(condition)
         return scalar(f"({integer_text(a)} if {test} else {integer_text(b)})", "int")
+    # the condition is evaluated once for all components
     shape = shape_of(a)
     if shape != shape_of(b):
         raise LoopSourceError("both branches must have the same shape")
@@ -164,6 +174,7 @@ def extreme(lines: Lines, name: str, values: list[Term]) -> Term:
     if all(isinstance(value, Number) for value in values):
         return Number((min if name == "min" else max)(v.value for v in values))  # type: ignore[union-attr]
     whole = all(is_integer(value) for value in values)
+    # calls of two values, one in the other
     texts = [integer_text(v) if whole else real_parts(v)[0] for v in values]
     result = texts[0]
     for text in texts[1:]:
@@ -189,13 +200,26 @@ def unary(name: str, a: Term) -> Term:
     return Value("real", shape_of(a), parts)
 
 
+def _entry(lines: Lines, table: Value, index: list[Term]) -> Value:
+    """Entry of a table: a scalar, vector or tensor."""
+    if len(index) != 1 or not is_integer(index[0]):
+        raise LoopSourceError(
+            f"table {table.table_name} is indexed by one integer; its entries then by literal ones"
+        )
+    # the place is computed once for all components of an entry
+    place = f"np.uint64({integer_text(index[0])})"
+    if len(table.parts) > 1:
+        place = lines.atom(place)
+    elements = [f"{part}[{place}]" for part in table.parts]
+    if table.kind == "int-table":
+        return Value("int", table.shape, tuple(f"np.int64({element})" for element in elements))
+    return Value("real", table.shape, tuple(elements))
+
+
 def component(lines: Lines, a: Term, index: list[Term]) -> Term:
     """a[index]: tables by integer code; vectors, tensors and tuples by literal numbers."""
     if isinstance(a, Value) and a.is_table:
-        if len(index) != 1 or not is_integer(index[0]):
-            raise LoopSourceError("a table is indexed by one integer")
-        element = f"{a.text}[np.uint64({integer_text(index[0])})]"
-        return scalar(element) if a.kind == "real-table" else scalar(f"np.int64({element})", "int")
+        return _entry(lines, a, index)
     if not all(isinstance(k, Number) and is_integer(k) for k in index):
         raise LoopSourceError("components are indexed by literal integers")
     numbers = [int(k.value) for k in index]  # type: ignore[union-attr]
@@ -207,6 +231,7 @@ def component(lines: Lines, a: Term, index: list[Term]) -> Term:
     if len(numbers) > len(shape):
         raise LoopSourceError(f"{len(numbers)} indices for shape {shape}")
     assert isinstance(a, Value)
+    # one index after the other cuts the row-major components to a part
     parts = list(a.parts)
     for k, number in enumerate(numbers):
         if not -shape[k] <= number < shape[k]:

@@ -2,7 +2,8 @@
 
 In a pair function `name_i` and `name_j` are a field at the particle and at its neighbor, `x_ij r_ij
 l_ij W_ij dW_ij` geometry, other `name_ij` per-pair arrays, bare names constants or tables. In a
-pointwise function bare names are fields where there is such a field, else constants or tables.
+pointwise function bare names are fields where there is such a field, else constants or tables. A
+table is an array (n,), (d, n) or (d, d, n): what is read at a place is a scalar, vector or tensor.
 """
 
 from __future__ import annotations
@@ -57,17 +58,24 @@ def array_kind(array: np.ndarray):
 
 
 def constant_kind(name: str, value):
-    """(role, kind) of a constant; arrays are tables.
+    """(role, kind) of a constant; arrays are tables, whose entries lie along the last axis.
 
     Raises:
-        TypeError: neither number, tuple of numbers nor 1-D array.
+        TypeError: neither number, tuple of numbers nor an array of one to three axes.
     """
     if isinstance(value, _REALS):
         return "constant", ("real", ())
     if isinstance(value, _WHOLE):
         return "constant", ("int", ())
-    if getattr(value, "ndim", 0) == 1:
-        return "table", (array_kind(value)[0] + "-table", ())
+    axes = getattr(value, "ndim", 0)
+    if 0 < axes <= 3:
+        kind, shape = array_kind(value)
+        return "table", (kind + "-table", shape)
+    if axes:
+        raise TypeError(
+            f"table {name} has shape {value.shape}; scalars are (n,), vectors (d, n), tensors "
+            "(d, d, n)"
+        )
     if (
         isinstance(value, tuple | list)
         and value

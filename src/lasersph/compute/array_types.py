@@ -40,7 +40,7 @@ Outputs = Array | None | Sequence[Array | None]
 
 
 class PairList(Protocol):
-    """What loops read of a neighbor list; see `particles.neighbor_lists.NeighborList`."""
+    """Members of a neighbor list that loops read; see `particles.neighbor_lists.NeighborList`."""
 
     @property
     def row_start(self) -> Array:

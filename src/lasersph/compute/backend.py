@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lasersph.compute import connected, key_order, threads
+from lasersph.compute import key_order, threads
 from lasersph.compute.arguments import components
 from lasersph.compute.array_types import Array, Outputs, PairList, Rows
-from lasersph.compute.launch import Launch, Launcher
+from lasersph.compute.compiled_iteration import iterate
+from lasersph.compute.graph import step_of
+from lasersph.compute.launch import Launcher
 from lasersph.compute.loops import Loops
-from lasersph.compute.phase import Phase
-from lasersph.compute.routine import Step, run_routine
 from lasersph.compute.signature import Call
 from lasersph.compute.vectors import constant, same
 
@@ -44,10 +44,10 @@ class Backend:
         self.precision = precision
         self.real = np.dtype(precision)
         self.threads = threads.chosen(threads_wanted)
-        self._loops = Loops(self.precision, self.launcher(), self.unwrap, self.object_address)
+        self.loops = Loops(self.precision, self.launcher(), self.unwrap, self.object_address)
 
     def launcher(self) -> Launcher:
-        """What runs the loops."""
+        """The launcher of the loops."""
         return Launcher(self.threads, self.precision)
 
     # --- arrays ---------------------------------------------------------------------------------
@@ -73,7 +73,7 @@ class Backend:
 
     def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> Array:
         """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
-        recording = self._loops.recorder.recording
+        recording = self.loops.recorder.recording
         if recording is None:
             return self.wrap(np.zeros(shape, self.kind(kind)))
         array = self.wrap(recording.make(shape, self.kind(kind)))
@@ -86,6 +86,7 @@ class Backend:
 
     def to_host(self, array: Array) -> np.ndarray:
         """Copy as a NumPy array."""
+        self._refuse_in_graph("to_host")
         return np.array(self.unwrap(array))
 
     def look(self, array: Array) -> np.ndarray:
@@ -98,7 +99,7 @@ class Backend:
         return host
 
     def snapshot(self, array: Array) -> np.ndarray:
-        """What `look` gives, of a copy that later loops do not change."""
+        """Copy for reading, as of `look`, that later loops do not change."""
         copy = self.wrap(np.empty(array.shape, array.dtype))
         self.copy(array, copy)
         return self.look(copy)
@@ -110,17 +111,26 @@ class Backend:
     def wait(self) -> None:
         """Return when everything that was started is done, as it is here."""
 
-    def single(self, array: Array) -> Array:
-        """Copy in float32, which loops of any precision may read per pair; itself if it is."""
+    def single(self, array: Array, into: Array | None = None) -> Array:
+        """Copy in float32, which loops of any precision may read per pair; itself if it is.
+
+        Args:
+            into: an earlier copy, which is written where it has the same shape.
+        """
         host = self.unwrap(array)
-        return array if host.dtype == np.float32 else self.wrap(host.astype(np.float32))
+        if host.dtype == np.float32:
+            return array
+        if into is None or into.shape != array.shape:
+            return self.wrap(host.astype(np.float32))
+        self.unwrap(into)[...] = host
+        return into
 
     def copy(self, source: Array, destination: Array) -> None:
         """Copy all elements of `source` into `destination` of the same shape."""
         first, second = self.unwrap(source), self.unwrap(destination)
         if first.shape != second.shape:
             raise ValueError(f"copy of shape {first.shape} into shape {second.shape}")
-        if self._loops.recorder.recording is None:
+        if self.loops.recorder.recording is None:
             second[...] = first
         else:
             self.pointwise(same, {"value": source}, destination)
@@ -128,10 +138,12 @@ class Backend:
     def fill(self, array: Array, value: float) -> None:
         """Set all elements."""
         host = self.unwrap(array)
-        if self._loops.recorder.recording is None:
+        if self.loops.recorder.recording is None:
             host.fill(value)
             return
-        number = float(value) if host.dtype.kind == "f" else int(value)
+        number = int(value)
+        if host.dtype.kind == "f":
+            number = value if isinstance(value, float) else float(value)
         for part in components(host):
             self.pointwise(constant, {}, self.wrap(part), value=number)
 
@@ -144,6 +156,7 @@ class Backend:
 
     def gather(self, source: Array, order: Array, out: Array) -> None:
         """out[..., k] = source[..., order[k]]."""
+        self._refuse_in_graph("gather")
         first, last = self.unwrap(source), self.unwrap(out)
         index = self.unwrap(order)
         if first.dtype != last.dtype or first.shape[:-1] != last.shape[:-1]:
@@ -155,6 +168,7 @@ class Backend:
 
     def scatter(self, source: Array, order: Array, out: Array) -> None:
         """out[..., order[k]] = source[..., k]; the other elements keep their values."""
+        self._refuse_in_graph("scatter")
         first, last = self.unwrap(source), self.unwrap(out)
         index = self.unwrap(order)
         if first.dtype != last.dtype or first.shape[:-1] != last.shape[:-1]:
@@ -164,6 +178,7 @@ class Backend:
 
     def exclusive_scan(self, counts: Array, out: Array) -> None:
         """out[k] = counts[0] + ... + counts[k-1] for k = 0 ... n; out is "offset", length n + 1."""
+        self._refuse_in_graph("exclusive_scan")
         first, last = self.unwrap(counts), self.unwrap(out)
         if last.dtype != np.uint64 or last.size != first.size + 1:
             raise ValueError("out must be of kind offset and one longer than counts")
@@ -172,11 +187,13 @@ class Backend:
 
     def rows_where(self, array: Array, value: float) -> Rows:
         """Rows k in order, kind "index", whose array[k] is exactly `value`."""
+        self._refuse_in_graph("rows_where")
         return self.wrap(key_order.rows_where(self.unwrap(array), value))
 
     def rows_by_key(self, keys: Array, key_count: int) -> tuple[Array, Rows]:
         """Where the rows of each index key 0 ... key_count - 1 begin, kind "offset", one more than
         there are keys; and the rows, key after key and in order, kind "index"."""
+        self._refuse_in_graph("rows_by_key")
         start, order = key_order.rows_by_key(self.unwrap(keys), key_count)
         return self.wrap(start), self.wrap(order)
 
@@ -186,17 +203,13 @@ class Backend:
 
     def count_by_key(self, keys: Array, key_count: int) -> Rows:
         """How often each key 0 ... key_count - 1 occurs among index keys, kind "index"."""
+        self._refuse_in_graph("count_by_key")
         return self.wrap(key_order.count_by_key(self.unwrap(keys), key_count))
 
-    def first_connected(
-        self, filled: Array, columns: int, lines: int, wraps: tuple[bool, bool]
-    ) -> Rows:
-        """Smallest number of a cell connected with each, kind "index"; see `connected`.
-
-        Args:
-            filled: (columns lines,) kind "index", not 0 where a cell is filled.
-        """
-        return self.wrap(connected.first_connected(self.unwrap(filled), columns, lines, wraps))
+    def _refuse_in_graph(self, name: str) -> None:
+        """Raise ValueError while a graph is recorded, which would not run this again."""
+        if self.loops.recorder.recording is not None:
+            raise ValueError(f"{name}() is no loop: a graph would not run it again")
 
     # --- loop shapes ----------------------------------------------------------------------------
 
@@ -237,7 +250,7 @@ class Backend:
         call = Call(
             "pair_sum", function, neighbors, fields, out, rows, finish, reduce, constants, combine
         )
-        return self._loops.run(call)
+        return self.loops.run(call)
 
     def pair_values(
         self,
@@ -251,7 +264,7 @@ class Backend:
     ) -> None:
         """out[p] = function(...) for each pair p, in list order; see `pair_sum`."""
         call = Call("pair_values", function, neighbors, fields, out, rows, None, None, constants)
-        self._loops.run(call)
+        self.loops.run(call)
 
     def pointwise(
         self,
@@ -268,62 +281,21 @@ class Backend:
         The number of particles is the length of the first stored output, else of the fields.
         """
         call = Call("pointwise", function, None, fields, out, rows, None, reduce, constants)
-        return self._loops.run(call)
+        return self.loops.run(call)
 
-    def prepare(
-        self,
-        function: Callable,
-        fields: Mapping[str, Array],
-        out: Outputs,
-        *,
-        neighbors: PairList | None = None,
-        finish: Callable | None = None,
-        rows: Rows | None = None,
-        reduce: Any = None,
-        again: Launch | None = None,
-        **constants: Any,
-    ) -> Launch:
-        """`pair_sum`, or `pointwise` without `neighbors`, bound to these arrays once for all.
-
-        Calling what is returned runs the loop, with some of the constants given anew by name; it
-        costs a quarter of an ordinary call. Functions edited after that are not noticed.
-
-        Args:
-            again: what an earlier call with other arrays has returned. It is not used any more, and
-                is bound to these arrays where it can be, which takes a fifth of the time.
-        """
-        shape = "pointwise" if neighbors is None else "pair_sum"
-        call = Call(shape, function, neighbors, fields, out, rows, finish, reduce, constants)
-        return self._loops.prepared(call, again)
-
-    def routine(
-        self, function: Callable[..., tuple], steps: Sequence[Step], *numbers: float
+    def iterate(
+        self, function: Callable[..., tuple], steps: Sequence[Any], *numbers: float
     ) -> tuple[float, ...]:
         """Results of a plain function of steps and numbers, compiled where it can be.
 
-        See `compute.routine`: it is called as `function(*steps, *numbers)`.
+        See `compute.compiled_iteration`: it is called as `function(*steps, *numbers)`.
+
+        Args:
+            steps: graphs of their owners (`compute.graph`), with all arguments but one number given
+                by `functools.partial`; other functions of one number; None for none.
         """
-        return run_routine(function, steps, numbers, self.precision)
+        return iterate(function, [step_of(step) for step in steps], numbers, self.precision)
 
     def component(self, array: Array, k: int) -> Array:
         """View of component k of a vector or tensor, row-major: (n,) of (dim, n), (dim, dim, n)."""
         return self.wrap(components(self.unwrap(array))[k])
-
-    def recorded(self, run: Callable[[], None]) -> Step:
-        """Run loops, and return a step that runs them again: same arrays, same constants.
-
-        For sequences of many small loops, which take longer to bind than to run. Sorts between
-        them are not repeated.
-
-        Raises:
-            ValueError: a loop reduces, since nobody would receive the number.
-        """
-        found = self._loops.recorder.record(run).launches
-        for launch, call, _ in found:
-            if launch.reduces:
-                raise ValueError(f"{call.function.__name__}(): no reduction is recorded")
-        return Step([launch for launch, _, _ in found])
-
-    def phase(self, run: Callable[..., Any]) -> Phase:
-        """A function that is run again as one list of loops; see `compute.phase`."""
-        return Phase(self._loops, run)

@@ -36,7 +36,7 @@ _SPARE = 1 << 20
 _loaded: dict[str, ModuleType] = {}
 _entries: dict[str, Entry] = {}
 _callbacks: dict[str, Any] = {}
-"""What holds the machine code of functions that Numba itself has stored."""
+"""Owners of the machine code of functions that Numba itself has stored."""
 _first_miss: list[Callable[[], None]] = []
 
 
@@ -65,10 +65,13 @@ def location() -> Path:
     Raises:
         OSError: neither the cache folder nor the temporary folder can be written.
     """
+    # the folder that the user or the desktop names
     home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
     chosen = Path(os.environ.get("LASERSPH_CACHE") or Path(home, "lasersph"))
     if _writable(chosen):
         return chosen
+
+    # where that cannot be written: a folder of this user alone, since what lies there is run
     user = os.getuid() if hasattr(os, "getuid") else os.environ.get("USERNAME", "user")
     fallback = Path(tempfile.gettempdir(), f"lasersph-{user}")
     fallback.mkdir(mode=0o700, exist_ok=True)
@@ -84,6 +87,7 @@ def load(text: str) -> ModuleType:
 
     Where the disk is full, the loop is compiled without being stored.
     """
+    # the hash of the text is the file's name, so that an edited text is another file
     folder = location()
     text = _known(text, folder)
     path = folder / f"{_PREFIX}{_digest(text)}.py"
@@ -93,11 +97,13 @@ def load(text: str) -> ModuleType:
     try:
         _put_text(path, text)
         _refuse_full(folder)
+        # import it as a module, whose compiled functions Numba keeps beside the file
         spec = importlib.util.spec_from_file_location(name, path)
         assert spec is not None and spec.loader is not None
         module = sys.modules[name] = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
     except OSError as error:
+        # full disk: the same text from memory, with nothing stored
         _warn(error)
         module = _executed(name, path, _UNSTORED.sub("", text))
     _loaded[name] = module
@@ -106,6 +112,7 @@ def load(text: str) -> ModuleType:
 
 def _known(text: str, folder: Path) -> str:
     """The text by what this Numba has of the parts that it does not document."""
+    # each part that is missing is replaced by the public way
     numba_internals.check(lambda part: trial.passes(folder, part))
     if not numba_internals.has(Part.WRAPPERS):
         text = numba_internals.with_public_options(text)
@@ -127,6 +134,7 @@ def entry(text: str, *, is_fast: bool = True) -> int:
     name = f"{_PREFIX}{_digest(text)}"
     key = f"{folder}/{name}"
     if key not in _entries:
+        # look on disk first, then compile
         found = _read_entry(folder, name, text, is_fast)
         _entries[key] = found or _missing_entry(folder, name, text, is_fast)
     return _entries[key].address
@@ -150,8 +158,10 @@ def compile_ahead(text: str) -> None:
 
 def _missing_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
     """The function of a text that the folder lacks: compiled here, or by who compiles it now."""
+    # the first miss of a run starts the processes that compile ahead
     while _first_miss:
         _first_miss.pop()()
+    # another process may have compiled it while this one waited for the lock
     with reported(), compiling_alone(folder, name.removeprefix(_PREFIX)):
         found = _read_entry(folder, name, text, is_fast)
         return found or _make_entry(folder, name, text, is_fast)
@@ -172,17 +182,20 @@ def _read_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry | No
         return None
     if numba_internals.keeps_object_files():
         try:
+            # load the object file into this process
             address = machine_code.address_of(content, name)
         except Exception as error:
             numba_internals.lose(Part.MACHINE_CODE, error)
             return None
     else:
+        # only a mark lies there; Numba loads its own cached code
         address = _callback_address(folder, name, text, is_fast)
     return None if address is None else Entry(address, True)
 
 
 def _make_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
     """The function of a text, with its text and machine code written to the folder."""
+    # compile to an object file where this Numba allows it
     address, content, failed = None, b"", None
     if numba_internals.keeps_object_files():
         function = _function_of(folder, name, text)
@@ -191,11 +204,14 @@ def _make_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
             address = machine_code.address_of(content, name)
         except Exception as error:  # of Numba's parts, or of the function, which fails again
             failed = error
+    # else by the public way, where the file on disk is only a mark
     if address is None:
         content, address = b"", _callback_address(folder, name, text, is_fast)
+    # the public way worked: the fault was of Numba's part, which is given up
     if failed:
         numba_internals.lose(Part.MACHINE_CODE, failed)
     try:
+        # keep both for other processes, which find the code by the hash of the text
         _put_text(folder / f"{name}.py", text)
         _write(_code_file(folder, name), content)
     except OSError as error:
@@ -250,6 +266,7 @@ def _put_text(path: Path, text: str) -> None:
 
 def _write(path: Path, content: bytes) -> None:
     """Write a file at once: another process sees all of it or nothing."""
+    # write beside it and rename, which is atomic on one file system
     handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
     try:
         with os.fdopen(handle, "wb") as file:
@@ -278,8 +295,10 @@ def _warn(error: OSError) -> None:
 
 def statistics() -> tuple[int, int]:
     """(loops found in the folder, loops compiled) by this process so far."""
+    # loops that are loaded as machine code
     found = sum(one.is_found for one in _entries.values())
     compiled = len(_entries) - found
+    # functions in modules, as Numba's own cache counts them
     for module in _loaded.values():
         for dispatcher in _dispatchers(module):
             hits, misses = numba_internals.found_and_compiled(dispatcher)

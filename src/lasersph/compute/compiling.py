@@ -1,4 +1,4 @@
-"""What a run waits for the first time: the compiling of loops that no earlier run has left."""
+"""Progress of compiling: a run waits for loops that no earlier run has left."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from lasersph.compute.opaque_array import OpaqueArray
 
 
 class Memory:
-    """What arrays share that look at the same elements.
+    """Elements that arrays share; counts their changes.
 
     Attributes:
         version: number of times that the elements may have changed.

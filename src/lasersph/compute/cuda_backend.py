@@ -12,7 +12,7 @@ from typing import Any, cast
 import numpy as np
 from numba import cuda
 
-from lasersph.compute import cuda_connected, cuda_device, cuda_kernels
+from lasersph.compute import cuda_device, cuda_kernels
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.cuda_array import CudaArray
@@ -46,7 +46,7 @@ class CudaBackend(Backend):
         self._shown: dict[Any, DeviceArray] = {}
 
     def launcher(self) -> CudaLauncher:
-        """What runs the loops."""
+        """The launcher of the loops."""
         return CudaLauncher()
 
     # --- arrays ---------------------------------------------------------------------------------
@@ -100,7 +100,7 @@ class CudaBackend(Backend):
         return least, most
 
     def snapshot(self, array: Array) -> np.ndarray:
-        """What `look` gives, of a copy that later loops do not change."""
+        """Copy for reading, as of `look`, that later loops do not change."""
         source = self.unwrap(array)
         copy = self.empty(source.shape, source.dtype)
         self.copy(source, copy)
@@ -110,16 +110,19 @@ class CudaBackend(Backend):
         """Return when the card has done everything that was started."""
         cuda.synchronize()
 
-    def single(self, array: Array) -> Array:
-        """Copy in float32, which loops of any precision may read per pair; itself if it is."""
+    def single(self, array: Array, into: Array | None = None) -> Array:
+        """Copy in float32, which loops of any precision may read per pair; itself if it is.
+
+        Args:
+            into: an earlier copy, which is written where it has the same shape.
+        """
         source = self.unwrap(array)
         if source.dtype == np.float32:
             return array
-        out = self.empty(source.shape, np.float32)
-        count = source.shape[-1]
-        for a, b in zip(source.parts, out.parts, strict=True):
-            start(cuda_kernels.cast, count, np.uint64(count), a, b)
-        return out
+        if into is None or into.shape != source.shape:
+            into = self.empty(source.shape, np.float32)
+        self.copy(array, into)
+        return into
 
     def copy(self, source: Array, destination: Array) -> None:
         """Copy all elements of `source` into `destination` of the same shape."""
@@ -178,12 +181,14 @@ class CudaBackend(Backend):
 
     def _scan(self, counts: Any, size: int, out: Any) -> None:
         """Sums within pieces, of the pieces before each, and both together."""
+        # out[0] = 0 and, within pieces of a group's size, running sums
         start(cuda_kernels.fill, 1, np.uint64(1), out, np.uint64(0))
         if size == 0:
             return
         pieces, count = -(-size // THREADS), np.uint64(size)
         sums = self.empty(pieces, np.uint64).parts[0]
         start(cuda_kernels.piece_sums, size, count, counts, out, sums)
+        # sums before each piece by the same scan, added to its elements
         if pieces > 1:
             before = self.empty(pieces + 1, np.uint64).parts[0]
             self._scan(sums, pieces, before)
@@ -198,6 +203,7 @@ class CudaBackend(Backend):
         start(
             cuda_kernels.mark_equal, size, count, source.parts[0], np.float64(value), marks.parts[0]
         )
+        # a marked row goes to the number of marks before it
         place = self.empty(size + 1, np.uint64)
         self.exclusive_scan(marks, place)
         rows = self.empty(place.last(), np.uint32)
@@ -212,18 +218,22 @@ class CudaBackend(Backend):
 
     def sort_by_key(self, keys: Array, key_count: int) -> CudaArray:
         """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
+        # refuse keys that are too large
         self.count_by_key(keys, key_count)
         size = keys.size
+        # radix sort: keys and rows by one digit after the other, the lowest first
         count, pieces = np.uint64(size), -(-size // THREADS)
         now = self.unwrap(keys).parts[0]
         order = self.empty(size, np.uint32)
         start(cuda_kernels.number, size, count, order.parts[0])
         for shift in range(0, max(key_count - 1, 0).bit_length(), cuda_kernels.DIGIT_BITS):
+            # how often each digit occurs in each piece, and the places that follow
             counts = self.zeros(cuda_kernels.DIGITS * pieces, "index")
             place = self.empty(counts.size + 1, np.uint64)
             digit = (np.uint64(shift), np.uint64(pieces))
             start(cuda_kernels.count_digits, size, count, now, *digit, counts.parts[0])
             self.exclusive_scan(counts, place)
+            # move keys and rows there, equal digits in order
             after, moved = self.empty(size, np.uint32), self.empty(size, np.uint32)
             start(
                 cuda_kernels.sort_digits,
@@ -256,23 +266,3 @@ class CudaBackend(Backend):
         if key or (key_count == 0 and source.size):
             raise ValueError(f"key {key} is not below {key_count}")
         return counts
-
-    def first_connected(
-        self, filled: Array, columns: int, lines: int, wraps: tuple[bool, bool]
-    ) -> CudaArray:
-        """Smallest number of a cell connected with each, kind "index"; see `connected`."""
-        count = filled.size
-        first = self.empty(count, np.uint32)
-        start(cuda_kernels.number, count, np.uint64(count), first.parts[0])
-        start(
-            cuda_connected.join_touching,
-            count,
-            np.uint64(count),
-            self.unwrap(filled).parts[0],
-            columns,
-            lines,
-            *wraps,
-            first.parts[0],
-        )
-        start(cuda_connected.shorten, count, np.uint64(count), first.parts[0])
-        return first

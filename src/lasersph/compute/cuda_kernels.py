@@ -80,6 +80,7 @@ def scatter(count, source, order, out):
 @cuda.jit(cache=True)
 def piece_sums(count, counts, out, sums):
     """out[k + 1] = sum of counts up to k within its piece; sums[m] that of piece m."""
+    # running sum of a piece in shared memory
     shared = cuda.shared.array(THREADS, np.uint64)
     thread = cuda.threadIdx.x
     piece, step = np.uint64(cuda.blockIdx.x), np.uint64(cuda.gridDim.x)
@@ -87,6 +88,7 @@ def piece_sums(count, counts, out, sums):
         k = piece * SIZE + np.uint64(thread)
         shared[thread] = np.uint64(counts[k]) if k < count else ZERO
         cuda.syncthreads()
+        # Hillis and Steele's scan: the sums reach over 2, 4, 8, ... elements
         width = 1
         while width < THREADS:
             before = shared[thread - width] if thread >= width else ZERO
@@ -94,6 +96,7 @@ def piece_sums(count, counts, out, sums):
             shared[thread] += before
             cuda.syncthreads()
             width *= 2
+        # sums up to each element, and that of the whole piece
         if k < count:
             out[k + ONE] = shared[thread]
         if thread == THREADS - 1:
@@ -148,6 +151,7 @@ def count_digits(count, keys, shift, pieces, counts):
     """counts[digit * pieces + m] is how often a digit occurs in piece m."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
     while k < count:
+        # digits one after the other, and pieces within a digit: the order of the sort
         digit = (np.uint64(keys[k]) >> shift) & np.uint64(DIGITS - 1)
         cuda.atomic.add(counts, digit * pieces + k // SIZE, np.uint32(1))
         k += step
@@ -156,6 +160,7 @@ def count_digits(count, keys, shift, pieces, counts):
 @cuda.jit(cache=True)
 def sort_digits(count, keys, order, shift, pieces, start, new_keys, new_order):
     """Move keys and order to the places of their digits, those of equal digits in order."""
+    # digits of a piece in shared memory
     shared = cuda.shared.array(THREADS, np.uint64)
     thread = cuda.threadIdx.x
     piece, step = np.uint64(cuda.blockIdx.x), np.uint64(cuda.gridDim.x)
@@ -167,6 +172,7 @@ def sort_digits(count, keys, order, shift, pieces, start, new_keys, new_order):
         shared[thread] = digit
         cuda.syncthreads()
         if k < count:
+            # stable: behind the equal digits of earlier pieces and of earlier threads
             place = np.uint64(start[digit * pieces + piece])
             for before in range(thread):
                 if shared[before] == digit:
@@ -182,6 +188,7 @@ def spliced_lengths(count, chosen, start, rows, kept, counts, beyond):
     """Length of each row of a joined list; beyond[0] = 1 where a chosen row is not in the first."""
     i, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
     while i < count:
+        # a kept row, a chosen one, or one that the first list does not have
         if not chosen[i]:
             counts[i] = np.uint32(kept[i + ONE] - kept[i])
         elif i < rows:

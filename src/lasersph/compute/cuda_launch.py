@@ -95,13 +95,15 @@ class CudaLoopText(LoopText):
         """Names of all that the kernel takes, in order: constants one by one."""
         partial = ["partial"] if any(self.loop.reduce) else []
         arrays = [name for name, _ in self.array_parameters()]
-        tables = [f"c_{name}" for name in self.tables]
+        tables = [name for name, _ in self.table_parameters()]
         return [*self.list_parameters(), *arrays, *tables, *self.reals, *self.whole, *partial]
 
     def compiled(self, starts: list[str], lines: list[str], ends: list[str]) -> str:
         """Text of the kernel: before, for each and after the rows of a thread."""
+        # each thread goes through every so-many-th row
         body = [*starts, "step = np.uint64(cuda.gridsize(1))", "k = np.uint64(cuda.grid(1))"]
         body += ["while k < count:", *("    " + line for line in [*lines, "k += step"])]
+        # combine the threads of a group by halves, in shared memory
         if ends:
             body += [_SHARE, "thread = cuda.threadIdx.x"]
         kept = [(k, how) for k, how in enumerate(self.loop.reduce) if how is not None]
@@ -143,10 +145,12 @@ class CudaLaunch:
 
     def __init__(self, bound: Bound) -> None:
         self._bound, compiled = bound, bound.compiled
+        # components in the order of the kernel's parameters
         ours = [*bound.lists, *bound.fields, *bound.outs, *bound.tables]
         arrays = cast("list[CudaArray]", [one for one in ours if one is not None])
         self._arrays = [part for one in arrays for part in one.parts]
         self._outs = cast("list[CudaArray]", [out for out in bound.outs if out is not None])
+        # memory of the constants, which enter one by one
         reals, whole = compiled.numbers
         self._numbers = np.zeros(reals, compiled.real), np.zeros(whole, np.int64)
         self.set(bound.constants)
@@ -167,20 +171,24 @@ class CudaLaunch:
     def __call__(self, **constants: Any) -> tuple[float, ...]:
         """Run; returns the reductions."""
         self.set(constants)
+        # a card starts no kernel of no threads
         compiled, rows = self._bound.compiled, self._bound.rows
         if rows == 0:
             return tuple([EMPTY[how] for how in self.reductions])
         taken = [np.uint64(rows), *self._arrays, *self._numbers[0], *self._numbers[1]]
+        # one value for each group and reduction comes back
         partial = None
         if self.reductions:
             partial = _room(len(self.reductions) * self._groups, compiled.real)
             compiled.entry[self._groups, THREADS](*taken, partial)
         else:
             compiled.entry[groups(rows), THREADS](*taken)
+        # copies that observers hold are out of date now
         for out in self._outs:
             out.changed()
         if partial is None:
             return ()
+        # reduce the groups' values in their order, in double precision
         rows_of_parts = partial.copy_to_host().reshape(len(self.reductions), -1)
         pairs = zip(self.reductions, rows_of_parts, strict=True)
         return tuple([float(TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])

@@ -16,13 +16,13 @@ import numpy as np
 from numba import cuda
 
 from lasersph.compute import cache, cuda_kernels
+from lasersph.compute.cell_grid import CellGrid
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import start
 from lasersph.compute.cuda_launch import HEAD, INNER, supported
 from lasersph.compute.scan import distance, images, indented
 from lasersph.compute.search import (
     FINEST,
-    Grid,
     grid,
     refuse_escape,
     refuse_short_period,
@@ -67,34 +67,21 @@ class _Level(NamedTuple):
 
 def level_of(support, smallest):
     """How often a support can be halved before it is less than `FINEST` times the smallest."""
+    # count the halvings until the support is in the finest level
     ratio, level = support / (FINEST * smallest), 0
     while ratio >= 1.0:
         ratio, level = 0.5 * ratio, level + 1
     return level
 
 
-def cell_1(x, level, first_cell, inverse, low_0, shape_0):
-    """Cell of a particle on a line."""
-    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
-    return first_cell[level] + c0
-
-
-def cell_2(x, level, first_cell, inverse, low_0, low_1, shape_0, shape_1):
-    """Cell of a particle in a plane, the first axis fastest."""
-    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
-    c1 = min(int((x[1] - low_1[level]) * inverse[level]), shape_1[level] - 1)
-    return first_cell[level] + c1 * shape_0[level] + c0
-
-
-def cell_3(x, level, first_cell, inverse, low_0, low_1, low_2, shape_0, shape_1, shape_2):
-    """Cell of a particle in space, the first axis fastest."""
-    c0 = min(int((x[0] - low_0[level]) * inverse[level]), shape_0[level] - 1)
-    c1 = min(int((x[1] - low_1[level]) * inverse[level]), shape_1[level] - 1)
-    c2 = min(int((x[2] - low_2[level]) * inverse[level]), shape_2[level] - 1)
-    return first_cell[level] + (c2 * shape_1[level] + c1) * shape_0[level] + c0
-
-
-_CELL = {1: cell_1, 2: cell_2, 3: cell_3}
+def cell_in_level(x, level, first_cell, inverse, low, shape):
+    """Cell of a particle, the first axis fastest; those of a level follow those before it."""
+    # Horner's rule from the last axis inward, so that the first one runs fastest
+    number = 0 * level
+    for k in range(len(x) - 1, -1, -1):
+        c = min(int((x[k] - low[level][k]) * inverse[level]), shape[level][k] - 1)
+        number = number * shape[level][k] + c
+    return first_cell[level] + number
 
 
 class CudaSearch:
@@ -116,11 +103,14 @@ class CudaSearch:
         wanted: CudaArray | None,
     ) -> tuple[CudaArray, CudaArray]:
         """Row pointers and neighbors; see `search.neighbor_list`."""
+        # box of the particles; their positions stay on the card unless one has escaped
         backend, (dimension, total) = self.backend, position.shape
         if total == 0:
             return backend.zeros(1, "offset"), backend.zeros(0, "index")
         low, high = self._corners(position, None)
         self._refuse_escape(position, low, high, lower, upper)
+
+        # refuse supports and periods that no cell could hold
         smallest, largest = self.backend.extremes(support, None)
         if not (smallest > 0.0 and np.isfinite(largest)):
             refuse_support(support.to_host())
@@ -128,21 +118,29 @@ class CudaSearch:
             return backend.zeros(1, "offset"), backend.zeros(0, "index")
         widths = np.array(tuple(period) or (0.0,) * dimension, backend.real)
         refuse_short_period(high - low, widths, float(mean(largest, largest)))
+
+        # levels of supports, and a grid of cells for each
         number, levels = self._levels(
             position, support, (smallest, largest), (low, high), (lower, upper)
         )
         grids = [
-            grid(one.low, one.high, float(mean(one.largest, one.largest)), one.count, backend.real)
+            grid(one.low, one.high, float(mean(one.largest, one.largest)), one.count)
             for one in levels
         ]
+
+        # sort by cell: particles of a cell lie side by side in memory
         key = self._cells(position, number, [one.low for one in levels], grids)
-        cells = sum(one.cells for one in grids)
+        cells = sum(one.count for one in grids)
         starts, order = backend.rows_by_key(key, cells)
         x, l_j = backend.zeros(position.shape), backend.zeros(total)
         backend.gather(position, order, x)
         backend.gather(support, order, l_j)
+
+        # the search radius is widened by what rounding of positions may take from a pair
         extent = max(*(np.abs([one.low, one.high]).max() for one in levels), widths.max())
         slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + largest))
+
+        # parameters of the scan in the order of its kernel
         arguments = (
             *self._targets(position, wanted).parts,
             support.parts[0],
@@ -155,6 +153,8 @@ class CudaSearch:
             slack,
             cuda.to_device(widths),
         )
+
+        # the kernel for this dimension, mean and periodic axes
         periodic = tuple(bool(width) for width in widths)
         text = cuda_scan_text(backend.precision, dimension, mean, periodic)
         return self._scanned(cache.load(text).scan, count, arguments)
@@ -166,6 +166,7 @@ class CudaSearch:
         kept, kept_neighbor, kept_values = map(backend.unwrap, rest)
         size = kept.size - 1
         count, rows = np.uint64(size), np.uint64(begin.size - 1)
+        # length of each row in the joined list
         counts, beyond = backend.empty(size, np.uint32), backend.zeros(1, "index")
         start(
             cuda_kernels.spliced_lengths,
@@ -180,8 +181,10 @@ class CudaSearch:
         )
         if beyond.to_host()[0]:
             raise ValueError(f"a row is chosen beyond the {int(rows)} of the first list")
+        # place of each row: the exclusive sum of the lengths before it
         row_start = backend.empty(size + 1, np.uint64)
         backend.exclusive_scan(counts, row_start)
+        # copy neighbors and values to their places
         joined = []
         for ours, theirs in ((neighbor, kept_neighbor), (values, kept_values)):
             out = backend.empty(row_start.last(), theirs.dtype)
@@ -220,6 +223,7 @@ class CudaSearch:
         upper: Sequence[float] | None,
     ) -> None:
         """Raise EscapedParticle; positions are only fetched to name the particle."""
+        # extremes tell whether any particle is outside, but not which
         is_inside = np.isfinite(least).all() and np.isfinite(most).all()
         is_inside = is_inside and (lower is None or (least >= np.asarray(lower)).all())
         is_inside = is_inside and (upper is None or (most <= np.asarray(upper)).all())
@@ -243,18 +247,23 @@ class CudaSearch:
             low = low if lower is None else np.array(lower, real)
             return _Level(low, high if upper is None else np.array(upper, real), largest, count)
 
+        # one level where all supports are nearly the same
         smallest, largest = ends
         if largest < FINEST * smallest:
             return number, [level(*corners, largest, total)]
+
+        # level of each particle; the largest support bounds their number
         backend.pointwise(level_of, {"support": support}, number, smallest=smallest)
         most = int(np.frexp(largest / (FINEST * smallest))[1]) + 1
         counts = backend.to_host(backend.count_by_key(number, most))
+        # box and largest support of each level that has particles
         used = np.flatnonzero(counts)
         levels = []
         for k in used:
             rows = backend.rows_where(number, float(k))
             highest = self.backend.extremes(support, rows)[1]
             levels.append(level(*self._corners(position, rows), highest, int(counts[k])))
+        # number the levels that are left without gaps
         names = np.zeros(most, np.uint32)
         names[used] = np.arange(used.size)
         numbers = backend.asarray(names, "index")
@@ -262,26 +271,26 @@ class CudaSearch:
         return number, levels
 
     def _cells(
-        self, position: CudaArray, number: CudaArray, low: list[np.ndarray], grids: list[Grid]
+        self, position: CudaArray, number: CudaArray, low: list[np.ndarray], grids: list[CellGrid]
     ) -> CudaArray:
         """Cell of each particle; those of a level follow those of the level before."""
         backend = self.backend
-        tables: dict[str, Any] = {
+        # tables of the levels: numbers, and vectors (dim, levels)
+        tables = {
             "first_cell": backend.asarray(_first_cells(grids), "offset"),
-            "inverse": backend.asarray([one.inverse for one in grids]),
+            "inverse": backend.asarray([one.inverse[0] for one in grids]),
+            "low": backend.asarray(np.array(low).T),
+            "shape": backend.asarray(np.array([one.shape for one in grids]).T, "index"),
         }
-        for k in range(position.shape[0]):
-            tables[f"low_{k}"] = backend.asarray([corner[k] for corner in low])
-            tables[f"shape_{k}"] = backend.asarray([one.shape[k] for one in grids], "index")
         key = backend.zeros(position.shape[1], "index")
-        cell = _CELL[position.shape[0]]
-        backend.pointwise(cell, {"x": position, "level": number}, key, **tables)
+        backend.pointwise(cell_in_level, {"x": position, "level": number}, key, **tables)
         return key
 
     def _targets(self, position: CudaArray, wanted: CudaArray | None) -> CudaArray:
         """Positions of the wanted particles; the others lie where nothing is near."""
         if wanted is None:
             return position
+        # infinity, where no cell is near, and the positions of those that are wanted
         targets = self.backend.zeros(position.shape)
         self.backend.fill(targets, np.inf)
         if wanted.size:
@@ -290,13 +299,13 @@ class CudaSearch:
             self.backend.scatter(some, wanted, targets)
         return targets
 
-    def _tables(self, levels: list[_Level], grids: list[Grid]) -> tuple:
+    def _tables(self, levels: list[_Level], grids: list[CellGrid]) -> tuple:
         """low, high, inverse, shape and largest of the levels on the device."""
         real = self.backend.real
         columns = (
             np.array([one.low for one in levels], real),
             np.array([one.high for one in levels], real),
-            np.array([one.inverse for one in grids], real),
+            np.array([one.inverse[0] for one in grids], real),
             np.array([one.shape for one in grids], np.int64),
             np.array([one.largest for one in levels], real),
         )
@@ -308,16 +317,19 @@ class CudaSearch:
         counts, nothing = backend.zeros(count, "index"), backend.zeros(1, "index")
         row_start = backend.zeros(count + 1, "offset")
         places = (row_start.parts[0], counts.parts[0])
+        # first pass: count the neighbors of each row
         start(scan, count, rows, *arguments, *places, nothing.parts[0], False)
+        # place of each row: the exclusive sum of the counts before it
         backend.exclusive_scan(counts, row_start)
         neighbor = backend.empty(row_start.last(), np.uint32)
+        # second pass: store them from there on
         start(scan, count, rows, *arguments, *places, neighbor.parts[0], True)
         return row_start, neighbor
 
 
-def _first_cells(grids: list[Grid]) -> np.ndarray:
+def _first_cells(grids: list[CellGrid]) -> np.ndarray:
     """Number of the first cell of each level."""
-    cells = np.cumsum([0, *(one.cells for one in grids)])
+    cells = np.cumsum([0, *(one.count for one in grids)])
     return cells[:-1].astype(np.uint64)
 
 
@@ -327,7 +339,9 @@ def cuda_scan_text(
     """Text of the module with `scan`."""
     unit = SourceUnit()
     name, _ = unit.add(mean, (("real", ()), ("real", ())))
+    # the walk over images and rows of cells is the processor's
     loops, depth = images(dimension, periodic)
+    # inside it, test r_ij < mean(l_i, l_j) for each candidate and count or store it
     candidates = [f"sorted_{k}[k]" for k in range(dimension)]
     loops += [
         "    " * depth + line

@@ -19,7 +19,7 @@ _ALL = slice(None)
 
 
 class DeviceArray(NDArrayOperatorsMixin):
-    """What `look` gives of an array (n,), (dim, n) or (dim, dim, n) on a card.
+    """View for reading of an array (n,), (dim, n) or (dim, dim, n) on a card.
 
     Args:
         backend: whose array it is. array: not to be written while this is in use. is_truth:
@@ -52,6 +52,7 @@ class DeviceArray(NDArrayOperatorsMixin):
         return whole.astype(dtype or self.dtype) if copy or is_other else whole
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        # on the card where that is known, else with copies on the host
         found = NotImplemented
         if method == "__call__" and not options:
             found = self._computed(ufunc, inputs)
@@ -60,6 +61,7 @@ class DeviceArray(NDArrayOperatorsMixin):
         return getattr(ufunc, method)(*map(_on_host, inputs), **options)
 
     def __array_function__(self, function: Any, types: Any, args: Any, kwargs: Any) -> Any:
+        # choices and reductions that need no copy
         if function is np.where and len(args) == 3:
             found = self.elementwise(device_functions.chosen, args)
         else:
@@ -67,6 +69,7 @@ class DeviceArray(NDArrayOperatorsMixin):
             found = NotImplemented if reduction is None else reduction(*args, **kwargs)
         if found is not NotImplemented:
             return found
+        # everything else on the host
         named = {name: _on_host(one) for name, one in kwargs.items()}
         return function(*map(_on_host, args), **named)
 
@@ -125,12 +128,14 @@ class DeviceArray(NDArrayOperatorsMixin):
 
         NotImplemented where there is anything else.
         """
+        # all operands by component, or none of it on the card
         found = [self._operand(one) for one in inputs]
         operands = [one for one in found if one is not None]
         if len(operands) < len(found) or self.ndim > 2:
             return NotImplemented
         backend = self._backend
         out = backend.empty(self.shape, np.uint8 if is_truth else backend.real)
+        # a loop for each component: arrays are its fields, numbers its constants
         for k in range(len(out.parts)):
             names = function.__code__.co_varnames[: len(operands)]
             values = {name: one[k] for name, one in zip(names, operands, strict=True)}
@@ -140,11 +145,13 @@ class DeviceArray(NDArrayOperatorsMixin):
         return DeviceArray(backend, out, is_truth=is_truth)
 
     def _computed(self, ufunc: Any, inputs: Any) -> Any:
-        """What a function of NumPy gives; NotImplemented where it is not known here."""
+        """Result of a function of NumPy; NotImplemented where it is not known here."""
+        # numbers from numbers in the working precision
         on_device = [one for one in inputs if isinstance(one, DeviceArray)]
         real = self._backend.real
         if ufunc in device_functions.NUMBERS and any(one.dtype == real for one in on_device):
             return self.elementwise(device_functions.NUMBERS[ufunc], inputs)
+        # yes or no; the operators & | ~ mean bits unless all say yes or no
         is_meant = ufunc not in device_functions.OF_TRUTHS or all(one.is_truth for one in on_device)
         if ufunc in device_functions.TRUTHS and is_meant:
             return self.elementwise(device_functions.TRUTHS[ufunc], inputs, is_truth=True)
@@ -191,20 +198,24 @@ class DeviceArray(NDArrayOperatorsMixin):
     def __getitem__(self, index: Any) -> Any:
         if self.ndim > 2:
             return self._fetched()[index]
+        # which components: one of them, or all
         component, particles = self._split(index)
         array = self._array
         if isinstance(component, int | np.integer) and -self.shape[0] <= component < self.shape[0]:
             array, component = array.component(int(component) % self.shape[0]), _ALL
         elif component != _ALL and self._is_head(particles):
             return self._fetched()[index]
+        # the first particles: a view on the card
         if self._is_head(particles):
             stop = self.shape[-1] if particles.stop is None else min(particles.stop, self.shape[-1])
             whole = None if self._whole is None else self._whole[index]
             view = array.head(stop)
             return DeviceArray(self._backend, view, is_truth=self.is_truth, whole=whole)
+        # a mask: only the numbers of what is chosen come to the host
         if isinstance(particles, DeviceArray) and particles.is_truth:
             particles = np.flatnonzero(particles)
             index = particles if self.ndim == 1 else (component, particles)
+        # the host has all of it; else fetch the particles that are listed
         if self.is_known:
             return self._fetched()[index]
         if isinstance(particles, int | np.integer):
@@ -235,6 +246,7 @@ class DeviceArray(NDArrayOperatorsMixin):
         count = self.shape[-1]
         if rows.size and not -count <= rows.min() <= rows.max() < count:
             raise IndexError(f"particles {rows.min()} to {rows.max()} of {count}")
+        # gather on the card, then copy what is gathered
         out = self._backend.empty((*array.shape[:-1], rows.size), array.dtype)
         order = self._backend.asarray(np.where(rows < 0, rows + count, rows), "index")
         self._backend.gather(array, order, out)

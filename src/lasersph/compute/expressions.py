@@ -1,7 +1,8 @@
 """Translation of expressions into scalar code; `compute.translate` adds the statements.
 
-Understood: arithmetic, comparisons, conditional expressions, components by literal index, calls of
-plain functions, of the helpers of `compute.vectors` and of the functions in `compute.intrinsics`.
+Understood: arithmetic, comparisons, conditional expressions, components by literal index, entries
+of tables by whole numbers, calls of plain functions, of the helpers of `compute.vectors` and of the
+functions in `compute.intrinsics`. Arguments `*(f(x[k]) for k in range(len(x)))` are written out.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from lasersph.compute.values import (
     constant,
     flat_parts,
     is_atom,
+    is_integer,
     joined_kind,
     kind_of,
     named,
@@ -42,7 +44,7 @@ _COMPARE = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=="
 
 
 class Unit(Protocol):
-    """What knows the names that functions read, and writes those that they call: `SourceUnit`."""
+    """Names that functions read, and texts of those that they call: `SourceUnit`."""
 
     def add(self, function: types.FunctionType, kinds: tuple) -> tuple[str, Any]:
         """Name in the generated file and kind of the result."""
@@ -147,6 +149,7 @@ class ExpressionWriter:
 
     def comparison(self, node: ast.Compare) -> Term:
         """Comparison, chains included."""
+        # a < b < c: each comparison of two, joined by `and`
         values = [self.expression(value) for value in (node.left, *node.comparators)]
         results: list[Term] = []
         for k, op in enumerate(node.ops):
@@ -159,17 +162,20 @@ class ExpressionWriter:
 
     def joined(self, word: str, stop: bool, nodes: list[ast.expr]) -> Term:
         """and / or; a literal operand decides at once or drops out."""
+        # conditions on literals, such as `len(x) == 3 and ...`, are decided while they are written
         first = self.expression(nodes[0])
         if len(nodes) == 1:
             return first
         if isinstance(first, Number):
             return first if bool(first.value) is stop else self.joined(word, stop, nodes[1:])
+        # write the other operands one level deeper, to see whether they need statements
         start = len(self.lines)
         result = f"t__{self.count + 1}"
         self.count += 1
         self.indent += 1
         rest = boolean_text(self.joined(word, stop, nodes[1:]))
         self.indent -= 1
+        # none needed: an expression; else they are run only where the first does not decide
         if len(self.lines) == start:
             return scalar(f"({boolean_text(first)} {word} {rest})", "bool")
         test = f"not {boolean_text(first)}" if stop else boolean_text(first)
@@ -180,17 +186,21 @@ class ExpressionWriter:
 
     def conditional(self, node: ast.IfExp) -> Term:
         """a if test else b: a select where both are plain, else branches."""
+        # a test of literals leaves one branch
         test = self.expression(node.test)
         if isinstance(test, Number):
             return self.expression(node.body if test.value else node.orelse)
+        # write both values one level deeper, to see whether they need statements
         start = len(self.lines)
         self.indent += 1
         first = self.expression(node.body)
         middle = len(self.lines)
         second = self.expression(node.orelse)
         self.indent -= 1
+        # no statements: a select between two expressions
         if len(self.lines) == start:
             return algebra.select(self, test, first, second)
+        # statements: each branch runs its own and sets the components of the result
         kind = joined_kind(kind_of(first), kind_of(second))
         self.count += 1
         result = named(kind, f"t__{self.count}")
@@ -213,8 +223,9 @@ class ExpressionWriter:
 
     def call(self, node: ast.Call) -> Term:
         """Call of a mathematical function, a helper or another plain function."""
+        # plain functions, then helpers of vectors, then functions of numbers
         target = self.resolved(node.func)
-        values = [self.expression(argument) for argument in node.args]
+        values = [value for argument in node.args for value in self.arguments(argument)]
         options = {k.arg: self.expression(k.value) for k in node.keywords if k.arg is not None}
         if isinstance(target, types.FunctionType) and not is_helper(target):
             return self.function_call(target, values, options)
@@ -227,10 +238,40 @@ class ExpressionWriter:
             raise LoopSourceError(f"`{ast.unparse(node)}` is not understood")
         return value
 
+    def arguments(self, node: ast.expr) -> list[Term]:
+        """Values of an argument: one, or those of `*(... for k in range(...))` one by one."""
+        if not isinstance(node, ast.Starred):
+            return [self.expression(node)]
+        match node.value:
+            case ast.GeneratorExp(
+                elt=each,
+                generators=[
+                    ast.comprehension(
+                        target=ast.Name(id=name),
+                        iter=ast.Call(func=ast.Name(id="range"), args=bounds),
+                        ifs=[],
+                    )
+                ],
+            ) if name not in self.locals:
+                # an argument for each k, which is a literal in it
+                ends = [self.expression(bound) for bound in bounds]
+                if all(isinstance(end, Number) and is_integer(end) for end in ends):
+                    found = []
+                    for k in range(*(int(end.value) for end in ends)):  # type: ignore[union-attr]
+                        self.locals[name] = Number(k)
+                        found.append(self.expression(each))
+                    self.locals.pop(name, None)
+                    return found
+        raise LoopSourceError(
+            f"`{ast.unparse(node)}`: only `*(... for k in range(...))` with a new name and literal "
+            "bounds is understood"
+        )
+
     def function_call(
         self, target: types.FunctionType, values: list[Term], options: dict[str, Term]
     ) -> Term:
         """Call of a plain Python function, which is written into the same file."""
+        # bind as Python does, with defaults as literals
         try:
             bound = inspect.signature(target).bind(*values, **options)
         except TypeError as error:
@@ -244,8 +285,10 @@ class ExpressionWriter:
         ordered = [arguments[name] for name in inspect.signature(target).parameters]
         if any(value is None for value in ordered):
             raise LoopSourceError(f"{target.__qualname__}() has a default that is no number")
+        # specialize the function for the kinds of its arguments
         kinds = tuple(kind_of(value) for value in ordered)
         name, result = self.unit.add(target, kinds)
+        # hand over components one by one, and name those of the result
         parts = [p for v, k in zip(ordered, kinds, strict=True) for p in flat_parts(v, k)]
         text = f"{name}({', '.join(parts)})"
         self.count += 1

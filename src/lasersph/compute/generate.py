@@ -208,7 +208,7 @@ class LoopText:
             return list(_names(a.kind, a.symbol))
         if a.role == "table":
             self.tables[a.name] = a.kind
-            return [f"c_{a.name}"]
+            return list(_names(a.kind, f"c_{a.name}"))
         if a.role == "constant":
             names = _names(a.kind, f"c_{a.name}")
             return [self._constant(n, a.kind, a.name, k) for k, n in enumerate(names)]
@@ -341,11 +341,16 @@ class LoopText:
             names += [(n, f"o_{k}") for n in _names(kind, f"o_{k}")] if kind is not None else []
         return names
 
+    def table_parameters(self) -> list[tuple[str, str]]:
+        """Name of each component, and of the table that it belongs to, in order."""
+        return [(n, f"c_{t}") for t, kind in self.tables.items() for n in _names(kind, f"c_{t}")]
+
     def compiled(self, starts: list[str], lines: list[str], ends: list[str]) -> str:
         """Text of the compiled function: before, for each and after the rows of a block.
 
         Its last argument is the address of its frame: addresses of rows, lists and components, then
-        address and length of each table, then the addresses of the numbers and of `partial`.
+        addresses of the components of each table and their length, then the addresses of the
+        numbers and of `partial`.
         """
         kinds = {"rows": "uint32", "row_start": "uint64", "neighbor": "uint32"}
         kinds |= dict(self.loop.types)
@@ -355,12 +360,15 @@ class LoopText:
             kind = kinds.get(array, self.loop.precision)
             body.append(f"{name} = at_{kind}(words[{place}])")
         place = len(arrays)
-        for name in self.tables:
-            kind = kinds.get(f"c_{name}", self.loop.precision)
-            body.append(
-                f"c_{name} = carray(at_{kind}(words[{place}]), np.int64(words[{place + 1}]))"
+        for table, table_kind in self.tables.items():
+            kind, names = (
+                kinds.get(f"c_{table}", self.loop.precision),
+                _names(table_kind, f"c_{table}"),
             )
-            place += 2
+            length = f"np.int64(words[{place + len(names)}])"
+            for k, name in enumerate(names):
+                body.append(f"{name} = carray(at_{kind}(words[{place + k}]), {length})")
+            place += len(names) + 1
         for values, names, kind in (
             ("reals", self.reals, self.loop.precision),
             ("whole", self.whole, "int64"),

@@ -52,6 +52,6 @@ def intrinsic(lines: algebra.Lines, target: Any, values: list[Term]) -> Term | N
         return values[0] if is_integer(values[0]) else scalar(f"np.int64({text})", "int")
     if target is len and count == 1:
         if isinstance(values[0], Value) and values[0].is_table:
-            return scalar(f"np.int64({values[0].text}.size)", "int")
+            return scalar(f"np.int64({values[0].parts[0]}.size)", "int")
         return Number(shape_of(values[0])[0])
     return None

@@ -104,7 +104,7 @@ def _refuse(is_beyond: int, key: int, key_count: int) -> None:
 
 @cache
 def _places(kind: np.dtype) -> Callable[[int], None]:
-    """What finds the places of a value of a kind, whose name takes NumPy long."""
+    """Compiled search for the places of a value of a kind, whose name takes NumPy long."""
     return _compiled(_PLACES.format(kind=kind.name))
 
 

@@ -27,7 +27,7 @@ takes longer than it saves."""
 _CODES = {"float64": "d", "float32": "f"}
 HOWS = ("sum", "max", "min")
 EMPTY = {"sum": 0.0, "max": float("-inf"), "min": float("inf")}
-"""What no rows reduce to."""
+"""Reductions of no rows."""
 HEAD_WORDS = 8
 RUN = f'''ZERO, ONE, TWO = np.uint64(0), np.uint64(1), np.uint64(2)
 
@@ -127,7 +127,7 @@ class Launcher:
         start_function(precision)
 
     def compile(self, text: str) -> Any:
-        """What runs the loop of a text: the address of its machine code."""
+        """Address of the machine code of a text's loop."""
         return folder.entry(text)
 
     def largest(self, rows: np.ndarray) -> int:
@@ -144,12 +144,12 @@ class Launch:
 
     Attributes:
         address: of its frame. reductions: "sum", "max" or "min" for each result.
-        rebound: what binds it to other arrays, where it can take them. bound_to: addresses of the
-            loop and its arrays but the rows, where it was bound first.
+        rebound: what binds it to other arrays, where it can take them.
         results: what the last run has reduced. numbers: the constants as `places` counts them.
     """
 
     __slots__ = (
+        "_arrays",
         "_block",
         "_bound",
         "_frame",
@@ -158,7 +158,6 @@ class Launch:
         "_start",
         "_threads",
         "address",
-        "bound_to",
         "numbers",
         "places",
         "rebound",
@@ -170,6 +169,7 @@ class Launch:
         compiled, listed, rows, visits, lists, fields, outs, tables, constants = bound
         self.reductions, self.places = compiled.reductions, compiled.places
         self._block, self._threads, self._per_row = compiled.block, threads, visits / max(rows, 1)
+        # memory of the constants, of what blocks reduce and of the results
         real = _CODES[compiled.real.name]
         reals, whole = compiled.numbers
         self.numbers = (
@@ -179,6 +179,7 @@ class Launch:
         reduced, blocks = len(compiled.reductions), -(-listed // compiled.block)
         self.results = array("d", bytes(8 * reduced))
         self._partial = array(real, bytes(compiled.real.itemsize * reduced * blocks))
+        # head of the frame, in the order that `RUN` reads
         words = [
             compiled.entry,
             -(-rows // compiled.block),
@@ -189,6 +190,7 @@ class Launch:
             _address(self._partial),
             _address(self.results),
         ]
+        # addresses of lists, fields, outputs and tables, in the order that the loop reads
         for one in lists:
             words += addresses(one)
         for one in fields:
@@ -197,8 +199,9 @@ class Launch:
             if one is not None:
                 words += addresses(one)
         for one in tables:
-            words += (*addresses(one), one.size)
-        self.bound_to = (compiled.entry, *words[HEAD_WORDS + len(lists) % 2 :])
+            words += (*addresses(one), one.shape[-1])
+        self._arrays = slice(HEAD_WORDS + len(lists) % 2, len(words))
+        # last the numbers and what the blocks reduce
         words += [_address(numbers) for numbers in self.numbers if numbers]
         if reduced:
             words.append(words[6])
@@ -213,6 +216,11 @@ class Launch:
     def reduces(self) -> bool:
         """Whether a run returns numbers."""
         return bool(self.reductions)
+
+    @property
+    def bound_to(self) -> tuple[int, ...]:
+        """Addresses of the loop and of its arrays but the rows."""
+        return (self._frame[0], *self._frame[self._arrays])
 
     @property
     def precision(self) -> str:
@@ -236,16 +244,18 @@ class Launch:
     def take_rows(self, rows: np.ndarray) -> None:
         """Run other rows from now on: (k,) numbers among those that there are, kind "index"."""
         frame, count = self._frame, rows.size
+        # blocks and rows; few rows are run by one thread
         frame[1], frame[3] = -(-count // self._block), count
         frame[2] = 1 if count * self._per_row < SHARED else self._threads
         frame[HEAD_WORDS] = address(rows)
 
     def number_places(self, name: str) -> list[int]:
         """Addresses of a constant, none where the loop does not have it."""
-        return [
-            _address(self.numbers[which]) + self.numbers[which].itemsize * k
-            for which, k, _ in self.places.get(name, ())
-        ]
+        return [_address(memory) + memory.itemsize * k for memory, k in self.memory_of(name)]
+
+    def memory_of(self, name: str) -> list[tuple[array, int]]:
+        """Memory of a constant, with the place there; none where the loop does not have it."""
+        return [(self.numbers[which], k) for which, k, _ in self.places.get(name, ())]
 
     def set(self, constants: dict[str, Any]) -> None:
         """Take constants by name.
@@ -276,7 +286,7 @@ def _address(memory: array) -> int:
 
 @cache
 def start_function(precision: str) -> Callable[[int], None]:
-    """What runs the launch at an address."""
+    """Foreign function that runs the launch at an address."""
     text = (NATIVE + RUN).format(precision=precision) + "\n\ndef loop(launch):\n    run(launch)\n"
     address = folder.entry(text, is_fast=False)
     return ctypes.PYFUNCTYPE(None, ctypes.c_uint64)(address)
@@ -284,7 +294,7 @@ def start_function(precision: str) -> Callable[[int], None]:
 
 @cache
 def list_function(precision: str) -> Callable[[int, int], None]:
-    """What runs the launches at a list of addresses, one after the other."""
+    """Foreign function that runs the launches at a list of addresses, one after the other."""
     text = (NATIVE + RUN).format(precision=precision) + LIST
     return ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 2)(folder.entry(text, is_fast=False))
 

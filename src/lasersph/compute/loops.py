@@ -23,7 +23,7 @@ from lasersph.compute.array_types import PairList
 from lasersph.compute.generate import Loop, LoopText
 from lasersph.compute.launch import Bound, Compiled, Launch, Launcher, bytes_of
 from lasersph.compute.rebinding import has_known_layout, rebindable, rebinding_function
-from lasersph.compute.recording import Recorder
+from lasersph.compute.recording import Recorder, without_names
 from lasersph.compute.signature import Call, Signature, listed
 
 _layout = attrgetter("dtype", "shape", "strides")
@@ -56,7 +56,8 @@ class Given(NamedTuple):
 
 
 class Loops:
-    """All loops of one backend, found by signature and kinds."""
+    """All loops of one backend, found by signature and kinds; `records`: whether graphs can run
+    their loops again, which the `recorder` takes."""
 
     def __init__(
         self, precision: str, launcher: Launcher, unwrap: Callable, object_address: Callable = id
@@ -66,6 +67,7 @@ class Loops:
         self.real = np.dtype(precision)
         self._signatures: dict[Any, Signature] = {}
         self.recorder = Recorder()
+        self.records = launcher.rebinds
         self._rebinds = launcher.rebinds and has_known_layout()
         if self._rebinds:
             rebinding_function(precision)
@@ -74,8 +76,8 @@ class Loops:
         """Launch the loop of a call; returns the reductions."""
         recorder = self.recorder
         if recorder.recording is not None:
-            launch = self.bind(call)
-            return recorder.add(launch, call, launch())
+            launch = self._bind_again(without_names(call), recorder.recording.next_before())
+            return recorder.add(launch, call)
         results = self._run_rebound(call) if self._rebinds else self.bind(call)()
         if recorder.tally is not None:
             recorder.tally += results
@@ -85,18 +87,14 @@ class Loops:
         """The loop of a call, bound to its arrays."""
         return self.launcher.launch(self._bound(self.given(call)))
 
-    def prepared(self, call: Call, again: Launch | None = None) -> Launch:
+    def _bind_again(self, call: Call, again: Launch | None) -> Launch:
         """The loop of a call, bound to its arrays; `again` itself where it can take them."""
-        is_recorded = self.recorder.recording is not None
-        if again is None or not self._rebinds or is_recorded:
-            launch = self.bind(call)
-            if is_recorded:
-                self.recorder.add(launch, call, None)
-            return launch
+        if not self._rebinds:
+            return self.bind(call)
         signature, kinds, ones, values = self._addresses(call)
-        key, found = (signature, kinds), again.rebound
+        key, found = (signature, kinds), None if again is None else again.rebound
         is_same = found and found.key == key and source.is_current(found.watched)
-        if found and is_same and found.run(again, ones, values):
+        if again and found and is_same and found.run(again, ones, values):
             again.holds(call)
             return again
         launch = rebindable(self.launcher, self._bound(self.given(call)), signature, call)
@@ -166,7 +164,7 @@ class Loops:
         )
 
     def _signature(self, call: Call) -> Signature:
-        """What the names in a call decide."""
+        """Signature of a call: all that its names decide."""
         shape, function, _, fields, _, rows, finish, reduce, constants, combine = call
         names = (
             shape,
@@ -281,10 +279,9 @@ class Loops:
             *zip(signature.tables, given.tables, strict=True),
         ]
         for name, one in named:
-            if getattr(one, "ndim", 0) == 0 or one.dtype.kind != "f":
-                continue
+            is_real = getattr(one, "ndim", 0) > 0 and one.dtype.kind == "f"
             is_pair = ("pair", name) in [(role, symbol) for _, role, symbol in signature.roles]
-            if one.dtype != self.real and not (is_pair and one.dtype == np.float32):
+            if is_real and one.dtype != self.real and not (is_pair and one.dtype == np.float32):
                 raise ValueError(f"{name} is {one.dtype}, the backend {self.precision}")
 
 
@@ -327,7 +324,9 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
         dtype, shape, strides = _layout(out)
         kinds += (dtype, shape[:-1], strides[-1])
         written.append(shape[-1])
-    kinds += [table.dtype for table in tables]
+    for table in tables:
+        dtype, shape, strides = _layout(table)
+        kinds += (dtype, shape[:-1], strides[-1])
     kinds += map(fingerprint, numbers.values())
     total = pairs = 0
     if row_start is not None and neighbor is not None:
@@ -392,6 +391,7 @@ def _refuse_strides(given: Given) -> None:
     """Raise ValueError where an array is not contiguous along its last axis."""
     outs = {f"out {k}": out for k, out in enumerate(given.outs) if out is not None}
     arrays = dict(zip(given.signature.symbols, given.arrays, strict=True))
-    for name, one in (arrays | outs).items():
+    tables = dict(zip(given.signature.tables, given.tables, strict=True))
+    for name, one in (arrays | outs | tables).items():
         if one.size and one.strides[-1] != one.itemsize:
             raise ValueError(f"{name} is not contiguous along its last axis")

@@ -31,7 +31,7 @@ def target() -> str:
 
 @cache
 def _engine() -> Any:
-    """What holds the machine code of this process; never closed."""
+    """Owner of the machine code of this process; never closed."""
     import llvmlite.binding as llvm
 
     importlib.import_module("lasersph.compute.parallel")  # whose import starts the threads
@@ -39,7 +39,7 @@ def _engine() -> Any:
 
 
 def _machine() -> Any:
-    """What writes machine code for this processor."""
+    """Description of this processor, which writes machine code for it."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()

@@ -1,4 +1,4 @@
-"""What generated code needs beside Numba's language: arrays and functions by their addresses.
+"""Text that generated code needs beside Numba's language: arrays and functions by their addresses.
 
 Loops take all their arrays as addresses in one array of 64-bit words, a frame, so that every loop
 is called alike: from Python by one foreign call, from other compiled code through its address.

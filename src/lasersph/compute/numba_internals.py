@@ -31,7 +31,7 @@ from typing import Any
 UNTESTED = (0, 69)
 """First Numba that the parts were not tested with."""
 FAST = {"reassoc", "contract", "arcp", "nsz"}
-"""What the compiler may do with sums and products of a loop; NaN and infinity stay."""
+"""Liberties of the compiler with sums and products of a loop; NaN and infinity stay."""
 _LONGEST_REASON = 120
 _PARALLEL_FOR = "numba_parallel_for"
 _EVENT = "numba:compile"
@@ -204,8 +204,8 @@ def _task(module: Any, loop: Any, frame_type: Any) -> Any:
 # MACHINE_CODE: LLVM modules as text, and functions in them
 
 _RELEASE = re.compile(r"^declare void @NRT_MemInfo_call_dtor\(.*$", re.MULTILINE)
-"""What frees arrays in Numba, and exists only where Numba has compiled something; tables that are
-handed on name it, but a frame owns no array."""
+"""Symbol that frees arrays in Numba, and exists only where Numba has compiled something; tables
+that are handed on name it, but a frame owns no array."""
 _RELEASES_NOTHING = "define internal void @NRT_MemInfo_call_dtor(ptr %0) { ret void }"
 _ENTRY = """
 define void @{name}({parameters}) {{

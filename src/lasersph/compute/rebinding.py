@@ -33,7 +33,7 @@ ONLY_BINDS = 7
 _INDEX, _OFFSET = np.dtype(np.uint32), np.dtype(np.uint64)
 _MANY = 2**62
 ANY, ROW, TOTAL, PAIR, OUT, TABLE = range(6)
-"""What an array has entries for; ANY where only the lengths of others decide."""
+"""Items that an array has entries for; ANY where only the lengths of others decide."""
 READ_AT_NEIGHBORS = 8
 
 TEXT = f'''
@@ -71,8 +71,6 @@ def put(one, entry, frame):
     data, strides = word(one + DATA), at_uint64(word(one + STRIDES))
     if axes == ONE:
         frame[place] = data
-        if entry[5] == np.uint64({TABLE}):
-            frame[place + ONE] = length(one)
     elif axes == ONE + ONE:
         for k in range(entry[2]):
             frame[place + k] = data + k * strides[0]
@@ -80,6 +78,8 @@ def put(one, entry, frame):
         for a in range(entry[2]):
             for b in range(entry[3]):
                 frame[place + a * entry[3] + b] = data + a * strides[0] + b * strides[1]
+    if entry[5] == np.uint64({TABLE}):
+        frame[place + entry[6]] = length(one)
 
 
 def loop(plan_address, ones_address, frame_address):
@@ -169,7 +169,7 @@ def rebinding_text(precision: str) -> str:
 
 
 class Rebound:
-    """What binds a launch to other arrays at each call.
+    """Binding of a launch to other arrays at each call.
 
     The launch holds this, and not the other way round: in a ring both, and the arrays that a
     launch holds, would stay until Python looks for rings, which can take hundreds of steps.
@@ -190,13 +190,16 @@ class Rebound:
     ) -> None:
         compiled = bound.compiled
         self.watched = compiled.watched
+        # for each array the number of entries that it must have, by where it is read
         roles = {place: (ROW, TOTAL, PAIR)[need] for place, need, _ in signature.needs}
         at_neighbors = {place for place, _ in signature.neighbors}
+        # place of each field in the frame, in the order that the compiled loop reads
         place, places = HEAD_WORDS + len(bound.lists), {}
         for symbol, one in zip(compiled.arrays, bound.fields, strict=True):
             places[symbol] = place
             place += prod(one.shape[:-1])
         by_symbol = dict(zip(compiled.arrays, bound.fields, strict=True))
+        # plan: fields in the order of the signature, then outputs and tables
         words: list[int] = []
         for k, symbol in enumerate(signature.symbols):
             role = roles.get(k, ANY) + READ_AT_NEIGHBORS * (k in at_neighbors)
@@ -208,7 +211,8 @@ class Rebound:
         by_name = dict(zip(compiled.tables, bound.tables, strict=True))
         for name in signature.tables:
             words += _entry(by_name[name], TABLE, place)
-            place += 2
+            place += prod(by_name[name].shape[:-1]) + 1
+        # what blocks reduce has room for the rows of the first call
         capacity = -(-bound.listed // compiled.block) if compiled.reductions else _MANY
         is_values = call.shape == "pair_values"
         head = [len(words) // ENTRY, compiled.block, threads, capacity, is_values]
@@ -228,7 +232,7 @@ class Rebound:
             launch: that this was made for. values: of the constants that are numbers, with the
                 period of the list.
         """
-        # routines change the numbers of prepared launches where they lie
+        # iterations change the numbers of recorded launches where they lie
         if self.key is not None or values != self._values:
             launch.set(dict(zip(self._names, values, strict=True)))
             self._values = values
@@ -253,17 +257,21 @@ def _entry(one: Any, role: int, place: int) -> list[int]:
 @cache
 def has_known_layout() -> bool:
     """Whether NumPy's arrays lie in memory as `TEXT` reads them; else calls are bound in Python."""
+    # a view with an offset, two axes and strides of its own tells all fields apart
     one = np.zeros((2, 3), np.float32)[:, 1:]
+    # address of the data, number of axes and type, as the structure has them
     words = (ctypes.c_uint64 * 8).from_address(id(one))
     axes = ctypes.c_uint32.from_address(id(one) + 8 * 3).value
     if (words[2], axes, words[7]) != (one.ctypes.data, one.ndim, id(one.dtype)):
         return False
+    # lengths and strides, behind their addresses
     shape, strides = ((ctypes.c_uint64 * 2).from_address(words[k]) for k in (4, 5))
     return (*shape, *strides) == (*one.shape, *one.strides)
 
 
 @cache
 def rebinding_function(precision: str) -> Callable[[int, int, int], None]:
-    """What binds and runs: of the addresses of a plan, of arrays' addresses and of a frame."""
+    """Foreign function that binds and runs, of the addresses of a plan, of arrays' addresses and of
+    a frame."""
     address = folder.entry(rebinding_text(precision), is_fast=False)
     return ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 3)(address)

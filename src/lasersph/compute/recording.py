@@ -1,4 +1,4 @@
-"""What is launched, and which arrays are made, while a part of a step is recorded."""
+"""Recordings: launches, and arrays that are made, while a graph is under way."""
 
 from __future__ import annotations
 
@@ -10,8 +10,55 @@ import numpy as np
 from lasersph.compute.signature import Call
 
 
+class Derived(float):
+    """A number computed from those that a graph is given, while it is recorded."""
+
+    __slots__ = ()
+
+
+class Number(Derived):
+    """A number that a graph is given, while it is recorded.
+
+    Attributes:
+        place: among the numbers of the graph.
+    """
+
+    __slots__ = ("place",)
+
+    def __new__(cls, value: float, place: int) -> Number:
+        found = super().__new__(cls, value)
+        found.place = place
+        return found
+
+
+def _derived(name: str) -> Callable[..., Any]:
+    compute = getattr(float, name)
+
+    def operator(self: float, *others: Any) -> Any:
+        found = compute(self, *others)
+        return found if found is NotImplemented else Derived(found)
+
+    return operator
+
+
+for _operator in ["add", "sub", "mul", "truediv", "pow", "mod", "floordiv"]:
+    for _name in (f"__{_operator}__", f"__r{_operator}__"):
+        setattr(Derived, _name, _derived(_name))
+for _name in ("__neg__", "__pos__", "__abs__"):
+    setattr(Derived, _name, _derived(_name))
+
+
+def without_names(call: Call) -> Call:
+    """A call with plain numbers."""
+    constants = call.constants
+    if not any(isinstance(value, Derived) for value in constants.values()):
+        return call
+    plain = {k: float(v) if isinstance(v, Derived) else v for k, v in constants.items()}
+    return call._replace(constants=plain)
+
+
 class Recorded(NamedTuple):
-    """A launch of a recording, its call, and what it has reduced; None where it was prepared."""
+    """A launch of a recording, its call, and what it has reduced; None where it was only bound."""
 
     launch: Any
     call: Call
@@ -19,66 +66,101 @@ class Recorded(NamedTuple):
 
 
 class Recording:
-    """What was launched while it was under way, and the arrays that were made.
+    """Launches while it was under way, and the arrays that were made.
 
     Args:
-        before: the recording whose arrays are taken again, in order.
+        before: launches that are bound again, and arrays that are taken again, in order.
+        is_run: False where launches are bound without running.
     """
 
-    def __init__(self, before: Recording | None = None) -> None:
+    def __init__(self, before: Recording | None = None, *, is_run: bool = True) -> None:
         self.launches: list[Recorded] = []
         self.arrays: list[np.ndarray] = []
-        self._before = [] if before is None else before.arrays
+        self.is_run = is_run
+        self._before = before
 
     @property
     def results(self) -> tuple[float, ...]:
         """All reductions, in order."""
         return tuple([number for _, _, found in self.launches for number in found or ()])
 
+    def next_before(self) -> Any:
+        """The launch that the recording before has at the place of the next one, if any."""
+        before, place = self._before, len(self.launches)
+        if before is None or place >= len(before.launches):
+            return None
+        return before.launches[place].launch
+
+    def without_launches(self) -> Recording:
+        """A recording that has made the same arrays, and nothing else."""
+        found = Recording()
+        found.arrays = self.arrays
+        return found
+
+    def forget_before(self) -> None:
+        """Hold the recording before no longer."""
+        self._before = None
+
     def make(self, shape: int | tuple[int, ...], kind: np.dtype) -> np.ndarray:
-        """A new array, or the one that the recording before has made here."""
-        place = len(self.arrays)
-        kept = self._before[place] if place < len(self._before) else np.empty(shape, kind)
+        """A new array, or the one that the recording before has made here.
+
+        Raises:
+            ValueError: launches are only bound: nothing would set its elements to 0.
+        """
+        if not self.is_run:
+            raise ValueError("a step of an iteration makes no arrays")
+        # the array made at this place before, if it has the same shape and kind
+        place, before = len(self.arrays), self._before
+        kept = before.arrays[place] if before and place < len(before.arrays) else None
+        wanted = shape if isinstance(shape, tuple) else (shape,)
+        if kept is None or kept.shape != wanted or kept.dtype != kind:
+            kept = np.empty(shape, kind)
         self.arrays.append(kept)
         return kept
 
 
 class Recorder:
-    """What of the loops that are run is kept at present.
+    """Recording or reductions that the loops which are run are kept in at present.
 
     Attributes:
         recording: takes launches and arrays. tally: takes reductions. None where they do not.
+        is_busy: whether a graph is under way. checks: whether graphs run their methods each time,
+            and compare what these launch.
     """
 
     recording: Recording | None = None
     tally: list[float] | None = None
+    is_busy = checks = False
 
-    def record(self, run: Callable[[], Any], before: Recording | None = None) -> Recording:
-        """Run `run`; returns what it has launched and made.
+    def record(self, run: Callable[[], Any], into: Recording) -> Recording:
+        """Run `run`; returns `into` with what it has launched and made.
 
         Raises:
             ValueError: a recording is under way.
         """
-        if self.recording is not None:
+        if self.is_busy:
             raise ValueError("a recording is under way")
-        found = self.recording = Recording(before)
+        self.recording, self.is_busy = into, True
         try:
             run()
         finally:
-            self.recording = None
-        return found
+            self.recording, self.is_busy = None, False
+            into.forget_before()
+        return into
 
     def reductions(self, run: Callable[[], Any]) -> tuple[float, ...]:
         """Run `run`; returns all that its loops reduce, in order."""
         found = self.tally = []
+        self.is_busy = True
         try:
             run()
         finally:
-            self.tally = None
+            self.tally, self.is_busy = None, False
         return tuple(found)
 
-    def add(self, launch: Any, call: Call, results: tuple[float, ...] | None) -> tuple[float, ...]:
-        """Take a launch that was run, or prepared; returns its results."""
+    def add(self, launch: Any, call: Call) -> tuple[float, ...]:
+        """Take a launch, and run it where it is to be; returns its results."""
         assert self.recording is not None
+        results = launch() if self.recording.is_run else None
         self.recording.launches.append(Recorded(launch, call, results))
         return results or ()

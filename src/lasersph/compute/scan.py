@@ -107,14 +107,24 @@ class ScanText(NamedTuple):
     watched: tuple
 
 
+def _cell_number(dimension: int, shape: str) -> str:
+    """Text of the number of a cell with the index c0, c1, ...: the first axis runs fastest."""
+    # Horner's rule, from the slowest axis to the fastest
+    number = f"c{dimension - 1}"
+    for k in reversed(range(dimension - 1)):
+        number = f"({number}) * {shape.format(k=k)} + c{k}"
+    return number
+
+
 @cache
 def sort_text(precision: str, dimension: int) -> str:
     """Text of the module with `sort`."""
+    # index along each axis, at most that of the last cell, which takes the upper face
     cell = [
         f"c{k} = min(int((position[{k}, j] - low[{k}]) * inverse), shape[{k}] - 1)"
         for k in range(dimension)
     ]
-    index = ("c0", "c1 * shape[0] + c0", "(c2 * shape[1] + c1) * shape[0] + c0")[dimension - 1]
+    index = _cell_number(dimension, "shape[{k}]")
     lines = indented(2, [*cell, f"c = np.uint64({index})"])
     return _file(precision, _SORT, cell_index=lines)
 
@@ -129,8 +139,10 @@ def scan_text(
     precision: str, dimension: int, mean: Callable, periodic: tuple[bool, ...]
 ) -> ScanText:
     """Text of the module with `scan`."""
+    # the mean and what it calls become functions of the same file
     unit = SourceUnit()
     name, _ = unit.add(mean, (("real", ()), ("real", ())))
+    # walk over images and rows of cells, and within it the candidates
     loops, depth = images(dimension, periodic)
     text = _file(
         precision,
@@ -154,6 +166,7 @@ def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:
         lines.append("    " * depth + text)
 
     for k in reversed(range(dimension)):
+        # the target and its images one period away on either side
         if periodic[k]:
             put(f"for image{k} in range(-1, 2):")
             depth += 1
@@ -161,8 +174,10 @@ def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:
             put(f"y{k} = x{k} + shift{k}")
         else:
             put(f"y{k} = x{k}")
+        # leave out what cannot reach the level's box
         put(f"if y{k} - radius > high[level, {k}] or y{k} + radius < low[level, {k}]:")
         put("    continue")
+        # cells in reach along this axis, and the distance from the target to each
         if k:
             put(f"a{k} = max((y{k} - radius - low[level, {k}]) * inverse[level], real(0.0))")
             put(f"b{k} = (y{k} + radius - low[level, {k}]) * inverse[level]")
@@ -170,17 +185,20 @@ def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:
             depth += 1
             put(f"edge = low[level, {k}] + real(c{k}) * size")
             put(f"gap{k} = max(max(edge - y{k}, y{k} - edge - size) - slack, real(0.0))")
+    # sphere cut by a row of cells: half = sqrt(r^2 - sum_k gap_k^2) along the first axis
     gaps = "".join(f" - gap{k} * gap{k}" for k in range(1, dimension))
     put(f"rest = radius * radius{gaps}")
     put("if rest <= real(0.0):")
     put("    continue")
     put("half = math.sqrt(rest) + slack")
+    # first and last cell of the row within that half length
     put("a0 = int(max((y0 - half - low[level, 0]) * inverse[level], real(0.0)))")
     put("if y0 + half < low[level, 0] or a0 >= shape[level, 0]:")
     put("    continue")
     put("b0 = min(int((y0 + half - low[level, 0]) * inverse[level]), shape[level, 0] - 1)")
-    row = ("0", "c1", "c2 * shape[level, 1] + c1")[dimension - 1]
-    put(f"base = cells + np.uint64(({row}) * shape[level, 0])")
+    # members of the cells from first to last lie side by side in memory
+    put("c0 = 0")
+    put(f"base = cells + np.uint64({_cell_number(dimension, 'shape[level, {k}]')})")
     put("first = member + np.uint64(starts[base + np.uint64(a0)])")
     put("last = member + np.uint64(starts[base + np.uint64(b0) + ONE])")
     return lines, depth
@@ -188,6 +206,7 @@ def images(dimension: int, periodic: tuple[bool, ...]) -> tuple[list[str], int]:
 
 def _pieces(dimension: int, periodic: tuple[bool, ...]) -> list[str]:
     """Tests of the candidates from `first` to `last`, piece by piece."""
+    # as many places as there are candidates, then piece by piece: all tests, all writes
     position = [f"sorted_position[{k}, k]" for k in range(dimension)]
     return [
         "if place + (last - first) > capacity:",
@@ -216,6 +235,7 @@ def _pieces(dimension: int, periodic: tuple[bool, ...]) -> list[str]:
 
 def distance(position: list[str], periodic: tuple[bool, ...]) -> list[str]:
     """Lines for the squared distance to candidate k and the limit of that pair."""
+    # squared distance to the image that is looked at
     differences = [
         f"d{k} = (x{k} - {text})" + (f" + shift{k}" if periodic[k] else "")
         for k, text in enumerate(position)

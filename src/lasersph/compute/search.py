@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from math import floor, inf, isfinite, prod
+from math import inf, isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ import numpy as np
 from lasersph.compute import cache, source
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
+from lasersph.compute.cell_grid import CellGrid
 from lasersph.compute.generate import BLOCK
 from lasersph.compute.key_order import rows_where
 from lasersph.compute.scan import ScanText, scan_text, sort_text, store_text
@@ -35,14 +36,6 @@ _scans: dict[tuple, ScanText] = {}
 
 class EscapedParticle(ValueError):
     """A particle is not finite or left the box."""
-
-
-class Grid(NamedTuple):
-    """Cells per axis, (dim,), of all axes together, and the inverse of their edge [1/m]."""
-
-    shape: np.ndarray
-    cells: int
-    inverse: Any
 
 
 class Room:
@@ -144,6 +137,7 @@ def neighbor_list(
         ValueError: a support is not positive, a period is not longer than twice the largest search
             radius or shorter than the particles' extent, or more than 2^32 - 1 particles.
     """
+    # shapes, before anything is computed from them
     host, supports = backend.unwrap(position), backend.unwrap(support)
     dimension, total = host.shape
     widths = np.array(tuple(period) or (0.0,) * dimension, dtype=backend.real)
@@ -151,6 +145,8 @@ def neighbor_list(
         raise ValueError(f"{count} rows, {total} particles, {supports.shape[0]} supports")
     if total >= 2**32 - 1:
         raise ValueError(f"{total} particles; a list holds fewer than 2^32 - 1")
+
+    # a graphics card has a search of its own, which gives the same lists
     if backend.search is not None:
         return backend.search.neighbor_list(
             host,
@@ -162,6 +158,8 @@ def neighbor_list(
             period=period,
             wanted=None if wanted is None else backend.unwrap(wanted),
         )
+
+    # refuse positions and supports that no cell could hold
     host = np.ascontiguousarray(host)
     refuse_escape(host, lower, upper)
     smallest, largest = (supports.min(), supports.max()) if total else (1.0, 1.0)
@@ -169,14 +167,22 @@ def neighbor_list(
         refuse_support(supports)
     used = room or Room()
     row_start = used.for_rows(count)
+
+    # a list without rows needs no cells
     if count == 0:
         return backend.wrap(row_start), backend.wrap(np.zeros(0, dtype=np.uint32))
+
+    # only the nearest image of a neighbor counts: a period holds two search radii
     if widths.any():
         refuse_short_period(np.ptp(host, axis=1), widths, float(mean(largest, largest)))
     periodic = tuple(bool(width) for width in widths)
+
+    # loops for this dimension and mean, and the particles sorted by cell
     module = _module(_scan(backend.precision, dimension, mean, periodic).text)
     sort = _module(sort_text(backend.precision, dimension)).sort
     cells = _levels(sort, host, supports, mean, lower, upper, (smallest, largest))
+
+    # the search radius is widened by what rounding of positions may take from a pair
     extent = float(max(*map(abs, (*cells.low.flat, *cells.high.flat)), *widths))
     slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(largest)))
     targets = host
@@ -184,6 +190,8 @@ def neighbor_list(
         rows = backend.unwrap(wanted)
         targets = np.full_like(host, np.inf)
         targets[:, rows] = host[:, rows]
+
+    # find the pairs of each row and join them to one list
     arguments = (np.uint64(count), targets, supports, *cells, slack, widths)
     pairs = _scanned(module, backend, arguments, count, row_start, used)
     neighbor = used.neighbor[:pairs] if room is None else room.listed(pairs)
@@ -208,6 +216,8 @@ def _scanned(
     """Scan groups of blocks into scratch, growing it where it is too short, and join them in the
     room; returns the number of pairs."""
     store = _module(store_text()).store
+
+    # scratch for a group of blocks; each block lists its own rows there
     threads = np.uint64(backend.threads)
     blocks, group = -(-count // BLOCK), 32 * backend.threads
     scratch = room.for_group(min(group, blocks), _PLACES_PER_ROW * min(BLOCK, count))
@@ -219,15 +229,19 @@ def _scanned(
         end = min(begin + group, blocks)
         start = np.uint64(begin)
         share = (start, np.uint64(end), threads, start)
+        # scan: neighbors of each block, each into its own row of scratch
         module.scan(*share, used, *arguments, scratch, ends)
+        # where a block has run out of scratch, the group begins anew with twice as much
         counts = used[: end - begin]
         if counts.max() > scratch.shape[1]:
             scratch = room.for_group(scratch.shape[0], 2 * scratch.shape[1])
             continue
+        # place of each block in the list: the exclusive sum of the pairs before it
         bases = np.uint64(filled) + np.cumsum(counts, dtype=np.uint64) - counts
         before, filled = filled, filled + int(counts.sum())
         if filled > neighbor.size:  # memory that is never written costs nothing
             neighbor = room.lengthen(before, filled + (blocks - end) * int(counts.max()))
+        # store: copy the blocks to their places and set the row pointers
         store(*share, np.uint64(count), bases, scratch, ends, row_start, neighbor)
         begin = end
     return filled
@@ -243,6 +257,7 @@ def _levels(
     ends: tuple[Any, Any],
 ) -> _Cells:
     """Sort the particles into levels and cells; `ends` are the least and the largest support."""
+    # level of a particle: how often its support doubles from that of the finest level
     dimension, total = position.shape
     smallest = ends[0]
     if ends[1] < FINEST * smallest:
@@ -252,6 +267,8 @@ def _levels(
         level = (level - level.min()).astype(np.uint32)
         groups = [rows_where(level, k) for k in range(level.max() + 1)]
         groups = [group for group in groups if group.size]
+
+    # columns of all levels, filled level after level
     order = np.empty(total, dtype=np.uint32)
     real = position.dtype
     low, high = (np.empty((len(groups), dimension), real) for _ in range(2))
@@ -260,6 +277,7 @@ def _levels(
     first_cell, first_member = (np.zeros(len(groups), np.uint64) for _ in range(2))
     starts, cells, members = [], 0, 0
     for k, group in enumerate(groups):
+        # box of the level, and its least and largest support
         single = group.size == total
         if lower is None or upper is None:
             part = position if single else np.ascontiguousarray(position[:, group])
@@ -269,12 +287,16 @@ def _levels(
         if not single:
             supports = support[group]
             least[k], largest[k] = supports.min(), supports.max()
+        # counting sort into cells as wide as the longest search radius in the level
         size = float(mean(largest[k], largest[k]))
         place = order[members : members + group.size]
         start, shape[k], inverse[k] = _sorted(sort, position, group, low[k], high[k], size, place)
+        # cells and members of a level follow those of the level before
         first_cell[k], first_member[k] = cells, members
         starts.append(start)
         cells, members = cells + start.size, members + group.size
+
+    # positions and supports in the order of the cells, so that a scan reads them in a row
     return _Cells(
         np.take(position, order, axis=1),
         support[order],
@@ -301,22 +323,17 @@ def _sorted(
     order: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, Any]:
     """Sort members by cell into `order`; first member per cell, cells per axis, 1 / size."""
-    found = grid(low, high, size, members.size, position.dtype)
-    start = np.empty(found.cells + 1, dtype=np.uint32)
+    found = grid(low, high, size, members.size)
+    shape, inverse = np.array(found.shape, np.int64), position.dtype.type(found.inverse[0])
+    start = np.empty(found.count + 1, dtype=np.uint32)
     cell = np.empty(members.size, dtype=np.uint32)
-    sort(position, members, low, found.inverse, found.shape, cell, start, order)
-    return start, found.shape, found.inverse
+    sort(position, members, low, inverse, shape, cell, start, order)
+    return start, shape, inverse
 
 
-def grid(low: np.ndarray, high: np.ndarray, size: float, members: int, real: np.dtype) -> Grid:
+def grid(low: np.ndarray, high: np.ndarray, size: float, members: int) -> CellGrid:
     """Cells of an edge of `size` [m] in a box, or larger where there are few members."""
-    widths = [float(width) for width in high - low]
-    while True:
-        shape = [floor(width / size) + 1 for width in widths]
-        if prod(shape) <= _CELLS_PER_PARTICLE * members + 64:
-            break
-        size *= 1.25
-    return Grid(np.array(shape, np.int64), prod(shape), real.type(1.0 / size))
+    return CellGrid.of_width(low, high, size, _CELLS_PER_PARTICLE * members + 64)
 
 
 def refuse_escape(
@@ -325,12 +342,14 @@ def refuse_escape(
     """Raise EscapedParticle where a position, host array (dim, n) [m], is not finite or outside."""
     if not position.size:
         return
+    # quick test by the extremes; comparisons with NaN are false, so NaN fails as well
     dimension = position.shape[0]
     low = (-inf,) * dimension if lower is None else lower
     high = (inf,) * dimension if upper is None else upper
     ends = zip(position.min(axis=1), position.max(axis=1), low, high, strict=True)
     if all(-inf < least >= bottom and inf > most <= top for least, most, bottom, top in ends):
         return
+    # something is outside: find the first particle and name it
     corners = np.asarray(low, float), np.asarray(high, float)
     inside = np.isfinite(position)
     inside &= (position >= corners[0][:, None]) & (position <= corners[1][:, None])
@@ -358,6 +377,7 @@ def refuse_short_period(extent: np.ndarray, widths: np.ndarray, radius: float) -
     Args:
         extent: of the particles along each axis [m]. radius: longest distance of a pair [m].
     """
+    # one image of a neighbor is in reach where L > 2 r, at most one period away where all lie in L
     for k, width in enumerate(widths):
         if width == 0.0:
             continue

@@ -1,4 +1,4 @@
-"""What the names in a call decide, before any array is looked at.
+"""Facts that the names in a call decide, before any array is looked at.
 
 Calls of one place in the program have the same functions and the same names of fields and
 constants, so that roles, missing and unknown names are worked out once for all of them. Their
@@ -53,17 +53,20 @@ class Signature:
     """
 
     def __init__(self, call: Call) -> None:
+        # where each argument of the function and of `finish` comes from
         self.roles = _bound(call, call.function, _roles(call.shape, call.function))
         self.finish_roles: tuple = ()
         if call.finish is not None:
             self.finish_roles = _bound(call, call.finish, _roles("finish", call.finish))
         arguments = (*self.roles, *self.finish_roles)
+        # constants: tables are arrays, all others numbers
         self.constants = _once(name for name, role, _ in arguments if role == "constant")
         extra = sorted(set(call.constants) - set(self.constants))
         if extra:
             raise ValueError(f"{call.function.__name__}() has no argument {', '.join(extra)}")
         self.tables = tuple(n for n in self.constants if getattr(call.constants[n], "ndim", 0))
         self.numbers = tuple(n for n in self.constants if n not in self.tables)
+        # reductions and combinations, one for each result
         self.reduce = () if call.reduce is None else tuple(listed(call.reduce))
         self.combine = () if call.combine is None else tuple(listed(call.combine))
         self._place(call, [one for one in arguments if one[1] in NEEDS])
@@ -75,9 +78,11 @@ class Signature:
 
     def _place(self, call: Call, arrays: list[tuple[str, str, str]]) -> None:
         """Decide where each array comes from and how long it must be."""
+        # geometry that the functions ask for
         wanted = {name for name, role, _ in self.roles if role == "geometry"}
         symbols = _once(symbol for _, _, symbol in arrays)
         read = {symbol for _, role, symbol in self.roles if role in ("row", "neighbor")}
+        # what that needs of the list: distances, kernel, mean, positions and supports
         self.apart = bool(wanted - {"l_ij"})
         weighted = bool(wanted & {"l_ij", "W_ij", "dW_ij"})
         self.geometry = bool(wanted)
@@ -85,9 +90,11 @@ class Signature:
         self.mean = bool(wanted - {"x_ij", "r_ij"})
         self.position = self.apart or ("x" in read and "x" not in call.fields)
         self.support = weighted or ("l" in read and "l" not in call.fields)
+        # symbols of the arrays: fields first, then those of the list
         given = {"x": self.position, "l": self.support}
         self.fields = tuple([symbol for symbol in symbols if not given.get(symbol)])
         self.symbols = (*self.fields, *(symbol for symbol in given if given[symbol]))
+        # entries that each must have; those read at neighbors have no need at rows
         needs = {(role, symbol): name for name, role, symbol in arrays}
         for symbol in given if self.geometry else ():
             if symbol in self.symbols:

@@ -141,6 +141,6 @@ def _compiled(text: str, file: str) -> frozenset[tuple]:
 
 
 def _content(code: types.CodeType) -> tuple:
-    """What a function does, whatever its line numbers."""
+    """Code and constants of a function, whatever its line numbers."""
     constants = [repr(value) for value in code.co_consts if not isinstance(value, types.CodeType)]
     return code.co_qualname, code.co_code, code.co_names, code.co_varnames, tuple(constants)

@@ -6,15 +6,11 @@ where these arrays live in the memory of a graphics card.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.opaque_array import OpaqueArray
-from lasersph.compute.phase import Phase
 
 
 class StrictArray(OpaqueArray):
@@ -28,7 +24,11 @@ class StrictArray(OpaqueArray):
 
 
 class StrictBackend(Backend):
-    """CPU backend whose arrays are `StrictArray`."""
+    """CPU backend whose arrays are `StrictArray`, and whose graphs must do the same each time."""
+
+    def __init__(self, threads_wanted: int | None, precision: str) -> None:
+        super().__init__(threads_wanted, precision)
+        self.loops.recorder.checks = True
 
     def wrap(self, array: np.ndarray) -> Array:
         """Array as the caller sees it."""
@@ -43,10 +43,6 @@ class StrictBackend(Backend):
         if type(array) is not StrictArray:
             raise TypeError(f"{type(array).__name__} given; make it with backend.asarray()")
         return array._host
-
-    def phase(self, run: Callable[..., Any]) -> Phase:
-        """A phase that is run as it is, and must do the same each time."""
-        return Phase(self._loops, run, checks=True)
 
     def object_address(self, array: Array) -> int:
         """Address of the NumPy object behind the caller's array."""

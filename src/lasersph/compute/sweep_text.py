@@ -135,11 +135,13 @@ def sweep_text(
         reduces: how many of the results, the last ones, are summed over the rows instead of stored.
         outputs: how many results are stored; the first is what neighbors read.
     """
+    # the function of a row, and where its arguments come from
     unit = SourceUnit()
     name, _ = unit.add(function, (("real", ()),) * len(roles))
     fields = [f"a_{field}" for field, role in roles.items() if role == "field"]
     constants = [field for field, role in roles.items() if role == "constant"]
     outs = ["a_value", *(f"o_{k}" for k in range(1, outputs))]
+    # rows of a chunk in the order of the sweep, each after those it depends on
     lanes = range(ROWS)
     rows = [f"y{lane} = real(0.0)" for lane in lanes]
     for lane in reversed(lanes) if backward else lanes:
@@ -175,17 +177,21 @@ def _row(
     backward: bool,
 ) -> list[str]:
     """Lines of one row of a chunk: the rest of its sum, its results, where they go."""
+    # add the neighbors within the chunk that the sweep has passed
     done = range(lane + 1, ROWS) if backward else range(lane)
     lines = []
     for other in done:
         high, low = max(lane, other), min(lane, other)
+        # lower triangle without its diagonal, row after row
         place = high * (high - 1) // 2 + low
         lines.append(f"s{lane} += real(inner[c, {place}]) * y{other}")
+    # call the function with the sum, fields and constants of the row
     numbers = {field: f"numbers[{k}]" for k, field in enumerate(constants)}
     values = {field: f"a_{field}[i]" for field in roles} | numbers | {"total": f"s{lane}"}
     results = [f"y{lane}", *(f"z{k}" for k in range(1, len(outs)))]
     results += [f"e{k}" for k in range(reduces)]
     lines.append(f"{', '.join(results)} = {name}({', '.join(values[field] for field in roles)})")
+    # store what is stored, and sum what is reduced
     lines += [f"{out}[i] = {result}" for out, result in zip(outs, results, strict=False)]
     lines += [f"r{k} += e{k}" for k in range(reduces)]
     inside = [f"    {line}" for line in lines]

@@ -36,7 +36,7 @@ _FIRST = np.uint64(0)
 
 
 class Tiles(NamedTuple):
-    """What the chunks see on one side, host arrays.
+    """Pairs of the chunks on one side, host arrays.
 
     Attributes:
         start: (chunks + 1,), of those after in reverse order of the chunks. column: (columns,)
@@ -116,6 +116,7 @@ class Sweep:
         backward: bool,
         reduces: int,
     ) -> None:
+        # loop of this function, forward or backward
         backend, count = pairs.backend, pairs.total.shape[0]
         roles = _roles(function, fields, constants)
         text, _ = sweep_text(
@@ -123,6 +124,7 @@ class Sweep:
         )
         self._module: ModuleType = cache.load(text)
         self.function, self.arguments = function, len(roles)
+        # arrays that it reads and writes, all of the rows' length
         self.read = [backend.unwrap(fields[name]) for name in roles if roles[name] == "field"]
         self.out = [backend.unwrap(array) for array in out]
         self.tiles, self.inner = pairs.sides[backward], pairs.inner
@@ -130,10 +132,12 @@ class Sweep:
         for array in arrays:
             if array.shape != (count,) or array.dtype != backend.real:
                 raise ValueError(f"{array.dtype}{array.shape}; ({count},) is asked for")
+        # colors in the order of the sweep, and what the rows are given
         self._colors = pairs.colors[::-1] if backward else pairs.colors
         names = [name for name in roles if roles[name] == "constant"]
         self.places = {name: k for k, name in enumerate(names)}
         self._numbers = np.array([constants[name] for name in names], backend.real)
+        # a row of sums for each block, added up when all colors are done
         blocks = sum(blocks.size for blocks in pairs.colors)
         self._partial = np.zeros((blocks, reduces), backend.real)
         self._arguments = (
@@ -155,6 +159,7 @@ class Sweep:
     def __call__(self, **constants: float) -> tuple[float, ...]:
         """Run; returns the sums over the rows."""
         self.set(constants)
+        # a color waits for the one before; its blocks go side by side
         for blocks in self._colors:
             share = (_FIRST, np.uint64(blocks.size), self._threads)
             self._module.loop(*share, blocks, *self._arguments)
@@ -168,23 +173,28 @@ def ordered_pairs(backend: Backend, neighbors: PairList, weights: Array) -> Orde
         neighbors: list whose neighbors all have rows; j in the row of i where i in that of j.
         weights: (pairs,) g_ij, stored in their precision. A pair that is listed twice is summed.
     """
+    # tiles lie in the processor's memory only
     row_start, neighbor = backend.unwrap(neighbors.row_start), backend.unwrap(neighbors.neighbor)
     if not isinstance(neighbor, np.ndarray) or not neighbor.size:
         return None
+    # color the blocks so that no two of a color have neighbors in each other
     module, size, count = cache.load(TILES), np.uint64(BLOCK), row_start.size - 1
     touches = np.zeros((-(-count // BLOCK),) * 2, np.uint8)
     module.touching(size, row_start, neighbor, touches)
     color = _coloring(touches)
+    # columns of each chunk; too many zeros among the weights do not pay
     chunks = -(-count // ROWS)
     columns = np.zeros((2, chunks), np.uint64)
     module.count_columns(size, color, row_start, neighbor, columns)
     if ROWS * int(columns.sum()) > FILL * neighbor.size:
         return None
+    # fill the tiles before and after each chunk, and the weights within it
     host = backend.unwrap(weights)
     inner = np.zeros((chunks, ROWS * (ROWS - 1) // 2), host.dtype)
     total, after = (np.zeros(count, backend.real) for _ in range(2))
     sides = []
     for side, lengths in enumerate((columns[0], columns[1, ::-1])):
+        # first column of each chunk: the exclusive sum of the lengths before it
         start = np.concatenate([np.zeros(1, np.uint64), np.cumsum(lengths, dtype=np.uint64)])
         stored = int(start[-1])
         tiles = Tiles(start, np.empty(stored, np.uint32), np.empty((stored, ROWS), host.dtype))
@@ -192,6 +202,7 @@ def ordered_pairs(backend: Backend, neighbors: PairList, weights: Array) -> Orde
             np.uint64(side), size, color, row_start, neighbor, host, *tiles, inner, total, after
         )
         sides.append(tiles)
+    # numbers of the blocks of each color
     colors = [np.flatnonzero(color == k) for k in range(int(color.max()) + 1)]
     sums = backend.wrap(total), backend.wrap(after)
     return OrderedPairs(backend, colors, sides, inner, *sums)
@@ -213,6 +224,7 @@ def _roles(function: Callable, fields: Mapping, constants: Mapping) -> dict[str,
 
 def _coloring(touches: np.ndarray) -> np.ndarray:
     """Smallest color of each block, in turn, that no block that it touches has."""
+    # greedy coloring of the graph of blocks, in both directions of a pair
     joined = (touches | touches.T) > 0
     color = np.zeros(joined.shape[0], np.int64)
     for b in range(1, color.size):

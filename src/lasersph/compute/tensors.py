@@ -96,6 +96,16 @@ def transpose(lines: Lines, M: Term) -> Value:
     return _tensor([list(column) for column in zip(*_rows(lines, M, "transpose"), strict=True)])
 
 
+def multilinear(lines: Lines, t: Term) -> Value:
+    weights = ["real(1.0)"]
+    for share in _vector(lines, t, "multilinear"):
+        # the corner below and the corner above along one more axis
+        rest = lines.atom(f"real(1.0) - {share}")
+        weights = [f"({w} * {end})" for w in weights for end in (rest, share)]
+        weights = [lines.atom(text) for text in weights]
+    return Value("real", (len(weights),), tuple(weights))
+
+
 def _square(lines: Lines, M: Term, name: str) -> list[list[str]]:
     rows = _rows(lines, M, name)
     if len(rows) != len(rows[0]) or len(rows) > 3:
@@ -114,6 +124,7 @@ def _cofactors(lines: Lines, m: list[list[str]]) -> list[list[str]]:
         return [["real(1.0)"]]
     if len(m) == 2:
         return [[m[1][1], f"(-{m[1][0]})"], [f"(-{m[0][1]})", m[0][0]]]
+    # 3 x 3: products of the elements after k and c in cyclic order, which gives the sign
     after = (1, 2, 0)
     texts = [
         [
@@ -133,11 +144,15 @@ def determinant(lines: Lines, M: Term) -> Value:
 
 def inverse(lines: Lines, M: Term) -> Value:
     m = _square(lines, M, "inverse")
+    # inverse = transposed cofactors / determinant
     c = _cofactors(lines, m)
     factor = lines.atom(f"real(1.0) / {_sum_of_products(m[0], c[0])}")
     size = range(len(m))
     return _tensor([[f"({c[k][row]} * {factor})" for k in size] for row in size])
 
 
-_HELPERS = "vector identity dot norm cross outer matvec matmul transpose trace determinant inverse"
+_HELPERS = (
+    "vector identity dot norm cross outer matvec matmul transpose trace determinant inverse"
+    " multilinear"
+)
 HELPERS = {name: globals()[name] for name in _HELPERS.split()}

@@ -78,7 +78,7 @@ def _function_of(text: str) -> Any:
 
 
 def _visits(part: str) -> list[list[int]]:
-    """What loops over all blocks but two leave of zeros, by the ways that a part serves."""
+    """Values that loops over all blocks but two leave of zeros, by the ways that a part serves."""
     from lasersph.compute import numba_internals
 
     first, last, threads = np.uint64(1), np.uint64(_BLOCKS - 1), np.uint64(2)

@@ -30,7 +30,8 @@ class Number:
 class Value:
     """Code of kind "real", "int" or "bool"; shape () scalar, (m,) vector, (m, l) tensor.
 
-    Tables have kind "real-table" or "int-table", shape () and one part: the array's name.
+    Tables have kind "real-table" or "int-table", the shape of one entry, and as parts the names of
+    the arrays of its components.
     """
 
     kind: str
@@ -39,13 +40,18 @@ class Value:
 
     @property
     def text(self) -> str:
-        """The code of a scalar or table."""
+        """The code of a scalar."""
         return self.parts[0]
 
     @property
     def is_table(self) -> bool:
-        """Whether this is a table (1-D array indexed by integers)."""
+        """Whether this is a table (array whose entries are indexed by integers)."""
         return self.kind.endswith("-table")
+
+    @property
+    def table_name(self) -> str:
+        """Name of a table in its function."""
+        return self.parts[0].partition("__")[0]
 
 
 @dataclass(frozen=True)
@@ -62,6 +68,7 @@ def constant(value: object) -> Number | Group | None:
     """Literal for a module constant; None where the object is no number or tuple of numbers."""
     if isinstance(value, bool):
         return Number(value)
+    # NumPy's scalars count as Python's
     if hasattr(value, "dtype") and getattr(value, "ndim", None) == 0:
         value = value.item()  # type: ignore[attr-defined]
     if isinstance(value, int):
@@ -105,7 +112,8 @@ def shape_of(value: Term) -> tuple[int, ...]:
             raise LoopSourceError("a tuple of vectors has no arithmetic")
         return (len(value.items),)
     if value.is_table:
-        raise LoopSourceError(f"table {value.text} must be indexed or passed to interpolate()")
+        name = value.table_name
+        raise LoopSourceError(f"table {name} must be indexed or passed to interpolate()")
     return value.shape
 
 
@@ -146,6 +154,10 @@ def named(kind, name: str) -> Term:
         return Group(tuple(named(item, f"{name}__{k}") for k, item in enumerate(kind[1])))
     if kind[1] == ():
         return Value(kind[0], (), (name,))
+    if name == "t":
+        # its components would have the names of temporary values, t__0 and so on
+        raise LoopSourceError("a vector or tensor cannot have the name t")
+    # a name for each component, row-major
     indices = product(*(range(size) for size in kind[1]))
     parts = tuple(name + "__" + "_".join(str(k) for k in index) for index in indices)
     return Value(kind[0], kind[1], parts)
@@ -153,19 +165,23 @@ def named(kind, name: str) -> Term:
 
 def flat_parts(value: Term, kind) -> tuple[str, ...]:
     """All component texts of a value, converted to `kind`."""
+    # groups item by item, tables by the arrays of their components
     if kind[0] == "group":
         if not isinstance(value, Group) or len(value.items) != len(kind[1]):
             raise LoopSourceError("values of different structure")
         pairs = zip(value.items, kind[1], strict=True)
         return tuple(part for item, inner in pairs for part in flat_parts(item, inner))
     if kind[0].endswith("-table"):
-        if not isinstance(value, Value) or value.kind != kind[0]:
-            raise LoopSourceError("a table is needed here")
+        if not isinstance(value, Value) or (value.kind, value.shape) != kind:
+            raise LoopSourceError("a table with entries of the same shape is needed here")
         return value.parts
+    # numbers of the same shape, in the text of their kind
     if shape_of(value) != kind[1]:
         raise LoopSourceError(f"shape {shape_of(value)} where {kind[1]} is needed")
-    if kind[0] == "int":
+    if kind[0] == "int" and kind[1] == ():
         return (integer_text(value),)
+    if kind[0] == "int" and isinstance(value, Value) and value.kind == "int":
+        return value.parts
     if kind[0] == "bool":
         return (boolean_text(value),)
     return real_parts(value)
@@ -187,6 +203,7 @@ def joined_kind(first, second):
     """Kind that holds both: real wins over int and bool; structures must agree."""
     if first == second:
         return first
+    # groups item by item; other kinds must have the same shape, and a table is no number
     if first[0] == "group" and second[0] == "group" and len(first[1]) == len(second[1]):
         pairs = zip(first[1], second[1], strict=True)
         return ("group", tuple(joined_kind(a, b) for a, b in pairs))

@@ -5,6 +5,10 @@ by hand. Inside a loop the source compiler (`compute.source`) replaces them by s
 out for the dimension: nothing here is called then but the last three functions, which are
 scalar code already.
 
+A table holds numbers, vectors or tensors that a function reads at any place: `v[source]` is a
+scalar of a table (n,), a vector of one of shape (d, n) and a tensor of (d, d, n). In plain Python,
+where NumPy indexes the first axis, tables are lists of their entries.
+
 Only 1-, 2- and 3-dimensional square tensors have an inverse; complex numbers are left out.
 """
 
@@ -69,6 +73,17 @@ def determinant(M):
 def inverse(M):
     """Inverse of a square tensor up to 3 x 3, by cofactors; not finite where M is singular."""
     return np.linalg.inv(M)
+
+
+def multilinear(t):
+    """Weights of the 2^d corners of a cell at the place t in it, each coordinate from 0 to 1.
+
+    Products over the axes of 1 - t_k at the lower and t_k at the upper end, last axis fastest.
+    """
+    weights = np.ones(1)
+    for share in t:
+        weights = np.kron(weights, np.array([1.0 - share, share]))
+    return weights
 
 
 def same(value):

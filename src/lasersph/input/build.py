@@ -55,6 +55,7 @@ def build(
     """
     context = {"strict_units": True, **(context or {})}
     try:
+        # A document that is right is validated once.
         if not document.problems:
             return model.model_validate(document.data, context=context)
     except ValidationError:
@@ -70,7 +71,8 @@ def _all_problems(
     context: dict[str, Any],
     other_words: Mapping[str, str],
 ) -> list[Problem]:
-    """What is wrong, in the order of the file."""
+    """Every problem, in the order of the file."""
+    # Check, note what concerns the reader, mend the copy, and check again.
     schema, trial = Schema(model), _Trial(document)
     problems = {str(problem): problem for problem in document.problems}
     for _ in range(MOST_ROUNDS):
@@ -83,6 +85,8 @@ def _all_problems(
             if trial.concerns_reader(finding):
                 problem = finding.located(trial.document)
                 problems.setdefault(str(problem), problem)
+        # Every finding is mended before the next check, also where an earlier one changed
+        # something.
         if not any([trial.mend(finding, schema) for finding in found]):
             break
     return sorted(problems.values(), key=lambda problem: problem.line or 0)
@@ -101,6 +105,7 @@ class _Trial:
 
     def concerns_reader(self, finding: Finding) -> bool:
         """Whether a mistake is the reader's: neither at a key nor about a value written here."""
+        # By place: at a key that was written here, or below it. By text: about its value.
         if any(finding.path[: len(path)] == path for path in self._written):
             return False
         text = f"{finding.foreign or ''}; {finding.problem}; {finding.hint}"
@@ -114,6 +119,7 @@ class _Trial:
         """
         path, attempt = finding.path, self._attempts[finding.path]
         self._attempts[path] += 1
+        # First as the hint says: move, write, leave out, or the line that it names.
         if attempt == 0:
             if finding.target is not None:
                 return self._move(path, finding.target)
@@ -124,6 +130,7 @@ class _Trial:
             line = _line_of(finding, isinstance(self.document.at(path), dict))
             if line is not None and self._write(*line):
                 return True
+        # Then an example of the schema, where the key is needed; else without the key.
         if attempt > 1 or not path:
             return False
         data = self.document.data
@@ -138,6 +145,7 @@ class _Trial:
             return False
         table[path[-1]] = value
         self._written.add(path)
+        # Short texts such as "x" would be found in every message.
         if isinstance(value, str) and len(value) > 2:
             self._values.add(value)
         return True
@@ -148,6 +156,7 @@ class _Trial:
         if table is None or not self._remove(path):
             return False
         table[target[-1]] = value
+        # A key that moved keeps its line.
         for key, line in self.document.lines.copy().items():
             if key[: len(path)] == path:
                 self.document.lines.setdefault((*target, *key[len(path) :]), line)
@@ -173,6 +182,7 @@ class _Trial:
         """The table at a path, made where it is missing; None where something else stands."""
         table: Any = self.document.data
         for step in path:
+            # Missing tables are made; anything else in their place is the reader's.
             if isinstance(table, dict):
                 table = table.setdefault(step, {})
             elif isinstance(table, list) and isinstance(step, int) and step < len(table):
@@ -185,12 +195,14 @@ class _Trial:
 def _line_of(finding: Finding, is_table: bool) -> tuple[Path, Any] | None:
     """Path and value of the line that a hint tells to write."""
     path, text = finding.path, f"{finding.problem}; {finding.hint}"
+    # A whole line: key, value, and the table that it belongs to.
     line = _LINE.search(text)
     if line is not None:
         key, value, table = line.groups()
         around = tuple(table.split(".")) if table else path if is_table else path[:-1]
         around = () if table is None and dotted(path) == key else around
         return (*around, *key.split(".")), _read(value)
+    # Else a value alone, which stands at the key of the finding.
     value = _CHOICE.search(finding.hint) or _VALUE.search(text)
     return None if value is None else (path, _read(value.group(1)))
 

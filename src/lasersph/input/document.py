@@ -37,6 +37,7 @@ class Document:
 
     def place(self, path: KeyPath) -> tuple[str, int | None]:
         """(file, line) of a key, or of the nearest table around it."""
+        # From the key itself outward, the first one whose place is known.
         for length in range(len(path), 0, -1):
             head = tuple(path[:length])
             if head in self.origins:
@@ -70,6 +71,7 @@ def read_toml(file: str | Path, *, tolerant: bool = False) -> Document:
         CaseError: missing, unreadable, not a file, larger than 16 MiB, not UTF-8, not TOML.
     """
     path = Path(file)
+    # Refuse what cannot be a case before it is read into memory.
     try:
         if path.is_dir():
             raise CaseError("is a folder, not a file", file=str(file))
@@ -94,10 +96,12 @@ def parse_toml(raw: bytes | str, file: str = "", *, tolerant: bool = False) -> D
         tolerant: keep what can be mended (text without quotes, a key given twice) as problems of
             the document, so that `build` says them along with all others.
     """
+    # Windows writes a mark before UTF-8 text.
     text = _decode(raw, file) if isinstance(raw, bytes) else raw
     text = text.removeprefix("\ufeff")
     problems: list[Problem] = []
     mended = text
+    # Read on past each mistake that can be mended in its line.
     while True:
         try:
             data, lines = tomllib.loads(mended), key_lines(mended)
@@ -121,6 +125,7 @@ def parse_toml(raw: bytes | str, file: str = "", *, tolerant: bool = False) -> D
 
 def with_settings(text: str, settings: Iterable[str]) -> str:
     """The text of a case file below its settings, "laser.fluence=0.8 J/cm^2", a comment each."""
+    # The settings stand above the text as comments, so that the file is still the one given.
     return "".join(f"{SET}{setting}\n" for setting in settings) + text
 
 
@@ -146,6 +151,7 @@ def _decode(raw: bytes, file: str) -> str:
 
 def _syntax_error(message: str, text: str, file: str) -> CaseError:
     """tomllib's message with its line; duplicate keys and text without quotes in our words."""
+    # tomllib names the place at the end of its message.
     match = re.search(r" \(at line (\d+), column (\d+)\)$", message)
     line = int(match.group(1)) if match else None
     what = message[: match.start()] if match else message.removesuffix(" (at end of document)")
@@ -153,11 +159,13 @@ def _syntax_error(message: str, text: str, file: str) -> CaseError:
         line = text.rstrip("\n").count("\n") + 1
     all_lines = text.split("\n")
     content = all_lines[line - 1].strip() if line <= len(all_lines) else ""
+    # Its message is on the line after the key where that line is empty.
     if what in ("Cannot overwrite a value",) or "twice" in what or "Duplicate" in what:
         if not content and line > 1:
             line, content = line - 1, all_lines[line - 2].strip()
         key = content.split("=")[0].strip() if "=" in content else content
         return CaseError("given twice", "remove one", key=key, file=file, line=line)
+    # Bare words and numbers with units, the most frequent mistakes.
     quoted = _quoted(content)
     if quoted != content:
         key = content.partition("=")[0].strip()
@@ -165,6 +173,7 @@ def _syntax_error(message: str, text: str, file: str) -> CaseError:
         problem = "a number with a unit is text in TOML" if number else "text needs quotes in TOML"
         hint = f"write {quoted.partition('#')[0].strip()}"
         return CaseError(problem, hint, key=key, file=file, line=line)
+    # An odd number of quotation marks in a line.
     if content.count('"') % 2 and "=" in content:
         key, written = content.partition("=")[0].strip(), content.partition("#")[0].rstrip()
         problem = "text without its closing quotation mark"
@@ -188,6 +197,7 @@ def _mended(text: str, mistake: CaseError) -> str | None:
 def _quoted(line: str) -> str:
     """A line with its bare words and its numbers with units in quotes."""
 
+    # Values that TOML reads stay as they are.
     def quote(match: re.Match[str]) -> str:
         value = match.group(2)
         try:

@@ -1,4 +1,4 @@
-"""What is wrong with an input file, one line per problem: where, which key, what, what instead."""
+"""Problems of an input file, a line each: where, which key, what is wrong, what instead."""
 
 from __future__ import annotations
 
@@ -43,5 +43,7 @@ class CaseError(ValueError):
         self.problems = problem
         first = problem[0]
         self.problem, self.hint = first.problem, first.hint
-        self.key, self.file, self.line = first.key, first.file, first.line
+        self.key = first.key
+        self.file = first.file
+        self.line = first.line
         super().__init__("\n".join(str(each) for each in problem))

@@ -59,6 +59,8 @@ class Finding:
     def located(self, document: Document) -> Problem:
         """The mistake with its file, line and key."""
         file, line = document.place(self.path)
+        # A mistake in another file, of a material, has its own place; without a line it stands
+        # here.
         if self.foreign is not None:
             other = self.foreign
             if other.file and not other.line:
@@ -77,6 +79,7 @@ def findings_of(
     """Every mistake that pydantic found."""
     found: list[Finding] = []
     for each in error.errors(include_url=False):
+        # Errors of files that a validator read keep their own place.
         cause = (each.get("ctx") or {}).get("error")
         if isinstance(cause, CaseError):
             path = _data_path(each["loc"], document.data, "")
@@ -108,6 +111,8 @@ def _say(
 ) -> list[Finding]:
     kind, context = error["type"], error.get("ctx") or {}
     path = _data_path(error["loc"], document.data, kind)
+
+    # Errors of this package's validators: unknown keys, and problems at named keys.
     given = _shown(document.at(path))
     if kind == "unknown_keys":
         misplaced = Misplaced(document, schema, other_words)
@@ -117,6 +122,8 @@ def _say(
     if kind == "at_key":
         found = ((key, *text.partition("; ")) for key, text in context["problems"])
         return [Finding((*path, *steps_of(key)), text, hint) for key, text, _, hint in found]
+
+    # Errors of pydantic: missing keys, choices, values, types.
     if kind == "missing":
         return [_missing(path, schema.example(path, document.data))]
     if kind == "union_tag_not_found":
@@ -132,13 +139,15 @@ def _say(
         return [Finding(path, text, hint)]
     if _EXPECTED.get(kind) == "a table":
         return [_no_table(path, given, document, schema)]
+
+    # A single table where several belong is written with double brackets.
     is_one = kind in ("list_type", "tuple_type") and given == "a table" and len(path) == 1
     hint = f"write [[{path[0]}]]" if is_one else ""
     return [Finding(path, _problem_with_value(kind, context, error["msg"], given), hint)]
 
 
 def _problem_with_value(kind: str, context: dict[str, Any], message: str, given: str) -> str:
-    """What is wrong with a value that has its right place."""
+    """Problem of a value that has its right place, in words."""
     if kind == "quantity":
         return context["message"]
     if kind in _BOUNDS:
@@ -156,6 +165,7 @@ def _problem_with_value(kind: str, context: dict[str, Any], message: str, given:
 def _missing(path: Path, example: Any) -> Finding:
     """A key that must be there, with the line to write."""
     hint = ""
+    # The whole table, where it is one of the first level.
     if isinstance(example, dict) and len(path) == 1:
         lines = [f"{key} = {as_toml(value)}" for key, value in example.items()]
         hint = f"write [{path[0]}] with {', '.join(lines)}" if lines else f"write [{path[0]}]"
@@ -178,6 +188,7 @@ def _unknown(path: Path, misplaced: Misplaced) -> Finding:
 
 def _data_path(location: tuple[Any, ...], data: Any, kind: str) -> Path:
     """pydantic's location without the steps that are not keys (union tags, validator names)."""
+    # Steps that the data have are keys; others are tags of unions and names of validators.
     path: list[str | int] = []
     for number, step in enumerate(location):
         is_last = number == len(location) - 1
@@ -197,6 +208,7 @@ def _tag(context: dict[str, Any]) -> str:
 
 def _choice(given: str, expected: str) -> tuple[str, str]:
     """Text for a word that is none of the allowed ones."""
+    # The choices as pydantic lists them.
     choices = [word.strip().strip("'\"") for word in expected.replace(" or ", ", ").split(",")]
     near = nearest(given.strip('"'), choices)
     listed = " or ".join(word if word.isdigit() else f'"{word}"' for word in choices)
@@ -218,7 +230,7 @@ def _shown(value: Any) -> str:
 
 @dataclass(frozen=True)
 class Misplaced:
-    """What is asked for the place of an unknown key.
+    """Sources that are asked for the place of an unknown key.
 
     `other_words` has words of other programs: the keys that they mean here, separated by spaces,
     or, with a semicolon before it, what to do instead. A word may name its table before a dot.
@@ -237,6 +249,8 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
     file refuse is no place.
     """
     document, schema = asked.document, asked.schema
+
+    # 1. Words of other programs, with their table or alone.
     table, key = path[:-1], str(path[-1])
     known = schema.keys(table, document.data)
     word = key.lower().replace("-", "_")
@@ -244,6 +258,8 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
     meant = meant or asked.other_words.get(word, "")
     if meant.startswith(";"):
         return meant[1:].strip(), None
+
+    # 2. Places where the key, or one spelt alike, is known.
     near = nearest(key, known)
     candidates = [_path_of(word, table) for word in meant.split()]
     is_of_kind = bool(schema.kinds(table, key))
@@ -251,6 +267,8 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
     candidates += [(*table, near)] if near else []
     alike = nearest(key, {str(place[-1]) for place in schema.places(document.data)})
     candidates += _named(alike, table, asked) if alike and not is_of_kind else []
+
+    # 3. The first of them that the data leave free, and whose kind of quantity fits.
     for target in candidates:
         fits = target in schema.places(document.data) and _fits(path, target, asked)
         fits = fits and not _is_of_other_kind(document.at(path), target, asked)
@@ -259,11 +277,26 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
             return f'do you mean "{shown}"?', target
         if fits:
             return f"leave it out: {'.'.join(map(str, target))} is given", None
+
+    # 4. Another kind of the same table knows the key; else the keys known here.
     kinds = schema.kinds(table, key)
     if kinds:
-        return "belongs to " + " or ".join(f'kind = "{kind}"' for kind in kinds), None
+        owners = "belongs to " + " or ".join(f'kind = "{kind}"' for kind in kinds)
+        return owners + _left_out(path, document), None
     shown = ", ".join(known)
     return (f"known here: {shown}" if 0 < len(known) <= MOST_KEYS else "leave it out"), None
+
+
+def _left_out(path: Path, document: Document) -> str:
+    """How to be rid of a key of the file whose table has been given another kind by a setting."""
+    kind = (*path[:-1], "kind")
+    if not document.origin_within(kind) or document.origin_within(path):
+        return ""
+    table = {"kind": document.at(kind)}
+    return (
+        f"; leave it out with --set {dotted(path)}= or, in a plan, "
+        f'"{dotted(path[:-1])}" = {as_toml(table)}'
+    )
 
 
 def _path_of(word: str, table: Path) -> Path:
@@ -272,14 +305,24 @@ def _path_of(word: str, table: Path) -> Path:
 
 
 def _named(key: str, table: Path, asked: Misplaced) -> list[Path]:
-    """Keys of that name in other tables: below the own table first, then outer ones."""
-    places = asked.schema.places(asked.document.data)
-    same = [place for place in places if place[-1] == key and place[:-1] != table]
-    return sorted(same, key=lambda place: (place[: len(table)] != table, len(place)))
+    """Keys of that name in other tables: below the own table first, then outer ones.
+
+    The word that names the kind of a table elsewhere says nothing of this one.
+    """
+    schema, data = asked.schema, asked.document.data
+    same = [place for place in schema.places(data) if place[-1] == key and place[:-1] != table]
+    below = [place for place in same if place[: len(table)] == table]
+    outer = [
+        place
+        for place in same
+        if place not in below and not any("const" in part for part in schema.parts(place, data))
+    ]
+    return sorted(below, key=len) + sorted(outer, key=len)
 
 
 def _is_of_other_kind(value: Any, target: Path, asked: Misplaced) -> bool:
     """Whether a text is a quantity, but of none of the kinds that a key takes."""
+    # Kinds that the key takes; a plain number takes a fraction.
     parts = asked.schema.parts(target, asked.document.data)
     is_number = any(part.get("type") == "number" for part in parts)
     kinds = [part["x-kind"] for part in parts if "x-kind" in part] + ["fraction"] * is_number
@@ -291,6 +334,7 @@ def _is_of_other_kind(value: Any, target: Path, asked: Misplaced) -> bool:
 def _fits(path: Path, target: Path, asked: Misplaced) -> bool:
     """Whether a table goes to a table and a value to a value, and not into a text or number."""
     document, schema = asked.document, asked.schema
+    # A place below the key itself, or inside a value, is no place.
     if path[: len(target)] == target:
         return False
     for length in range(1, len(target)):

@@ -36,6 +36,7 @@ def format_quantity(
     """
     if value is None or not math.isfinite(value):
         return "–"
+    # Rounding leaves 1e-24 m where 0 is meant.
     if unit in ("m", "s") and abs(value) < SMALLEST:
         value = 0.0
     name, scale = _fitting_unit(value, unit, digits, typographic=typographic)
@@ -59,11 +60,13 @@ def in_field_units(
 def _fitting_unit(value: float, unit: str, digits: int, *, typographic: bool) -> tuple[str, float]:
     """Unit with the prefix that fits a value, and its size in SI."""
     prefix, scale = "", 1.0
+    # The power of a thousand whose prefix leaves a number from 1 up.
     if unit in PREFIXED and value:
         step = 1000.0 ** PREFIXED[unit]
         power = math.floor(math.log10(abs(value)) / math.log10(step))
         # 999.96 with four digits is 1000, the next prefix's 1
         power += abs(float(f"{value / step**power:.{digits}g}")) >= LARGEST[PREFIXED[unit]]
+        # Not below the smallest usual prefix, nor kilo where nobody says it.
         power = max(LEAST_POWER.get(unit, -5), min(power, 0 if unit in WITHOUT_KILO else 4))
         prefix, scale = PREFIXES[power + 5], step**power
     if typographic:
@@ -82,12 +85,14 @@ def format_with_error(
     """
     if not error or not math.isfinite(error):
         return format_quantity(value, unit, typographic=typographic)
+    # Value and error share the unit, and a power of ten where numbers get long.
     name, scale = _fitting_unit(value or error, unit, 4, typographic=typographic)
     value, error = value / scale, error / scale
     sign = "±" if typographic else "+-"
     largest = math.floor(math.log10(max(abs(value), error)))
     power = largest if not -3 <= largest < 6 else 0
     value, error = value / 10.0**power, error / 10.0**power
+    # Two digits of the error decide on the decimals of both.
     digits = 1 - math.floor(math.log10(error))
     numbers = (f"{round(number, digits):,.{max(0, digits)}f}" for number in (value, error))
     text = f" {sign} ".join(numbers).replace(",", " " if typographic else "")
@@ -99,6 +104,7 @@ def format_with_error(
 
 def format_number(value: float, digits: int = 4, *, typographic: bool = False) -> str:
     """A number with some significant digits; whole numbers below a million keep all of theirs."""
+    # The point stays near the digits: below 1e-4 and from 1e6 on a power of ten stands apart.
     if value == 0.0:
         return "0"
     exponent = math.floor(math.log10(abs(value)))

@@ -31,6 +31,7 @@ class _Scanner:
         self.array_lengths: dict[Path, int] = {}
 
     def scan(self) -> dict[Path, int]:
+        # Headers set the table, all else are assignments in it.
         table: Path = ()
         while self._skip_blank(newlines=True):
             if self._peek() == "[":
@@ -50,6 +51,7 @@ class _Scanner:
         """Skip spaces and comments (and line ends); whether text remains."""
         while self.place < len(self.text):
             char = self.text[self.place]
+            # A comment ends with its line.
             if char == "#":
                 end = self.text.find("\n", self.place)
                 self.place = len(self.text) if end < 0 else end
@@ -64,6 +66,7 @@ class _Scanner:
         self._advance(2 if is_array else 1)
         line = self.line
         path = self._resolve(self._key())
+        # Each [[header]] begins the next element of its array.
         if is_array:
             index = self.array_lengths.get(path, 0)
             self.array_lengths[path] = index + 1
@@ -83,6 +86,7 @@ class _Scanner:
         return path
 
     def _note(self, path: Path, line: int) -> None:
+        # The first mention of a table is its line.
         for length in range(1, len(path) + 1):
             self.lines.setdefault(path[:length], line)
 
@@ -95,6 +99,7 @@ class _Scanner:
 
     def _key(self) -> tuple[str, ...]:
         names = []
+        # Names between dots: quoted, or bare.
         while True:
             self._skip_blank(newlines=False)
             if self._peek() in ("'", '"'):
@@ -113,6 +118,7 @@ class _Scanner:
 
     def _value(self, path: Path) -> None:
         self._skip_blank(newlines=False)
+        # Strings, arrays and inline tables hold keys or separators; plain values end at one.
         char = self._peek()
         if char in ("'", '"'):
             self._string()
@@ -128,6 +134,7 @@ class _Scanner:
         self._advance(1)
         index = 0
         while self._skip_blank(newlines=True) and self._peek() != "]":
+            # An element begins where its first character stands.
             self.lines.setdefault((*path, index), self.line)
             self._value((*path, index))
             index += 1
@@ -146,10 +153,12 @@ class _Scanner:
         self._advance(1)
 
     def _string(self) -> str:
+        # Three quotes begin a text over several lines.
         quote = self._peek()
         delimiter = quote * 3 if self._peek(3) == quote * 3 else quote
         self._advance(len(delimiter))
         start, escaped = self.place, False
+        # A backslash escapes in double quotes only.
         while self.place < len(self.text):
             if quote == '"' and self._peek() == "\\":
                 escaped = True

@@ -20,6 +20,7 @@ def suffix(unit: str) -> str:
 
 def unit_of(key: str) -> str:
     """Unit that a key ends in, amounts as in 3-D; empty for a pure number or a text."""
+    # The list has the longest units first, so that _m2_s is not taken for _s.
     return next((unit for unit in UNITS if key.endswith(suffix(unit))), "")
 
 

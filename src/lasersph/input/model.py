@@ -22,6 +22,7 @@ class Model(BaseModel):
     @classmethod
     def _refuse_unknown_keys(cls, data: Any) -> Any:
         if isinstance(data, dict):
+            # The known keys go along, for the hint.
             known = list(cls.model_fields)
             unknown = [str(key) for key in data if key not in cls.model_fields]
             if unknown:
@@ -50,6 +51,7 @@ def refusal(*problems: tuple[str, str]) -> PydanticCustomError:
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word spelt most like `word`, or None if none is near."""
+    # Case and hyphens are no difference.
     plain = {name.lower().replace("-", "_"): name for name in known}
     found = difflib.get_close_matches(word.lower().replace("-", "_"), plain, n=1, cutoff=0.6)
     return plain[found[0]] if found else None

@@ -54,6 +54,7 @@ def parse_quantity(text: str, kind: str) -> float:
     Raises:
         QuantityError: no number, no unit, unknown unit, wrong kind, not finite.
     """
+    # A number by the regular expression, the rest by the grammar of units.
     wanted = KINDS[kind]
     hint = f'write e.g. "{wanted.example}"'
     shown = text if len(text) <= 60 else text[:57] + "..."
@@ -61,18 +62,22 @@ def parse_quantity(text: str, kind: str) -> float:
     if match is None:
         raise QuantityError(f'"{shown}" does not start with a number; {hint}')
     number, unit_text = match.group(1), match.group(2).strip()
+    # A fraction is a pure number; all else needs a unit.
     if not unit_text:
         if kind == "fraction":
             return _finite(Fraction(number), shown)
         raise QuantityError(f'"{shown}" has no unit; {hint}')
+    # A second number where the unit should be: 1,5 or 1.2.3.
     if re.match(r"[,.0-9]", unit_text) and not re.match(r"1\s*/", unit_text):
         raise QuantityError(f'the number in "{shown}" cannot be read; {hint}')
     try:
         unit = parse_unit(unit_text)
     except UnitError as error:
         raise QuantityError(f'{error} in "{shown}"; {hint}') from None
+    # A difference has no zero: 20 degC is 293.15 K, or 20 K.
     if unit.offset and kind == "temperature_difference":
         raise QuantityError(f'"{shown}" is a temperature, not a difference; write it in K')
+    # Dimension and symbols of the unit must be those of the kind.
     if not wanted.accepts(unit):
         given = kind_of(unit)
         what = f"is {given.words}" if given else "has another dimension"
@@ -90,6 +95,7 @@ def fits_kind(text: str, kind: str) -> bool:
 
 
 def _finite(exact: Fraction, shown: str) -> float:
+    # The fraction rounds once, to the nearest double.
     try:
         value = float(exact)
     except OverflowError:
@@ -118,6 +124,7 @@ class Kind:
 
     def accepts(self, unit: Unit) -> bool:
         """Whether a number with this unit is a quantity of this kind."""
+        # J/m^2 and N/m have one dimension: the symbols tell them apart.
         if unit.dimension != self.dimension or unit.parts & self.refuses:
             return False
         return not self.needs_one_of or bool(unit.parts & self.needs_one_of)

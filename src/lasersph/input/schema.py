@@ -35,6 +35,7 @@ class Schema:
 
     def parts(self, path: Path, data: Any) -> list[dict[str, Any]]:
         """The alternatives that the schema allows at a path."""
+        # Step by step, with the kinds that the data allow at each.
         found, value = self._alternatives(self._root), data
         for step in path:
             found = [leaf for part in found for leaf in self._below(part, step)]
@@ -54,14 +55,15 @@ class Schema:
         return [kind for kind in known if kind]
 
     def meaning(self, path: Path, data: Any) -> str:
-        """What a key means, empty where the schema does not say: of the key itself, of the table
+        """Meaning of a key, empty where the schema has none: of the key itself, of the table
         around it, or of the tables that stand there."""
         parts, around = self.parts(path, data), self.parts(path[:-1], data)
-        told = [described(part)[1].get(str(path[-1]), "") for part in around]
-        told += [described(part)[0] for part in parts]
+        # The key in its table first, then the table that stands at the key.
+        meanings = [described(part)[1].get(str(path[-1]), "") for part in around]
+        meanings += [described(part)[0] for part in parts]
         if path[-1] == "kind" and len(around) == 1:  # the kind that stands there
-            told.append(described(around[0])[0])
-        return next(filter(None, told), "")
+            meanings.append(described(around[0])[0])
+        return next(filter(None, meanings), "")
 
     def needs(self, path: Path, data: Any) -> bool:
         """Whether the table around a key cannot do without."""
@@ -78,6 +80,7 @@ class Schema:
 
     def best_kind(self, path: Path, data: Any, tag: str) -> str:
         """The kind of the table at a path that knows most of the keys given there."""
+        # The kind with most of the given keys is the one that is meant.
         given = set(_inside(data, path))
         kinds = {
             part["properties"][tag]["const"]: given & set(part["properties"])
@@ -88,6 +91,7 @@ class Schema:
 
     def places(self, data: Any) -> list[Path]:
         """Every key that the kinds in the data allow, the outer ones first."""
+        # Breadth first, so that outer places come before inner ones.
         found: list[Path] = []
         waiting: list[Path] = [()]
         while waiting:
@@ -107,6 +111,7 @@ class Schema:
 
         Empty where the schema does not say.
         """
+        # The table of the kind that the value names; of a law, one with the value in it.
         tables = [part for part in self.parts(path, None) if part.get("properties")]
         if not tables:
             return {}
@@ -120,6 +125,7 @@ class Schema:
         return {"value": shown, "source": self._example(keys["source"])}
 
     def _example(self, part: dict[str, Any]) -> Any:
+        # An example of the model, a fixed value, or what the type needs at least.
         if "examples" in part:
             return part["examples"][0]
         if "const" in part or "enum" in part:
@@ -146,12 +152,14 @@ class Schema:
 
     def _alternatives(self, part: dict[str, Any]) -> list[dict[str, Any]]:
         """A part with references resolved, one for each branch but null."""
+        # A reference stands for its definition, with what is said beside it.
         if "$ref" in part:
             beside = {key: value for key, value in part.items() if key != "$ref"}
             part = self._definitions[part["$ref"].rpartition("/")[2]] | beside
         branches = [branch for name in ("anyOf", "oneOf", "allOf") for branch in part.get(name, ())]
         if not branches:
             return [part]
+        # What is said of the key holds for each branch, but a kind describes itself.
         shown = {key: part[key] for key in ("examples", "description") if part.get(key)}
         leaves = [leaf for branch in branches for leaf in self._alternatives(branch)]
         found = [shown | leaf if _is_one_kind(leaf) else leaf | shown for leaf in leaves]
@@ -173,6 +181,7 @@ def _is_value_of(leaf: dict[str, Any], value: Any) -> bool:
 def described(part: dict[str, Any]) -> tuple[str, dict[str, str]]:
     """The description in a part of a schema without, and by key, what its "Attributes:" say."""
     text, _, attributes = part.get("description", "").partition("\n\nAttributes:\n")
+    # "Attributes:" have several names to a meaning, over several lines.
     meanings = {}
     for names, meaning in re.findall(
         r"^    ([\w, ]+): (.+(?:\n     +.+)*)", attributes, re.MULTILINE

@@ -67,6 +67,7 @@ def number_and_unit(text: str) -> tuple[str, str]:
 def in_unit_of(value: str, pattern: str) -> str:
     """A quantity that a program wrote in SI in the unit of another, "6000.0 J/m^2" as "0.6 J/cm^2";
     with the prefix that fits where the other has no unit. Other units are a person's and stay."""
+    # Only SI is rewritten: another unit was chosen by a person.
     number, unit = number_and_unit(value)
     _, wanted = number_and_unit(pattern)
     try:
@@ -75,6 +76,7 @@ def in_unit_of(value: str, pattern: str) -> str:
         return value
     if given.factor != 1 or given.offset:
         return value
+    # Without a unit of the pattern the prefix decides, else the number is converted to it.
     if target is None:
         return format_quantity(float(number), unit, REWRITTEN_DIGITS)
     if target.dimension != given.dimension:
@@ -88,6 +90,7 @@ def units_written(plan: str, units: Mapping[str, str]) -> dict[str, ShownUnit]:
     of them; see `shown_unit` for keys without."""
     tables = tomllib.loads(plan)
     found = {}
+    # The first quantity of the right dimension below each key decides.
     for key, unit in units.items():
         fitting = (one for one in _texts(tables, key) if _is_unit_of(one, unit))
         found[key] = shown_unit(unit, next(fitting, "") if unit else "")
@@ -97,6 +100,7 @@ def units_written(plan: str, units: Mapping[str, str]) -> dict[str, ShownUnit]:
 def _texts(value: Any, key: str, path: str = "") -> Iterator[str]:
     """Units of the quantities that stand below a key, in their order."""
     if isinstance(value, dict):
+        # An unknown names its key in a table of its own.
         is_named = value.get("key") == key  # an unknown of another name
         for name, one in value.items():
             yield from _texts(one, key, key if is_named else f"{path}.{name}".strip("."))

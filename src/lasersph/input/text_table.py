@@ -22,12 +22,15 @@ def text_table(rows: Iterable[Sequence[str]], head: Sequence[str] = ()) -> str:
     count = len(head) or 2
     if any(len(line) > count for line in lines):
         raise ValueError(f"a table of {count} columns got a longer row; more than two need a head")
+    # Short rows end with empty cells.
     lines = [line + [""] * (count - len(line)) for line in lines]
+    # Columns of numbers end below one another, but for the names in the first.
     is_number = [
         bool(head) and column > 0 and all(NUMBER.match(line[column]) for line in lines)
         for column in range(count)
     ]
     lines = [list(head), *lines] if head else lines
+    # The rule has the widths of the columns.
     widths = [max((len(line[column]) for line in lines), default=0) for column in range(count)]
     if head:
         lines.insert(1, ["-" * width for width in widths])

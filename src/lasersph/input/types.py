@@ -48,12 +48,14 @@ def _reader(kind: str) -> Callable[[Any, ValidationInfo], Any]:
     example = KINDS[kind].example
 
     def read(value: Any, info: ValidationInfo) -> float:
+        # Files need units, Python may give SI numbers.
         number = read_number(value, bool(info.context) and bool(info.context.get("strict_units")))
         if kind == "temperature" and number < 0:
             raise _refusal(f'"{value}" is below absolute zero')
         return number
 
     def read_number(value: Any, needs_unit: bool) -> float:
+        # Text with a unit, or a number that is one: true and "3" are none.
         if isinstance(value, str):
             try:
                 return parse_quantity(value, kind)
@@ -62,6 +64,7 @@ def _reader(kind: str) -> Callable[[Any, ValidationInfo], Any]:
         if isinstance(value, bool) or not isinstance(value, Real):
             what = f"{str(value).lower()} is" if isinstance(value, bool) else "is"
             raise _refusal(f'{what} not {KINDS[kind].words}; write e.g. "{example}"')
+        # An integer of hundreds of digits has no float.
         try:
             number = float(value)
         except OverflowError:
@@ -81,13 +84,14 @@ def _refusal(message: str) -> PydanticCustomError:
 
 def quantity_kind(model: type[BaseModel], name: str) -> str:
     """Kind of quantity that a field of a model reads ("density"); empty where it reads none."""
+    # Marks stand beside the type, or inside one of its alternatives.
     field = model.model_fields[name]
     marks = [*field.metadata, *_marks(field.annotation)]
     return next((mark.kind for mark in marks if isinstance(mark, Quantity)), "")
 
 
 def _marks(annotation: Any) -> Iterator[Any]:
-    """What annotates a type or one of its alternatives, however deep."""
+    """Annotations of a type and of its alternatives, however deep."""
     yield from getattr(annotation, "__metadata__", ())
     for part in get_args(annotation):
         yield from _marks(part)

@@ -119,17 +119,20 @@ def parse_unit(text: str) -> Unit:
     Raises:
         UnitError: empty, unknown or malformed text.
     """
+    # Spellings of people and of typesetters, as ASCII.
     plain = text.strip()
     for spelling, ascii_form in _SPELLINGS.items():
         plain = plain.replace(spelling, ascii_form)
     plain = plain.replace("^-^", "^-")
     if not plain:
         raise UnitError("no unit")
+    # "/s" is 1/s.
     if plain.startswith("/"):
         plain = "1" + plain
     if len(plain) > 60:
         raise UnitError("the unit is longer than 60 characters")
     tokens = _tokens(plain, text)
+    # A lone symbol keeps its zero, as degC has one.
     if len(tokens) == 1 and isinstance(tokens[0], tuple) and tokens[0][1] == 1:
         return _symbol(tokens[0][0])
     unit, end = _product(tokens, 0, text)
@@ -144,6 +147,7 @@ def _tokens(plain: str, text: str) -> list[str | tuple[str, int]]:
     place = 0
     while place < len(plain):
         match = _TOKEN.match(plain, place)
+        # A symbol with its exponent, an operator, or an exponent behind a parenthesis.
         if match is None:
             raise UnitError(f'the unit "{text}" cannot be read')
         name, exponent, operator, _space, late = match.groups()
@@ -164,8 +168,11 @@ def _tokens(plain: str, text: str) -> list[str | tuple[str, int]]:
 def _product(tokens: list, start: int, text: str) -> tuple[Unit, int]:
     """Product of factors from `start` up to the end or the closing parenthesis."""
     result = Unit(Fraction(1), NONE)
-    place, sign, wanted = start, 1, True
+    place = start
+    sign = 1
+    wanted = True
     while place < len(tokens) and tokens[place] != ")":
+        # Operators stand between factors only.
         token = tokens[place]
         if token in ("*", "/"):
             if wanted:
@@ -173,6 +180,7 @@ def _product(tokens: list, start: int, text: str) -> tuple[Unit, int]:
             sign, wanted = (-1 if token == "/" else 1), True
             place += 1
             continue
+        # A parenthesis is a factor, with an exponent behind it.
         if token == "(":
             factor, place = _product(tokens, place + 1, text)
             if place >= len(tokens):
@@ -184,6 +192,7 @@ def _product(tokens: list, start: int, text: str) -> tuple[Unit, int]:
         else:
             name, exponent = token
             factor = _symbol(name)
+        # Multiply factor and dimension by the power of this symbol.
         power = sign * exponent  # a temperature scale counts as its difference
         pairs = zip(result.dimension, factor.dimension, strict=True)
         dims = tuple(a + power * b for a, b in pairs)
@@ -209,11 +218,13 @@ def _from_pint(name: str) -> Unit:
         raise UnitError(f'unknown unit "{name}"{_case_hint(name)}')
     import pint
 
+    # pint reads one plain word: units that the table does not have.
     registry = pint.get_application_registry()
     try:
         quantity = registry.Quantity(1.0, registry.parse_units(name)).to_base_units()
     except Exception as error:  # pint raises many types; all mean that this word is no plain unit
         raise UnitError(f'unknown unit "{name}"{_case_hint(name)}') from error
+    # Dimensions by pint's names; an angle is none to pint, but one here.
     names = {
         "[length]": "m",
         "[mass]": "kg",
@@ -234,6 +245,7 @@ def _from_pint(name: str) -> Unit:
 
 
 def _case_hint(name: str) -> str:
+    # Capitals matter in units: mW and MW.
     if name == "C":
         return ' (do you mean "degC"?)'
     near = [known for known in _TABLE if known.lower() == name.lower()]

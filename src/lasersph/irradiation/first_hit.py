@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.columns import (
@@ -38,6 +37,7 @@ from lasersph.lasers import Laser
 from lasersph.materials import Material
 from lasersph.particles.kinds import GONE
 from lasersph.particles.neighbor_lists import NeighborList, members_of
+from lasersph.surface.surface import upward
 
 BAND = 0.5
 """Depth over the spacing down to which particles of a column are uppermost. Geometry: particles of

@@ -20,9 +20,9 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.compute.graph import graph
 from lasersph.compute.vectors import interpolate
 from lasersph.irradiation.absorbing_cells import (
     add,
@@ -37,6 +37,7 @@ from lasersph.lasers import Laser
 from lasersph.materials import Material
 from lasersph.particles.filling import Filling
 from lasersph.particles.neighbor_lists import members_of
+from lasersph.surface.columns import SurfaceColumns
 
 SMALLEST_SHARE = 1e-30
 """Share of the light below which a particle is dark. Format: products with smaller ones are not
@@ -121,9 +122,6 @@ class LayeredLight:
         self.fluence, self.columns = backend.zeros(surface.size), backend.zeros(surface.size)
         self._surface: SurfaceColumns | None = None
         self._moving: dict[str, Array] = {}
-        self._find_cells = backend.phase(LayeredLight._run_cells)
-        self._find_shares = backend.phase(LayeredLight._run_shares)
-        self._absorb = backend.phase(LayeredLight._run_absorption)
         # particles move in 2-D, and only light that goes deep needs cells
         if filling.position.shape[0] == 2 and self.alpha is not None:
             self._lay_cells(width, half, self.alpha)
@@ -186,13 +184,13 @@ class LayeredLight:
                 backend.scatter(column, surface.rows, self._moving[f"column{side}"])
             return
         # c_ik: cells of each particle, and how much of it lies in them
-        there = () if volume is None else (volume,)
-        self._find_cells(self, position, depth, *there, reads=(position, depth, *there))
+        self.find_cells(position, depth, volume)
         for (cell, _, _), members in zip(self._corners, self._members, strict=True):
             members_of(backend, cell, self._cells, into=members)
-        self._find_shares(self, reads=[cover for _, _, cover in self._corners])
+        self.find_shares()
 
-    def _run_cells(self, position: Array, depth: Array, volume: Array | None = None) -> None:
+    @graph
+    def find_cells(self, position: Array, depth: Array, volume: Array | None) -> None:
         """Cell, column and cover of each particle, by its four corners."""
         backend, fine = self.backend, self._fine
         # evaporated particles are less high: their volume over that of a cell
@@ -212,7 +210,8 @@ class LayeredLight:
             backend.pointwise(cell_at_corner, fields, out, **corner, **self._grid)
             self._corners.append((cell, column, cover))
 
-    def _run_shares(self) -> None:
+    @graph
+    def find_shares(self) -> None:
         """Shares of the particles in their left and right columns."""
         backend, fine, cells = self.backend, self._fine, self._cells
         # tau_k of the cells
@@ -271,12 +270,15 @@ class LayeredLight:
             T_s = self._surface.mean(temperature)
         if self._surface is not None and self._moving:
             shares = self._moving
-        reads = (T_s, *shares.values())
-        self.reflected, self.transmitted, absorbed = self._absorb(self, T_s, shares, reads=reads)
+        self.reflected, self.transmitted, absorbed = self.take_light(T_s, shares)
         return absorbed
 
-    def _run_absorption(self, T_s: Array, shares: dict[str, Array]) -> None:
-        """Light that enters the columns, and what the particles take of it."""
+    @graph
+    def take_light(self, T_s: Array, shares: dict[str, Array]) -> None:
+        """Light that enters the columns, and what the particles take of it.
+
+        Reduces what is reflected, transmitted and absorbed [J].
+        """
         backend, names = self.backend, (None, "sum", "sum")
         fields = {"T_s": backend.head(T_s, self.columns.shape[0])}
         fields |= {"F": self.fluence, "area": self._area}

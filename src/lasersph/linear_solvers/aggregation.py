@@ -73,6 +73,7 @@ def coarsen(
     levels: list[Aggregates] = []
     width = CELL * support
     while width.size > COARSEST:
+        # members of each cell, and the mean of their places
         parent, cell = _cells(position, width)
         count = cell.size
         size = np.bincount(parent, minlength=count)
@@ -81,10 +82,14 @@ def coarsen(
         onto = sparse.csr_array(
             (np.ones(parent.size), parent, np.arange(parent.size + 1)), shape=(parent.size, count)
         )
+
+        # weights between aggregates: sums over the pairs of their members
         coarse: Any = sparse.csr_array((onto.T @ graph) @ onto)
         coarse.setdiag(0.0)
         coarse.eliminate_zeros()
         coarse.sort_indices()
+
+        # aggregates of aggregates are too stiff: scaled to the energy of a linear field
         if levels:
             coarse = coarse * (_energy(graph, below) / _energy(coarse, position))
         levels.append(
@@ -108,6 +113,7 @@ def _cells(position: NDArray, width: NDArray) -> tuple[NDArray, NDArray]:
     Cells are numbered in the order in which particles come upon them, so that sums over members and
     values of aggregates are read from memory in the order of the particles.
     """
+    # cells as wide as the width, in steps of two
     smallest = width.min()
     octave = np.floor(np.log2(width / smallest) + 1e-9).astype(np.int64)
     cell = smallest * 2.0**octave

@@ -120,17 +120,22 @@ class BiCGStab:
             shadow_norm, rho = self._tilt(error)
         iterations = 0
         while error > wanted and iterations < most:
+            # y = K p, v = A y, alpha = rho / (r^ . v)
             self.preconditioner.apply(f["p"], f["y"])
             shadow_v, v_v = self._product("y", f["v"], shadowed)
             if abs(shadow_v) <= BREAKDOWN * shadow_norm * v_v**0.5:
                 break
             alpha = rho / shadow_v
+
+            # s = r - alpha v; z = K s, t = A z, omega = (t . s) / (t . t)
             (s_s,) = backend.pointwise(
                 half_step, f, (f["s"], None), reduce=(None, "sum"), alpha=alpha
             )
             self.preconditioner.apply(f["s"], f["z"])
             t_s, t_t = self._product("z", f["t"], stabilized)
             omega = t_s / t_t if t_t > 0.0 else 0.0
+
+            # x += alpha y + omega z, r = s - omega t
             out, reduce = (f["x"], f["r"], None, None), (None, None, "sum", "sum")
             r_r, rho_new = backend.pointwise(
                 whole_step, f, out, reduce=reduce, alpha=alpha, omega=omega
@@ -139,6 +144,8 @@ class BiCGStab:
             is_stuck = abs(t_s) <= BREAKDOWN * (t_t * s_s) ** 0.5
             if is_stuck or abs(rho_new) <= BREAKDOWN * shadow_norm * error:
                 break
+
+            # p = r + beta (p - omega v)
             beta = rho_new / rho * alpha / omega
             backend.pointwise(direction, f, f["p"], beta=beta, omega=omega)
             rho = rho_new

@@ -1,4 +1,4 @@
-"""Square cells around a set of particles, which follow these.
+"""Cells of equal edges around a set of particles, which follow these, along d axes.
 
 The smallest box of cells around the particles with mask 1, made anew from their positions, so that
 nothing of it needs to survive a step. On a periodic axis whole cells fill the period.
@@ -9,15 +9,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, floor
-from typing import Any
 
 import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.particles.cell_grid import cell_along, place_along
+from lasersph.compute.cell_grid import CellGrid, cell_along, place_along
+from lasersph.compute.vectors import vector
 
 FAR = 1e30
+"""Coordinate of what does not count [m]. Format: farther than any particle."""
 
 
 @dataclass(frozen=True)
@@ -54,19 +55,29 @@ class Axis:
 
 
 def box(x, mask):
-    """Coordinates of a particle with mask 1, for the smallest box around all of them."""
-    if mask > 0.0:
-        return x[0], x[0], x[1], x[1]
-    return FAR, -FAR, FAR, -FAR
+    """Coordinates of a particle with mask 1, for the smallest box around all of them: those for
+    the lower corner, then those for the upper one."""
+    low = x if mask > 0.0 else 0.0 * x + FAR
+    high = x if mask > 0.0 else 0.0 * x - FAR
+    if len(x) == 1:
+        return low[0], high[0]
+    if len(x) == 2:
+        return low[0], low[1], high[0], high[1]
+    return low[0], low[1], low[2], high[0], high[1], high[2]
 
 
-def place(x, mask, lower, inverse, cells, cell_lines, x_wraps, z_wraps):
-    """Place (u, w) in units of the spacing, and number of the cell; the last where mask is 0."""
-    u = place_along(x[0], lower[0], inverse[0], cells, x_wraps)
-    w = place_along(x[1], lower[1], inverse[1], cell_lines, z_wraps)
-    if mask <= 0.0:
-        return u, w, cells * cell_lines
-    return u, w, cell_along(u, cells) * cell_lines + cell_along(w, cell_lines)
+def place_in_cell(x, mask, low, inverse, shape, repeats, count):
+    """Place in its cell, from 0 to 1 along each axis, and number of the cell; their `count` where
+    the mask is 0."""
+    # u: in cells from the lower corner of the grid; c: index of the cell
+    u = vector(
+        *(place_along(x[k], low[k], inverse[k], shape[k], repeats[k]) for k in range(len(x)))
+    )
+    c = vector(*(cell_along(u[k], int(shape[k])) for k in range(len(x))))
+    number = 0 * count
+    for k in range(len(x)):
+        number = number * int(shape[k]) + int(c[k])
+    return u - c, (number if mask > 0.0 else count)
 
 
 class Cells:
@@ -76,44 +87,39 @@ class Cells:
         width: wanted width of a cell [m]. period: per axis [m], 0.0 where there is none.
 
     Attributes:
-        x, z: axes. u, w: (n,) place of each particle, in cells from the lower corner.
-        number: (n,) kind "index", cell of each particle, line after line within a column; the
-            number of cells where the mask is 0.
+        axes: of the cells. grid: the cells. place: (dim, n) place of each particle in its cell.
+        number: (n,) kind "index", cell of each particle; `grid.count` where the mask is 0.
     """
 
     def __init__(self, backend: Backend, count: int, width: float, period: Sequence[float]) -> None:
         self.backend, self.width, self.period = backend, width, tuple(period)
-        self.u, self.w = backend.zeros(count), backend.zeros(count)
+        self.place = backend.zeros((len(self.period), count))
         self.number = backend.zeros(count, "index")
-        self.x = self.z = Axis(1, width, False)
+        self.axes = (Axis(1, width, False),) * len(self.period)
+        self.grid = _grid((0.0,) * len(self.period), self.axes)
 
-    @property
-    def count(self) -> int:
-        """Number of cells."""
-        return self.x.cells * self.z.cells
+    def update(self, position: Array, mask: Array) -> None:
+        """Make the cells around the particles with mask 1; position (dim, n) [m], mask (n,)."""
+        # smallest box around the particles
+        fields, d = {"x": position, "mask": mask}, len(self.period)
+        reduce = ("min",) * d + ("max",) * d
+        bounds = self.backend.pointwise(box, fields, (None,) * (2 * d), reduce=reduce)
 
-    @property
-    def shape(self) -> dict[str, Any]:
-        """Numbers of cells by the names of `place`."""
-        x, z = self.x, self.z
-        return {
-            "cells": x.cells,
-            "cell_lines": z.cells,
-            "x_wraps": int(x.wraps),
-            "z_wraps": int(z.wraps),
-        }
+        # cells along each axis that cover it
+        ends = zip(self.period, bounds[:d], bounds[d:], strict=True)
+        low, self.axes = zip(*(_axis(self.width, *end) for end in ends), strict=True)
+        self.grid = _grid(low, self.axes)
 
-    def place(self, position: Array, mask: Array) -> None:
-        """Make the cells around the particles with mask 1; position (2, n) [m], mask (n,)."""
-        fields = {"x": position, "mask": mask}
-        bounds = self.backend.pointwise(
-            box, fields, (None,) * 4, reduce=("min", "max", "min", "max")
-        )
-        x_low, self.x = _axis(self.width, self.period[0], *bounds[:2])
-        z_low, self.z = _axis(self.width, self.period[1], *bounds[2:])
-        lower, inverse = (x_low, z_low), (1.0 / self.x.spacing, 1.0 / self.z.spacing)
-        out = (self.u, self.w, self.number)
-        self.backend.pointwise(place, fields, out, lower=lower, inverse=inverse, **self.shape)
+        # where each particle lies in them
+        grid = self.grid
+        out = (self.place, self.number)
+        self.backend.pointwise(place_in_cell, fields, out, **grid.constants, count=grid.count)
+
+
+def _grid(low: Sequence[float], axes: Sequence[Axis]) -> CellGrid:
+    """Cells of these axes from their lower ends on [m]."""
+    shape, inverse = [axis.cells for axis in axes], [1.0 / axis.spacing for axis in axes]
+    return CellGrid(low, shape, inverse, [axis.wraps for axis in axes])
 
 
 def _axis(width: float, period: float, low: float, high: float) -> tuple[float, Axis]:

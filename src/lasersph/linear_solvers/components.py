@@ -1,16 +1,18 @@
 """Connected parts of a set of particles: pools and remnants that exchange nothing.
 
 Particles are connected where they lie in the same or in touching cells (corners included) of width
-`CELL` times the support radius: always where closer than that, never where farther than
-2 sqrt(2) times as much, which for particles one spacing apart is contact. Left out: one and three
-dimensions.
+`CELL` times the support radius: always where closer than that, never where farther than 2 sqrt(d)
+times as much in d dimensions, which for particles one spacing apart is contact. The cells are some
+hundreds, so that the host labels them, as parts of an image.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
@@ -51,25 +53,11 @@ def without_mean(p, component, means):
     return rest, rest * rest
 
 
-def part_of(cell, first):
-    """First cell of a particle's part; the number of cells where it has none."""
-    return first[cell] if cell < len(first) else cell
-
-
-def large(members):
-    """1 for the first cell of a part with enough particles."""
-    return 1 if members >= FEWEST else 0 * members
-
-
-def component_of(part, members, before):
-    """Component of a particle, 0 for none; and 1 where it belongs to one.
-
-    Args:
-        members: table of the parts' sizes. before: how many components come before each part.
-    """
-    if part + 1 < len(members) and members[part] >= FEWEST:
-        return before[part] + 1, 1.0
-    return 0 * part, 0.0
+def component_of(cell, components):
+    """Component of a particle in a cell, 0 for none; and 1 where it belongs to one."""
+    if cell < len(components) and components[cell] > 0:
+        return components[cell], 1.0
+    return 0 * cell, 0.0
 
 
 class Components:
@@ -89,41 +77,39 @@ class Components:
         self.backend, self.count = backend, 0
         self.number, self.mask = backend.zeros(count, "index"), backend.zeros(count)
         self._cells = Cells(backend, count, CELL * support, period)
-        self._share, self._members = backend.zeros(0), None
+        self._share, self._members = backend.zeros(0), members_of(backend, self.number, 1)
 
     def find(self, position: Array, mask: Array, boundary_coefficient: Array) -> None:
         """Label the particles with mask 1.
 
         Args:
-            position: (2, n) [m]. mask: (n,). boundary_coefficient: (n,) a_i >= 0 toward given
+            position: (d, n) [m]. mask: (n,). boundary_coefficient: (n,) a_i >= 0 toward given
                 values; a component without any floats.
         """
         backend, cells = self.backend, self._cells
-        cells.place(position, mask)
-        total, head = cells.count, backend.head
-        filled = head(backend.count_by_key(cells.number, total + 1), total)
-        first = backend.first_connected(
-            filled, cells.x.cells, cells.z.cells, (cells.x.wraps, cells.z.wraps)
-        )
-        backend.pointwise(part_of, {"cell": cells.number}, self.number, first=first)
-        members = backend.count_by_key(self.number, total + 1)
-        marks, before = backend.zeros(total, "index"), backend.zeros(total + 1, "offset")
-        backend.pointwise(large, {"members": head(members, total)}, marks)
-        backend.exclusive_scan(marks, before)
-        self.count = int(backend.look(before)[-1])
-        fields, out = {"part": self.number}, (self.number, self.mask)
-        backend.pointwise(component_of, fields, out, members=members, before=before)
+        # parts of the cells that hold particles
+        cells.update(position, mask)
+        grid = cells.grid
+        members = backend.look(backend.count_by_key(cells.number, grid.count + 1))[: grid.count]
+        part = connected_parts(members.reshape(grid.shape) > 0, grid.repeats).ravel()
+
+        # components are the parts with enough particles, in the order of their first cells
+        sizes = np.bincount(part, members)
+        is_large = sizes >= FEWEST
+        is_large[0] = False
+        number = np.cumsum(is_large)
+        self.count = int(number[-1])
+        components = backend.asarray((number * is_large)[part], "index")
+        fields, out = {"cell": cells.number}, (self.number, self.mask)
+        backend.pointwise(component_of, fields, out, components=components)
+
+        # members of each component, and what share of it each of them is
         kept = self._members if self._share.shape[0] == self.count + 1 else None
         self._members = members_of(backend, self.number, self.count + 1, into=kept)
         if kept is None:
             self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
             self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
         self._sum(share_of, self._share, boundary_coefficient=boundary_coefficient)
-
-    @property
-    def arrays(self) -> tuple[Array, ...]:
-        """Those that are replaced where the number of components changes."""
-        return self._share, self._members.neighbor
 
     def remove_means(self, values: Array) -> tuple[float, ...]:
         """Subtract from each floating component's values their mean; reduces the sum of squares."""
@@ -138,3 +124,41 @@ class Components:
         fields = self._places if share is None else self._places | {"share": share}
         order, start = self._members.neighbor, self._members.row_start
         self.backend.pointwise(function, fields, out, order=order, start=start, **arrays)
+
+
+def connected_parts(is_filled: NDArray[np.bool_], repeats: Sequence[bool]) -> NDArray[np.int64]:
+    """Part of each cell from 1 on, 0 of empty ones, shaped as the grid of d axes.
+
+    Parts are numbered by their first cells. Cells touch by sides, edges and corners, and the last
+    of an axis that repeats touches the first.
+    """
+    from scipy.ndimage import label  # loads as long as all else that builds a pool
+
+    # axes that repeat begin with a copy of their last cells
+    with_copies, inner = is_filled, [slice(None)] * is_filled.ndim
+    for axis, around in enumerate(repeats):
+        if around:
+            places = np.arange(-1, is_filled.shape[axis])
+            with_copies, inner[axis] = with_copies.take(places, axis), slice(1, None)
+    found: Any = label(with_copies, np.ones((3,) * is_filled.ndim, bool))
+    labels, count = found
+    parts = labels[tuple(inner)]
+    if count < 2:
+        return parts
+
+    # a copy and its cell are one part, that of the lower label
+    lowest, copies = np.arange(count + 1), parts
+    for axis, around in enumerate(repeats):
+        if around:
+            copies = copies.take(np.arange(-1, is_filled.shape[axis]), axis)
+    differ = labels != copies
+    for one, other in {*zip(labels[differ], copies[differ], strict=True)}:
+        pair = lowest[[one, other]]
+        lowest[lowest == pair.max()] = pair.min()
+
+    # numbers in the order of first cells, empty ones aside: the first one is written last
+    flat = lowest[parts].ravel()
+    first = np.full(count + 1, flat.size)
+    first[flat[::-1]] = np.arange(flat.size)[::-1]
+    first[0] = -1
+    return np.argsort(np.argsort(first))[lowest[parts]]

@@ -18,11 +18,11 @@ Reference: [Saad2003], Algorithm 9.1.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.compute.launch import Launch
-from lasersph.compute.routine import Step
+from lasersph.compute.graph import graph
 from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.incomplete_factors import IncompleteFactors
 from lasersph.linear_solvers.iteration import conjugate_gradients
@@ -116,12 +116,6 @@ class ConjugateGradient:
         self._bound: tuple = ()
         self._v = {name: backend.zeros(count) for name in VECTORS}
         self.solution, self.residual = self._v["x"], 0.0
-        v = self._v
-        out, reduce = (v["x"], v["r"], v["z"], None, None), (None, None, None, "sum", "sum")
-        advanced = backend.prepare(advance, v, out, reduce=reduce, alpha=0.0)
-        self._turn: Launch | None = None
-        self._steps = Step([]), Step([advanced], "alpha"), Step([])
-        self._start = backend.phase(ConjugateGradient._run_start)
         self._multigrid: Multigrid | None = None
         self._is_set_up = False
         # held no longer than the operator has them: as much memory as the pairs in use
@@ -150,9 +144,9 @@ class ConjugateGradient:
         v, operator = self._v, self.operator
         if self._given and not are_same((operator.neighbors, operator.weights), self._given):
             self._given, self.factors = (), None
-        fields = {"C": C, "S": operator.total, "a": operator.boundary_coefficient}
-        fields |= {"mask": mask, "b": b}
-        rz, error, stiffest = self._start(self, fields, reads=tuple(fields.values()), s=s)
+
+        # where it is not stiff: incomplete factors of pairs that rest
+        rz, error, stiffest = self.begin(b, C, mask, s)
         factors = self._factored() if stiffest <= FACTORED and error > residual else None
         if factors:
             iterations, self.residual = factors.solve(
@@ -164,16 +158,19 @@ class ConjugateGradient:
                 max_iterations=max_iterations,
             )
             return iterations
-        turned = self._bind()
+
+        # else Jacobi's preconditioner, corrected by multigrid where it is stiff
+        self._take_pairs()
         multigrid = self._prepared(C, mask, s) if stiffest > STIFF else None
-        turns, advances, precondition = self._steps
+        precondition = None
         if multigrid:
-            precondition = multigrid.correction(v["r"], v["z"], mask)
-            (rz,) = precondition()
-        turned.set({"s": s})
-        iterations, _, self.residual = self.backend.routine(
+            precondition = partial(multigrid.correct, v["r"], v["z"], mask, s)
+            (rz,) = multigrid.correct(v["r"], v["z"], mask, s)
+
+        # until |r| is small
+        iterations, _, self.residual = self.backend.iterate(
             conjugate_gradients,
-            (turns, advances, precondition),
+            (partial(self.set_direction, s), self.approach, precondition),
             float(bool(multigrid)),
             rz,
             error,
@@ -182,17 +179,44 @@ class ConjugateGradient:
         )[:3]
         return int(iterations)
 
-    def _run_start(self, fields: dict[str, Array], s: float) -> None:
+    @graph
+    def begin(self, b: Array, C: Array, mask: Array, s: float) -> None:
+        """Vectors at x = 0; reduces r z, |r| and the stiffness, see `start`."""
+        operator = self.operator
+        fields = {"C": C, "S": operator.total, "a": operator.boundary_coefficient}
+        fields |= {"mask": mask, "b": b}
         out = (*[self._v[name] for name in VECTORS], None, None, None)
         reduce = (None,) * len(VECTORS) + ("sum", "sum", "max")
         self.backend.pointwise(start, fields, out, reduce=reduce, s=s)
+
+    @graph
+    def set_direction(self, s: float, beta: float) -> None:
+        """Direction p = z + beta p, and q = A p; reduces p q."""
+        used, v = self._used, self._v
+        self.backend.pair_sum(
+            neighbor,
+            used.neighbors,
+            v | {"g_ij": used.weights},
+            (v["p"], v["q"], None),
+            finish=turn,
+            reduce=(None, None, "sum"),
+            beta=beta,
+            s=s,
+        )
+
+    @graph
+    def approach(self, alpha: float) -> None:
+        """x += alpha p, r -= alpha q, z = r / d; reduces r z and |r|."""
+        v = self._v
+        out, reduce = (v["x"], v["r"], v["z"], None, None), (None, None, None, "sum", "sum")
+        self.backend.pointwise(advance, v, out, reduce=reduce, alpha=alpha)
 
     def _factored(self) -> IncompleteFactors | None:
         """Incomplete factors of the pairs that the solver was made with, while they stay."""
         if not self._given:
             return self.factors
         if self.factors is None:
-            pairs = ordered_pairs(self.backend, self.operator.neighbors, self._weights())
+            pairs = ordered_pairs(self.backend, self.operator.neighbors, self._weights(None))
             if pairs is None:
                 self._given = ()
             else:
@@ -200,33 +224,18 @@ class ConjugateGradient:
                 self.factors = IncompleteFactors(self.backend, pairs, self._v, count)
         return self.factors
 
-    def _weights(self) -> Array:
-        """Weights as they are read."""
+    def _weights(self, into: Array | None) -> Array:
+        """Weights as they are read; rounded ones in the place of earlier ones."""
         weights = self.operator.weights
-        return self.backend.single(weights) if self.rounds else weights
+        return self.backend.single(weights, into) if self.rounds else weights
 
-    def _bind(self) -> Launch:
-        """Product with the pairs and weights that the operator has now."""
-        operator, used, v = self.operator, self._used, self._v
+    def _take_pairs(self) -> None:
+        """Use the pairs and weights that the operator has now, as they are read."""
+        operator, used = self.operator, self._used
         now = (operator.neighbors, operator.weights)
-        if self._turn is not None and are_same(now, self._bound):
-            return self._turn
-        self._bound = now
-        used.neighbors, used.weights = operator.neighbors, self._weights()
-        turned = self.backend.prepare(
-            neighbor,
-            v | {"g_ij": used.weights},
-            (v["p"], v["q"], None),
-            neighbors=used.neighbors,
-            finish=turn,
-            reduce=(None, None, "sum"),
-            again=self._turn,
-            beta=0.0,
-            s=0.0,
-        )
-        if turned is not self._turn:
-            self._turn, self._steps = turned, (Step([turned], "beta"), *self._steps[1:])
-        return turned
+        if not are_same(now, self._bound):
+            self._bound = now
+            used.neighbors, used.weights = operator.neighbors, self._weights(used.weights)
 
     def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
         """Multigrid for this matrix; levels are built when first needed, from the first pairs,

@@ -20,9 +20,11 @@ held particles have neither rows nor columns. The residual itself is not formed:
 
 from __future__ import annotations
 
+from functools import partial
+
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.compute.routine import Step
+from lasersph.compute.graph import graph
 from lasersph.compute.sweeps import OrderedPairs, Sweep
 from lasersph.linear_solvers.iteration import conjugate_gradients
 
@@ -75,7 +77,7 @@ class IncompleteFactors:
         self._K, self._inverse, self._middle = (backend.zeros(count) for _ in range(3))
         self._t = vectors["z"]
         self._of: tuple | None = None
-        v = {
+        v = self._v = {
             "x": vectors["x"],
             "r": vectors["r"],
             "p": vectors["p"],
@@ -91,23 +93,24 @@ class IncompleteFactors:
             pairs.prepare(backward, v, [v["t"], v["p"]], backward=True, beta=0.0, s=0.0),
             pairs.prepare(forward, v, [v["w"]], reduces=1, s=0.0),
         )
-        out, reduce = (v["x"], v["r"], None, None), (None, None, "sum", "sum")
-        self._advance = backend.prepare(advance, v, out, reduce=reduce, alpha=0.0, s=0.0)
 
     def solve(
         self, C: Array, a: Array, mask: Array, s: float, *, residual: float, max_iterations: int
     ) -> tuple[int, float]:
         """Iterate from x = 0, r the right-hand side and p = 0; returns the iterations and the bound
         of the residual."""
+        # the factors K, then r' = (K - E)^-1 r
         self._factor_of(C, a, mask)(s=s)
         self.backend.fill(self._t, 0.0)
-        self._eliminate(s=s)  # r' from r
-        rz, error = self._advance(alpha=0.0, s=s)
+        self._eliminate(s=s)
+
+        # a sweep backward and one forward, until the bound of the residual is small
+        rz, error = self.approach(s, 0.0)
         for sweep in self.sweeps:
             sweep.set({"s": s})
-        iterations, _, error = self.backend.routine(
+        iterations, _, error = self.backend.iterate(
             conjugate_gradients,
-            (Step(self.sweeps, "beta"), Step([self._advance], "alpha"), Step([])),
+            (self.set_direction, partial(self.approach, s), None),
             0.0,
             rz,
             error,
@@ -115,6 +118,19 @@ class IncompleteFactors:
             max_iterations,
         )[:3]
         return int(iterations), error
+
+    def set_direction(self, beta: float) -> tuple[float, ...]:
+        """Direction p = K r' + beta p with t, and then w; returns p (t + w)."""
+        backward, forward = self.sweeps
+        backward(beta=beta)
+        return forward()
+
+    @graph
+    def approach(self, s: float, alpha: float) -> None:
+        """x += alpha t, r' -= alpha (t + w); reduces r' K r' and the bound of the residual."""
+        v = self._v
+        out, reduce = (v["x"], v["r"], None, None), (None, None, "sum", "sum")
+        self.backend.pointwise(advance, v, out, reduce=reduce, alpha=alpha, s=s)
 
     def _factor_of(self, C: Array, a: Array, mask: Array) -> Sweep:
         """Sweep that sets the factors from these arrays, bound when they are new."""

@@ -9,11 +9,11 @@ Reference: [Saad2003], Algorithm 9.1.
 
 from __future__ import annotations
 
-from lasersph.compute.routine import result, take
+from lasersph.compute.compiled_iteration import reduction, run_step
 
 
 def conjugate_gradients(turn, advance, precondition, has_own, rz, error, wanted, most):
-    """Iterations, r.z and error at the end; see `compute.routine`.
+    """Iterations, r.z and error at the end; see `compute.compiled_iteration`.
 
     It ends where the error is at most what is wanted, at `most` iterations, or where p.q > 0 fails.
 
@@ -24,16 +24,16 @@ def conjugate_gradients(turn, advance, precondition, has_own, rz, error, wanted,
     """
     iterations, beta = 0.0, 0.0
     while error > wanted and iterations < most:
-        take(turn, beta)
-        pq = result(turn, 0)
+        run_step(turn, beta)
+        pq = reduction(turn, 0)
         if not pq > 0.0:
             break
-        take(advance, rz / pq)
+        run_step(advance, rz / pq)
         before = rz
-        rz, error = result(advance, 0), result(advance, 1)
+        rz, error = reduction(advance, 0), reduction(advance, 1)
         iterations += 1.0
         if has_own > 0.0 and error > wanted:
-            take(precondition, 0.0)
-            rz = result(precondition, 0)
+            run_step(precondition, 0.0)
+            rz = reduction(precondition, 0)
         beta = rz / before
     return iterations, rz, error

@@ -28,8 +28,7 @@ import numpy as np
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.dense import invert
-from lasersph.compute.launch import Launch
-from lasersph.compute.routine import Step
+from lasersph.compute.graph import graph
 from lasersph.linear_solvers.aggregation import Aggregates, coarsen
 
 DAMPING = 0.9
@@ -151,49 +150,47 @@ class _Level:
         self.C, self.w, self.d, self.r, self.x, self.rest = (backend.zeros(count) for _ in range(6))
         self._padded = backend.zeros(members)  # sums want as many values as there are rows
         self.solution = backend.head(self._padded, count)
-        v = {"g_ij": self.weights, "r": self.r, "C": self.C, "w": self.w, "d": self.d, "x": self.x}
-        self._diagonal = backend.prepare(
-            weighted, v, self.d, neighbors=self.pairs, finish=diagonal, s=0.0
-        )
-        self.first_sweep = backend.prepare(first_sweep, v, self.x, damping=DAMPING)
-        self.remainder = backend.prepare(
-            coupling, v, self.rest, neighbors=self.pairs, finish=rest, s=0.0
-        )
-        self.last_sweep = backend.prepare(
-            coupling, v, self.solution, neighbors=self.pairs, finish=sweep, s=0.0, damping=DAMPING
-        )
-        self._from: tuple = ()
+        self._v = {"g_ij": self.weights, "r": self.r, "C": self.C, "w": self.w, "d": self.d}
+        self._v["x"] = self.x
 
-    def prepare(self, C: Array, w: Array, s: float) -> None:
+    def set_operator(self, C: Array, w: Array, s: float) -> None:
         """Set the operator from the row sums C and the free shares w of the members."""
-        if not are_same(self._from, (C, w)):
-            self._from = (C, w)
-            self._sums = self._sum(C, self.C), self._sum(w, self.w, mean)
-        for sums in self._sums:
-            sums()
-        self._diagonal(s=s)
+        self._sum(C, self.C)
+        self._sum(w, self.w, mean)
+        self.backend.pair_sum(weighted, self.pairs, self._v, self.d, finish=diagonal, s=s)
 
-    def _sum(self, values: Array, out: Array, finish: Callable | None = None) -> Launch:
-        """Loop that sums over members."""
+    def _sum(self, values: Array, out: Array, finish: Callable | None = None) -> None:
+        """Sum over members."""
         fields = {"v": values, "size": self.size}
-        return self.backend.prepare(value, fields, out, neighbors=self.members, finish=finish)
+        self.backend.pair_sum(value, self.members, fields, out, finish=finish)
 
-    def restriction(self, residual: Array) -> Launch:
-        """Loop that sets the right-hand side from the members' residuals."""
-        return self._sum(residual, self.r)
+    def restrict(self, residual: Array) -> None:
+        """Set the right-hand side from the members' residuals."""
+        self._sum(residual, self.r)
 
-    def prolongation(
+    def sweep_from_zero(self) -> None:
+        """Damped Jacobi sweep from x = 0."""
+        self.backend.pointwise(first_sweep, self._v, self.x, damping=DAMPING)
+
+    def find_remainder(self, s: float) -> None:
+        """Remainder of the right-hand side, r - A x."""
+        self.backend.pair_sum(coupling, self.pairs, self._v, self.rest, finish=rest, s=s)
+
+    def sweep_again(self, s: float) -> None:
+        """One more damped Jacobi sweep, which gives the solution."""
+        how = {"finish": sweep, "damping": DAMPING}
+        self.backend.pair_sum(coupling, self.pairs, self._v, self.solution, **how, s=s)
+
+    def prolong(
         self,
         function: Callable,
         fields: dict[str, Array],
         out: Array | tuple,
         reduce: tuple | None = None,
-    ) -> Launch:
-        """Loop that gives members their aggregate's `solution`, as `total` of `function`."""
+    ) -> None:
+        """Give members their aggregate's `solution`, as `total` of `function`."""
         fields = fields | {"v": self._padded}
-        return self.backend.prepare(
-            value, fields, out, neighbors=self.parents, finish=function, reduce=reduce
-        )
+        self.backend.pair_sum(value, self.parents, fields, out, finish=function, reduce=reduce)
 
 
 def are_same(some: tuple, others: tuple) -> bool:
@@ -212,7 +209,7 @@ class Multigrid:
     """
 
     def __init__(self, backend: Backend, first: Any, operator: Any, count: int) -> None:
-        self.backend, self.operator, self._step = backend, operator, 0.0
+        self.backend, self.operator = backend, operator
         pairs = first.neighbors
         host = [pairs.position, pairs.support, pairs.row_start, pairs.neighbor, first.weights]
         self.levels = [_Level(backend, a) for a in coarsen(*(backend.look(v) for v in host))]
@@ -226,50 +223,53 @@ class Multigrid:
             None,
         )
         self._inverse = backend.zeros(n * n)
-        last = self.levels[-1]
-        fields = {"inverse_ij": self._inverse, "r": last.r}
-        self._solve = backend.prepare(product, fields, last.solution, neighbors=self._dense)
-        self._between = [
-            (above.restriction(level.rest), above.prolongation(add, {"x": level.x}, level.x))
-            for level, above in pairwise(self.levels)
-        ]
-        self._for: tuple = ()
 
     def prepare(self, C: Array, mask: Array, s: float) -> None:
         """Set the operator of all levels for the diagonal C, the mask and the step s."""
-        backend, operator, self._step = self.backend, self.operator, s
+        backend, operator = self.backend, self.operator
         fields = {
             "g_ij": operator.weights,
             "C": C,
             "a": operator.boundary_coefficient,
             "mask": mask,
         }
+        # row sums of A that held particles leave
         (lowest,) = backend.pointwise(free, fields, (self._C, None), reduce=(None, "min"), s=s)
         if lowest < 1.0:
             backend.pair_sum(fixed_weight, operator.neighbors, fields, self._C, finish=pinned, s=s)
-        w, C = mask, self._C
-        for level in self.levels:
-            level.prepare(C, w, s)
-            w, C = level.w, level.C
+
+        # A on all levels, and its inverse on the coarsest
+        self.set_up_levels(mask, s)
         backend.copy(backend.asarray(_inverse(backend, self.levels[-1], s)), self._inverse)
 
-    def correction(self, r: Array, z: Array, mask: Array) -> Step:
-        """Step that adds P B P^T r to z on the particles whose mask is 1, and reduces r z."""
-        if not are_same(self._for, (r, z, mask)):
-            self._for, finest = (r, z, mask), self.levels[0]
-            fields = {"r": r, "z": z, "mask": mask}
-            self._restrict = finest.restriction(r)
-            self._prolong = finest.prolongation(corrected, fields, (z, None), (None, "sum"))
-        s = {"s": self._step}
-        launches = [self._restrict]
-        for level, (restrict, _) in zip(self.levels[:-1], self._between, strict=True):
-            level.remainder.set(s)
-            launches += (level.first_sweep, level.remainder, restrict)
-        launches.append(self._solve)
-        for level, (_, prolong) in zip(self.levels[-2::-1], self._between[::-1], strict=True):
-            level.last_sweep.set(s)
-            launches += (prolong, level.last_sweep)
-        return Step([*launches, self._prolong])
+    @graph
+    def set_up_levels(self, mask: Array, s: float) -> None:
+        """Operators of all levels, each from the one before."""
+        w, C = mask, self._C
+        for level in self.levels:
+            level.set_operator(C, w, s)
+            w, C = level.w, level.C
+
+    @graph
+    def correct(self, r: Array, z: Array, mask: Array, s: float) -> None:
+        """Add P B P^T r to z on the particles whose mask is 1; reduces r z."""
+        finest, coarsest = self.levels[0], self.levels[-1]
+        # down: sweep from zero, and what is left to the next level
+        finest.restrict(r)
+        for level, above in pairwise(self.levels):
+            level.sweep_from_zero()
+            level.find_remainder(s)
+            above.restrict(level.rest)
+
+        # exact where few are left
+        fields = {"inverse_ij": self._inverse, "r": coarsest.r}
+        self.backend.pair_sum(product, self._dense, fields, coarsest.solution)
+
+        # up: add what the next level found, and sweep again
+        for level, above in reversed(list(pairwise(self.levels))):
+            above.prolong(add, {"x": level.x}, level.x)
+            level.sweep_again(s)
+        finest.prolong(corrected, {"r": r, "z": z, "mask": mask}, (z, None), (None, "sum"))
 
 
 def _inverse(backend: Backend, level: _Level, s: float) -> np.ndarray:

@@ -26,8 +26,9 @@ so that fluid metal is never deeper than half molten metal, and this never than 
 takes the lower face of the deepest cell instead, which is half a cell from these at most, and jumps
 by whole cells.
 
-In 3-D the width is taken along x through the hottest surface cell, and the area is that of all
-surface cells that reach the level, of all dots in the domain.
+In 3-D the width is taken along x through the hottest surface cell; where rows are as hot as each
+other, as under an even spot, through the one with most melt. The area is that of all surface cells
+that reach the level, of all dots in the domain.
 
 Left out: pools that wrap around a periodic boundary.
 """
@@ -42,7 +43,7 @@ from lasersph.observers.ablation_view import EJECTED
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.peak import Span
 from lasersph.observers.quantity import Quantity
-from lasersph.observers.view import View, hottest_surface_cell, largest_depth, lower_faces
+from lasersph.observers.view import View, largest_depth, lower_faces
 
 FULL, HALF = 1.0 - 1e-9, 0.5
 LEVELS = {
@@ -51,6 +52,11 @@ LEVELS = {
     "_any": (0.0, "melt of any fraction (f_m > 0)"),
 }
 """Part of a key, the melt fraction that a fluid cell has at least (any: above 0), and its name."""
+
+EQUALLY_HOT = 0.01
+"""Part of the rise of temperature along the surface within which rows are equally hot. Guard: cells
+at the boiling point, or in the middle of an even spot, differ by rounding alone, and the hottest of
+them is anywhere; in a Gaussian spot it is a twentieth of the radius."""
 
 
 def sizes(name: str, cells: Mapping[str, float]) -> tuple[Quantity, ...]:
@@ -303,11 +309,19 @@ def _beyond_edge(view: View, row: np.ndarray, last: int, beyond: int) -> float:
 
 
 def surface_row(view: View) -> np.ndarray:
-    """Indices of the surface cells along x through the hottest one, in order of x."""
+    """Indices of the surface cells along x of the hottest row, in order of x; in 3-D that with most
+    melt of those that are equally hot.
+    """
     cells = view.surface
     if view.dimension == 3:
-        # in 3-D those in a row with the hottest, along x
-        hottest = cells[hottest_surface_cell(view)]
-        distance = np.abs(view.position[1, cells] - view.position[1, hottest])
-        cells = cells[distance < 0.5 * view.width[1, hottest]]
+        # number of each cell's row along y
+        y, width = view.position[1, cells], view.width[1, cells]
+        row = np.rint((y - np.min(y)) / np.min(width)).astype(int)
+        # rows with a cell that is as hot as the hottest
+        temperature = view.temperature[cells]
+        least = np.max(temperature) - EQUALLY_HOT * np.ptp(temperature)
+        # most melt among these
+        melt = np.bincount(row, weights=view.melt_fraction[cells])
+        melt[np.setdiff1d(np.arange(melt.size), row[temperature >= least])] = -1.0
+        cells = cells[row == np.argmax(melt)]
     return cells[np.argsort(view.position[0, cells], kind="stable")]

@@ -97,14 +97,6 @@ def names_of(kind: type) -> set[str]:
     return {name for name in (*kind.__annotations__, *vars(kind)) if not name.startswith("_")}
 
 
-def hottest_surface_cell(view: View) -> int:
-    """Place in `view.surface` of the cell with the largest specific enthalpy.
-
-    The enthalpy orders cells also on a plateau of the temperature.
-    """
-    return int(np.argmax(view.enthalpy[view.surface]))
-
-
 def lower_faces(view: View) -> np.ndarray:
     """Depth of the lower face of every cell below the original surface, (n,) [m]."""
     # the width as it is: where all cells are alike it takes no memory

@@ -27,6 +27,8 @@ def replace_file(path: Path, write: Callable[[BinaryIO], object]) -> None:
     with clear_errors("write", path):
         try:
             with open(temporary, "wb") as stream:
+                # The bytes are on the disk before the name appears: a power cut leaves no empty
+                # file of that name.
                 write(stream)
                 stream.flush()
                 os.fsync(stream.fileno())
@@ -68,6 +70,7 @@ def to_json_values(value: Any) -> Any:
         return [to_json_values(item) for item in value]
     if hasattr(value, "tolist"):
         return to_json_values(value.tolist())
+    # JSON has no NaN and no infinity.
     if isinstance(value, float) and (value != value or value in (float("inf"), float("-inf"))):
         return None
     if isinstance(value, Path):

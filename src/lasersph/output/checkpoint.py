@@ -22,7 +22,7 @@ import numpy as np
 from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_file
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 
-CHECKPOINT_SCHEMA = 17
+CHECKPOINT_SCHEMA = 18
 """Raised whenever names or meaning of what solvers and observers keep change."""
 FIRST_LINE = b"lasersph checkpoint\n"
 NAME = re.compile(r"step-(\d{10})\.checkpoint")
@@ -57,6 +57,7 @@ def save(folder: Path, checkpoint: Checkpoint, *, kept: int = KEPT) -> Path:
     Raises:
         OutputError: the disk is full, ...; earlier checkpoints are intact.
     """
+    # The header says where each array lies; floats are written with all their digits.
     arrays = {name: np.ascontiguousarray(array) for name, array in checkpoint.arrays.items()}
     header = json.dumps(
         {
@@ -72,6 +73,7 @@ def save(folder: Path, checkpoint: Checkpoint, *, kept: int = KEPT) -> Path:
     ).encode()
 
     def write(stream: BinaryIO) -> None:
+        # The checksum covers all that stands before it, also the first line.
         checksum = hashlib.sha256()
         size = len(header).to_bytes(8, "little")
         for piece in (
@@ -88,6 +90,8 @@ def save(folder: Path, checkpoint: Checkpoint, *, kept: int = KEPT) -> Path:
         folder.mkdir(exist_ok=True)
     target = folder / f"step-{checkpoint.step:010d}.checkpoint"
     replace_file(target, write)
+
+    # Older checkpoints, and what a killed process left unfinished, go once the new one is in place.
     with clear_errors("write", folder):
         for old in candidates(folder)[kept:]:
             old.unlink()
@@ -112,13 +116,16 @@ def load(path: Path) -> Checkpoint:
     """
     with clear_errors("read", path):
         data = path.read_bytes()
+    # The last 32 bytes are the SHA-256 of all before them.
     body, checksum = data[:-32], data[-32:]
     if not body.startswith(FIRST_LINE) or hashlib.sha256(body).digest() != checksum:
         raise OutputError(f"cannot read {path}: it is damaged")
+    # First line, length of the header, header, arrays.
     start = len(FIRST_LINE) + 8
     offset = start + int.from_bytes(body[len(FIRST_LINE) : start], "little")
     header = json.loads(body[start:offset])
     refuse_other_format(path, header)
+    # Each array is a copy: a view of the bytes could not be written to.
     arrays = {}
     for name, kind, shape in header["arrays"]:
         count = int(np.prod(shape, dtype=np.int64))
@@ -150,6 +157,7 @@ def refuse_formats(files: Sequence[Path]) -> None:
         FolderRefused: see `refuse_other_format`.
     """
     for path in files:
+        # Only the header is read: a checkpoint can hold many megabytes.
         with clear_errors("read", path), path.open("rb") as stream:
             start = stream.read(len(FIRST_LINE) + 8)
             text = stream.read(int.from_bytes(start[len(FIRST_LINE) :], "little"))

@@ -44,7 +44,7 @@ def clear_errors(action: str, path: Path, kind: type[OutputError] = OutputError)
     """Turn an operating-system error into one line: what was tried, where, and why it failed.
 
     Args:
-        action: what was tried, "write", "read". path: the file or folder concerned.
+        action: verb of the attempt, "write" or "read". path: the file or folder concerned.
         kind: class of the error raised; no room is a failure, whatever the command.
 
     Raises:
@@ -59,7 +59,7 @@ def clear_errors(action: str, path: Path, kind: type[OutputError] = OutputError)
 
 
 def install_hint(package: str, extra: str = "frames") -> str:
-    """What to say where an optional package is not installed, and which extra brings it."""
+    """Sentence for an optional package that is not installed: which extra brings it."""
     return f"{package} is not installed: pip install 'lasersph[{extra}]' brings it"
 
 

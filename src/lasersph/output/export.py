@@ -41,11 +41,13 @@ def export(
     """
     if format not in KINDS:
         raise OutputError(f'no format "{format}"; there are {", ".join(KINDS)}')
+    # A texture has a map of its own; everything else is the folder of a run.
     heights = (folder.path if isinstance(folder, Run) else Path(folder)) / TEXTURE
     if heights.exists():
         return read_surface(heights).write(heights.with_suffix(f".{format}"))
     run = open_run(folder)
     time = parse_quantity(at, "time") if isinstance(at, str) else at
+    # A profile has no area: it is drawn out for formats of triangles.
     moves = len(run.surface) > 0
     relief = run.relief(time)
     if moves and format in ("stl", "ply"):

@@ -54,7 +54,7 @@ class FolderLock:
         """
         self.path = folder / NAME
         with clear_errors("write", folder, FolderRefused):
-            self._descriptor = self._take(time.monotonic() + wait)
+            self._descriptor = self._acquire(time.monotonic() + wait)
             for left in folder.glob(f"{NAME}.*"):  # of a process killed while it took the lock
                 left.unlink(missing_ok=True)
         self._is_lost = False
@@ -85,6 +85,7 @@ class FolderLock:
         """Show every few seconds that the process lives, as long as the folder is ours."""
         while not self._released.wait(BEAT):
             try:
+                # Ask which file lies there now: another process may have put its own in place.
                 with open(self.path, "rb") as stream:  # opening asks a file server anew
                     self._is_lost = not os.path.samestat(
                         os.fstat(stream.fileno()), os.fstat(self._descriptor)
@@ -94,15 +95,18 @@ class FolderLock:
             except OSError:  # released, or a file server that does not answer now
                 continue
 
-    def _take(self, until: float) -> int:
+    def _acquire(self, until: float) -> int:
         """Descriptor of the locked file.
 
         Raises:
             FolderLocked: at the time `until` a living process still has it.
         """
+        # `first_sign` and `last_sign` are marks of the other owner's file: its number and time of
+        # change.
         first_sign = last_sign = None
         seen_at = 0.0
         while True:
+            # 1. Nobody has the folder: place a file of our own.
             try:
                 descriptor = os.open(self.path, os.O_RDWR)
             except FileNotFoundError:
@@ -110,6 +114,8 @@ class FolderLock:
                 if placed is not None:
                     return placed
                 continue
+            # 2. Somebody has: a lock of the system that can be taken on the same machine frees the
+            # folder.
             try:
                 is_free = lock_file(descriptor)
                 if not is_file_at(descriptor, self.path):  # its owner has just left
@@ -120,15 +126,20 @@ class FolderLock:
                     return placed  # the owner is dead: our machine has freed its lock
             finally:
                 os.close(descriptor)
+            # 3. Watch for touches, by our own clock only.
             now, sign = time.monotonic(), (state.st_ino, state.st_mtime_ns)
             first_sign = first_sign or sign
             if sign != last_sign:
                 last_sign, seen_at = sign, now
             is_alive = sign != first_sign or (is_near and is_free is False)
+            # 4. An owner that gives signs of life keeps the folder until the caller's patience
+            # ends.
             if is_alive and now >= until:
                 raise FolderLocked(
                     f"another process is writing to {self.path.parent}: {owner_text(self.path)}"
                 )
+            # 5. An owner without a sign for `SILENCE` is dead. Of two that replace its file at the
+            # same moment the later one has it, so each looks once more after a pause.
             if not (is_near and is_free is False) and now - seen_at >= SILENCE:
                 placed = self._place(state.st_ino)
                 time.sleep(POLL)
@@ -149,6 +160,8 @@ class FolderLock:
         descriptor = os.open(own, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o666)
         clock = datetime.now(UTC).isoformat(sep=" ", timespec="seconds")
         owner = {"process": os.getpid(), "host": socket.gethostname(), "since": clock}
+        # The file is locked and filled under a name of its own, then appears at the path in one
+        # step.
         try:
             lock_file(descriptor)
             os.write(descriptor, json.dumps(owner | {"machine": machine()}).encode())
@@ -163,6 +176,7 @@ class FolderLock:
             own.unlink(missing_ok=True)
             raise
         own.unlink(missing_ok=True)
+        # Another process may have replaced it in the meantime: the file at the path decides.
         if is_file_at(descriptor, self.path):
             return descriptor
         os.close(descriptor)
@@ -232,6 +246,7 @@ def machine() -> str:
 def is_computing(folder: Path) -> bool:
     """Whether a process seems to compute in a folder. For display: it compares two clocks."""
     path = folder / NAME
+    # The time of the last touch, as the file server's clock gives it.
     try:
         silence = time.time() - path.stat().st_mtime
     except OSError:
@@ -246,6 +261,7 @@ def is_process(number: object) -> bool:
     """Whether a number is that of a process that lives."""
     if not isinstance(number, int) or number <= 1:
         return False
+    # Signal 0 is delivered to nobody; it only asks whether there is such a process.
     try:
         os.kill(number, 0)
     except PermissionError:

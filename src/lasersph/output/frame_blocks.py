@@ -27,12 +27,12 @@ from lasersph.output.pulse_starts import starts_of_pulses
 NAME = re.compile(r"(particles|surface)\.([a-z_]+)\.([0-9]{1,15})\.([0-9]{1,12})\.([0-9a-z-]+)")
 GEOMETRY = ("width",)
 """Fields that say how a particle is drawn, not what color it has."""
-AS_HOT = 1e-3
+HOTTEST_SHARE = 1e-3
 """Of the rise in temperature: metal that boils stays as hot for a while, and its pool grows."""
 
 
 def particle_index(folder: str | Path) -> dict[str, Any]:
-    """What a viewer knows before it fetches: times, fields, and where their blocks lie.
+    """Index that a viewer reads before it fetches: times, fields, and where their blocks lie.
 
     Returns:
         `case`: title. `stamp`: end of all block names. `is_complete`: whether more frames come.
@@ -90,14 +90,18 @@ def particle_block(folder: str | Path, name: str) -> bytes:
     found = NAME.fullmatch(name)
     if found is None:
         raise ValueError("not the name of a block: FILE.FIELD.OFFSET.COUNT.STAMP")
-    stem, field, stamp = found[1], found[2], found[5]
+    stem = found[1]
+    field = found[2]
+    stamp = found[5]
     place = (int(found[3]), int(found[4]))
     path = Path(folder) / f"{stem}.vtkhdf"
+    # The stamp keeps blocks of an earlier run in the same folder from being mixed with this one's.
     if stamp != stamp_and_case(Path(folder))[0] or not path.exists():
         raise KeyError(f"this run has no block {name}")
 
     def read() -> bytes:
         with open_for_reading(path) as file:
+            # Only places that the file lists are served: names come from outside.
             offsets = offsets_of(file).get(field)
             if offsets is None or place not in zip(offsets, counts_of(file), strict=True):
                 raise KeyError(f"this run has no block {name}")
@@ -134,8 +138,11 @@ def frames_of(path: Path) -> dict[str, Any]:
         frames["counts"], frames["blocks"] = counts_of(file), offsets_of(file)
         if not frames["times"]:
             return frames
+
+        # Axes of the viewer's box, from the ranges of the first frame.
         ranges = ranges_of(file, path)
         frames["bounds"] = ranges["position"][0].reshape(2, 3).T.tolist()
+        # Scalars color the particles, with one range of colors for all frames.
         for name, dataset in root["PointData"].items():
             if dataset.ndim > 1 or name in GEOMETRY:
                 continue
@@ -143,9 +150,10 @@ def frames_of(path: Path) -> dict[str, Any]:
             span = span if np.all(np.isfinite(span)) else [0.0, 0.0]
             words = {"name": name, "label": name.replace("_", " ")}
             frames["fields"].append({**words, "unit": str(dataset.attrs["unit"]), "range": span})
+        # First frame to show: the middle one of those in which the metal is hottest.
         hottest = ranges.get("temperature", np.zeros((1, 2)))[:, 1]
-        as_hot = np.flatnonzero(hottest >= np.max(hottest) - AS_HOT * np.ptp(hottest))
-        frames["start"] = int(as_hot[as_hot.size // 2])
+        near_hottest = np.flatnonzero(hottest >= np.max(hottest) - HOTTEST_SHARE * np.ptp(hottest))
+        frames["start"] = int(near_hottest[near_hottest.size // 2])
     return frames
 
 
@@ -169,6 +177,7 @@ def dataset_of(file: Any, field: str) -> Any:
 
 def ranges_of(file: Any, path: Path) -> dict[str, np.ndarray]:
     """Smallest and largest values of each step, (steps, 2) or, of vectors, (steps, 6)."""
+    # Kept by the writer; files of earlier versions are scanned.
     if "ranges" in file:
         return {name: dataset[:] for name, dataset in file["ranges"].items()}
     state = path.stat()
@@ -182,6 +191,7 @@ def scan_ranges(path: Path, changed: int, size: int) -> dict[str, np.ndarray]:
         counts, found = counts_of(file), {}
         for name, offsets in offsets_of(file).items():
             dataset = dataset_of(file, name)
+            # Frames that share a block read it once.
             blocks = {
                 (start, count): value_range(dataset[start : start + count])
                 for start, count in set(zip(offsets, counts, strict=True))

@@ -53,7 +53,7 @@ def raise_generation(folder: Path) -> None:
 
 
 def read_unchanged(folder: Path, read: Callable[[], Result]) -> Result:
-    """What `read()` returns when nothing in the folder was overwritten meanwhile.
+    """Result of `read()`, taken while nothing in the folder was overwritten.
 
     Raises:
         OutputError: the folder changes faster than it can be read, or what `read` raises.
@@ -63,6 +63,8 @@ def read_unchanged(folder: Path, read: Callable[[], Result]) -> Result:
         try:
             result = read()
         except Exception:  # of whatever kind half a commit gives
+            # An error while the number changed is that of half a commit, and the next attempt reads
+            # again.
             if generation(folder) == before:
                 raise
         else:

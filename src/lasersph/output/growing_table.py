@@ -29,6 +29,7 @@ def new_rows(path: Path, start: int) -> tuple[bytes, int]:
     if start < 0:
         raise ValueError("from must not be negative")
     with clear_errors("read", path), open(path, "rb") as stream:
+        # The byte before the start tells whether a row begins there.
         if start:
             stream.seek(start - 1)
             before = stream.read(1)
@@ -37,6 +38,7 @@ def new_rows(path: Path, start: int) -> tuple[bytes, int]:
             if before != b"\n":
                 raise ValueError(f"no row begins at byte {start}")
         part = stream.read(LARGEST_PART)
+    # A row that is only half written waits for the next call.
     whole = part[: part.rfind(b"\n") + 1]
     return whole, start + len(whole)
 
@@ -47,6 +49,8 @@ def last_row(path: Path) -> dict[str, float]:
         header = stream.readline()
         first = stream.tell()
         size = stream.seek(0, os.SEEK_END)
+        # The last line before the end is at most `LONGEST_LINE` long; what follows its newline is
+        # torn.
         stream.seek(max(first, size - LONGEST_LINE))
         lines = stream.read().split(b"\n")[:-1]
     return _numbers(header, lines[-1]) if header.endswith(b"\n") and lines else {}
@@ -61,6 +65,9 @@ def some_values(path: Path, column: str, count: int) -> list[float]:
         header = stream.readline()
         first, size = stream.tell(), stream.seek(0, os.SEEK_END)
         found = []
+
+        # Equal steps in bytes are about equal steps in rows: each place is moved on to the next
+        # full row.
         for k in range(count):
             stream.seek(first + (size - first) * k // count)
             if k:
@@ -77,6 +84,7 @@ def some_values(path: Path, column: str, count: int) -> list[float]:
 def _numbers(header: bytes, line: bytes) -> dict[str, float]:
     names = header.decode(errors="replace").strip().split(",")
     found: dict[str, float] = {}
+    # A torn or foreign line gives what it has; texts are no numbers.
     for name, text in zip(names, line.decode(errors="replace").strip().split(","), strict=False):
         try:
             found[name] = float(text)

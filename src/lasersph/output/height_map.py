@@ -64,6 +64,7 @@ class HeightMap:
             OutputError: another ending, a surface of one line as triangles, or the file cannot be
                 written.
         """
+        # The ending chooses the format: text first, then the packed XML, then triangles.
         kind = path.suffix.removeprefix(".").lower()
         if kind not in KINDS:
             raise OutputError(f'no format "{kind}" for a height map; there are {", ".join(KINDS)}')
@@ -107,14 +108,17 @@ class HeightMap:
         ny, nx = self.z.shape
         number = np.arange(ny * nx).reshape(ny, nx)
         a, b = number[:-1, :-1].ravel(), number[:-1, 1:].ravel()
+        # a, b, c, d go around each square of four columns; its diagonal runs from a to c.
         c, d = number[1:, 1:].ravel(), number[1:, :-1].ravel()
         return np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
 
     def as_stl(self) -> bytes:
         """Binary STL: header, number of triangles, normal and corners of each, single precision."""
         corners = self.vertices()[self.triangles()]
+        # Normal of a facet, (b - a) x (c - a), of unit length.
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+        # Layout of one facet in STL: twelve floats and a word that nobody reads.
         layout = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
         facets = np.zeros(len(corners), layout)
         facets["normal"], facets["corners"] = normal, corners
@@ -148,6 +152,8 @@ def height_map(step: Mapping[str, Any]) -> HeightMap:
         raise OutputError(
             "a height map needs a 2-D or 3-D run with ablation, or a surface that moves"
         )
+
+    # Columns as wide as the narrowest particle, of those that still belong to the body.
     position, width = step["position"], float(np.min(step["width"]))
     body = np.flatnonzero(step["stage"] == CONDENSED)
     x, column = bins(position[0, body], width)
@@ -155,10 +161,12 @@ def height_map(step: Mapping[str, Any]) -> HeightMap:
         y, row = bins(position[1, body], width)
     else:
         y, row = np.zeros(1), np.zeros(body.size, dtype=int)
+    # Uppermost particle of each column: in upward order the last one written stays.
     place = row * x.size + column
     upward = np.argsort(position[-1, body], kind="stable")
     top = np.full(x.size * y.size, -1)
     top[place[upward]] = body[upward]
+    # The surface is the upper face of that particle, half its width above its center.
     z = np.where(top >= 0, position[-1, top] + 0.5 * step["width"][-1, top], np.nan)
     shape = (y.size, x.size)
     return HeightMap(x, y, z.reshape(shape), top.reshape(shape), float(step["time"]))
@@ -171,6 +179,7 @@ def profile_map(step: Mapping[str, Any], *, is_half: bool) -> HeightMap:
         step: of `Run.surface`. is_half: whether the mirror image about x = 0 belongs to it.
     """
     x, z = step["position"]
+    # The mirror image about x = 0 comes first, so that x grows.
     if is_half:
         x, z = np.concatenate([-x[::-1], x]), np.concatenate([z[::-1], z])
     return HeightMap(x, np.zeros(1), z[None, :].copy(), time=float(step["time"]))
@@ -178,6 +187,7 @@ def profile_map(step: Mapping[str, Any], *, is_half: bool) -> HeightMap:
 
 def bins(values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
     """Centers of equal columns that hold all values [m], and the column of each value."""
+    # Number of a column: the distance from the first center in widths, rounded.
     first = float(np.min(values))
     count = int(np.round((float(np.max(values)) - first) / width)) + 1
     number = np.clip(np.round((values - first) / width).astype(int), 0, count - 1)

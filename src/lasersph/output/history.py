@@ -1,4 +1,4 @@
-"""What grows with a run: the table `history.csv`, a row per time step, and `events.jsonl`.
+"""Files that grow with a run: the table `history.csv`, a row per step, and `events.jsonl`.
 
 Numbers are written with the fewest digits that read back to the same double, so the file holds
 the run exactly. Rows gather in memory and reach the file every few hundred rows, after half a
@@ -44,6 +44,7 @@ class History:
         self.columns: tuple[str, ...] = ()
         self._buffer: list[str] = []
         self._written_at = time.monotonic()
+        # The first line has the names of the columns.
         if path.exists():
             lines = complete_lines(path)
             if lines:
@@ -60,11 +61,13 @@ class History:
         if not self.columns:
             self.columns = tuple(row)
             self._buffer.append(",".join(self.columns))
+        # A row with other columns would shift all numbers after them.
         if len(row) != len(self.columns) or any(name not in row for name in self.columns):
             difference = sorted(set(row) ^ set(self.columns))
             raise ValueError(f"history row with other columns than the first: {difference}")
         self._buffer.append(",".join(csv_text(row[name]) for name in self.columns))
         self.rows += 1
+        # Rows go to the file by number or by time, whichever comes first.
         gathering = time.monotonic() - self._written_at
         if len(self._buffer) >= self.buffer_rows or gathering > LONGEST_GATHERING:
             self.flush()
@@ -81,6 +84,7 @@ class History:
                 if sync:
                     os.fsync(stream.fileno())
             except OSError:
+                # A full disk can leave half of the rows: the file goes back to its old length.
                 os.ftruncate(stream.fileno(), size)
                 raise
         self._buffer.clear()
@@ -93,6 +97,7 @@ class History:
             OutputError: the file holds fewer complete rows.
         """
         self._buffer.clear()
+        # Readers look again where rows disappear.
         if rows == 0:
             raise_generation(self.path.parent)
             with clear_errors("write", self.path):
@@ -112,6 +117,7 @@ def csv_text(value: Value) -> str:
         return value
     if isinstance(value, bool | int | np.integer):
         return str(int(value))
+    # `repr` gives the shortest text that reads back to the same double.
     return repr(float(value))
 
 
@@ -131,6 +137,8 @@ def keep_lines(path: Path, count: int, what: str) -> list[str]:
     lines = complete_lines(path) if path.exists() else []
     if len(lines) < count:
         raise OutputError(f"{path} holds fewer {what} than the checkpoint: {count}")
+
+    # What follows in the file came after the checkpoint.
     if path.exists():
         raise_generation(path.parent)
         with clear_errors("write", path):
@@ -156,6 +164,7 @@ def read_history(path: Path) -> dict[str, np.ndarray]:
 
 def column(texts: list[str]) -> np.ndarray:
     """Parse one column: whole numbers, else floating-point numbers, else text."""
+    # The narrowest type that holds every entry: integers, then doubles, then texts.
     for kind in (np.int64, np.float64):
         try:
             return np.array([kind(text) for text in texts], dtype=kind)

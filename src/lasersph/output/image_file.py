@@ -40,8 +40,10 @@ def write_maps(path: Path, maps: Maps) -> None:
     """Write maps in single precision. Raises OutputError."""
     import h5py
 
+    # Equal steps of the grid; a side of one point has a step of 1, which VTK demands above zero.
     nx, ny = maps.x.size, maps.y.size
     steps = [float(np.ptp(side)) / max(side.size - 1, 1) or 1.0 for side in (maps.x, maps.y)]
+    # HDF5 writes into memory, so that the file appears whole.
     content = io.BytesIO()
     with h5py.File(content, "w") as file:
         root = file.create_group("VTKHDF")
@@ -51,6 +53,7 @@ def write_maps(path: Path, maps: Maps) -> None:
         root.attrs["Origin"] = (float(maps.x[0]), float(maps.y[0]), 0.0)
         root.attrs["Spacing"] = (*steps, 1.0)
         root.attrs["Direction"] = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+        # One array a map, with its unit as an attribute that ParaView passes over.
         points = root.create_group("PointData")
         for name, values in maps.fields.items():
             data = values.astype(np.float32)
@@ -66,6 +69,7 @@ def read_maps(path: Path) -> Maps:
     with clear_errors("read", path):
         try:
             with h5py.File(path, "r") as file:
+                # `WholeExtent` has the first and last number of each axis.
                 root: Any = file["VTKHDF"]
                 ends, start, step = (root.attrs[n] for n in ("WholeExtent", "Origin", "Spacing"))
                 points = root["PointData"]

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.output.pulse_starts import AT
+from lasersph.output.pulse_starts import START_SHARE
 from lasersph.output.reader import Run, Snapshots
 
 
@@ -25,6 +25,12 @@ def last_pulse(run: Run) -> Run:
     """The run since its last pause; the run itself where no pause was jumped over."""
     starts = starts_after_pauses(run)
     return PulseOfRun(run, starts[-1]) if starts else run
+
+
+def is_in_pulse(times: np.ndarray, start: float, end: float) -> np.ndarray:
+    """Whether times (n,) lie between the start of a pulse and that of the next [s], shape (n,)."""
+    # a time at the very start belongs to the pulse, but for rounding
+    return (times >= start * START_SHARE) & (times < end * START_SHARE)
 
 
 class PulseOfRun(Run):
@@ -43,8 +49,9 @@ class PulseOfRun(Run):
         """Columns of history.csv, as of `Run`."""
         whole = super().history
         time = whole["time_s"]
-        chosen = (time >= self.start * AT) & (time < self.end * AT)
+        chosen = is_in_pulse(time, self.start, self.end)
         found = {name: column[chosen] for name, column in whole.items()}
+        # Time and booked energies count from the start of the pulse; other columns are states.
         for name, column in found.items():
             if name == "time_s":
                 found[name] = np.maximum(column - self.start, 0.0)
@@ -74,7 +81,7 @@ class SnapshotsOfPulse(Snapshots):
     def _chosen(self) -> np.ndarray:
         """Numbers of the steps in the file."""
         times = Snapshots(self.path).times
-        return np.flatnonzero((times >= self.start * AT) & (times < self.end * AT))
+        return np.flatnonzero(is_in_pulse(times, self.start, self.end))
 
     @cached_property
     def times(self) -> np.ndarray:

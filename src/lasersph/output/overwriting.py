@@ -38,11 +38,13 @@ def remove_run(folder: Path) -> None:
     """Remove all that a run writes; files of others in the folder stay. Raises OutputError."""
     raise_generation(folder)
     with clear_errors("write", folder):
+        # Without its summary the folder is no complete run any more.
         (folder / FILES[0]).unlink(missing_ok=True)
         for name in FOLDERS:
             if (folder / name).is_dir() and not (folder / name).is_symlink():
                 shutil.rmtree(folder / name)
         for name in SERIES:
+            # The names of files go last and in their order: see `FILES`.
             for file in folder.glob(f"{name}*"):  # with journals and damaged ones set aside
                 file.unlink()
         for name in FILES:

@@ -74,9 +74,12 @@ class ParticleFile:
             OutputError: the file could not be written; its old content is intact.
         """
         dimension, count = position.shape
+
+        # Refuse arrays that are not of these particles.
         if any(array.shape[-1] != count for array in fields.values()):
             raise ValueError("a field has another number of particles than the positions")
         with open_for_changes(self.path) as file:
+            # The first step lays out the file; each later one must have the same fields.
             if "VTKHDF" not in file:
                 start_file(file, dimension, fields, units or {}, position.dtype, count)
             root = file["VTKHDF"]
@@ -84,25 +87,31 @@ class ParticleFile:
                 raise ValueError("the fields of a step differ from those of the first step")
             steps = root["Steps"]
             number = int(steps.attrs["NSteps"])
+
+            # Positions and cells, each written only where they changed.
             points = to_three_axes(position)
             point_offset = store_block(root["Points"], points)
             store_range(file, "position", points)
             part, first_cell, first_point = store_cells(root, count, self.cells)
             place = CELL_KINDS.index(self.cells)
+            # Where the blocks of this step begin.
             extend(steps["Values"], [time])
             extend(steps["PartOffsets"], [part])
             extend(steps["NumberOfParts"], [1])
             extend(steps["PointOffsets"], [point_offset])
+            # Offsets of the kinds of cells that are not used stay 0.
             for name, first in (
                 ("CellOffsets", first_cell),
                 ("ConnectivityIdOffsets", first_point),
             ):
                 extend(steps[name], [[first if k == place else 0 for k in range(4)]])
+            # Fields as blocks of their own, with their ranges for viewers.
             for name, array in fields.items():
                 block = to_three_axes(array) if array.ndim == 2 else array
                 offset = store_block(root["PointData"][name], block)
                 extend(steps["PointDataOffsets"][name], [offset])
                 store_range(file, name, block)
+            # The number of steps goes last: until then no reader looks at the new rows.
             steps.attrs["NSteps"] = number + 1
 
     def cut(self, steps: int) -> None:
@@ -118,6 +127,7 @@ class ParticleFile:
         if present < steps:
             raise OutputError(f"{self.path} holds {present} snapshots, the checkpoint {steps}")
         if present > steps:
+            # Blocks that only dropped steps used go with them.
             with open_for_changes(self.path) as file:
                 cut_steps(file["VTKHDF"], steps)
                 for dataset in file.get("ranges", {}).values():
@@ -129,6 +139,7 @@ def open_for_changes(path: Path) -> Iterator[Any]:
     """The HDF5 file open for changes, which reach the disk together when the block ends."""
     import h5py
 
+    # A commit that a killed process left is finished first.
     finish_commit(path)
     transaction = Transaction(path)
     try:
@@ -175,6 +186,7 @@ def start_file(
     count: int,
 ) -> None:
     """Lay out an empty VTKHDF file."""
+    # Points and their cells, all parts end to end.
     file.attrs["dimension"] = dimension
     root = file.create_group("VTKHDF", track_order=True)
     root.attrs["Version"] = np.array([2, 0], dtype=np.int64)
@@ -188,6 +200,8 @@ def start_file(
         chunk = count if kind == "Vertices" else None
         grow(group, "Connectivity", np.int64, chunk=chunk)
         grow(group, "Offsets", np.int64, chunk=chunk)
+
+    # Steps: time, and where in the arrays each of them begins.
     data = root.create_group("PointData", track_order=True)
     steps = root.create_group("Steps")
     steps.attrs["NSteps"] = np.int64(0)
@@ -197,11 +211,15 @@ def start_file(
     grow(steps, "CellOffsets", np.int64, width=4)
     grow(steps, "ConnectivityIdOffsets", np.int64, width=4)
     offsets = steps.create_group("PointDataOffsets")
+
+    # Fields, with the offset of the block of each step.
     for name, array in fields.items():
         width = 3 if array.ndim == 2 else None
         dataset = grow(data, name, array.dtype, width=width, chunk=count)
         dataset.attrs["unit"] = units.get(name, "")
         grow(offsets, name, np.int64)
+
+    # Ranges: outside the group that ParaView reads.
     ranges = file.create_group("ranges")
     grow(ranges, "position", np.float64, width=6)
     for name, array in fields.items():
@@ -211,6 +229,7 @@ def start_file(
 def grow(group: Any, name: str, kind: Any, width: int | None = None, chunk: int | None = None):
     """Create an empty dataset that can grow; `chunk` particles a chunk and compressed, if given."""
     tail = () if width is None else (width,)
+    # One chunk a block where its length is known; small tables grow by 256 rows.
     length = 256 if chunk is None else max(1, min(chunk, LARGEST_CHUNK))
     return group.create_dataset(
         name,
@@ -224,6 +243,7 @@ def grow(group: Any, name: str, kind: Any, width: int | None = None, chunk: int 
 
 def to_three_axes(vector: np.ndarray) -> np.ndarray:
     """(dim, n) -> (n, 3), z last."""
+    # Axes that the run does not have stay 0.
     result = np.zeros((vector.shape[1], 3), dtype=vector.dtype)
     for row, axis in enumerate(AXES[vector.shape[0]]):
         result[:, axis] = vector[row]
@@ -242,6 +262,7 @@ def store_block(dataset: Any, block: np.ndarray) -> int:
     """Append a block unless it equals the last one; return the offset where it lies."""
     block = np.ascontiguousarray(block, dtype=dataset.dtype)
     digest = hashlib.blake2b(block.tobytes(), digest_size=16).hexdigest()
+    # The same bytes as last time: the new step points to the old block.
     if dataset.attrs.get("last_digest") == digest:
         return int(dataset.attrs["last_offset"])
     offset = extend(dataset, block)
@@ -272,11 +293,15 @@ def store_cells(root: Any, count: int, cells: str) -> tuple[int, int, int]:
         Number of the part, and of the first cell and connectivity entry in it.
     """
     numbers, group = root["NumberOfPoints"], root[cells]
+    # Where the cells end in the list of points: one each, or one for all.
     ends = np.arange(count + 1) if cells == "Vertices" else np.array([0, count])
+    # The number of points is as in the step before: its part is used again.
     part = numbers.shape[0] - 1
     if part >= 0 and int(numbers[part]) == count:
         written = int(np.sum(group["NumberOfCells"][:]))
         return part, written - (ends.size - 1), group["Connectivity"].shape[0] - count
+
+    # A new part: points in their order, and no cells of the other kinds.
     extend(numbers, [count])
     first_cell = int(np.sum(group["NumberOfCells"][:]))
     first = extend(group["Connectivity"], np.arange(count))
@@ -292,6 +317,7 @@ def store_cells(root: Any, count: int, cells: str) -> tuple[int, int, int]:
 def cut_steps(root: Any, count: int) -> None:
     """Drop the steps from number `count` on, and the blocks that only they used."""
     steps = root["Steps"]
+    # Parts and blocks that the kept steps use.
     part = int(max(steps["PartOffsets"][:count]))
     points = root["NumberOfPoints"][: part + 1]
     shrink(root["Points"], steps["PointOffsets"][:count], steps["PartOffsets"][:count], points)
@@ -299,6 +325,7 @@ def cut_steps(root: Any, count: int) -> None:
         dataset = root["PointData"][name]
         shrink(dataset, offsets[:count], steps["PartOffsets"][:count], points)
         offsets.resize(count, axis=0)
+    # Cells of those parts; each part has one entry in `Offsets` more than cells.
     root["NumberOfPoints"].resize(part + 1, axis=0)
     for kind in CELL_KINDS:
         group = root[kind]
@@ -308,6 +335,7 @@ def cut_steps(root: Any, count: int) -> None:
         ids = int(np.sum(group["NumberOfConnectivityIds"][:]))
         group["Connectivity"].resize(ids, axis=0)
         group["Offsets"].resize(cells + part + 1, axis=0)
+    # Rows of the dropped steps.
     for name in ("Values", "PartOffsets", "NumberOfParts", "PointOffsets"):
         steps[name].resize(count, axis=0)
     steps["CellOffsets"].resize(count, axis=0)
@@ -317,10 +345,12 @@ def cut_steps(root: Any, count: int) -> None:
 
 def shrink(dataset: Any, offsets: np.ndarray, parts: np.ndarray, points: np.ndarray) -> None:
     """Cut a dataset behind the last block that the kept steps use."""
+    # The block that lies furthest back in the file ends what is kept.
     last = int(np.argmax(offsets))
     end = int(offsets[last] + points[parts[last]])
     if dataset.shape[0] > end:
         dataset.resize(end, axis=0)
+        # The next step compares with the block that is the last one now.
         block = np.ascontiguousarray(dataset[int(offsets[last]) : end])
         dataset.attrs["last_digest"] = hashlib.blake2b(block.tobytes(), digest_size=16).hexdigest()
         dataset.attrs["last_offset"] = int(offsets[last])

@@ -104,7 +104,7 @@ class Run:
 
     @cached_property
     def events(self) -> list[dict[str, Any]]:
-        """What happened in the run: dicts with time_s, step, event and more."""
+        """Events of the run: dicts with time_s, step, event and more."""
         return read_unchanged(self.path, lambda: read_events(self.path / "events.jsonl"))
 
     @cached_property
@@ -133,6 +133,7 @@ class Run:
         """
         from lasersph.output.height_map import height_map, profile_map
 
+        # A surface that moves has a line of its own; else the uppermost particles are the surface.
         steps = self.surface if len(self.surface) else self.snapshots
         if not len(steps):
             raise OutputError(f"{self.path} has no snapshots yet")
@@ -177,12 +178,14 @@ class Run:
         except ImportError as error:
             raise OutputError(install_hint("xarray")) from error
         steps = list(self.snapshots)
+        # A data set has axes of one length: numbers of particles that change do not fit.
         if len({step["position"].shape for step in steps}) > 1:
             raise OutputError("the number of particles changes: read the snapshots one by one")
         variables: dict[str, Any] = {}
         for name in steps[0] if steps else ():
             if name == "time":
                 continue
+            # Time goes first, the axis of a vector second.
             array = np.stack([step[name] for step in steps])
             dims = ("time", "particle") if array.ndim == 2 else ("time", "axis", "particle")
             unit = {"unit": self.snapshots.units.get(name, "")}
@@ -223,7 +226,7 @@ class Snapshots:
         return {"time": "s", "position": "m", **fields}
 
     def _read(self, read: Callable[[Any], Result]) -> Result:
-        """What `read` finds in the HDF5 file. Raises OutputError."""
+        """Result of `read` on the HDF5 file, from one generation of it. Raises OutputError."""
 
         def read_file() -> Result:
             with open_for_reading(self.path) as file:
@@ -255,7 +258,9 @@ def read_step(file: Any, number: int) -> dict[str, Any]:
     present = int(steps.attrs["NSteps"])
     if not -present <= number < present:
         raise IndexError(f"the run has {present} snapshots")
+    # Negative numbers count from the end, as those of a list.
     number %= present
+    # Number of points, and where positions and fields of this step begin.
     count = int(root["NumberOfPoints"][int(steps["PartOffsets"][number])])
     start = int(steps["PointOffsets"][number])
     points = root["Points"][start : start + count]
@@ -274,7 +279,7 @@ def from_three_axes(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
 
 
 RunOrFolder = Run | str | PathLike[str]
-"""What functions that read a run take: one that is open, or its folder."""
+"""A run as functions that read one take it: one that is open, or its folder."""
 
 
 def open_run(path: RunOrFolder) -> Run:
@@ -290,6 +295,7 @@ def open_run(path: RunOrFolder) -> Run:
     if isinstance(path, Run):
         return path
     folder = Path(path)
+    # A folder without resolved.json was never that of a run.
     if not folder.is_dir():
         what = "is a file, not the folder of a run" if folder.exists() else "no such folder"
         raise OutputError(f"{folder}: {what}")

@@ -97,6 +97,8 @@ class RunFolder:
                 written; nothing was written.
         """
         folder = Path(path)
+        # Refuse before the lock, so that nothing is written, and again behind it, when nobody else
+        # writes.
         is_replaced = overwrite and folder.is_dir() and not is_untouched(folder)
         refuse = refuse_other_folders if is_replaced else refuse_if_used
         refuse(folder)
@@ -138,6 +140,7 @@ class RunFolder:
             return run, None
         else:
             lock = FolderLock(folder, wait=wait)
+        # Behind the lock the folder may have changed: another process was waited for.
         with releasing_on_failure(lock):
             if is_untouched(folder):
                 (folder / LEFT_BY_KILL).unlink(missing_ok=True)
@@ -226,6 +229,7 @@ class RunFolder:
         """
         self.history.flush(sync=True)
         self.events.flush()
+        # Lengths of the files at this moment: a resumed run cuts them back to these.
         marks = {
             "history_rows": self.history.rows,
             "events": self.events.count,

@@ -19,11 +19,13 @@ from lasersph.output.atomic import replace_json, replace_text, sync_folder, to_j
 from lasersph.output.errors import FolderRefused, clear_errors
 
 RESOLVED_SCHEMA = 1
-RESOLVED, CASE, SUMMARY = "resolved.json", "case.toml", "summary.json"
+RESOLVED = "resolved.json"
+CASE = "case.toml"
+SUMMARY = "summary.json"
 END = "time.end"
 """Key that may only become larger."""
 DERIVED = ("uncertainty.json", "report.html")
-"""What tells of a summary, and goes with it."""
+"""Files that are derived from a summary, and go with it."""
 SHOWN_LETTERS = 60
 """Of two values that differ; longer ones, tables of laws, would fill the line."""
 
@@ -93,6 +95,8 @@ def check_owner(folder: Path, origin: Origin) -> dict[str, Any]:
         FolderRefused: with the first key that may not be changed, and both values.
     """
     found = _read(folder)
+
+    # The hash decides; the cases only say where they differ.
     there, here = found.get("case"), json.loads(json.dumps(to_json_values(origin.case)))
     try:
         old, new = str(found["case_hash"]), origin.name
@@ -100,9 +104,13 @@ def check_owner(folder: Path, origin: Origin) -> dict[str, Any]:
         raise _damaged(folder) from error
     if old == new:
         return {}
+
+    # What may not be changed has to agree, and so does the variant of a study (after the hyphen).
     fixed = [_without(case, origin.changeable) for case in (there, here)]
     is_same_variant = old.partition("-")[2] == new.partition("-")[2]
     differs = fixed[0] != fixed[1]
+
+    # An end that is fixed has a message of its own.
     without_end = [_without(case, (END,)) for case in fixed]
     if is_same_variant and differs and without_end[0] == without_end[1]:
         raise FolderRefused(
@@ -115,6 +123,8 @@ def check_owner(folder: Path, origin: Origin) -> dict[str, Any]:
             f"{folder} holds a run of another case{first_difference(*fixed)}: resume it with the "
             "case and settings that it was started with, or choose another folder"
         )
+
+    # What may be changed, with both values; an end only becomes later.
     values = {key: (_value(there, key), _value(here, key)) for key in origin.changeable}
     changed = {key: before for key, (before, after) in values.items() if before != after}
     if END in changed and changed[END] > values[END][1]:
@@ -137,6 +147,7 @@ def change_origin(folder: Path, origin: Origin, changed: Mapping[str, Any]) -> N
     Raises:
         OutputError: it cannot be written.
     """
+    # Values from the very beginning win over those of an earlier resumption.
     first = {**changed, **started_with(folder)}
     with clear_errors("write", folder):
         for name in (SUMMARY, *DERIVED):
@@ -144,11 +155,13 @@ def change_origin(folder: Path, origin: Origin, changed: Mapping[str, Any]) -> N
         sync_folder(folder)
     replace_text(folder / CASE, origin.case_text)
     now = {key: _value(origin.case, key) for key in first}
+    # A key that is back at its first value is no change.
     write_origin(folder, origin, {key: old for key, old in first.items() if old != now[key]})
 
 
 def first_difference(there: Any, here: Any, key: str = "") -> str:
     """The first key that two cases have not alike, with both values if they are short [SI]."""
+    # Walk down to the first key with different values.
     if isinstance(there, Mapping) and isinstance(here, Mapping):
         name = next((k for k in {**there, **here} if there.get(k) != here.get(k)), None)
         below = f"{key}.{name}" if key else f"{name}"
@@ -188,6 +201,7 @@ def _without(case: Any, keys: tuple[str, ...]) -> Any:
     left = deepcopy(case)
     for key in keys:
         *sections, name = key.split(".")
+        # A section that is missing has no such key either.
         part = left
         for section in sections:
             part = part.get(section) if isinstance(part, dict) else None

@@ -1,4 +1,4 @@
-"""What a case says of its results: what is stored, and which points and particles are watched.
+"""Settings of the results: what is stored, and which points and particles are watched.
 
 Reading a case loads this file of the room and no other.
 """
@@ -34,7 +34,7 @@ class SnapshotPlan(Model):
 
 
 class OutputSettings(Model):
-    """What a run stores, and how often."""
+    """Contents of the run folder, and how often they are written."""
 
     snapshots: SnapshotPlan = Field(
         default=SnapshotPlan.model_validate({}), description="when all particles are stored"
@@ -103,14 +103,17 @@ class SnapshotSchedule:
     def __init__(self, plan: SnapshotPlan, end: float) -> None:
         """Raises ValueError where the plan asks for more than 100 000 snapshots."""
         interval = plan.interval or end / DEFAULT_COUNT
+        # A unit slip in the interval would fill the disk.
         if end / interval > LARGEST_COUNT:
             raise ValueError(
                 f"{end / interval:.0f} snapshots are too many:"
                 f" give an interval of at least {format_quantity(end / LARGEST_COUNT, 's')}"
             )
+        # Multiples of the interval, the listed times and the end, each once.
         multiples = interval * np.arange(int(end / interval) + 1)
         wanted = np.concatenate([multiples, np.array(plan.times), [end]])
         wanted = np.unique(wanted[wanted <= end])
+        # Times closer than rounding to the next one would ask for steps of no length.
         apart = np.concatenate([np.diff(wanted) > 1e-9 * end, [True]])
         self.times = wanted[apart]
         self.written, self.start = 0, 0.0

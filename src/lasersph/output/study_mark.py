@@ -40,6 +40,7 @@ class StudyMark:
     def changed(self, run: Path) -> str:
         """The key of a run of the study with its value, "fluence 0.44 J/cm²"; empty where its case
         has none. Raises OutputError where its resolved.json cannot be read."""
+        # Value at the dotted key.
         value: Any = read_json(run / "resolved.json").get("case", {})
         for name in self.key.split("."):
             value = value.get(name) if isinstance(value, dict) else None

@@ -77,6 +77,7 @@ class Transaction(io.RawIOBase):
     def readinto(self, buffer: Any) -> int:
         target = memoryview(buffer).cast("B")
         count = max(0, min(len(target), self.size - self.position))
+        # Page by page: from memory where it was written, else from the disk.
         done = 0
         while done < count:
             number, offset = divmod(self.position, PAGE)
@@ -97,6 +98,7 @@ class Transaction(io.RawIOBase):
         while done < len(source):
             number, offset = divmod(self.position, PAGE)
             length = min(PAGE - offset, len(source) - done)
+            # A page is copied at its first write.
             page = self.pages.get(number)
             if page is None:
                 page = self.pages[number] = bytearray(self._stored_bytes(number * PAGE, PAGE))
@@ -112,11 +114,14 @@ class Transaction(io.RawIOBase):
 
     def commit(self) -> None:
         """Bring all writes to the disk. Raises OutputError; the old content is then intact."""
+        # A new file needs no journal: it appears whole.
         if self.stored == 0:
             replace_file(self.path, self._write_whole)
             self.close()
             return
-        beyond = [piece for n in sorted(self.pages) if (piece := self._beyond(n))]
+
+        # What lies beyond the old end, and the old pages that really changed.
+        beyond = [piece for n in sorted(self.pages) if (piece := self._part_beyond_end(n))]
         changed = {
             number: page
             for number, page in self.pages.items()
@@ -126,6 +131,7 @@ class Transaction(io.RawIOBase):
         with clear_errors("write", self.path):
             descriptor = os.open(self.path, os.O_RDWR)
             try:
+                # Steps 1 to 3 of the header: what fails here leaves the old content.
                 try:
                     for offset, data in beyond:
                         write_at(descriptor, offset, data)
@@ -136,6 +142,7 @@ class Transaction(io.RawIOBase):
                     journal_of(self.path).unlink(missing_ok=True)
                     os.ftruncate(descriptor, self.stored)
                     raise
+                # Step 4: from here on the journal finishes the work, whoever does it.
                 apply_journal(self.path, descriptor, changed, self.size)
             finally:
                 os.close(descriptor)
@@ -154,7 +161,7 @@ class Transaction(io.RawIOBase):
             page = self.pages.get(number, bytes(PAGE))
             stream.write(page[: min(PAGE, self.size - number * PAGE)])
 
-    def _beyond(self, number: int) -> tuple[int, memoryview] | None:
+    def _part_beyond_end(self, number: int) -> tuple[int, memoryview] | None:
         """The part of a page that lies beyond the old end of the file, with its offset."""
         start = max(self.stored - number * PAGE, 0)
         if start >= PAGE:
@@ -177,6 +184,7 @@ def journal_of(path: Path) -> Path:
 def write_at(descriptor: int, offset: int, data: Any) -> None:
     """Write all bytes of `data` at a place in an open file."""
     view = memoryview(data)
+    # The system may take fewer bytes than it was given.
     while view:
         count = os.pwrite(descriptor, view, offset)
         view, offset = view[count:], offset + count
@@ -199,11 +207,13 @@ def read_journal(path: Path) -> tuple[dict[int, bytearray], int] | None:
     """
     journal = journal_of(path)
     with clear_errors("read", journal):
+        # No journal, no unfinished commit.
         try:
             line, _, body = journal.read_bytes().partition(b"\n")
         except FileNotFoundError:
             return None
     try:
+        # The checksum tells a whole journal from one of a failing disk.
         head = json.loads(line)
         if hashlib.sha256(body).hexdigest() != head["sha256"]:
             raise ValueError("checksum")
@@ -217,6 +227,7 @@ def read_journal(path: Path) -> tuple[dict[int, bytearray], int] | None:
 
 def apply_journal(path: Path, descriptor: int, pages: dict[int, bytearray], size: int) -> None:
     """Write the journal's pages into the open file, set its size, remove the journal."""
+    # Pages in their order, then the size, then the disk; the journal goes last.
     for number in sorted(pages):
         write_at(descriptor, number * PAGE, pages[number])
     os.ftruncate(descriptor, size)
@@ -249,6 +260,7 @@ def discard(path: Path) -> None:
 def rename_damaged(path: Path) -> Path:
     """Rename a damaged file and its journal to `<name>.damaged`; return the new name."""
     aside = path.with_name(path.name + ".damaged")
+    # The journal keeps its file: finishing it later would need both.
     raise_generation(path.parent)
     with clear_errors("write", path):
         os.replace(path, aside)

@@ -23,6 +23,7 @@ FILES = (
 def viewer_module() -> str:
     """Text of the viewer as one ES module that imports nothing."""
     folder = files("lasersph").joinpath("web")
+    # One text without imports: the files follow each other in the order of their needs.
     lines = [
         line for name in FILES for line in folder.joinpath(name).read_text("utf-8").split("\n")
     ]
@@ -51,6 +52,7 @@ def make_widget(folder: Path) -> Any:
 def answer(folder: Path, asked: dict[str, Any]) -> tuple[dict[str, Any], list[bytes]]:
     """The message and the buffers that answer a viewer's message."""
     head = {"id": asked.get("id")}
+    # Errors go back as text: a viewer cannot read a traceback.
     try:
         if asked.get("ask") == "index":
             return {**head, "index": particle_index(folder)}, []

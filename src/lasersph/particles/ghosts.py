@@ -1,15 +1,21 @@
-"""Ghost particles beyond flat faces: moving particles mirrored, or one period away.
+"""Ghost particles beyond faces: moving particles mirrored, or one period away.
 
 A closed box whose faces mirror (or repeat) the particles inside gives every particle a full
-support, so that no sum is cut. Ghost k of particle s lies at
+support, so that no sum is cut. A ghost k has a source s, and between both lies a face with the unit
+normal n: a plane, or the plane that is tangent to a surface near s. It is the image of its source
+in that plane, x_k = x_s + 2 (b - n . x_s) n, or one period away. Vectors there are those of the
+source times H = I - 2 n n^T (`particles.reflection`).
 
-    x_k = sign x_s + offset            (axis by axis)
+Faces of the box are normal to the axes: H is diagonal. Particles closer to a face than the search
+radius have ghosts; those of one axis have ghosts again across the faces of the next, which fills
+edges and corners. There H is the product of those of the faces between, and
 
-and follows its source. Particles closer to a face than the search radius have ghosts; those of one
-axis have ghosts again across the faces of the next, which fills the corners. Sign and offset are
-those of its type, one of nine at most: which face of each axis lies between ghost and source. The
-velocity or temperature of a ghost follows from its type too and is not known here. Left out: one
-and three dimensions.
+    x_k = S (x_s + c d_s) + o
+
+with S = diag(sign), the product for the planes, the offset o, and c = 1 where a tangent lies
+between, d_s the way across it. S, o and c are those of the ghost's type: which face of each axis
+lies between, one of 3^d at most. The velocity or temperature of a ghost follows from its type too
+and is not known here.
 """
 
 from __future__ import annotations
@@ -23,6 +29,7 @@ from numpy.typing import NDArray
 
 from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import dot, vector
 
 MIRROR, PERIODIC, OPEN, TANGENT = "mirror", "periodic", "open", "tangent"
 LOWER, UPPER = 1, 2
@@ -71,15 +78,16 @@ class GhostTypes:
     """Types of ghosts; the first type is that of the particles themselves.
 
     Attributes:
-        sign, offset: (2, w) [1], [m]. crossed: (2, w) which face of each axis lies between, 0,
-            LOWER or UPPER. near: place of the sources beyond each face, x then z [m]; infinite
-            beyond an open one.
+        sign, offset: (d, w) S [1] and o [m]. crossed: (d, w) which face of each axis lies between,
+            0, LOWER or UPPER. crosses_surface: (w,) 1 where that of one is a TANGENT face. near:
+            (d, 2) place of the sources beyond each face [m]; infinite beyond an open one.
     """
 
     sign: NDArray[np.float64]
     offset: NDArray[np.float64]
     crossed: NDArray[np.int64]
-    near: tuple[float, float, float, float]
+    crosses_surface: NDArray[np.float64]
+    near: NDArray[np.float64]
 
     @property
     def count(self) -> int:
@@ -87,73 +95,77 @@ class GhostTypes:
         return self.crossed.shape[1]
 
 
-def ghost_types_of(faces: tuple[FacePair, FacePair]) -> GhostTypes:
-    """Types of the faces along x and z; those of x come first."""
+def ghost_types_of(faces: tuple[FacePair, ...]) -> GhostTypes:
+    """Types of the faces along each axis; those of the first axis come first."""
     # rule by face: sign, offset and place of the sources; face 0 is the particle itself
     rules = [{0: (1.0, 0.0, np.inf)} for _ in faces]
     for rule, pair in zip(rules, faces, strict=True):
         for face in (LOWER, UPPER):
             rule[face] = pair.beyond(face)
-    # types are all combinations of a face of x and one of z, none included
+    near = np.array([[rule[face][2] for face in (LOWER, UPPER)] for rule in rules])
+    # types are all combinations of a face of each axis, none included
     is_there = [
-        [f for f, (_, _, near) in rule.items() if f == 0 or near < np.inf] for rule in rules
+        [f for f, (_, _, place) in rule.items() if f == 0 or place < np.inf] for rule in rules
     ]
-    crossed = np.array([(x, z) for z, x in product(is_there[1], is_there[0])]).T
+    crossed = np.array([chosen[::-1] for chosen in product(*is_there[::-1])]).T
+    # a product of reflections in planes normal to the axes multiplies the signs of each axis
     sign, offset = (
-        np.array([[rules[axis][f][part] for f in crossed[axis]] for axis in (0, 1)])
+        np.array([[rule[f][part] for f in row] for rule, row in zip(rules, crossed, strict=True)])
         for part in (0, 1)
     )
-    x, z = rules
-    return GhostTypes(sign, offset, crossed, (x[LOWER][2], x[UPPER][2], z[LOWER][2], z[UPPER][2]))
+    tangents = [
+        (row == face) & (kind == TANGENT)
+        for row, pair in zip(crossed, faces, strict=True)
+        for face, kind in ((LOWER, pair.lower_kind), (UPPER, pair.upper_kind))
+    ]
+    return GhostTypes(sign, offset, crossed, np.any(tangents, axis=0).astype(float), near)
 
 
-def near_faces(x, search_radius, low_0, high_0, low_1, high_1):
-    """Faces of x and of z that a particle is near: 0, LOWER, UPPER or BOTH; 1 where near any."""
-    # LOWER and UPPER add up to BOTH
-    across, along = 0.0, 0.0
-    if abs(x[0] - low_0) < search_radius:
-        across += 1.0
-    if abs(x[0] - high_0) < search_radius:
-        across += 2.0
-    if abs(x[1] - low_1) < search_radius:
-        along += 1.0
-    if abs(x[1] - high_1) < search_radius:
-        along += 2.0
-    return int(across), int(along), min(across + along, 1.0)
+def face_mark(x, low, high, radius):
+    """Faces of an axis that a place x on it is near: 0, LOWER, UPPER or BOTH, their sum."""
+    mark = 0.0
+    if abs(x - low) < radius:
+        mark += 1.0
+    if abs(x - high) < radius:
+        mark += 2.0
+    return mark
 
 
-def near_surface(x, distance, radius, search_radius, low_0, high_0, low_1, high_1):
-    """`near_faces` below a surface at a distance, instead of an upper face of z.
+def near_faces(x, search_radius, low, high):
+    """Faces of each axis that a particle is near, see `face_mark`; 1 where near any."""
+    marks = vector(*(face_mark(x[k], low[k], high[k], search_radius) for k in range(len(x))))
+    return marks, 1.0 if dot(marks, marks) > 0.0 else 0.0
+
+
+def near_surface(x, distance, radius, search_radius, low, high):
+    """`near_faces` below a surface at a distance, instead of an upper face of the last axis.
 
     Within the particle's own radius: ghosts of coarse ones deep below a flank would lie across its
     tangent far from it, in the melt of a valley. Ghosts across an inclined tangent are seen beyond
     a lateral face though their source is not within the radius of it.
     """
+    below = 1.0 if abs(x[-1] - low[-1]) < search_radius else 0.0
+    above = 2.0 if distance < radius else 0.0
     # ghosts across a tangent may lie beyond a side though their source is further from it
-    wide, _lowest, _is_wide = near_faces(x, SLANTED * search_radius, low_0, high_0, low_1, low_1)
-    narrow, below, _is_near = near_faces(x, search_radius, low_0, high_0, low_1, low_1)
-    along = 2.0 if distance < radius else 0.0
-    if below > 0:
-        along += 1.0
-    across = wide if along > 1.0 else narrow
-    return across, int(along), min(across + along, 1.0)
+    reach = SLANTED * search_radius if above > 0.0 else search_radius
+    marks = vector(
+        *(face_mark(x[k], low[k], high[k], reach) for k in range(len(x) - 1)), below + above
+    )
+    return marks, 1.0 if dot(marks, marks) > 0.0 else 0.0
 
 
 def makes_ghost(near, face):
-    """Whether a particle that is near some faces of an axis has ghosts beyond one, or beyond 0."""
-    return face == 0 or near == face or near >= BOTH
+    """1 where a particle that is near some faces of an axis has ghosts beyond one, or beyond 0."""
+    return 1.0 if face == 0 or near == face or near >= BOTH else 0.0
 
 
-def is_ghost(k, near, across, along, crossed_x, crossed_z, size):
+def is_ghost(k, near, marks, crossed, size):
     """1 where the k-th pair of type and particle near a face makes a ghost, type after type."""
     # pairs are ordered type after type
-    place = near[k % size]
-    ghost_type = k // size + 1
-    if makes_ghost(across[place], crossed_x[ghost_type]) and makes_ghost(
-        along[place], crossed_z[ghost_type]
-    ):
-        return 1.0
-    return 0.0
+    mark, faces = marks[near[k % size]], crossed[k // size + 1]
+    # a ghost lies beyond the faces of its type in every axis
+    made = vector(*(makes_ghost(mark[axis], faces[axis]) for axis in range(len(faces))))
+    return 1.0 if dot(made, made) == len(made) else 0.0
 
 
 def origin(k, count, total, size, near, found):
@@ -187,21 +199,17 @@ class GhostParticles:
         self, backend: Backend, count: int, search_radius: float, ghost_types: GhostTypes
     ) -> None:
         self.backend, self.count, self.ghost_types = backend, count, ghost_types
-        low_0, high_0, low_1, high_1 = ghost_types.near
-        self._near: Constants = {"low_0": low_0, "high_0": high_0, "low_1": low_1, "high_1": high_1}
-        self._near["search_radius"] = search_radius
-        self._crossed = {
-            name: backend.asarray(row, "index")
-            for name, row in zip(("crossed_x", "crossed_z"), ghost_types.crossed, strict=True)
-        }
-        self._faces = tuple(backend.zeros(count, "index") for _ in range(2))
+        low, high = (tuple(places.tolist()) for places in ghost_types.near.T)
+        self._near: Constants = {"low": low, "high": high, "search_radius": search_radius}
+        self._crossed = backend.asarray(ghost_types.crossed, "index")
+        self._marks = backend.zeros((len(low), count))
         self.is_near, self.all_rows = backend.zeros(count), backend.zeros(count)
         backend.fill(self.all_rows, 1.0)
         self._numbers = backend.zeros(0, "index")
         self.total, self.source = 0, backend.zeros(0, "index")
 
     def find(self, position: Array, below: tuple[Array, Array] | None = None) -> None:
-        """Find the ghosts of the particles at `position`, shape (2, n) [m].
+        """Find the ghosts of the particles at `position`, shape (d, n) [m].
 
         Args:
             below: (n,) distances from a surface that is the upper TANGENT face [m], and (count,)
@@ -210,7 +218,7 @@ class GhostParticles:
         backend, count = self.backend, self.count
         # particles near a face, and the faces that they are near
         fields = {"x": backend.head(position, count)}
-        out = (*self._faces, self.is_near)
+        out = self._marks, self.is_near
         if below is None:
             backend.pointwise(near_faces, fields, out, **self._near)
         else:
@@ -221,8 +229,8 @@ class GhostParticles:
         size, others = near.shape[0], self.ghost_types.count - 1
         marks = backend.zeros(others * size)
         fields = {"k": self._numbers_below(others * size)}
-        tables = dict(zip(("across", "along"), self._faces, strict=True)) | {"near": near}
-        backend.pointwise(is_ghost, fields, marks, **tables, **self._crossed, size=max(size, 1))
+        tables: Constants = {"near": near, "marks": self._marks, "crossed": self._crossed}
+        backend.pointwise(is_ghost, fields, marks, **tables, size=max(size, 1))
         found = backend.rows_where(marks, 1.0)
         # source and type of each particle and each ghost
         ghosts = found.shape[0]
@@ -233,16 +241,12 @@ class GhostParticles:
             self.source, self.ghost_type = (backend.zeros(capacity, "index") for _ in range(2))
         fields = {"k": self._numbers_below(self.source.shape[0])}
         out, tables = (self.source, self.ghost_type), {"near": near, "found": found}
-        sizes = {"count": count, "total": total, "size": max(size, 1)}
+        sizes: Constants = {"count": count, "total": total, "size": max(size, 1)}
         backend.pointwise(origin, fields, out, **tables, **sizes)
 
     def table(self, values: NDArray[Any]) -> Array:
-        """Host values (w,) of the types, for loops that read them at `ghost_type`."""
+        """Host values (..., w) of the types, for loops that read them at `ghost_type`."""
         return self.backend.asarray(values)
-
-    def tables(self, first: str, second: str, values: NDArray[Any]) -> dict[str, Array]:
-        """Tables of both components of host values (2, w) by their names."""
-        return {first: self.table(values[0]), second: self.table(values[1])}
 
     def _numbers_below(self, size: int) -> Array:
         """0, 1, ... size - 1, kept on the backend."""

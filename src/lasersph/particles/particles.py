@@ -1,6 +1,6 @@
-"""`Particles`: the fields of a run's particles, as arrays by name.
+"""`Particles`: the fields of a run's particles, or of the columns of a surface, by name.
 
-Arrays are made once, with room for `capacity` particles, and keep their identity: prepared loops
+Arrays are made once, with room for `capacity` particles, and keep their identity: recorded loops
 bind them, and restoring a checkpoint or going back copies values into them. Nothing grows silently.
 """
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.compute.graph import graph
 from lasersph.particles.fields import FIELDS, Field
 
 
@@ -44,7 +45,6 @@ class Particles:
         self.table: dict[str, Field] = {}
         self._arrays: dict[str, Array] = {}
         self._saved: dict[str, Array] = {}
-        self._save = backend.phase(Particles._run_save)
         self.add(*fields)
 
     def add(self, *fields: str | Field) -> None:
@@ -109,9 +109,11 @@ class Particles:
         if not self._saved.keys() >= self.kept.keys():
             for name, array in self.kept.items():
                 self._saved[name] = self.backend.zeros(array.shape, self.table[name].storage)
-        self._save(self, reads=tuple(self._saved.values()))
+        self._copy_kept()
 
-    def _run_save(self) -> None:
+    @graph
+    def _copy_kept(self) -> None:
+        """Copy the kept fields into what is saved of them."""
         for name, array in self.kept.items():
             self.backend.copy(array, self._saved[name])
 

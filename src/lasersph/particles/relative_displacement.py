@@ -19,7 +19,7 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.particles.cell_grid import CellGrid
+from lasersph.compute.cell_grid import CellGrid
 from lasersph.particles.kinds import INTERIOR
 from lasersph.particles.neighbor_lists import Box, NeighborList, members_of
 

@@ -59,13 +59,7 @@ def fold(x, low, width):
 
 def fold_position(x, low, width):
     """Position [m] with each coordinate within its period."""
-    if len(x) == 1:
-        return vector(fold(x[0], low[0], width[0]))
-    if len(x) == 2:
-        return vector(fold(x[0], low[0], width[0]), fold(x[1], low[1], width[1]))
-    return vector(
-        fold(x[0], low[0], width[0]), fold(x[1], low[1], width[1]), fold(x[2], low[2], width[2])
-    )
+    return vector(*(fold(x[k], low[k], width[k]) for k in range(len(x))))
 
 
 def position_to_list(x, x_listed, opaque):

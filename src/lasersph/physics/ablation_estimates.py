@@ -10,9 +10,6 @@ away, as it does from a front that recedes steadily (Landau):
 
     0.82 p(T) / sqrt(2 pi R_s T) [c_p (T - T_0) + L_m + L_v(T)] = q
 
-Recoil pressure moves the melt once it exceeds the capillary pressure 2 gamma / r of a pool of
-radius r: 0.54 p(T) = 2 gamma / r.
-
 References: [Alshaer2017] Comput. Mater. Sci. 127, 161; [Kelly1996] Kelly & Miotello, Appl. Surf.
 Sci. 96-98, 205; [Tam1992] Tam et al., J. Appl. Phys. 71, 3515, as cited by [Alshaer2017];
 [Hoffman2002] Hoffman & Szymanski, Optica Applicata 32, 129, as cited there.
@@ -24,7 +21,6 @@ from collections.abc import Callable
 from math import exp, inf, log
 
 from lasersph.physics.evaporation import (
-    RECOIL_FACTOR,
     latent_heat,
     mass_flux,
     saturation_pressure,
@@ -124,14 +120,3 @@ def first_crossing(
         middle = 0.5 * (lower + upper)
         lower, upper = (middle, upper) if function(middle) < wanted else (lower, middle)
     return 0.5 * (lower + upper)
-
-
-def recoil_moves_melt_at(radius: float, surface_tension: float, vapor: dict[str, float]) -> float:
-    """Temperature at which the recoil pressure exceeds the capillary pressure 2 gamma / r [K].
-
-    Args:
-        radius: of the pool [m]. surface_tension: [N/m]. vapor: `evaporation.vapor_constants`.
-    """
-    # 0.54 p = 2 gamma / r
-    pressure = 2.0 * surface_tension / (radius * RECOIL_FACTOR)
-    return temperature_at_pressure(pressure, **vapor)

@@ -1,26 +1,26 @@
 """Evaporation of a liquid metal from its free surface, as pure scalar functions of temperature.
 
 One curve of saturation pressure for everything that evaporates, from the same latent heat that the
-vapor takes along (Clausius-Clapeyron, ideal vapor of density rho_v = p / (R_s T)), Hertz-Knudsen
-mass flux with the back-flow of a Knudsen layer, and recoil pressure:
+vapor takes along (Clausius-Clapeyron, ideal vapor of density rho_v = p / (R_s T)), and the mass
+flux of Hertz and Knudsen with the back-flow of a Knudsen layer; its recoil is in `recoil`:
 
-    dp/dT = L_v(T) rho_v / T,    m = 0.82 p / sqrt(2 pi R_s T),    p_recoil = 0.54 p
+    dp/dT = L_v(T) rho_v / T,    m = 0.82 p / sqrt(2 pi R_s T)
 
 L_v(T) vanishes at the critical temperature with Watson's exponent. A metal without one has a
 constant L_v, and then the pressure is eq. (5) of [Alshaer2017]; so has the published rule of
 ejection, which prints that equation.
 
 Plain functions of floats, so that the loop factory compiles them and a test can call them. Left
-out: a non-ideal vapor, ambient pressure and subsonic outflow (0.82 and 0.54 are the values of a
-sonic outflow into vacuum), plasma.
+out: a non-ideal vapor, ambient pressure and subsonic outflow (0.82 is the value of a sonic outflow
+into vacuum), plasma.
 
 where: T temperature [K]; p_b pressure at the boiling point T_b [Pa, K] (1 atm); L_v latent heat
 [J/kg], L_b its value at T_b; T_c critical temperature [K]; R_s = R / M specific gas constant
 [J/(kg K)].
 
 References: [Alshaer2017] Comput. Mater. Sci. 127, 161; [Anisimov1968] Sov. Phys. JETP 27, 182
-(0.82 = 1 - 0.18 recondensed, 0.54-0.56); [Knight1979] AIAA J. 17, 519 (0.816 and 0.550 for the same
-sonic outflow); [Watson1943] Ind. Eng. Chem. 35, 398 (exponent 0.38).
+(0.82 = 1 - 0.18 recondensed); [Knight1979] AIAA J. 17, 519 (0.816 for the same sonic
+outflow); [Watson1943] Ind. Eng. Chem. 35, 398 (exponent 0.38).
 """
 
 from __future__ import annotations
@@ -36,9 +36,6 @@ STANDARD_ATMOSPHERE = 101325.0
 NET_EVAPORATION = 0.82
 """Share of the Hertz-Knudsen flux that does not recondense. Source: [Anisimov1968]; [Knight1979]
 gives 0.816 (tested)."""
-RECOIL_FACTOR = 0.54
-"""Recoil pressure over saturation pressure. Source: [Anisimov1968]; [Knight1979] gives 0.550
-(tested)."""
 WATSON_EXPONENT = 0.38
 """Exponent of the latent heat over the distance from the critical point. Source: [Watson1943]."""
 NO_CRITICAL_POINT = 1e12
@@ -118,11 +115,6 @@ def mass_flux(T, p, R_s):
     m = 0.82 p / sqrt(2 pi R_s T)        (Hertz-Knudsen, [Anisimov1968])
     """
     return NET_EVAPORATION * p / sqrt(2.0 * PI * R_s * T)
-
-
-def recoil_pressure(p):
-    """Pressure of the leaving vapor on the surface [Pa]: 0.54 p [Anisimov1968]."""
-    return RECOIL_FACTOR * p
 
 
 def mean_normal_velocity(T, R_s):

@@ -10,9 +10,9 @@ layer it flows off at a Mach number M, and the jump conditions of [Knight1979] f
 
 Surroundings of pressure p_e hold the vapor back: below p_sat = 4.85 p_e it leaves at the M for
 which p_v = p_e, so that the gauge recoil is 5/3 M^2 p_e, and flux and recoil end where p_sat = p_e;
-above that M = 1 whatever the surroundings are. At M = 1 flux and recoil are those of `evaporation`,
-0.82 and 0.54 p_sat [Anisimov1968]: Knight's flux is taken times 0.82 / 0.8157 at every M, and the
-recoil is the larger one of the two, so that both are continuous.
+above that M = 1 whatever the surroundings are. At M = 1 flux and recoil are those of `evaporation`
+and `recoil`, 0.82 and 0.54 p_sat [Anisimov1968]: Knight's flux is taken times 0.82 / 0.8157 at
+every M, and the recoil is the larger one of the two, so that both are continuous.
 
 Left out: a gas between vapor and surroundings that a pulse compresses, which lowers M further;
 condensation on a surface below saturation, and diffusion of vapor into the gas there.
@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.compute.vectors import interpolate, interpolation_slope
-from lasersph.physics.evaporation import NET_EVAPORATION, PI, RECOIL_FACTOR
+from lasersph.physics.evaporation import NET_EVAPORATION, PI
 
 HEAT_RATIO = 5.0 / 3.0
 """c_p / c_v of the vapor. Exact: it is monatomic (tested against the table of [Knight1979])."""
@@ -103,15 +103,3 @@ def net_mass_flux(T, p, p_slope, R_s, p_e, ratio_nodes, flux_nodes):
     # the share rises with p: d(p_e / p)/dT = -p_e / p^2 dp/dT
     slope = slope - interpolation_slope(ratio, ratio_nodes, flux_nodes) * ratio * p_slope / root
     return share * p / root, slope
-
-
-def gauge_recoil_pressure(p, p_e, ratio_nodes, mach_nodes):
-    """Recoil pressure beyond that of the surroundings [Pa] at saturation pressure p [Pa].
-
-    max(5/3 M^2 p_e, 0.54 p - p_e); 0 where nothing evaporates.
-    """
-    if p <= p_e:
-        return 0.0 * p
-    # behind the layer p_v = p_e: subsonic, 5/3 M^2 p_e; sonic, 0.54 p - p_e
-    M = interpolate(p_e / p, ratio_nodes, mach_nodes)
-    return max(HEAT_RATIO * M * M * p_e, RECOIL_FACTOR * p - p_e)

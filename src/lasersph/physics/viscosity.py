@@ -1,4 +1,4 @@
-"""Viscous momentum exchange of the melt, explicit or at the end of the step.
+"""Viscous momentum exchange of the melt.
 
     V_i dv_i/dt = nu sum_j g_ij (v_j - v_i)                       [Demuth2020, eqs. (51), (68)]
 
@@ -9,17 +9,13 @@ That is div(nu grad v); the stress is 2 rho nu D, so that the transposed gradien
 
     div(nu (grad v)^T) = (grad v)^T grad nu
 
-where div v = 0. Without it a melt that turns as a whole would feel its viscosity. Implicit:
-
-    (V_i + nu dt sum_j g_ij) v_i - nu dt sum_j g_ij v_j = V_i v*_i
-
-for the fluid particles; particles of the solid have v = 0, ghosts the velocity that the faces give.
-The published scheme is explicit.
+where div v = 0. Without it a melt that turns as a whole would feel its viscosity. The published
+scheme is explicit; the implicit one is solved in `solvers.melt_pool.viscous_step`.
 """
 
 from __future__ import annotations
 
-from lasersph.compute.vectors import dot, interpolate, matmul, matvec, outer, transpose
+from lasersph.compute.vectors import interpolate, matmul, matvec, outer, transpose
 
 
 def relative_viscosity(T, T_nodes, m_nodes):
@@ -61,34 +57,3 @@ def predict(total, v, V, nu, b, step):
 def forced(v, b, step):
     """Velocity after the body force alone [m/s]."""
     return v + step * b
-
-
-def start(total, v, V, v_star, g_sum, s):
-    """Residual r = V (v* - v) + s sum g (v_j - v_i), its scaled form z, and r . z, r . r."""
-    # Jacobi: the diagonal of the matrix is V + s sum g
-    r = V * (v_star - v) + s * total
-    z = 1.0 / (V + s * g_sum) * r
-    return r, z, dot(r, z), dot(r, r)
-
-
-def multiply(total, d, V, s):
-    """q = A d, and d . q; `total` is the sum of g_ij (d_j - d_i)."""
-    q = V * d - s * total
-    return q, dot(d, q)
-
-
-def advance(v, r, d, q, V, g_sum, alpha, s):
-    """v += alpha d, r -= alpha q, z scaled; reduces r . z and r . r."""
-    residual = r - alpha * q
-    z = 1.0 / (V + s * g_sum) * residual
-    return v + alpha * d, residual, z, dot(residual, z), dot(residual, residual)
-
-
-def turn(z, d, beta):
-    """New direction z + beta d."""
-    return z + beta * d
-
-
-def weight_of(g_ij):
-    """Weight of a pair, for its sum over the neighbors."""
-    return g_ij

@@ -67,6 +67,8 @@ def plane_cut(run: Run, step: Snapshot) -> Cut:
     """The particles in the plane y = const through the beam's axis, in 3-D two layers thick."""
     stage, position = step["stage"], step["position"]
     chosen = np.ones(stage.size, dtype=bool)
+    # In space the cut is two layers thick; the body is shown from the axis on, so that one looks at
+    # the layer that the axis runs through.
     if position.shape[0] == 3:
         chosen = np.abs(position[1] - axis_of(run)[1]) < 1.01 * float(np.min(step["width"]))
     solid = chosen & ((stage == CONDENSED) | (stage == LEAVING))
@@ -79,15 +81,18 @@ def plane_cut(run: Run, step: Snapshot) -> Cut:
 
 def cut_frame(run: Run) -> Box:
     """Part of the cut that shows the crater of the whole run and the ejecta above it."""
+    # Width of the block.
     history, first = run.history, run.snapshots[0]
     x, half = in_plane(first["position"])[0], 0.5 * in_plane(first["width"])[0]
     left, right = float(np.min(x - half)), float(np.max(x + half))
     spacing = float(np.min(first["width"]))
+    # Depth: the deepest crater or melt of the whole run, with some layers below it.
     deepest = max(
         float(np.max(history["crater_depth_max_m"])), float(np.max(history["melt_depth_any_m"]))
     )
     bottom = float(np.max(0.5 * first["width"][-1] - first["position"][-1]))
     depth = min(max(DEPTH * deepest, LEAST_LAYERS * spacing), bottom)
+    # Height: of the ejecta when the crater was done, no more than the picture can hold.
     most = max(HEIGHT * (right - left), 2.0 * depth)
     step = crater_snapshot(run)
     flying = step["position"][-1][step["stage"] == EJECTED]
@@ -105,11 +110,13 @@ def crater_snapshot(run: Run) -> Snapshot:
     """The first snapshot in which the crater has its final volume, or the last one; the hottest
     where nothing left."""
     history = run.history
+    # The column has the unit of a volume in this dimension at its end.
     volume = next(name for name in history if name.startswith("crater_removed_volume"))
     if history[volume][-1] == 0.0:
         return run.snapshots.nearest(
             float(history["time_s"][np.argmax(history["temperature_max_K"])])
         )
+    # A snapshot shows the crater if it lies at or after the time at which the volume was final.
     done = np.flatnonzero(history[volume] >= history[volume][-1])
     time = float(history["time_s"][done[0]])
     later = np.flatnonzero(run.snapshots.times >= time * (1.0 - 1e-9))

@@ -35,6 +35,8 @@ def crater_history(run: RunOrFolder) -> Figure | None:
     history = run.history
     if "crater_depth_m" not in history:
         return None
+
+    # Above: depths of the crater, with the pulse.
     figure, (above, below) = style.new_figure(2, height=4.8, share_x=True)
     lines = {
         "crater_depth_m": "at the axis",
@@ -50,6 +52,8 @@ def crater_history(run: RunOrFolder) -> Figure | None:
         above.plot(time_axis(history)[0], smooth, label=name, color=color, linestyle="--")
     draw_columns(above, run, lines, label="depth of the crater")
     style.legend(above)
+
+    # Below: shares of the absorbed energy.
     energy = {"removed": "carried away by ejecta", "stored": "in the body"}
     time, time_label = time_axis(history)
     absorbed = max(float(history["energy_absorbed_J"][-1]), 1e-300)
@@ -74,6 +78,7 @@ def trace_figure(run: RunOrFolder) -> Figure | None:
     if not names:
         return None
     figure, (above, below) = style.new_figure(2, height=5.2, share_x=True)
+    # One color a particle in both panels.
     time, label = time_axis(history)
     for k, name in enumerate(names):
         color = style.COLORS[k % len(style.COLORS)]
@@ -91,21 +96,24 @@ def trace_figure(run: RunOrFolder) -> Figure | None:
 
 def mark_regions(run: Run, name: str, above: Axes, below: Axes) -> float:
     """Lines and Roman numbers of the regions of one trace; returns where the axis should end."""
+    # The regions need all three times: boiling, first motion, leaving.
     found: dict[str, Any] = summary_of(run).get("traces", {}).get(name, {})
     time, _ = time_axis(run.history)
     factor = time[-1] / float(run.history["time_s"][-1])
     left, boiled, moved = (found.get(key) for key in ("left_at_s", "boiled_at_s", "moved_at_s"))
     if left is None or boiled is None or moved is None:
         return float(time[-1])
+    # The axis ends some time after the last traced particle left.
     end = max(left * (1.0 + AROUND), left + 0.02 * float(run.history["time_s"][-1]))
     others = summary_of(run)["traces"].values()
     end = max([end, *(1.1 * one["left_at_s"] for one in others if one["left_at_s"] is not None)])
+    # Temperature has the edges of boiling and leaving, speed those of the jump and of leaving.
     for axes, edges in ((above, (0.0, boiled, left, end)), (below, (0.0, moved, moved, left, end))):
         for edge in edges[1:-1]:
             axes.axvline(edge * factor, color=style.GRAY, linewidth=0.7, linestyle=":")
         for number, first, last in zip(ROMAN, edges, edges[1:], strict=False):
             if last > first or number == "II":
                 place, over = (0.5 * (first + last) * factor, 1.01), ("data", "axes fraction")
-                look = {"fontsize": 8.5, "color": style.GRAY, "ha": "center", "va": "bottom"}
-                axes.annotate(number, place, xycoords=over, **look)
+                options = {"fontsize": 8.5, "color": style.GRAY, "ha": "center", "va": "bottom"}
+                axes.annotate(number, place, xycoords=over, **options)
     return end * factor

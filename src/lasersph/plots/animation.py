@@ -39,10 +39,11 @@ from lasersph.plots.flow_map import (
     draw_arrows,
     draw_speed,
     draw_temperature,
+    drawn_shape,
+    exaggeration_of,
     finish,
     frame_unit,
     shape_of,
-    stretch_of,
 )
 from lasersph.plots.particle_map import MAP_WIDTH, shown_depth
 
@@ -80,11 +81,13 @@ def animate_run(folder: RunOrFolder, *, format: Format = "gif") -> Path:
     """
     from matplotlib.animation import FFMpegWriter, PillowWriter
 
+    # Refuse what cannot be animated before a file appears.
     run = last_pulse(open_run(folder))
     check_snapshots(run)
     if format == "mp4" and not FFMpegWriter.isAvailable():
         raise OutputError("mp4 needs the program ffmpeg, which is not here: take --format gif")
     target = run.path / "figures" / f"animation.{format}"
+    # The file appears under its name when it is whole.
     with clear_errors("write", target):
         target.parent.mkdir(exist_ok=True)
         partial = target.with_name(f"unfinished-{target.name}")
@@ -118,11 +121,12 @@ def frames(run: Run) -> Iterator[Figure]:
     if has_ablation(run):
         yield from crater_frames(run, times)
         return
+    # Scales and panels of the first frame hold for all.
     scene = scene_of(run, times)
     figure, axes = style.new_figure(height=scene.height)
     axes[0].remove()
     for k, time in enumerate(times):
-        show = scene.renew if k else scene.draw
+        show = scene.redraw if k else scene.draw
         show(figure, plane_flow(run, float(time)))
         yield figure
 
@@ -132,7 +136,7 @@ class Scene:
     """The part of a picture that stays the same over all frames.
 
     Attributes:
-        frame: what is shown [m].
+        frame: part of the plane that is shown [m].
         temperatures: of the color scale [K]; None: not drawn, as it is the same everywhere.
         fastest: speed at the end of the color scale [m/s]; 0: not drawn.
         is_beside: panels beside each other instead of above each other.
@@ -154,12 +158,14 @@ class Scene:
         if self.is_beside:
             height = beside_height(self.frame, self.panels)
         else:
-            shape = shape_of(self.frame) * stretch_of(self.frame)
+            shape = drawn_shape(self.frame)
             height = self.panels * (MAP_WIDTH * shape + 0.55) + 0.4
+        # Two pixels at a time, since mp4 refuses odd numbers.
         return 2.0 * round(0.5 * height * DPI) / DPI
 
     def draw(self, figure: Figure, flow: PlaneFlow) -> None:
         """Draw the first state and fix where the panels lie."""
+        # Panels, pictures and arrows of the first state.
         layout = (1, self.panels) if self.is_beside else (self.panels, 1)
         all_axes = list(figure.subplots(*layout, squeeze=False).ravel())
         unit, picture = frame_unit(self.frame), raster(flow, self.frame, PIXELS)
@@ -168,12 +174,13 @@ class Scene:
         if self.fastest > 0.0:
             draw_speed(all_axes[-1], picture, unit, self.fastest)
             self.draw_arrows(all_axes[-1], flow)
-        stretch = 1.0 if self.is_beside else stretch_of(self.frame)
-        finish(figure, all_axes, flow, self.frame, unit, stretch)
+        exaggeration = 1.0 if self.is_beside else exaggeration_of(1.0 / shape_of(self.frame))
+        finish(figure, all_axes, flow, self.frame, unit, exaggeration)
+        # Later frames replace pictures only: the places of the panels must not move.
         figure.draw_without_rendering()
         figure.set_layout_engine(None)
 
-    def renew(self, figure: Figure, flow: PlaneFlow) -> None:
+    def redraw(self, figure: Figure, flow: PlaneFlow) -> None:
         """Show another state in the panels of the first."""
         panels = figure.axes[: self.panels]
         picture = raster(flow, self.frame, PIXELS)
@@ -181,6 +188,7 @@ class Scene:
             panels[0].images[0].set_data(picture.temperature())
         if self.fastest > 0.0:
             speed = picture.speed() * style.speed_unit(self.fastest).factor
+            # New values in the images of the first frame, new arrows in place of the old ones.
             for image, values in zip(panels[-1].images, (picture.metal(), speed), strict=True):
                 image.set_data(values)
             for arrows in list(panels[-1].collections):
@@ -197,6 +205,7 @@ class Scene:
 
 def scene_of(run: Run, times: np.ndarray) -> Scene:
     """The scene that all frames of a run share."""
+    # What is shown: all of a box, the pool with its rim, or the heated part of a body.
     middle = plane_flow(run, float(times[len(times) // 2]))
     history = run.history
     if is_box(run):
@@ -206,6 +215,8 @@ def scene_of(run: Run, times: np.ndarray) -> Scene:
     else:
         left, right, _, _ = middle.cells.frame
         frame = Box(left, right, -shown_depth(run, middle.step), 0.0)
+
+    # Ends of the color scales over the whole run.
     fastest = float(np.max(history["flow_speed_max_m_s"])) if has_flow(run) else 0.0
     shown = times if is_box(run) else times[:1]  # a pool's body is coldest at first
     coldest = min(float(np.min(run.snapshots.nearest(t)["temperature"])) for t in shown)
@@ -220,11 +231,13 @@ def frame_times(run: Run) -> np.ndarray:
     times = run.snapshots.times
     if not is_box(run) and not has_ablation(run):
         history = run.history
+        # A pool lives for a small part of its run.
         wet = history["time_s"][history.get("melt_depth_any_m", np.zeros(1)) > 0.0]
         if wet.size:
             margin = MARGIN * (wet[-1] - wet[0])
             alive = times[(times >= wet[0] - margin) & (times <= wet[-1] + margin)]
             times = alive if alive.size >= LEAST_FRAMES else times
+    # Frames at even numbers of snapshots.
     if times.size <= MOST_FRAMES:
         return times
     return times[np.round(np.linspace(0.0, times.size - 1.0, MOST_FRAMES)).astype(int)]

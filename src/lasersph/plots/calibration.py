@@ -33,12 +33,14 @@ def calibration_figure(
     """
     from lasersph.plots.notebook_figure import NotebookFigure
 
+    # Numbers that belong to a profile are shown with it.
     components = {name for one in content["profiles"] for name in one["components"]}
     every = dict.fromkeys(one["number"] for one in content["data"])
     columns = [column for column in every if column not in components]
     unknowns = content["unknowns"]
     corner = 2.2 * len(unknowns) + 0.6
     figure = NotebookFigure(figsize=(style.WIDTH, 3.0 + corner), layout="constrained")
+    # A row of panels above, the square of the posterior below.
     above, below = figure.subfigures(2, 1, height_ratios=(3.0, corner), squeeze=False)[:, 0]
     all_axes = above.subplots(1, len(columns) + len(profiles), squeeze=False)[0]
     for axes, profile in zip(all_axes[len(columns) :], profiles, strict=True):
@@ -53,6 +55,7 @@ def calibration_figure(
 
 def _draw_data(axes: Axes, data: list[dict[str, Any]], content: dict[str, Any]) -> None:
     """Measured and computed values of one number over the setting that changes, or in order."""
+    # The setting that changes is the axis; where several do, the number of the measurement is.
     settings = [one["settings"] for one in data]
     varied = [key for key in settings[0] if len({one[key] for one in settings}) > 1]
     x = np.array(
@@ -64,6 +67,8 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], content: dict[str, Any]) 
         shown = content.get("shown_units", {}).get(varied[0])
         setting = ShownUnit(**shown) if shown else ShownUnit(content["units"].get(varied[0], ""))
         x = setting.numbers(x)
+
+    # Measured and computed values, with the errors of emulator and numerics together.
     names = ("measured", "standard_error", "computed", "emulator_sd", "numerical_sd")
     value, error, mean, emulated, numerical = (
         np.array([one[name] for one in data])[order] for name in names
@@ -72,6 +77,8 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], content: dict[str, Any]) 
     unit = style.fitting_unit(data[0]["unit"], float(np.max(np.abs(value))))
     f, band = unit.factor, np.hypot(emulated, numerical)
     words = "model and its error"
+
+    # A band over several settings, a mark beside a single one.
     if len(x) == 1:  # a mark beside the measured one
         axes.errorbar(x + 0.2, f * mean, f * band, fmt="s", color=style.COLORS[0], markersize=4,
                       capsize=3, label=words)  # fmt: skip
@@ -92,6 +99,7 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], content: dict[str, Any]) 
 def _draw_profile(axes: Axes, profile: np.ndarray) -> None:
     """The measured and the most probable heights; of a map those nearest to y = 0, as near as its
     points lie side by side."""
+    # Points of a map lie in a square of this side on average.
     side = np.sqrt(np.ptp(profile[:, 0]) * np.ptp(profile[:, 1]) / len(profile))
     away = np.abs(profile[:, 1])
     near = profile[away <= away.min() + 0.5 * side]
@@ -109,6 +117,7 @@ def _draw_corner(figure: SubFigure, unknowns: dict[str, Any], points: np.ndarray
     names, weights = list(unknowns), points[:, -1]
     units = [unit_of_unknown(one) for one in unknowns.values()]
     grid = figure.subplots(len(names), len(names), squeeze=False)
+    # Below the diagonal pairs, on it each unknown with its mean and 95 % interval.
     for row, below in enumerate(names):
         for column, across in enumerate(names):
             axes = grid[row, column]

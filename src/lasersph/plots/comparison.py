@@ -40,8 +40,9 @@ def surface_temperatures(
     runs = [open_run(one) for one in runs]
     figure, (axes,) = style.new_figure(height=4.2)
     draw_pulse(axes, runs[0].history, end_of(runs))
-    for run, time, look in looks(runs, labels):
-        axes.plot(time, run.history["temperature_at_maximum_K"], **look)
+    # One curve a run, dark to light.
+    for run, time, options in styled_runs(runs, labels):
+        axes.plot(time, run.history["temperature_at_maximum_K"], **options)
     axes.set_xlim(0.0, max(float(np.max(line.get_xdata())) for line in axes.lines))
     draw_corner_temperatures(axes, material_of(runs[0]))
     return finish(figure, axes, runs, "surface temperature at the maximum [K]", title)
@@ -59,14 +60,15 @@ def melt_pools(
     """
     runs = [open_run(one) for one in runs]
     figure, all_axes = style.new_figure(1, 2, height=3.9)
+    # A panel each for width and depth, drawn without the stairs of whole cells.
     for axes, letter, size in zip(all_axes, "ab", ("width", "depth"), strict=True):
         column = f"melt_{size}_{level}m"
         largest = max(float(np.max(run.history[column])) for run in runs)
         unit = style.fitting_unit("m", largest)
-        for run, time, look in looks(runs, labels):
+        for run, time, options in styled_runs(runs, labels):
             if np.any(run.history[column] > 0.0):
                 x, y = style.without_stairs(time, run.history[column] * unit.factor)
-                axes.plot(x, y, **look)
+                axes.plot(x, y, **options)
         text = f"melt pool {size} [{unit.name}]"
         style.label(axes, time_axis(runs[0].history, end_of(runs))[1], text, title=f"({letter})")
         axes.set_ylim(bottom=0.0)
@@ -93,8 +95,8 @@ def surface_speeds(
     runs = [open_run(one) for one in runs]
     figure, (axes,) = style.new_figure(height=4.2)
     draw_pulse(axes, runs[0].history, end_of(runs))
-    for run, time, look in looks(runs, labels):
-        axes.plot(time, where_above_zero(run.history[column]), **look)
+    for run, time, options in styled_runs(runs, labels):
+        axes.plot(time, where_above_zero(run.history[column]), **options)
     show_while(axes, runs, "flow_speed_max_m_s", 0.06)
     axes.set_ylim(bottom=0.0)
     where = "one spacing below the surface" if "below" in column else "at the surface"
@@ -106,11 +108,13 @@ def reliefs(runs: Sequence[RunOrFolder], labels: Labels = None) -> Figure:
     by linear interpolation at the places of the first."""
     runs = [open_run(one) for one in runs]
     figure, (above, below) = style.new_figure(2, height=5.2, share_x=True)
+
+    # Above: both reliefs. Below: their difference, in a unit of its own.
     lines = [(x, height[-1]) for _, x, height in map(lines_of, runs)]
     along = style.fitting_unit("m", max(float(np.max(np.abs(x))) for x, _ in lines))
     up = style.fitting_unit("m", max(float(np.max(np.abs(z))) for _, z in lines))
-    for (x, z), (_, _, look) in zip(lines, looks(runs, labels), strict=True):
-        above.plot(x * along.factor, z * up.factor, **look)
+    for (x, z), (_, _, options) in zip(lines, styled_runs(runs, labels), strict=True):
+        above.plot(x * along.factor, z * up.factor, **options)
     (x, first), (other, second) = lines
     change = np.interp(x, other, second, left=np.nan, right=np.nan) - first
     fine = style.fitting_unit("m", float(np.nanmax(np.abs(change), initial=0.0)))
@@ -125,6 +129,7 @@ def figures_of_two(runs: Sequence[Run], labels: Labels = None) -> dict[str, Figu
     """Figures of two runs by name: "relief" where both surfaces move, "temperature" and "melt"
     where both have them, of trains of pulses since the start of the last."""
     found = {}
+    # Reliefs are those at the end; curves of trains count from the last pulse.
     if all(len(run.surface) > 0 for run in runs):
         found["relief"] = reliefs(runs, labels)
     runs = [last_pulse(run) for run in runs]
@@ -139,12 +144,13 @@ def speed_extrema(runs: Sequence[RunOrFolder], labels: Labels = None, *, title: 
     """Inner (full lines) and outer extrema (dashed) of the surface speed."""
     runs = [open_run(one) for one in runs]
     figure, (axes,) = style.new_figure(height=4.2)
-    for run, time, look in looks(runs, labels):
+    # Full and dashed lines of one color belong to one run.
+    for run, time, options in styled_runs(runs, labels):
         inner, outer = (
             where_above_zero(run.history[f"flow_{name}_speed_m_s"]) for name in ("inner", "outer")
         )
-        axes.plot(time, outer, "--", color=look["color"], linewidth=1.1)
-        axes.plot(time, inner, linewidth=1.8, **look)
+        axes.plot(time, outer, "--", color=options["color"], linewidth=1.1)
+        axes.plot(time, inner, linewidth=1.8, **options)
     show_while(axes, runs, "flow_speed_max_m_s", 0.06)
     axes.set_ylim(bottom=0.0)
     for line, text in (("-", "inner extremum"), ("--", "outer extremum")):
@@ -152,10 +158,13 @@ def speed_extrema(runs: Sequence[RunOrFolder], labels: Labels = None, *, title: 
     return finish(figure, axes, runs, "surface speed [m/s]", title)
 
 
-def looks(runs: Sequence[Run], labels: Labels) -> Iterator[tuple[Run, np.ndarray, dict[str, Any]]]:
+def styled_runs(
+    runs: Sequence[Run], labels: Labels
+) -> Iterator[tuple[Run, np.ndarray, dict[str, Any]]]:
     """Each run with its times, and color and label of its curve."""
     names = fluence_labels(runs) if labels is None else labels
     end = end_of(runs)
+    # Times in one unit, that of the longest run.
     for color, run, text in zip(style.color_scale("plasma", len(runs)), runs, names, strict=True):
         yield run, time_axis(run.history, end)[0], {"color": color, "label": text}
 
@@ -175,6 +184,7 @@ def finish(figure: Figure, axes: Axes, runs: Sequence[Run], name: str, title: st
 def show_while(axes: Axes, runs: Sequence[Run], column: str, margin: float) -> None:
     """Limit the time axis to when a column of any of the runs was above zero."""
     end = end_of(runs)
+    # Times at which the column is above zero in any run, and a margin around them.
     times = [time_axis(run.history, end)[0][run.history[column] > 0.0] for run in runs]
     seen = np.concatenate(times)
     if seen.size and np.ptp(seen) > 0.0:

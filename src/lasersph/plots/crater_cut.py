@@ -49,6 +49,7 @@ def crater_cut(run: RunOrFolder, time: float | None = None) -> Figure | None:
         return None
     step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
     cut, frame = plane_cut(run, step), cut_frame(run)
+    # A column has no cut: temperature against height.
     if run.snapshots.dimension == 1:
         return height_profile(cut, frame, material_of(run))
     figure, (axes,) = style.new_figure(height=figure_height(frame))
@@ -74,18 +75,25 @@ def ejecta_vectors(run: RunOrFolder, times: tuple[float, ...] = ()) -> Figure | 
     count = run.history["ejected_count"]
     if count[-1] == 0.0:
         return None
+
+    # Two moments: a third, and all of the volume has left.
     if not times:
         moments = (count >= count[-1] / 3.0, count >= count[-1])
         times = tuple(float(run.history["time_s"][np.argmax(one)]) for one in moments)
+
     # the first snapshot from each time on: the one closest to it may lie before anything left
     later = np.minimum(np.searchsorted(run.snapshots.times, times), len(run.snapshots) - 1)
     cuts = [plane_cut(run, run.snapshots[int(number)]) for number in np.unique(later)]
     cuts = [cut for cut in cuts if cut.ejecta.size]
+
+    # One scale of arrows and one frame for all cuts.
     frame, largest = cut_frame(run), 0.0
     for cut in cuts:
         largest = max(largest, float(np.max(np.hypot(*cut.velocity), initial=0.0)))
     if largest == 0.0:
         return None
+
+    # High cuts stand beside each other, flat ones below each other.
     if frame.height > BESIDE * frame.width:
         figure, all_axes = style.new_figure(1, len(cuts), height=figure_height(frame) * 0.6 + 0.5)
     else:
@@ -101,7 +109,7 @@ def ejecta_vectors(run: RunOrFolder, times: tuple[float, ...] = ()) -> Figure | 
 
 def figure_height(frame: Box) -> float:
     """Height of a figure with one cut [inch]."""
-    return float(np.clip(MAP_WIDTH * frame.height / frame.width, 2.0, 5.6)) + 0.9
+    return float(np.clip(MAP_WIDTH * frame.height / frame.width, 1.3, 5.6)) + 0.9
 
 
 def temperature_range(run: Run) -> tuple[float, float]:
@@ -116,20 +124,22 @@ def draw_cut(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -> l
     Returns what was drawn of the ejecta.
     """
     low, high = limits
-    look = {"cmap": style.TEMPERATURE_COLORS, "vmin": low, "vmax": high}
-    image = draw_body(axes, body_picture(cut, frame), frame, **look)
+    options = {"cmap": style.TEMPERATURE_COLORS, "vmin": low, "vmax": high}
+    image = draw_body(axes, body_picture(cut, frame), frame, **options)
     style.color_bar(axes, image, "temperature [K]", 22.0)
     return draw_ejecta(axes, cut, frame, limits)
 
 
-def draw_body(axes: Axes, values: np.ndarray, frame: Box, **look: Any) -> Any:
+def draw_body(axes: Axes, values: np.ndarray, frame: Box, **options: Any) -> Any:
     """A picture of the body below the line of the original surface; returns the image."""
     unit = frame_unit(frame)
     axes.axhline(0.0, color=style.GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+    # Only the part below the original surface is body; above it fly the ejecta.
     edges = (frame.left, frame.right, frame.bottom, 0.0)
-    image = style.paint(axes, values, edges, unit, zorder=2, **look)
+    image = style.paint(axes, values, edges, unit, zorder=2, **options)
     axes.set_xlim(frame.left * unit.factor, frame.right * unit.factor)
     axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
+    # A narrow frame is drawn wider than to scale.
     axes.set_aspect(min(frame.width / frame.height / NARROW, 1.0))
     return image
 
@@ -142,19 +152,22 @@ def body_picture(cut: Cut, frame: Box) -> np.ndarray:
 
 def draw_ejecta(axes: Axes, cut: Cut, frame: Box, limits: tuple[float, float]) -> list[Any]:
     """Dots of the ejecta in the frame, with arrows; returns what was drawn."""
+    # Ejecta above the frame are not shown.
     shown = cut.flying[1] < frame.top
     if not np.any(shown):
         return []
     unit, (low, high) = frame_unit(frame), limits
     x, z = cut.flying[:, shown] * unit.factor
-    look = {"cmap": style.TEMPERATURE_COLORS, "vmin": low, "vmax": high, "linewidths": 0.3}
+    options = {"cmap": style.TEMPERATURE_COLORS, "vmin": low, "vmax": high, "linewidths": 0.3}
     colors = cut.temperature(cut.ejecta)[shown]
-    dots = axes.scatter(x, z, s=9.0, c=colors, edgecolors="black", zorder=4, **look)
+    dots = axes.scatter(x, z, s=9.0, c=colors, edgecolors="black", zorder=4, **options)
+    # Arrows of some: more would cover the dots.
     some = np.arange(0, x.size, max(1, x.size // MOST_ARROWS))
     velocity = cut.velocity[:, shown][:, some]
+    # The fastest one has the full length, all others in proportion.
     longest = arrow_length(frame) * unit.factor / max(float(np.max(np.hypot(*velocity))), 1e-300)
-    look = {**TO_SCALE, "color": "0.35", "width": 0.0016}
-    return [dots, axes.quiver(x[some], z[some], *(velocity * longest), **look)]
+    options = {**TO_SCALE, "color": "0.35", "width": 0.0016}
+    return [dots, axes.quiver(x[some], z[some], *(velocity * longest), **options)]
 
 
 def draw_speeds(axes: Axes, cut: Cut, frame: Box, largest: float) -> Any:
@@ -166,8 +179,8 @@ def draw_speeds(axes: Axes, cut: Cut, frame: Box, largest: float) -> Any:
     x, z = cut.flying[:, shown] * unit.factor
     velocity = cut.velocity[:, shown]
     longest = arrow_length(frame) * unit.factor / largest
-    look = {**TO_SCALE, "cmap": f"{style.SPEED_COLORS}_r", "width": 0.0026}
-    arrows = axes.quiver(x, z, *(velocity * longest), np.hypot(*velocity), **look)
+    options = {**TO_SCALE, "cmap": f"{style.SPEED_COLORS}_r", "width": 0.0026}
+    arrows = axes.quiver(x, z, *(velocity * longest), np.hypot(*velocity), **options)
     arrows.set_clim(0.0, largest)
     return arrows
 
@@ -181,6 +194,7 @@ def height_profile(cut: Cut, frame: Box, corners: dict[str, Any]) -> Figure:
     """Temperature over height of a 1-D run: body and ejecta."""
     unit = style.fitting_unit("m", frame.height)
     figure, (axes,) = style.new_figure(height=3.6)
+    # Body from below to above, ejecta as single dots.
     z, temperature = cut.body.center[1] * unit.factor, cut.temperature(cut.body.number)
     order, flying = np.argsort(z), cut.flying[1] * unit.factor
     blue, orange = style.COLORS[:2]
@@ -202,6 +216,7 @@ def crater_frames(run: Run, times: Iterable[float]) -> Iterator[Figure]:
     frame, limits = cut_frame(run), temperature_range(run)
     height = 2.0 * round(0.5 * figure_height(frame) * DPI) / DPI  # even pixels, which mp4 wants
     figure, (axes,) = style.new_figure(height=height)
+    # The first frame lays the figure out; later ones replace picture and ejecta.
     for k, time in enumerate(times):
         cut = plane_cut(run, run.snapshots.nearest(float(time)))
         if k == 0:

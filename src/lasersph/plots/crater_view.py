@@ -48,6 +48,7 @@ def crater_view(run: RunOrFolder, time: float | None = None) -> Figure | None:
 
     from lasersph.plots.notebook_figure import NotebookFigure
 
+    # Height map and color scale; the scale holds for the whole run.
     step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
     surface = height_map(step)
     scale = Normalize(*temperature_range(run))
@@ -57,6 +58,8 @@ def crater_view(run: RunOrFolder, time: float | None = None) -> Figure | None:
     axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
     draw_surface(axes, surface, colors(scale(surface_temperature(step, surface))), unit)
     highest = draw_ejecta(axes, step, colors, scale, unit)
+
+    # Proportions: flat craters are drawn deeper than to scale.
     low = float(np.nanmin(surface.z)) * unit.factor
     across = [float(np.ptp(side)) * unit.factor for side in (surface.x, surface.y)]
     height = max(highest - low, 1e-12)
@@ -78,16 +81,19 @@ def surface_temperature(step: Snapshot, surface: HeightMap) -> np.ndarray:
 
 def draw_surface(axes: Any, surface: HeightMap, colors: np.ndarray, unit: style.Unit) -> None:
     """The height map as a lit surface."""
+    # Every `thin`-th column: more cells would not be seen.
     thin = max(1, -(-max(surface.z.shape) // MOST_CELLS))
     x, y = np.meshgrid(surface.x[::thin], surface.y[::thin])
     lowest = float(np.nanmin(surface.z))
     z = np.where(np.isnan(surface.z), lowest, surface.z)[::thin, ::thin]
     # sides of the block, which hide the outside of the crater's wall
-    x, y, z = np.pad(x, 1, "edge"), np.pad(y, 1, "edge"), np.pad(z, 1, constant_values=lowest)
+    x = np.pad(x, 1, "edge")
+    y = np.pad(y, 1, "edge")
+    z = np.pad(z, 1, constant_values=lowest)
     shown = np.pad(colors[::thin, ::thin], ((1, 1), (1, 1), (0, 0)), "edge")
-    look = {"rstride": 1, "cstride": 1, "linewidth": 0.0, "antialiased": False, "shade": False}
+    options = {"rstride": 1, "cstride": 1, "linewidth": 0.0, "antialiased": False, "shade": False}
     places = (side * unit.factor for side in (x, y, z))
-    axes.plot_surface(*places, facecolors=shown, zorder=1, **look)
+    axes.plot_surface(*places, facecolors=shown, zorder=1, **options)
 
 
 def draw_ejecta(axes: Any, step: Snapshot, colors: Any, scale: Any, unit: style.Unit) -> float:
@@ -95,10 +101,11 @@ def draw_ejecta(axes: Any, step: Snapshot, colors: Any, scale: Any, unit: style.
     flying = np.flatnonzero(step["stage"] == EJECTED)
     if flying.size == 0:
         return 0.0
+    # Some of the ejecta: more dots would hide the crater.
     shown = flying[:: max(1, flying.size // MOST_EJECTA)]
     x, y, z = step["position"][:, shown] * unit.factor
-    look = {"depthshade": False, "linewidths": 0.2, "edgecolors": "black", "zorder": 2}
-    axes.scatter(x, y, z, s=5.0, c=colors(scale(step["temperature"][shown])), **look)
+    options = {"depthshade": False, "linewidths": 0.2, "edgecolors": "black", "zorder": 2}
+    axes.scatter(x, y, z, s=5.0, c=colors(scale(step["temperature"][shown])), **options)
     return float(np.max(z))
 
 
@@ -124,10 +131,12 @@ def crater_scene(run: RunOrFolder, path: Path, time: float | None = None) -> Pat
         ) from error
     if not has_ablation(run) or run.snapshots.dimension != 3:
         raise OutputError(f"{run.path} is no 3-D run with ablation")
+
+    # Surface as triangles, colored by the temperature of its particles.
     step = crater_snapshot(run) if time is None else run.snapshots.nearest(time)
     limits = temperature_range(run)
     bar: Any = {"fmt": "%.0f", "color": "black", "vertical": True, "position_y": 0.25}
-    look: dict[str, Any] = {"cmap": style.TEMPERATURE_COLORS, "clim": limits}
+    options: dict[str, Any] = {"cmap": style.TEMPERATURE_COLORS, "clim": limits}
     surface = height_map(step)
     faces = surface.triangles()
     mesh = pyvista.PolyData(
@@ -136,14 +145,16 @@ def crater_scene(run: RunOrFolder, path: Path, time: float | None = None) -> Pat
     name = "temperature [K]"
     mesh[name] = np.nan_to_num(surface_temperature(step, surface).ravel(), nan=limits[0])
     plotter = pyvista.Plotter(off_screen=True, window_size=list(PIXELS))
-    plotter.add_mesh(mesh, scalars=name, scalar_bar_args=bar, **look)
+    plotter.add_mesh(mesh, scalars=name, scalar_bar_args=bar, **options)
+
+    # Ejecta as balls a little smaller than a particle.
     flying = np.flatnonzero(step["stage"] == EJECTED)
     if flying.size:
         dots = pyvista.PolyData(MICROMETERS * step["position"][:, flying].T)
         dots[name] = step["temperature"][flying]
         size = 0.8 * MICROMETERS * float(np.min(step["width"]))
         balls: Any = dots.glyph(geom=pyvista.Sphere(radius=0.5 * size), scale=False, orient=False)
-        plotter.add_mesh(balls, scalars=name, show_scalar_bar=False, **look)
+        plotter.add_mesh(balls, scalars=name, show_scalar_bar=False, **options)
     plotter.add_text(style.time_text(step["time"]), font_size=12, color="black")
     names: dict[str, Any] = {f"{axis}title": f"{axis} [um]" for axis in "xyz"}
     plotter.show_bounds(**names, color="black", location="outer", font_size=11)

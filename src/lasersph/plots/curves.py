@@ -37,11 +37,14 @@ def draw_columns(
         stairs: values change by whole cells and are drawn through the middles of their steps.
     """
     texts = {names: None} if isinstance(names, str) else names
+
+    # One unit for all columns, by the largest of their values.
     first = COLUMNS[next(iter(texts))]
     time, time_label = time_axis(run.history)
     largest = max(float(np.max(np.abs(run.history[column]))) for column in texts)
     dimension = int(summary_of(run).get("dimensions", 3))
     unit = style.fitting_unit(unit_in(first.unit, dimension), largest)
+    # Gaps where nothing is, and middles in place of stairs.
     for k, (column, text) in enumerate(texts.items()):
         x, y = time, run.history[column] * unit.factor
         if gaps:
@@ -51,6 +54,7 @@ def draw_columns(
         if stairs:
             x, y = style.without_stairs(x, y)
         axes.plot(x, y, style.LINES[k % 4], color=style.COLORS[k % 8], label=text)
+    # The time is named below the lowest panel only.
     place = axes.get_subplotspec()
     is_lowest = place is None or place.is_last_row()
     words = label or first.words
@@ -71,6 +75,7 @@ def time_axis(history: dict[str, np.ndarray], end: float | None = None) -> tuple
 def limit_time(axes: Axes, run: Run, holds: np.ndarray, margin: float) -> None:
     """Limit the time axis to when something held (rows,), and a margin of that time around it."""
     time, _ = time_axis(run.history)
+    # Rows at which it held, from the first to the last.
     rows = np.flatnonzero(holds)
     around = margin * (time[rows[-1]] - time[rows[0]]) + 1e-9 * time[-1]
     axes.set_xlim(max(time[rows[0]] - around, time[0]), min(time[rows[-1]] + around, time[-1]))
@@ -91,6 +96,7 @@ def incident_power(history: dict[str, np.ndarray]) -> np.ndarray:
     energy, time = history["energy_incident_J"], history["time_s"]
     if energy.size < 3 or energy[-1] <= 0.0:
         return np.zeros(energy.size)
+    # Power: the difference of the energy over that of the time, moved to the middle of each step.
     rate = np.concatenate([[0.0], np.diff(energy) / np.maximum(np.diff(time), 1e-300)])
     centered = np.interp(time, 0.5 * (time + np.concatenate([time[:1], time[:-1]])), rate)
     return np.maximum(centered, 0.0) / max(float(np.max(centered)), 1e-300)
@@ -100,16 +106,18 @@ def draw_pulse(axes: Axes, history: dict[str, np.ndarray], end: float | None = N
     """The shape of the pulse as a shade at the foot of the axes; `end` as of `time_axis`."""
     power = incident_power(history)
     if np.any(power > 0.0):
-        look: dict[str, Any] = {"color": "#E69F00", "alpha": 0.35, "linewidth": 0.0, "zorder": 0}
+        options: dict[str, Any] = {"color": "#E69F00", "alpha": 0.35, "linewidth": 0.0, "zorder": 0}
         foot, time = axes.get_xaxis_transform(), time_axis(history, end)[0]
         name = "power of the light (no scale)"
-        axes.fill_between(time, 0.0, 0.25 * power, transform=foot, label=name, **look)
+        axes.fill_between(time, 0.0, 0.25 * power, transform=foot, label=name, **options)
 
 
 def draw_corner_temperatures(axes: Axes, corners: Mapping[str, Any]) -> None:
     """Lines at the melting range and the vaporization temperature, where these are in view."""
     top = axes.get_ylim()[1]
     solidus, liquidus = corners.get("solidus_K"), corners.get("liquidus_K")
+    # Solidus and liquidus share a line where they are one temperature, and a name where they are
+    # near.
     for key, text in CORNERS.items():
         value = corners.get(key)
         if value is None or value > top:

@@ -43,6 +43,7 @@ class PlaneFlow:
 
     def inside(self, frame: Box, margin: float = 0.0) -> PlaneFlow:
         """The part within a frame, widened by a margin [m] on each side."""
+        # Cells that touch the frame, so that its edges are covered as well.
         x, z = self.cells.center
         half = 0.5 * self.cells.size + margin
         chosen = (x + half[0] > frame.left) & (x - half[0] < frame.right)
@@ -66,10 +67,12 @@ class PlaneFlow:
         """
         from scipy.spatial import KDTree
 
+        # Nodes in the middle of even cells, and the particles around them.
         x = frame.across((np.arange(columns) + 0.5) / columns)
         z = frame.up((np.arange(rows) + 0.5) / rows)
         nodes = np.array([grid.ravel() for grid in np.meshgrid(x, z)])
         near = self.inside(frame, 4.0 * float(np.max(self.cells.size[:, self.flows], initial=0.0)))
+        # A linear fit to the particles around each node; no velocity outside flowing metal.
         velocity = interpolate(near.cells.center, near.velocity, nodes)
         _, closest = KDTree(near.cells.center.T).query(nodes.T)
         closest = np.asarray(closest)
@@ -128,10 +131,12 @@ def plane_flow(run: Run, time: float) -> PlaneFlow:
     step = run.snapshots.nearest(time)
     count = step["position"].shape[1]
     cells = Cells(step["position"], step["width"], np.arange(count))
+    # A box fills its walls at all times: the frame is that of the lattice at the start.
     if is_box(run) and not len(run.surface):  # its particles lay on a lattice at first
         first = run.snapshots[0]
         cells = replace(cells, walls=Cells(first["position"], first["width"], cells.number).frame)
     velocity = step.get("velocity", np.zeros(step["position"].shape))
+    # The mirror image has the opposite u and the same w.
     if run.symmetry_factor == 2:
         cells = cells.mirrored()
         velocity = np.concatenate([velocity * np.array([[-1.0], [1.0]]), velocity], axis=1)
@@ -140,15 +145,18 @@ def plane_flow(run: Run, time: float) -> PlaneFlow:
 
 def pool_frame(run: Run, flow: PlaneFlow) -> Box:
     """Frame of a picture of the melt pool: the largest pool and rim of the run and a margin."""
+    # Largest pool of the run by its summary, else that of this snapshot.
     melt = summary_of(run).get("melt", {})
     wet = flow.step["melt_fraction"][flow.cells.number] > 0.0
     x, z = flow.cells.center
     size = float(np.min(flow.cells.size))
     wide = melt.get("width_any_max_m") or (2.0 * np.max(np.abs(x), where=wet, initial=0.0))
     deep = melt.get("depth_any_max_m") or np.max(-z, where=wet, initial=0.0)
+    # A pool of few cells is shown with some of its surroundings, but not beyond the body.
     half_width = max(0.5 * MARGIN * float(wide), 8.0 * size)
     left, right, bottom, _ = flow.cells.frame
     depth = max(DEPTH * float(deep), 6.0 * size)
+    # The rim rises above the original surface.
     rim = float(np.max(run.history.get("topography.rim_height_m", np.zeros(1))))
     top = DEPTH * rim + size if rim > 0.0 else 0.0
     return Box(max(-half_width, left), min(half_width, right), max(-depth, bottom), top)
@@ -173,6 +181,7 @@ def is_box(run: Run) -> bool:
 def fastest_time(run: Run) -> float:
     """When the surface was fastest; where none moved, when anything was; a box at the end [s]."""
     history = run.history
+    # A box is slow at first and steady at the end.
     if is_box(run):
         return float(history["time_s"][-1])
     column = history["flow_surface_speed_max_m_s"]

@@ -37,6 +37,7 @@ def speed_history(run: RunOrFolder) -> Figure | None:
     run = open_run(run)
     if not any_above_zero(run, "flow_speed_max_m_s"):
         return None
+    # Particles always, the surface where it has speeds of its own.
     lines = {"flow_speed_max_m_s": "of any particle"}
     if any_above_zero(run, "flow_surface_speed_max_m_s"):
         depth = summary_of(run).get("flow", {}).get("below_depth_m")
@@ -64,6 +65,7 @@ def extrema_history(run: RunOrFolder) -> Figure | None:
     if not any(any_above_zero(run, f"flow_{name}_speed_m_s") for name in names):
         return None
     figure, (above, below) = style.new_figure(2, height=4.9, share_x=True)
+    # Speed above, place below, over the same time.
     for axes, end, label in (
         (above, "speed_m_s", "surface speed"),
         (below, "x_m", "distance from x = 0"),
@@ -116,6 +118,8 @@ def quality_history(run: RunOrFolder) -> Figure | None:
         return None
     history = run.history
     figure, all_axes = style.new_figure(3, height=5.6, share_x=True)
+
+    # Energy and divergence are logarithms or gaps at zero, distances relative to the first.
     time, time_label = time_axis(history)
     energy = where_above_zero(history["flow_kinetic_energy_J"])
     divergence = where_above_zero(history["flow_divergence_relative"])
@@ -135,6 +139,7 @@ def quality_history(run: RunOrFolder) -> Figure | None:
 def nusselt_history(run: RunOrFolder) -> Figure | None:
     """Nusselt numbers of the sides and of the whole box over time; None where there are none."""
     run = open_run(run)
+    # A side without heat has no Nusselt number.
     names = [name for name in run.history if name.startswith("box_nusselt_")]
     words = {"surface": "surface", "bottom": "bottom", "mean": "domain-averaged"}
     keys = {name: name.removeprefix("box_nusselt_") for name in names}
@@ -154,6 +159,7 @@ def nusselt_history(run: RunOrFolder) -> Figure | None:
 
 def show_flow(axes: Axes, run: Run) -> None:
     """Limit the time axis to the time at which something flowed, and with light to its start."""
+    # A flow without light begins with the run.
     moves = run.history["flow_speed_max_m_s"] > 0.0
     if is_box(run) and not np.any(incident_power(run.history) > 0.0):
         moves[0] = True
@@ -181,6 +187,7 @@ def center_line_figure(run: RunOrFolder) -> Figure | None:
     run = open_run(run)
     if not has_flow(run) or not is_box(run):
         return None
+    # Both lines from one snapshot, each velocity in the same unit.
     lines = lines_of(run, np.linspace(0.0, 1.0, POINTS))
     largest = float(max(np.max(np.abs(lines.u)), np.max(np.abs(lines.w))))
     if largest == 0.0:

@@ -20,7 +20,7 @@ from lasersph.plots.flow_fields import (
     pool_frame,
     raster,
 )
-from lasersph.plots.particle_map import LARGEST_STRETCH, MAP_WIDTH
+from lasersph.plots.particle_map import MAP_WIDTH, exaggeration_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,15 +58,17 @@ def pool_flow_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     flow = plane_flow(run, fastest_time(run) if time is None else time)
     if flow.fastest == 0.0:
         return None
+
+    # Temperature, speed with arrows, phase with streamlines.
     frame = pool_frame(run, flow)
-    figure, all_axes, stretch = stack_panels(frame, 3)
+    figure, all_axes, exaggeration = stack_panels(frame, 3)
     unit, picture = frame_unit(frame), raster(flow, frame)
     draw_temperature(all_axes[0], picture, unit)
     draw_speed(all_axes[1], picture, unit, flow.fastest)
     draw_arrows(all_axes[1], flow, frame, unit, flow.fastest, ARROWS)
     draw_phase(all_axes[2], picture, unit)
     draw_streamlines(all_axes[2], flow, frame, unit, color="black", density=1.8)
-    finish(figure, all_axes, flow, frame, unit, stretch)
+    finish(figure, all_axes, flow, frame, unit, exaggeration)
     return figure
 
 
@@ -85,13 +87,18 @@ def box_flow_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     flow = plane_flow(run, fastest_time(run) if time is None else time)
     if flow.fastest == 0.0:
         return None
+
+    # Panels beside each other in a high box, above each other in a flat one.
     frame = body_frame(flow)
     unit, picture = frame_unit(frame), raster(flow, frame)
     if are_beside(frame):
-        height, stretch, count = beside_height(frame, 2), 1.0, BOX_ARROWS
+        height = beside_height(frame, 2)
+        exaggeration = 1.0
+        count = BOX_ARROWS
         figure, all_axes = style.new_figure(1, 2, height=height)
     else:
-        (figure, all_axes, stretch), count = stack_panels(frame, 2), ARROWS
+        (figure, all_axes, exaggeration), count = stack_panels(frame, 2), ARROWS
+    # Speed with arrows, then streamlines over the temperature where it varies.
     draw_speed(all_axes[0], picture, unit, flow.fastest)
     draw_arrows(all_axes[0], flow, frame, unit, flow.fastest, count)
     warm = varies(flow)
@@ -100,7 +107,7 @@ def box_flow_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     color = "white" if warm else "black"
     draw_streamlines(all_axes[1], flow, frame, unit, color=color, density=1.1)
     style.label(all_axes[1], f"x [{unit.name}]", f"z [{unit.name}]")
-    finish(figure, all_axes, flow, frame, unit, stretch)
+    finish(figure, all_axes, flow, frame, unit, exaggeration)
     return figure
 
 
@@ -135,8 +142,8 @@ def draw_phase(axes: Axes, picture: Raster, unit: style.Unit) -> None:
     """Phase of the particles: solid, mush, liquid, boiling."""
     from matplotlib.colors import ListedColormap
 
-    look = {"cmap": ListedColormap(list(PHASE_COLORS)), "vmin": -0.5, "vmax": 3.5}
-    image = style.paint(axes, picture.phase(), picture.edges, unit, **look)
+    options = {"cmap": ListedColormap(list(PHASE_COLORS)), "vmin": -0.5, "vmax": 3.5}
+    image = style.paint(axes, picture.phase(), picture.edges, unit, **options)
     style.color_bar(axes, image, "phase").set_ticks(range(4), labels=PHASES)
 
 
@@ -147,11 +154,12 @@ def draw_speed(axes: Axes, picture: Raster, unit: style.Unit, largest: float) ->
         largest: end of the color scale [m/s].
     """
     speed = style.speed_unit(largest)
+    # Metal in gray below the colors of what flows.
     gray = {"cmap": "gray", "vmin": 0.0, "vmax": 1.0 / METAL_GRAY}
     style.paint(axes, picture.metal(), picture.edges, unit, **gray)
     values, top = picture.speed() * speed.factor, max(largest * speed.factor, 1e-12)
-    look = {"cmap": style.SPEED_COLORS, "vmin": 0.0, "vmax": top}
-    image = style.paint(axes, values, picture.edges, unit, **look)
+    options = {"cmap": style.SPEED_COLORS, "vmin": 0.0, "vmax": top}
+    image = style.paint(axes, values, picture.edges, unit, **options)
     style.color_bar(axes, image, f"speed [{speed.name}]")
 
 
@@ -167,8 +175,12 @@ def draw_arrows(
     columns, rows = grid_of(frame, count)
     x, z, velocity = flow.on_grid(frame, columns, rows)
     speed = np.hypot(*velocity)
+    # Length of an arrow over the largest: sqrt(u / u_max), so that slow flow is seen as well.
     length = 1.0 / np.sqrt(np.maximum(speed, 1e-12 * largest) * largest)
-    step = unit.factor * min(frame.width / columns, frame.height / rows * stretch_of(frame))
+    # The longest arrow is a little longer than the distance of two.
+    step = unit.factor * min(
+        frame.width / columns, frame.height / rows * exaggeration_of(1.0 / shape_of(frame))
+    )
     axes.quiver(
         x * unit.factor,
         z * unit.factor,
@@ -192,7 +204,8 @@ def draw_streamlines(
     """Streamlines of the liquid."""
     columns, rows = grid_of(frame, STREAM_COLUMNS)
     x, z, velocity = flow.on_grid(frame, columns, rows)
-    shape = shape_of(frame) * stretch_of(frame)
+    # A flat picture needs fewer streamlines across than along.
+    shape = drawn_shape(frame)
     axes.streamplot(
         x * unit.factor,
         z * unit.factor,
@@ -207,10 +220,10 @@ def draw_streamlines(
 
 def stack_panels(frame: Box, panels: int) -> tuple[Figure, list[Axes], float]:
     """A figure of panels above each other, and how much larger than to scale depth is drawn."""
-    stretch = stretch_of(frame)
-    height = MAP_WIDTH * shape_of(frame) * stretch
+    exaggeration = exaggeration_of(1.0 / shape_of(frame))
+    height = MAP_WIDTH * drawn_shape(frame)
     figure, all_axes = style.new_figure(panels, height=panels * (height + 0.55) + 0.4)
-    return figure, all_axes, stretch
+    return figure, all_axes, exaggeration
 
 
 def finish(
@@ -219,14 +232,14 @@ def finish(
     flow: PlaneFlow,
     frame: Box,
     unit: style.Unit,
-    stretch: float,
+    exaggeration: float,
 ) -> None:
     """Limits, proportions and the line above that says the time."""
     for axes in all_axes:
         axes.set_xlim(frame.left * unit.factor, frame.right * unit.factor)
         axes.set_ylim(frame.bottom * unit.factor, frame.top * unit.factor)
-        axes.set_aspect(stretch)
-    note = f"; the depth is drawn {stretch:.3g} times larger" if stretch > 1.0 else ""
+        axes.set_aspect(exaggeration)
+    note = f"; the depth is drawn {exaggeration:.3g} times larger" if exaggeration > 1.0 else ""
     figure.suptitle(style.time_text(flow.time) + note, fontsize=10)
 
 
@@ -240,15 +253,15 @@ def shape_of(frame: Box) -> float:
     return frame.height / frame.width
 
 
-def stretch_of(frame: Box) -> float:
-    """How much larger than to scale the depth of a flat frame is drawn; 1 for others."""
-    stretch = max(1.0, 1.0 / (shape_of(frame) * LARGEST_STRETCH))
-    return 1.0 if stretch < 1.25 else float(stretch)
+def drawn_shape(frame: Box) -> float:
+    """Height over width as a frame is drawn, the depth of a flat one larger than to scale."""
+    return shape_of(frame) * exaggeration_of(1.0 / shape_of(frame))
 
 
 def grid_of(frame: Box, longer: int) -> tuple[int, int]:
     """Columns and rows of a grid that looks even in the picture."""
-    shape = shape_of(frame) * stretch_of(frame)
+    # The grid is even as it is drawn, not in meters.
+    shape = drawn_shape(frame)
     if shape <= 1.0:
         return longer, max(round(longer * shape), 3)
     return max(round(longer / shape), 3), longer

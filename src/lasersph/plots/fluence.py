@@ -13,8 +13,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-PAIR, SINGLE, LINE = 3.2, 5.3, 0.18
-"""Heights [inch] of two square maps side by side and of one, and of a line of the note above."""
+PAIR = 3.2
+"""Height of two square maps side by side [inch]."""
+SINGLE = 5.3
+"""Height of one map [inch]."""
+LINE = 0.18
+"""Height of a line of the note above [inch]."""
 
 
 class Map(Protocol):
@@ -34,6 +38,7 @@ def fluence_figure(maps: Sequence[Map], note: str) -> Figure:
     """One panel a map with its own scale; `note` says above them what the numbers are."""
     height = (PAIR if len(maps) > 1 else SINGLE) + LINE * (1 + note.count("\n"))
     figure, panels = style.new_figure(1, len(maps), height=height)
+    # Pixels lie around their centers: the edges are half a pixel out.
     for axes, each in zip(panels, maps, strict=True):
         unit = style.unit_for(float(each.x[-1]), style.LENGTHS)
         half = 0.5 * (each.x[1] - each.x[0]), 0.5 * (each.y[1] - each.y[0])

@@ -31,6 +31,8 @@ def temperature_history(run: RunOrFolder) -> Figure:
     run = open_run(run)
     history = run.history
     figure, (axes,) = style.new_figure()
+
+    # Probes that would hide the line of the surface share it.
     at_maximum, largest = history["temperature_at_maximum_K"], history["temperature_max_K"]
     # a probe that would hide the line of the surface shares it
     probes = {name: name.removeprefix("probe_").removesuffix("_K") for name in history}
@@ -41,6 +43,7 @@ def temperature_history(run: RunOrFolder) -> Figure:
     lines = {"temperature_at_maximum_K": words}
     if not are_same(largest, at_maximum):
         lines["temperature_max_K"] = "largest anywhere"
+    # The pulse, the surface, the probes, the temperatures of the metal.
     draw_pulse(axes, history)
     draw_columns(axes, run, lines, label="temperature")
     for k, (column, name) in enumerate(probes.items()):
@@ -65,6 +68,8 @@ def melt_pool_history(run: RunOrFolder) -> Figure | None:
     run = open_run(run)
     if not any_above_zero(run, "melt_depth_any_m"):
         return None
+
+    # A panel a size, and one for the volume where it is followed.
     sizes = [size for size in ("width", "depth") if f"melt_{size}_m" in run.history]
     has_volume = "melt_volume_m3" in run.history
     panels = len(sizes) + has_volume
@@ -85,6 +90,8 @@ def energy_history(run: RunOrFolder) -> Figure:
     """Where the absorbed energy is, and how well the balance closes."""
     run = open_run(run)
     history = run.history
+
+    # Above: where the energy is. Small terms are left out.
     figure, (above, below) = style.new_figure(2, height=4.6, share_x=True)
     time, time_label = time_axis(history)
     largest = max(float(np.max(history[f"energy_{term}_J"])) for term in ("absorbed", "stored"))
@@ -96,6 +103,8 @@ def energy_history(run: RunOrFolder) -> Figure:
             above.plot(time, values, style.LINES[k % 4], color=style.COLORS[k], label=term)
     style.label(above, "", f"energy [{unit.name}]")
     style.legend(above)
+
+    # Below: the imbalance on a logarithmic scale, with what is allowed.
     shown = np.maximum(history["energy_imbalance_relative"], 1e-17)
     below.semilogy(time, shown, color=style.COLORS[6], linewidth=1.0)
     with_flow = "flow_speed_max_m_s" in history
@@ -116,6 +125,8 @@ def time_step_history(run: RunOrFolder) -> Figure:
     history = run.history
     counts = [column for column in history if column.startswith("iterations_")]
     figure, all_axes = style.new_figure(1 + bool(counts), height=4.6, share_x=True)
+
+    # Above: the step, a color for each reason. The first row has no step.
     time, time_label = time_axis(history)
     step, limit = history["time_step_s"], history["limit"]
     taken = step > 0.0
@@ -123,14 +134,18 @@ def time_step_history(run: RunOrFolder) -> Figure:
     for k, reason in enumerate(sorted(set(limit[taken].astype(str)))):
         of_reason, color = taken & (limit == reason), style.COLORS[k % 8]
         x, y = time[of_reason], step[of_reason] * unit.factor
-        look = {"ls": "", "marker": style.MARKERS[k % 8], "ms": 3.0, "color": color}
-        all_axes[0].plot(x, y, **look, label=reason or "unnamed")
+        options = {"ls": "", "marker": style.MARKERS[k % 8], "ms": 3.0, "color": color}
+        all_axes[0].plot(x, y, **options, label=reason or "unnamed")
+
+    # A logarithmic scale where steps differ by more than a factor of 20.
     if np.max(step[taken]) > 20.0 * np.min(step[taken]):
         all_axes[0].set_yscale("log")
     else:
         all_axes[0].set_ylim(bottom=0.0)
     style.label(all_axes[0], "", f"time step [{unit.name}]")
     style.legend_above(figure, all_axes[0], columns=4)
+
+    # Below: iterations of what the solver counts.
     for k, column in enumerate(counts):
         text = column.removeprefix("iterations_").replace("_", " ")
         x, y = time[taken], history[column][taken]

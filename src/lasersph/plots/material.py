@@ -47,6 +47,7 @@ def material_figure(material: Material) -> Figure:
     """Figure of all properties of a material that depend on temperature, and of its enthalpy."""
     from lasersph.plots.notebook_figure import NotebookFigure
 
+    # Panels for what depends on temperature, one for the enthalpy, one for the numbers.
     properties = material.properties()
     panels = [panel for panel in PANELS if panel.name in properties]
     rows = -(-(len(panels) + 2) // COLUMNS)
@@ -57,16 +58,17 @@ def material_figure(material: Material) -> Figure:
     margins = {"left": 0.075, "right": 0.985, "top": 1.0 - 0.75 / height, "bottom": bottom}
     grid = figure.add_gridspec(rows, COLUMNS, **margins, wspace=0.3, hspace=0.42)
     span = _span(material)
+    # Each panel has the number of its source below the figure.
     for number, panel in enumerate(panels):
         axes = figure.add_subplot(grid[divmod(number, COLUMNS)])
         _draw_property(axes, material, panel, span)
-        look = {"ha": "right", "fontsize": 8, "color": "0.4"}
-        axes.text(-0.03, 1.02, f"[{number + 1}]", transform=axes.transAxes, **look)
+        options = {"ha": "right", "fontsize": 8, "color": "0.4"}
+        axes.text(-0.03, 1.02, f"[{number + 1}]", transform=axes.transAxes, **options)
     _draw_enthalpy(figure.add_subplot(grid[divmod(len(panels), COLUMNS)]), material, span)
     _write_numbers(figure.add_subplot(grid[divmod(len(panels) + 1, COLUMNS)]), material)
     figure.suptitle(material.title or material.name, x=0.075, y=1.0 - 0.2 / height, ha="left")
-    look = {"fontsize": 7.5, "va": "top", "color": "0.25", "linespacing": 1.25}
-    figure.text(0.075, (0.15 * len(notes) + 0.2) / height, "\n".join(notes), **look)
+    options = {"fontsize": 7.5, "va": "top", "color": "0.25", "linespacing": 1.25}
+    figure.text(0.075, (0.15 * len(notes) + 0.2) / height, "\n".join(notes), **options)
     return figure
 
 
@@ -79,6 +81,7 @@ def plot_material(material: Material, file: str | Path) -> Path:
 
 def _span(material: Material) -> tuple[float, float]:
     """Temperatures of all panels [K]: reference temperature to 5 % above the boiling point."""
+    # Up to the boiling point, at least beyond melting.
     top = material.vaporization.temperature if material.vaporization else 0.0
     top = max(top, 1.2 * (material.liquidus or 0.0), material.reference_temperature + 1000.0)
     return material.reference_temperature, 1.05 * top
@@ -87,6 +90,8 @@ def _span(material: Material) -> tuple[float, float]:
 def _draw_property(axes: Axes, material: Material, panel: Panel, span: tuple[float, float]) -> None:
     found = material.properties()[panel.name]
     solidus, liquidus = material.solidus, material.liquidus
+
+    # Solid, a dotted line through the melting range, liquid; a property without phases in one.
     _shade(axes, material, span)
     if solidus is None or liquidus is None or (found.is_constant and not panel.liquid_only):
         _draw_law(axes, found.solid_law, span, panel.factor)
@@ -96,6 +101,7 @@ def _draw_property(axes: Axes, material: Material, panel: Panel, span: tuple[flo
             values = np.array([found.solid_law.at(solidus), found.liquid_law.at(liquidus)])
             axes.plot([solidus, liquidus], values * panel.factor, color=LINE, lw=1.0, ls=":")
         _draw_law(axes, found.liquid_law, (liquidus, span[1]), panel.factor)
+    # A constant would fill its panel by rounding alone.
     if all(law.is_constant for law in found.laws().values()) and len(found.laws()) == 1:
         value = float(found.at(span[0])) * panel.factor
         axes.set_ylim(*sorted((0.0, 1.6 * value)))
@@ -105,6 +111,7 @@ def _draw_property(axes: Axes, material: Material, panel: Panel, span: tuple[flo
 
 def _draw_law(axes: Axes, law: Law[Any], span: tuple[float, float], factor: float) -> None:
     """One law: solid line inside the range of its source, dashed where a value is held."""
+    # Dots of the source, a full line in its range, a dashed one outside.
     low, high = max(span[0], law.lower), min(span[1], law.upper)
     if law.table:
         rows = np.array([row for row in law.table if span[0] <= row[0] <= span[1]])
@@ -120,6 +127,8 @@ def _draw_law(axes: Axes, law: Law[Any], span: tuple[float, float], factor: floa
 def _write_numbers(axes: Axes, material: Material) -> None:
     """Single numbers of the material as a small table."""
     axes.axis("off")
+
+    # Melting, boiling, expansion and optics, as far as the metal has them.
     rows: list[tuple[str, str]] = []
     if material.melting is not None:
         melt = material.melting
@@ -146,6 +155,7 @@ def _write_numbers(axes: Axes, material: Material) -> None:
             rows.append(("optics hold at", format_quantity(optics.wavelength, "m", 6)))
         if optics.emissivity is not None:
             rows.append(("emissivity", f"{optics.emissivity:g}"))
+        # Optics by wavelength: reflectivity when cold, and depth of the light.
         for wavelength in optics.wavelengths() if optics.by_wavelength else ():
             light = optics.at(wavelength)
             R, alpha = light.reflectivity, light.absorption_coefficient
@@ -162,6 +172,7 @@ def _draw_enthalpy(axes: Axes, material: Material, span: tuple[float, float]) ->
     """Enthalpy above the reference temperature, with the jumps of melting and boiling."""
     _shade(axes, material, span)
     boils = material.vaporization is not None
+    # Up to the full heat of vaporization, where the plateau ends.
     curve = material.caloric_curve(span[0], "hold" if boils else "evaporate")
     if curve.enthalpy_vaporizing is not None:
         high = 1.25 * curve.enthalpy_vaporizing
@@ -172,8 +183,8 @@ def _draw_enthalpy(axes: Axes, material: Material, span: tuple[float, float]) ->
     if boils and material.vaporization is not None:
         text = f"boiling: + {material.vaporization.latent_heat / 1e6:.4g} MJ/kg"
         place = (material.vaporization.temperature, high / 1e6)
-        look = {"ha": "right", "va": "top", "fontsize": 7.5, "color": "0.25"}
-        axes.annotate(text, place, xytext=(-6, -4), textcoords="offset points", **look)
+        options = {"ha": "right", "va": "top", "fontsize": 7.5, "color": "0.25"}
+        axes.annotate(text, place, xytext=(-6, -4), textcoords="offset points", **options)
     axes.set_ylim(0.0, high / 1e6)
     axes.set_ylabel(f"enthalpy above {span[0]:g} K [MJ/kg]", fontsize=9)
 
@@ -185,6 +196,8 @@ def _shade(axes: Axes, material: Material, span: tuple[float, float]) -> None:
     axes.tick_params(labelsize=8)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+
+    # Backgrounds of the phases, where the metal melts.
     if material.solidus is None or material.liquidus is None:
         return
     axes.axvspan(span[0], material.solidus, color=PHASES["solid"], lw=0)
@@ -203,6 +216,7 @@ def _shade(axes: Axes, material: Material, span: tuple[float, float]) -> None:
 def _source_lines(material: Material, panels: list[Panel]) -> list[str]:
     """Numbered sources of the panels, wrapped; the last lines explain the drawing."""
     lines = []
+    # Sources by the number of their panel, wrapped to the width of the page.
     for number, panel in enumerate(panels):
         laws = material.properties()[panel.name].laws()
         parts = [

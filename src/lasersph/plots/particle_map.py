@@ -14,13 +14,13 @@ from lasersph.plots.curves import draw_corner_temperatures, material_of, summary
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-LARGEST_STRETCH = 4.0
+LARGEST_ASPECT = 4.0
 MAP_WIDTH = 5.6
 FIELDS = (
     ("temperature", "temperature [K]", style.TEMPERATURE_COLORS),
     ("melt_fraction", "melt fraction [1]", style.FRACTION_COLORS),
 )
-"""What is drawn: name, words and colors; of a run without phase change the first alone."""
+"""Fields that are drawn: name, words and colors; of a run without phase change the first alone."""
 PIXELS = (320, 1280)
 OUTSIDE = 0.8
 """A pixel farther than this part of a cell's width from its center lies in no cell."""
@@ -57,6 +57,7 @@ class Cells:
         """Left, right, bottom and top edge [m]."""
         if self.walls is not None:
             return self.walls
+        # Edges of the outermost cells.
         low = np.min(self.center - 0.5 * self.size, axis=1)
         high = np.max(self.center + 0.5 * self.size, axis=1)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
@@ -77,19 +78,37 @@ class Cells:
         """
         from scipy.spatial import KDTree
 
+        # Centers of the pixels.
         left, right, bottom, top = self.frame if frame is None else frame
         rows, columns = pixels
         across = left + (np.arange(columns) + 0.5) * (right - left) / columns
         up = bottom + (np.arange(rows) + 0.5) * (top - bottom) / rows
         points = np.array([grid.ravel() for grid in np.meshgrid(across, up)])
+        # Distances in widths of a cell, so that the closest cell is the one that covers the pixel.
         square = np.array([[np.median(self.size[1] / self.size[0])], [1.0]])
         _, cell = KDTree((self.center * square).T).query((points * square).T)
-        return np.where(self.covers(points, np.asarray(cell)), self.number[cell], -1).reshape(
-            pixels
-        )
+        cell = np.asarray(cell).reshape(pixels)
+        is_covered = self.covers(points, cell.ravel()).reshape(pixels)
+        if self.walls is None:
+            is_covered &= ~self._above_top(up, cell, is_covered)
+        return np.where(is_covered, self.number[cell], -1)
+
+    def _above_top(self, up: np.ndarray, cell: np.ndarray, is_covered: np.ndarray) -> np.ndarray:
+        """Which pixels lie above the upper face of the highest cell of their column.
+
+        Args:
+            up: heights of the rows of pixels [m]. cell: closest to each pixel, (rows, columns).
+            is_covered: which pixels lie within their cells.
+        """
+        rows, columns = cell.shape
+        highest = rows - 1 - np.argmax(is_covered[::-1], axis=0)
+        top = cell[highest, np.arange(columns)]
+        face = self.center[1, top] + 0.5 * self.size[1, top]
+        return (cell == top) & (up[:, None] > face)
 
     def covers(self, points: np.ndarray, cell: np.ndarray) -> np.ndarray:
         """Whether points (2, k) lie within the cells (k,) that are closest to them, (k,)."""
+        # In a closed box every point belongs to some cell.
         if self.walls is not None:
             left, right, bottom, top = self.walls
             x, z = points
@@ -118,33 +137,52 @@ def particle_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     depth = shown_depth(run, step)
     if run.snapshots.dimension == 1:
         return depth_profile(step, depth, material_of(run))
+
+    # Without phase change there is no melt to show.
     fields = FIELDS if material_of(run).get("solidus_K", 0.0) is not None else FIELDS[:1]
     cells = cells_of_cut(step, depth)
     cells = cells.mirrored() if run.symmetry_factor == 2 else cells
-    left, right, _, _ = cells.frame
-    shape = (right - left) / depth
-    stretch = max(1.0, shape / LARGEST_STRETCH)
-    stretch = 1.0 if stretch < 1.25 else stretch
-    height = 1.02 * MAP_WIDTH * stretch / shape
-    figure, all_axes = style.new_figure(len(fields), height=len(fields) * (height + 0.55) + 0.3)
+    left, right, _, top = cells.frame
+    # Rims stand above the original surface.
+    top = max(top, 0.0) + 0.02 * depth
+
+    # The depth of a flat map is drawn larger than to scale.
+    shape = (right - left) / (depth + top)
+    exaggeration = exaggeration_of(shape)
+    height = 1.02 * MAP_WIDTH * exaggeration / shape
+    figure, all_axes = style.new_figure(len(fields), height=len(fields) * (height + 0.55) + 0.4)
     picture = cells.picture()
     unit = style.unit_for(max(abs(left), abs(right)), style.LENGTHS)
+
+    # One panel a field, with the cells as pixels.
     for axes, (field, text, colors) in zip(all_axes, fields, strict=True):
         values = np.where(picture < 0, np.nan, step[field][picture])
         image = style.paint(axes, values, cells.frame, unit, cmap=colors)
         if field == "melt_fraction":
             image.set_clim(0.0, 1.0)
         style.color_bar(axes, image, text)
-        axes.set_ylim(-depth * unit.factor, 0.02 * depth * unit.factor)
-        axes.set_aspect(stretch)
-    note = f"; the depth is drawn {stretch:.3g} times larger" if stretch > 1.0 else ""
+        axes.set_ylim(-depth * unit.factor, top * unit.factor)
+        axes.set_aspect(exaggeration)
+    note = f"; the depth is drawn {exaggeration:.3g} times larger" if exaggeration > 1.0 else ""
     all_axes[0].set_title(style.time_text(step["time"]) + note, fontsize=10, loc="left")
     return figure
+
+
+def exaggeration_of(aspect: float) -> float:
+    """Factor by which the depth of a picture is drawn larger than to scale, 1 of all but flat ones.
+
+    Args:
+        aspect: width over height of what is shown.
+    """
+    factor = aspect / LARGEST_ASPECT
+    # A little more than to scale would only mislead.
+    return factor if factor >= 1.25 else 1.0
 
 
 def cells_of_cut(step: Snapshot, depth: float) -> Cells:
     """The cells down to a depth; in 3-D of the cut y = 0."""
     position, width = step["position"], step["width"]
+    # Cells down to the depth that is shown, and in space those of the cut.
     chosen = np.flatnonzero(position[-1] + 0.5 * width[-1] > -depth)
     if position.shape[0] == 3:
         chosen = chosen[in_cut(step, chosen)]
@@ -184,6 +222,7 @@ def depth_profile(step: Snapshot, depth: float, corners: dict[str, Any]) -> Figu
 def shown_depth(run: Run, step: Snapshot) -> float:
     """Depth that a map shows: the melt and half as much again, else where it is warm [m]."""
     z, height = step["position"][-1], step["width"][-1]
+    # The melt and half as much again, or where the metal is warm.
     bottom = float(np.max(0.5 * height - z))
     melt = summary_of(run).get("melt", {}).get("depth_any_max_m") or 0.0
     if melt == 0.0:
@@ -198,6 +237,7 @@ def deepest_melt_time(run: Run) -> float:
     history = run.history
     depth = history.get("melt_depth_any_m", np.zeros(0))
     if np.any(depth > 0.0):
+        # The melt can be deepest for a while: its middle.
         deepest = np.flatnonzero(depth == np.max(depth))
         return float(history["time_s"][deepest[deepest.size // 2]])
     return float(history["time_s"][np.argmax(history["temperature_max_K"])])
@@ -216,6 +256,8 @@ def arrangement(
     position, width = step["position"], step["width"]
     if position.shape[0] != 2:
         return None
+
+    # The whole body, and a detail of some cells at the surface.
     bottom = float(np.min(position[1] - 0.5 * width[1]))
     left, right = float(np.min(position[0])), float(np.max(position[0]))
     extent = float(max(right - left, -bottom))
@@ -225,6 +267,7 @@ def arrangement(
     for axes, frame in zip(all_axes, frames, strict=True):
         unit = style.unit_for(max(frame[1] - frame[0], -frame[2]), style.LENGTHS)
         margin = 0.06 * (frame[3] - frame[2])
+        # Dummies lighter, behind the particles.
         for points, color in ((dummies, "0.75"), (position, style.COLORS[0])):
             if points is None:
                 continue
@@ -254,6 +297,7 @@ def dot_size(
     width: np.ndarray, near: np.ndarray, frame: tuple[float, ...], own: bool, shown: np.ndarray
 ) -> np.ndarray | float:
     """Area of the dots in points squared: cells of the frame drawn to scale, at least visible."""
+    # Points of a printer per meter of the picture.
     points_per_meter = 200.0 / max(frame[1] - frame[0], frame[3] - frame[2])
     sizes = np.maximum(0.75 * width[1] * points_per_meter, 0.35) ** 2
     if own:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
-LINE_LOOKS = {
+LINE_STYLES = {
     "melts": (style.COLORS[5], "-"),
     "boils": (style.COLORS[1], "--"),
     "ablates": (style.COLORS[3], "-."),
@@ -77,12 +77,14 @@ class Onset:
 
     def words(self, unit: str) -> str:
         """The onset in words, of a first key with this SI unit: between 0.4 and 0.7 J/cm²."""
+        # Ends in the unit of the field, the lower one first.
         low, high = sorted(self.between)
         ends = in_field_units(low, unit), in_field_units(high, unit)
         if self.known in ("every", "none"):
             return (
                 f"in {'every' if self.known == 'every' else 'no'} run from {ends[0]} to {ends[1]}"
             )
+        # A measured onset has an error; a bracket only its ends.
         if self.known == "measured" and self.estimate is not None:
             error = max(high - self.estimate, self.estimate - low)
             return in_field_units(self.estimate, unit, error)
@@ -95,7 +97,7 @@ class Onset:
 
 @dataclass(frozen=True, eq=False)
 class ProcessMap:
-    """What a process map shows, in SI.
+    """Data of a process map, in SI.
 
     Attributes:
         axes: one or two keys.
@@ -111,7 +113,7 @@ class ProcessMap:
             holes, or stretches (2, 1) of one axis.
         onsets: the same on each line of a grid of runs, or over one key.
         target: the wanted value.
-        notes: what a reader should know, in sentences.
+        notes: sentences for the reader.
     """
 
     axes: tuple[MapAxis, ...]
@@ -143,7 +145,7 @@ class ProcessMap:
         return np.isfinite(self.values)
 
     def line_words(self, name: str) -> str:
-        """What a line is, for legends."""
+        """Words for a line in a legend."""
         if name == "target" and self.target is not None:
             return format_quantity(self.target, self.unit, typographic=True)
         return EVENTS[name]
@@ -167,10 +169,13 @@ def draw_process_map(shown: ProcessMap, levels: tuple[float, ...] = ()) -> Figur
     Args:
         levels: of the contours, in SI; default: round ones.
     """
+    # The number itself: a line over one key, a plane over two.
     figure, (axes,) = style.new_figure(height=4.2)
     units = [style.fitting_unit(axis.unit, float(np.max(axis.grid))) for axis in shown.axes]
     value_unit = style.fitting_unit(shown.unit, float(np.nanmax(np.abs(shown.values))))
     (_draw_line if len(shown.axes) == 1 else _draw_plane)(axes, shown, units, value_unit, levels)
+
+    # Runs without a result are crossed, below the curve where they have no height.
     bad = ~shown.is_usable
     if np.any(bad):
         places = [points * u.factor for points, u in zip(shown.points[bad].T, units, strict=True)]
@@ -187,6 +192,8 @@ def draw_process_map(shown: ProcessMap, levels: tuple[float, ...] = ()) -> Figur
             clip_on=False,
             zorder=5,
         )
+
+    # Scales and names of the axes.
     for axis, set_scale in zip(shown.axes, (axes.set_xscale, axes.set_yscale), strict=False):
         if axis.is_logarithmic:
             set_scale("log")
@@ -207,6 +214,8 @@ def _value_words(shown: ProcessMap, unit: style.Unit) -> str:
 def _draw_line(
     axes: Axes, shown: ProcessMap, units: list[style.Unit], unit: style.Unit, levels: object
 ) -> None:
+
+    # The curve with its band of two standard deviations, and the runs as dots.
     x, y = shown.axes[0].grid * units[0].factor, shown.field * unit.factor
     axes.plot(x, y, color=style.COLORS[0], linewidth=1.4)
     if shown.deviation is not None:
@@ -217,15 +226,16 @@ def _draw_line(
     good = shown.is_usable
     at = shown.points[good, 0] * units[0].factor
     axes.plot(at, shown.values[good] * unit.factor, "o", color=style.COLORS[6], markersize=4)
+    # Areas between runs in which an event begins, then lines where it is known.
     for name, stretches in shown.bands.items():
         for k, ends in enumerate(stretches):
             label = None if name in shown.lines or k else f"{shown.line_words(name)}, between runs"
-            color = LINE_LOOKS[name][0]
+            color = LINE_STYLES[name][0]
             axes.axvspan(
                 *(ends[:, 0] * units[0].factor), color=color, alpha=BAND, lw=0, label=label
             )
     for name, lines in shown.lines.items():
-        color, dash = LINE_LOOKS.get(name, (style.COLORS[2], ":"))
+        color, dash = LINE_STYLES.get(name, (style.COLORS[2], ":"))
         for k, place in enumerate(np.concatenate(lines)[:, 0] if lines else ()):
             text = shown.line_words(name) if k == 0 else None
             axes.axvline(place * units[0].factor, color=color, linestyle=dash, label=text)
@@ -243,6 +253,7 @@ def _draw_plane(
     from matplotlib.patheffects import withStroke
     from matplotlib.ticker import MaxNLocator
 
+    # The field as steps of color between round numbers.
     x, y = (axis.grid * u.factor for axis, u in zip(shown.axes, units, strict=True))
     field = np.ma.masked_invalid(shown.field * unit.factor)
     steps = [level * unit.factor for level in levels] or MaxNLocator(LEVELS).tick_values(
@@ -253,20 +264,26 @@ def _draw_plane(
     image = axes.contourf(x, y, field, levels=steps, cmap=style.SPEED_COLORS, extend=beyond)
     image.set_edgecolor("face")  # no pale seams between the colors in SVG
     style.color_bar(axes, image, _value_words(shown, unit), aspect=22.0)
+
+    # Hatched where the emulator is less sure than is allowed.
     if shown.deviation is not None and np.any(shown.deviation > shown.allowed):
         doubtful = np.ma.masked_invalid(np.where(shown.deviation > shown.allowed, 1.0, 0.0))
         doubtful = np.ma.array(doubtful, mask=np.ma.getmaskarray(field))
         axes.contourf(x, y, doubtful, levels=[0.5, 1.5], colors="none", hatches=["//"])
         allowed = format_quantity(shown.allowed, shown.unit, 2, typographic=True)
         axes.fill_between([], [], facecolor="none", hatch="///", label=f"sd above {allowed}")
+
+    # Areas and lines of events, with an edge that stands out from any color.
     _draw_bands(axes, shown, units)
     for name, lines in shown.lines.items():
-        color, dash = LINE_LOOKS.get(name, (TARGET_COLOR, ":"))
+        color, dash = LINE_STYLES.get(name, (TARGET_COLOR, ":"))
         for k, line in enumerate(lines):
             at = [column * u.factor for column, u in zip(line.T, units, strict=True)]
             text = shown.line_words(name) if k == 0 else None
             edge = [withStroke(linewidth=3.6, foreground="0.15")]
             axes.plot(*at, dash, color=color, linewidth=2.0, label=text, path_effects=edge)
+
+    # Runs as dots, above all else.
     good = [points * u.factor for points, u in zip(shown.points.T, units, strict=True)]
     good = [points[shown.is_usable] for points in good]
     axes.plot(
@@ -288,10 +305,11 @@ def _draw_bands(axes: Axes, shown: ProcessMap, units: list[style.Unit]) -> None:
 
     for name, rings in shown.bands.items():
         factors = np.array([unit.factor for unit in units])
+        # Rings of an area and of its holes make one outline, filled between them.
         outline = Outline.make_compound_path(*(Outline(ring * factors) for ring in rings))
         label = None if name in shown.lines else f"{shown.line_words(name)}, between runs"
-        look = {"edgecolor": LINE_LOOKS[name][0], "hatch": BAND_HATCHES[name], "linewidth": 0.8}
-        axes.add_patch(PathPatch(outline, facecolor="none", label=label, **look))
+        options = {"edgecolor": LINE_STYLES[name][0], "hatch": BAND_HATCHES[name], "linewidth": 0.8}
+        axes.add_patch(PathPatch(outline, facecolor="none", label=label, **options))
 
 
 def _plain_ticks(axes: Axes) -> None:
@@ -302,6 +320,7 @@ def _plain_ticks(axes: Axes) -> None:
     for axis in (axes.xaxis, axes.yaxis):
         if axis.get_scale() == "log":
             few, low, high = LogLocator(subs=(1.0, 2.0, 5.0)), *axis.get_view_interval()
+            # Few numbers, unless the axis spans less than a decade.
             seen = [low <= tick <= high for tick in few.tick_values(low, high)]
             axis.set_major_locator(few if sum(seen) > 2 else MaxNLocator(6, steps=(1, 2, 5, 10)))
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

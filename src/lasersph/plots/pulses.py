@@ -27,6 +27,7 @@ COMPARED = {
 
 def pulses_of(run: Run) -> dict[int, PulseOfRun]:
     """The 1st, 2nd, 5th, 10th ... and last pulse by number; one where no pause was jumped over."""
+    # A pulse lasts from its start to the next one; the last to the end of the run.
     edges = [0.0, *starts_after_pauses(run), np.inf]
     count = len(edges) - 1
     shown = [*(number for number in COUNTS if number < count), count]
@@ -36,6 +37,7 @@ def pulses_of(run: Run) -> dict[int, PulseOfRun]:
 def eventful_time(run: Run) -> float:
     """Time until the melt is solid, and a third more; without melt the whole time [s]."""
     time = run.history["time_s"]
+    # Until the last melt, and a third of that beyond.
     wet = np.flatnonzero(run.history.get("melt_depth_any_m", np.zeros(time.size)) > 0.0)
     return float(min(1.33 * time[wet[-1]], time[-1])) if wet.size else float(time[-1])
 
@@ -51,6 +53,7 @@ def pulses_compared(run: RunOrFolder) -> Figure | None:
     longest = max(eventful_time(one) for one in pulses.values())
     unit = style.fitting_unit("s", longest)
     colors = style.color_scale("viridis", len(pulses))
+    # One panel a column, one color a pulse.
     for axes, name in zip(all_axes, columns, strict=True):
         size = style.fitting_unit(COLUMNS[name].unit, float(np.max(run.history[name])))
         for (number, one), color in zip(pulses.items(), colors, strict=True):

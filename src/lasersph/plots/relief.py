@@ -32,6 +32,7 @@ def lines_of(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     steps = list(run.surface)
     x = np.array(steps[0]["position"][0])
     height = np.array([step["position"][1] for step in steps])
+    # The mirror image comes first, so that x grows.
     if run.symmetry_factor == 2:
         x, height = np.concatenate([-x[::-1], x]), np.hstack([height[:, ::-1], height])
     return run.surface.times, x, height
@@ -44,6 +45,7 @@ def relief_after_pulses(run: RunOrFolder) -> Figure | None:
     if len(pulses) < 2 or len(run.surface) < 2:
         return None
     _, x, _ = lines_of(run)
+    # Each pulse leaves its last line behind.
     height = np.array([lines_of(pulse)[2][-1] for pulse in pulses.values()])
     words = ["1 pulse" if count == 1 else f"{count} pulses" for count in pulses]
     return profiles_figure(x, height, words)
@@ -55,6 +57,7 @@ def relief_profiles(run: RunOrFolder) -> Figure | None:
     if len(run.surface) < 2:
         return None
     times, x, height = lines_of(last_pulse(run))
+    # From the first motion of the surface to the last, at even numbers of snapshots.
     moves = np.flatnonzero(np.any(np.diff(height, axis=0), axis=1))
     first, last = (moves[0], moves[-1] + 1) if moves.size else (0, times.size - 1)
     shown = np.unique(np.linspace(first, last, PROFILES).round().astype(int))
@@ -86,6 +89,7 @@ def relief_map(run: RunOrFolder) -> Figure | None:
     up = style.fitting_unit("m", largest(height))
     figure, (axes,) = style.new_figure(height=3.6)
     axes.grid(False)
+    # Zero in the middle of the colors: pits and rims are told apart.
     limit = largest(height) * up.factor
     image = axes.pcolormesh(
         x * length.factor,
@@ -107,13 +111,18 @@ def final_relief(run: RunOrFolder) -> Figure | None:
     run = open_run(run)
     if not len(run.surface) or not len(run.snapshots) or run.snapshots.dimension != 2:
         return None
+
     # particles are laid out anew in a pause: what lies where since then
     steps = list(last_pulse(run).snapshots)
     last = steps[-1]
     if any(step["melt_fraction"].size != last["melt_fraction"].size for step in steps):
         return None
+
+    # How far each particle has ever been molten, over the last pulse.
     molten = np.max([step["melt_fraction"] for step in steps], axis=0)
     _, x, height = lines_of(run)
+
+    # Down to somewhat below the deepest melt.
     surface = height[-1]
     deepest = -np.min(np.where(molten > 0.5, last["position"][1], 0.0))
     depth = SECTION * max(deepest, largest(surface))
@@ -121,6 +130,8 @@ def final_relief(run: RunOrFolder) -> Figure | None:
     cells = cells.mirrored() if run.symmetry_factor == 2 else cells
     unit = style.fitting_unit("m", np.max(np.abs(x)))
     figure, (axes,) = style.new_figure(height=3.2)
+
+    # The metal as pixels, the surface as a line over it.
     picture = cells.picture()
     values = np.where(picture < 0, np.nan, molten[picture])
     image = style.paint(

@@ -60,6 +60,7 @@ def unless_isothermal(draw: Callable[[Run], Figure | None]) -> Callable[[Run], F
     """A drawing that is left out where the temperature is the same everywhere and always."""
 
     def draw_or_not(run: Run) -> Figure | None:
+        # Isothermal: the whole run stays within rounding of one temperature.
         history = run.history
         coldest = float(history["temperature_surface_min_K"].min())
         hottest = float(history["temperature_max_K"].max())
@@ -262,7 +263,7 @@ def pulse_note(pulses: int) -> str:
 
 
 def captions() -> dict[str, str]:
-    """What each figure of a run shows, by its name, in reading order."""
+    """Caption of each figure of a run by its name, in reading order."""
     return {drawing.name: drawing.caption for drawing in DRAWINGS}
 
 
@@ -288,6 +289,7 @@ def plot(run: RunOrFolder, name: str) -> Figure:
     if drawing is None:
         hint = did_you_mean(name, captions()) or f"; there are {', '.join(captions())}"
         raise ValueError(f'no figure "{name}"{hint}')
+    # A figure of a train shows its last pulse, and says so.
     opened = _with_history(run)
     figure = _figure_of(opened, last_pulse(opened), drawing)
     if figure is None:
@@ -313,9 +315,12 @@ def draw_run(
         OutputError: the folder is no run folder, has no history yet, or cannot be written.
     """
     run = _with_history(folder)
-    target, shown, written = run.path / "figures", last_pulse(run), []
+    target = run.path / "figures"
+    shown = last_pulse(run)
+    written = []
     with clear_errors("write", target):
         target.mkdir(exist_ok=True)
+        # Every figure that applies, in reading order; what is drawn next is said before.
         for count, drawing in enumerate(DRAWINGS):
             begun(drawing.name, count, len(DRAWINGS))
             figure = _figure_of(run, shown, drawing)

@@ -19,9 +19,12 @@ def spot_threshold_figure(found: dict[str, Any]) -> Figure:
         found: plain data of `studies.SpotThreshold`.
     """
     craters = found["craters"]
+
+    # Fluences in J/cm^2, diameters in um, as in the field.
     fluence = 1e-4 * np.array([one["fluence"] for one in craters])
     square = 1e12 * np.array([one["diameter"] for one in craters]) ** 2
     efficiency = 1e12 * np.array([one["efficiency"] for one in craters])
+    # D^2 = 2 w^2 ln(F / F_th): a line over ln F with the slope 2 w^2.
     threshold, slope = 1e-4 * found["threshold_J_m2"], 2e12 * found["radius_m"] ** 2
     figure, (left, right) = style.new_figure(1, 2, height=3.4)
     line = np.array([threshold, float(np.max(fluence)) * 1.05])

@@ -1,4 +1,4 @@
-"""One look for all figures: sizes, colors that color-blind readers tell apart, units on the axes.
+"""One style for all figures: sizes, colors that color-blind readers tell apart, units on the axes.
 
 Figures are `matplotlib.figure.Figure` objects without pyplot: no global state, no window, safe
 in threads. Colors: Okabe and Ito (2008), https://jfly.uni-koeln.de/color/.
@@ -61,6 +61,7 @@ SPEEDS = (Unit(1e6, "µm/s"), Unit(1e3, "mm/s"), Unit(1.0, "m/s"))
 
 def unit_for(largest: float, units: Sequence[Unit]) -> Unit:
     """The unit in which a size shows as a number above 1 and, if possible, below 1000."""
+    # The first unit in which the number is not yet in the thousands.
     for unit in units:
         if abs(largest) * unit.factor < 2000.0:
             return unit
@@ -94,6 +95,7 @@ def new_figure(
     figure = NotebookFigure(figsize=(WIDTH, height), layout="constrained")
     grid = figure.subplots(rows, columns, sharex=share_x, squeeze=False)
     axes = list(grid.ravel())
+    # Axes without a box, a faint grid behind the curves.
     for one in axes:
         one.tick_params(labelsize=9)
         for side in ("top", "right"):
@@ -148,11 +150,11 @@ def level_line(axes: Axes, value: float, name: str) -> None:
 
 
 def paint(
-    axes: Axes, values: np.ndarray, edges: Sequence[float], unit: Unit, **look: Any
+    axes: Axes, values: np.ndarray, edges: Sequence[float], unit: Unit, **options: Any
 ) -> AxesImage:
     """Draw values (rows, columns) as a picture between its edges left, right, bottom, top [m].
 
-    `look` goes to matplotlib's `imshow`; axes are in `unit`.
+    `options` goes to matplotlib's `imshow`; axes are in `unit`.
     """
     left, right, bottom, top = (edge * unit.factor for edge in edges)
     axes.grid(False)
@@ -162,7 +164,7 @@ def paint(
         extent=(left, right, bottom, top),
         origin="lower",
         interpolation="nearest",
-        **look,
+        **options,
     )
 
 
@@ -201,9 +203,12 @@ def without_stairs(times: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, n
     """
     if values.size == 0:
         return times, values
+
+    # Runs of equal values: where each begins and ends.
     tolerance = 1e-9 * float(np.max(np.abs(values)))
     starts = np.flatnonzero(np.concatenate([[True], np.abs(np.diff(values)) > tolerance]))
     ends = np.concatenate([starts[1:] - 1, [values.size - 1]])
+    # Each is drawn once, in its middle; zeros keep their first and last time.
     middle = 0.5 * (times[starts] + times[ends])
     height = values[starts]
     middle[height == 0.0] = times[starts][height == 0.0]

@@ -33,12 +33,14 @@ def surface_profiles(run: RunOrFolder, times: Sequence[float] | None = None) -> 
     if not len(run.snapshots) or run.snapshots.dimension == 1:
         return None
     figure, (axes,) = style.new_figure(height=3.6)
-    steps, looks = steps_at(run, warm_times(run) if times is None else times)
+
+    # Snapshots, each with a color; as wide as the surface of the body.
+    steps, styles = steps_at(run, warm_times(run) if times is None else times)
     curves = [profile(step, run.symmetry_factor, "temperature") for step in steps]
     half_width = max(float(np.max(np.abs(x))) for x, _ in curves)
     length = style.fitting_unit("m", half_width)
-    for (x, temperature), look in zip(curves, looks, strict=True):
-        axes.plot(x * length.factor, temperature, **look)
+    for (x, temperature), options in zip(curves, styles, strict=True):
+        axes.plot(x * length.factor, temperature, **options)
     right = half_width * length.factor
     axes.set_xlim(-right if run.symmetry_factor == 2 else None, right)
     draw_corner_temperatures(axes, material_of(run))
@@ -61,7 +63,7 @@ def surface_flow_profiles(run: RunOrFolder, times: Sequence[float] | None = None
     run = open_run(run)
     if not has_flow(run) or not np.any(run.history["flow_surface_speed_max_m_s"] > 0.0):
         return None
-    steps, looks = steps_at(run, fast_times(run) if times is None else times)
+    steps, styles = steps_at(run, fast_times(run) if times is None else times)
     figure, all_axes = style.new_figure(3, height=7.6, share_x=True)
     half_width = max(width_shown(step) for step in steps)
     length = style.fitting_unit("m", half_width)
@@ -71,11 +73,12 @@ def surface_flow_profiles(run: RunOrFolder, times: Sequence[float] | None = None
         ("surface_gradient", "dT/dx [K/µm]", 1e-6),
         ("surface_velocity", f"velocity u [{speed.name}]", speed.factor),
     )
+    # Panels of temperature, gradient and velocity at the same times.
     for axes, letter, (name, text, factor) in zip(all_axes, "abc", panels, strict=True):
-        for step, look in zip(steps, looks, strict=True):
+        for step, options in zip(steps, styles, strict=True):
             x, values = profile(step, run.symmetry_factor, name)
             seen = np.abs(x) <= half_width
-            axes.plot(x[seen] * length.factor, values[seen] * factor, lw=1.1, **look)
+            axes.plot(x[seen] * length.factor, values[seen] * factor, lw=1.1, **options)
         lowest = f"x [{length.name}]" if letter == "c" else ""
         style.label(axes, lowest, text, title=f"({letter})")
         axes.set_xlim(-half_width * length.factor, half_width * length.factor)
@@ -86,11 +89,12 @@ def surface_flow_profiles(run: RunOrFolder, times: Sequence[float] | None = None
 
 def steps_at(run: Run, times: Sequence[float]) -> tuple[list[Snapshot], list[dict[str, Any]]]:
     """The snapshots closest to some times in order, and color and label of each."""
+    # Times that share a snapshot draw it once.
     steps = {step["time"]: step for step in (run.snapshots.nearest(time) for time in times)}
-    return [steps[time] for time in sorted(steps)], looks_of(sorted(steps))
+    return [steps[time] for time in sorted(steps)], time_styles(sorted(steps))
 
 
-def looks_of(times: Sequence[float]) -> list[dict[str, Any]]:
+def time_styles(times: Sequence[float]) -> list[dict[str, Any]]:
     """Color and label of each time [s]."""
     colors = style.color_scale("viridis", len(times))
     texts = (format_quantity(float(time), "s", typographic=True) for time in times)
@@ -103,6 +107,7 @@ def profile(step: Snapshot, symmetry: int, name: str) -> tuple[np.ndarray, np.nd
     Half a period is mirrored, gradient and velocity with their signs; the velocity is NaN where
     the surface does not flow.
     """
+    # Surface cells in order of x.
     cells = np.flatnonzero(step["surface"])
     if step["position"].shape[0] == 3:
         cells = cells[in_cut(step, cells)]
@@ -110,6 +115,7 @@ def profile(step: Snapshot, symmetry: int, name: str) -> tuple[np.ndarray, np.nd
     x, values = step["position"][0, cells], step[name][cells]
     if name == "surface_velocity":
         values = np.where(step["flows"][cells] > 0, values, np.nan)
+    # u and dT/dx are odd about x = 0, the temperature is even.
     if symmetry == 2:
         sign = 1.0 if name.endswith("temperature") else -1.0
         values = np.concatenate([sign * values[::-1], values])
@@ -127,11 +133,13 @@ def width_shown(step: Snapshot) -> float:
 def warm_times(run: Run) -> list[float]:
     """Times of snapshots from the first heating to the cooling, as many as a figure shows."""
     peak, all_times = run.history["temperature_at_maximum_K"], run.history["time_s"]
+    # From 15 % of the largest rise to 15 % of it.
     rise = peak - peak[0]
     warm = all_times[rise > 0.15 * np.max(rise)] if np.any(rise > 0) else all_times
     times = run.snapshots.times
     near = times[(times >= warm[0]) & (times <= warm[-1])]
     times = near if near.size else times
+    # More times early, when heating is fast, than late.
     chosen = np.unique(np.round(np.linspace(0.0, 1.0, PROFILES) ** 1.7 * (times.size - 1)))
     return [float(times[int(k)]) for k in chosen]
 

@@ -25,6 +25,7 @@ def texture_figure(maps: Maps, content: dict[str, Any]) -> Figure:
     from lasersph.plots.notebook_figure import NotebookFigure
 
     figure = NotebookFigure(figsize=(style.WIDTH, 7.8), layout="constrained")
+
     # as high as two square maps side by side are, with their color bars
     parts: Any = figure.subfigures(2, 1, height_ratios=(4.6, 3.2))
     above, below = parts
@@ -33,6 +34,8 @@ def texture_figure(maps: Maps, content: dict[str, Any]) -> Figure:
     _draw_map(right, maps, "melt_depth", "depth of the melt", style.FRACTION_COLORS)
     right.set_ylabel("")
     first, second = below.subplots(2, 1, sharex=True)
+
+    # The line through the center, with the error of the interpolation as a band.
     row = int(np.argmin(np.abs(maps.y)))
     unit = style.unit_for(float(np.max(np.abs(maps.x))), style.LENGTHS)
     for axes, name, words, color in (
@@ -53,6 +56,8 @@ def texture_figure(maps: Maps, content: dict[str, Any]) -> Figure:
         axes.grid(True, color="0.9", linewidth=0.6)
         is_last = name == "melt_depth"
         style.label(axes, f"x [{unit.name}]" if is_last else "", f"{words} [{up.name}]")
+
+    # Areal parameters above the line of heights.
     found = content["areal_parameters"]
     sizes = ", ".join(f"{n} {format_quantity(found[n], 'm', 3)}" for n in ("Sa", "Sq", "Sz"))
     first.set_title(
@@ -74,8 +79,8 @@ def _draw_map(
     up = style.fitting_unit("m", largest)
     limit = largest * up.factor
     edges = (maps.x[0], maps.x[-1], maps.y[0], maps.y[-1])
-    look = {"cmap": colors, "vmin": -limit if is_signed else 0.0, "vmax": limit}
-    image = style.paint(axes, values * up.factor, edges, length, aspect="equal", **look)
+    options = {"cmap": colors, "vmin": -limit if is_signed else 0.0, "vmax": limit}
+    image = style.paint(axes, values * up.factor, edges, length, aspect="equal", **options)
     style.label(axes, f"x [{length.name}]", f"y [{length.name}]")
     above = axes.inset_axes((0.0, 1.03, 1.0, 0.05))  # as wide as the map
     bar = axes.figure.colorbar(image, cax=above, orientation="horizontal", location="top")

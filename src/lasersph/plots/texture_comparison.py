@@ -24,7 +24,9 @@ def comparison_figure(
     """
     figure, (first, second) = style.new_figure(2, height=5.2, share_x=True)
     order = np.argsort(x, kind="stable")
-    x, measured, ours = x[order], measured[order], ours[order]
+    x = x[order]
+    measured = measured[order]
+    ours = ours[order]
     along = style.unit_for(float(np.max(np.abs(x))), style.LENGTHS)
     up = style.fitting_unit("m", float(np.max(np.abs(measured))))
     first.plot(
@@ -33,6 +35,7 @@ def comparison_figure(
     first.plot(x * along.factor, ours * up.factor, lw=1.2, color=style.COLORS[0], label="computed")
     style.label(first, "", f"height [{up.name}]")
     style.legend_above(figure, first, columns=2)
+    # The difference against twice what noise and interpolation explain.
     left = measured - ours
     expected = 2.0 * content["difference"]["expected_rms_m"]
     fine = style.fitting_unit("m", max(float(np.max(np.abs(left))), expected))
@@ -58,6 +61,7 @@ def comparison_maps(x: np.ndarray, y: np.ndarray, measured: np.ndarray, ours: np
     size = (150.0 / np.sqrt(x.size)) ** 2  # points side by side in a panel 150 points wide
     words = ("measured", "computed", "measured less computed")
     largest = float(np.max(np.abs(ours)))
+    # Measured and computed heights share a scale; the difference has its own.
     for axes, z, title in zip(panels, (measured, ours, measured - ours), words, strict=True):
         end = 1.2 * largest if title != words[2] else 3.0 * float(np.std(z)) or largest
         up = style.fitting_unit("m", end)

@@ -27,6 +27,8 @@ def tornado_chart(run: RunOrFolder) -> Figure | None:
     found = run.uncertainty
     if found is None:
         return None
+
+    # Panels of main results that have an error with parts.
     panels = []
     for one in (one for kind in OBSERVERS for one in kind.all_results() if one.is_main):
         entry = found["numbers"].get(one.key)
@@ -37,6 +39,8 @@ def tornado_chart(run: RunOrFolder) -> Figure | None:
             panels.append((f"{one.words}: {text}", bars))
     if not panels:
         return None
+
+    # Every bar has the same height in all panels.
     heights = [HEAD_HEIGHT + ROW_HEIGHT * len(bars) for _, bars in panels]
     figure, all_axes = style.new_figure(len(panels), 1, height=sum(heights) + 0.3)
     if (grid := all_axes[0].get_gridspec()) is not None:
@@ -60,6 +64,7 @@ def parts_of(entry: dict[str, Any], coverage: float) -> list[tuple[str, float, f
     value = entry["value"]
     if not value:
         return []
+    # The numerical part to both sides, each input by its change up and down.
     bars = []
     if entry["numerical"]:
         share = 100.0 * entry["numerical"] / abs(value)
@@ -68,5 +73,6 @@ def parts_of(entry: dict[str, Any], coverage: float) -> list[tuple[str, float, f
         ends = [coverage * (part[side] or 0.0) * 100.0 / abs(value) for side in ("up", "down")]
         name = key.removeprefix("material.").replace(".", ", ").replace("_", " ")
         bars.append((name, min(*ends, 0.0), max(*ends, 0.0), style.COLORS[0]))
+    # Parts that are rounding are left out, the longest bar comes first.
     bars = [bar for bar in bars if max(-bar[1], bar[2]) > 100.0 * LEAST_SHARE]
     return sorted(bars, key=lambda bar: bar[1] - bar[2])

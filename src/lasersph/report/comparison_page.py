@@ -20,8 +20,9 @@ WORDS = {
 
 
 def unknown_rows(content: dict[str, Any]) -> list[list[str]]:
-    """What was aligned: value, standard error, 95 % interval, in words."""
+    """Rows of what was aligned: value, standard error, 95 % interval, in words."""
     rows = []
+    # Unknowns that were fitted, with their intervals.
     for name, one in content["unknowns"].items():
         words, unit = WORDS[name]
         low, high = (format_quantity(end, unit, 5) for end in one["interval_95"])
@@ -33,6 +34,7 @@ def unknown_rows(content: dict[str, Any]) -> list[list[str]]:
             error = "at its bound"
             interval = f"{low} or more" if value == high else f"{high} or less"
         rows.append([words, value, error, interval])
+    # Where our origin lies in the measurement, so that its places can be found again.
     for name, place in content["origin_in_measurement"].items():
         axis = name.removesuffix("_m")
         words = f"our {axis} = 0 lies at this {axis} of the measurement"
@@ -43,6 +45,7 @@ def unknown_rows(content: dict[str, Any]) -> list[list[str]]:
 def difference_rows(content: dict[str, Any]) -> list[list[str]]:
     """How measured and computed heights differ, in words."""
     found, factor = content["difference"], content["height_factor"]
+    # The difference, beside what noise and interpolation explain of it.
     shown = {
         "difference, rms": found["rms_m"],
         "largest difference": found["largest_m"],

@@ -44,22 +44,34 @@ WIDTHS = {
 """Keys of a beam that give its width, in words."""
 UNIT_BEHIND = re.compile(r"(?<=[0-9]) (?=\S)")
 """Blank behind a number, where no line may end."""
-STILLS = ("crater-3d", "flow", "relief-section", "crater", "particles", "box-flow", "temperature")
+TELLING_FIGURES = (
+    "crater-3d",
+    "flow",
+    "relief-section",
+    "crater",
+    "particles",
+    "box-flow",
+    "temperature",
+)
 """Figures that show the pool or the crater, the most telling first."""
 
 
 def what_was_computed(run: Run) -> str:
     """One sentence: metal, light, dimensions, particles, time."""
     summary, case = run.summary, run.case
+    # "Pure copper, 99.9 %" becomes "pure copper": the sentence has no room for the rest of the
+    # title.
     material = case.get("material") or {}
     metal = str(material.get("title") or material.get("name") or "a liquid")
     metal = re.split(r", | \(", metal)[0]
     if COMMON_NAME.match(metal):
         metal = metal[0].lower() + metal[1:]
+    # How much was computed.
     size = f"{shown(summary['particles'], 9)} particles"
     if summary.get("spacing_m"):
         size += f", {quantity(summary['spacing_m'], 'm', 3)} apart at the finest"
     end = quantity(summary["time_s"], "s", 3)
+    # Numbers and their units stay on one line.
     text = (
         f"This run computes the {effects_of(run)} of {metal}"
         f"{light_text(case.get('laser') or {}, summary.get('laser'))} over {end},"
@@ -71,6 +83,7 @@ def what_was_computed(run: Run) -> str:
 def effects_of(run: Run) -> str:
     """Physics that a run computes, in words."""
     summary, kind = run.summary, run.case.get("solver", {}).get("kind")
+    # A box, or matter that only moves, is about flow.
     if "box" in summary or (kind == "ablation" and "crater" not in summary):
         return "flow"
     if summary.get("material", {}).get("solidus_K") is None:
@@ -84,11 +97,17 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
     Args:
         computed: the table `laser` of a summary, with the fluence that follows from an energy.
     """
-    fluence, pulse, beam = laser.get("fluence"), laser.get("pulse") or {}, laser.get("beam") or {}
+    fluence = laser.get("fluence")
+    pulse = laser.get("pulse") or {}
+    beam = laser.get("beam") or {}
     energy, spot = laser.get("pulse_energy"), laser.get("spot") or {}
     intensity, power = laser.get("intensity"), laser.get("power")
+
+    # Without an amount of light there is none.
     if fluence is intensity is energy is power is None:
         return ""
+
+    # Number and length of the pulses, then their amount of light in the words of the case.
     count = int(pulse.get("count") or 1)
     lasts = pulse.get("fwhm") or pulse.get("duration")
     text = " under one pulse" if count == 1 else f" under {count} pulses"
@@ -101,6 +120,7 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
         whole = "" if count == 1 else f", {quantity(count * energy, 'J', 3)} in all"
         whole += "," * (count > 1 and bool(spot.get("diameter")) and not computed)
         text += f" with {quantity(energy, 'J', 3)}{each}{whole}"
+        # The fluence of a spot differs from place to place: that which was computed.
         if computed:
             mean = 1e-4 * computed["mean_fluence_J_m2"]
             kind = " in the mean over a period" * (beam.get("kind") == "interference")
@@ -109,6 +129,8 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
         text += f" with {quantity(1e-4 * intensity, 'W/cm^2', 3)}{fluence_kind(laser)}"
     else:
         text += f" with {quantity(power, 'W', 3)}"
+
+    # The shape of the beam last: spot, pattern, widths.
     if spot.get("diameter"):
         text += f" in a spot of {quantity(spot['diameter'], 'm', 3)} ({spot['definition']})"
     if beam.get("kind") in (None, "uniform"):
@@ -126,7 +148,7 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
 
 
 def fluence_kind(laser: dict[str, Any]) -> str:
-    """What the fluence of a case means, behind its number; empty where it is one everywhere."""
+    """Kind of the fluence of a case, behind its number; empty where it is one everywhere."""
     kind, is_peak = laser.get("beam", {}).get("kind"), laser.get("fluence_kind") == "peak"
     if kind == "interference":
         found = "peak of the pattern" if is_peak else "mean over a period"
@@ -141,6 +163,7 @@ def telling_results(summary: dict[str, Any]) -> dict[str, tuple[Quantity, Any]]:
     """Main results that are not 0, with their declarations, by their keys; the end of the melt only
     where that is not the end of the run."""
     found = {one.key: (one, value) for one, value in main_results(summary) if value}
+    # The melt cannot be said to end where the run ends before it.
     if summary.get("melt", {}).get("molten_at_end"):
         found.pop("melt.end_s", None)
     return found
@@ -150,6 +173,7 @@ def large_numbers(run: Run) -> str:
     """Five main results, large, with unit, error and when, and what the errors hold."""
     summary, found = run.summary, run.uncertainty
     results = telling_results(summary)
+    # The most telling results first, others after them.
     order = [key for key in LARGE if key in results]
     order += [key for key in results if key not in order]
     cards, are_known = [], False
@@ -164,6 +188,7 @@ def large_numbers(run: Run) -> str:
         when = place_text(summary, one.at[0]) if one.at else ""
         words = LARGE.get(key, one.words.split(" (")[0]) + (f", at {when}" if when else "")
         cards.append(f"<div><dd>{escape(text)}</dd><dt>{escape(words)}</dt></div>")
+    # Where errors come from, or how to get them.
     if found is not None:
         note = "Errors hold about 95 %: of the spacing and of the inputs, see How sure."
     elif are_known:
@@ -175,6 +200,7 @@ def large_numbers(run: Run) -> str:
 
 def error_of(summary: dict[str, Any], found: dict[str, Any] | None, key: str) -> float | None:
     """Error of a main result that holds about 95 % [SI]; None where none is known."""
+    # With companions every number has an error; without, twice what counting in cells leaves open.
     if found is not None:
         return found["numbers"].get(key, {}).get("error")
     deviation = (summary.get("numerical_sd") or {}).get(key)

@@ -34,6 +34,7 @@ def write_map(
     Raises:
         OutputError: the folder cannot be written.
     """
+    # Picture, drawing, values and outlines beside each other, then the page that shows them.
     stem = folder / f"map-{shown.column}"
     picture = draw_process_map(shown, levels)
     with clear_errors("write", folder):
@@ -60,6 +61,7 @@ def _write_rows(path: Path, rows: list[list[object]]) -> Path:
 def _field_rows(shown: ProcessMap) -> list[list[object]]:
     """Header, and a row for each place of the field, keys in the units of the plan and the number
     in SI as in table.csv; empty where no run tells the number."""
+    # The unit stands at the head, so that the name goes without.
     unit = f" [{shown.unit}]" if shown.unit else ""
     name = shown.column.removesuffix(suffix(unit_of(shown.column))) if unit else shown.column
     head: list[object] = [*map(name_with_unit, shown.axes), f"{name}{unit}"]
@@ -74,6 +76,7 @@ def _field_rows(shown: ProcessMap) -> list[list[object]]:
 def _line_rows(shown: ProcessMap) -> list[list[object]]:
     """Header, and the points of each line, then of each band; a line of several parts counts
     them."""
+    # Bands follow the lines, under their names.
     outlines = {**shown.lines, **{f"{name}: band": one for name, one in shown.bands.items()}}
     rows: list[list[object]] = [["line", "part", *map(name_with_unit, shown.axes)]]
     for name, parts in outlines.items():
@@ -100,6 +103,7 @@ def _page_body(shown: ProcessMap, title: str, picture: Path) -> list[str]:
 
 
 def _caption(shown: ProcessMap) -> str:
+    # Between the runs the field is interpolated, linearly or by an emulator.
     how = "interpolated linearly between runs"
     if shown.deviation is not None:
         how = "as a Gaussian process through the runs gives it"
@@ -107,6 +111,7 @@ def _caption(shown: ProcessMap) -> str:
     if shown.deviation is not None and len(shown.axes) == 2:
         allowed = format_quantity(shown.allowed, shown.unit, 2, typographic=True)
         text += f" Hatched: its standard deviation exceeds {allowed}."
+    # Bands and lines, and what is known where a line is missing.
     if shown.bands:
         events = ", ".join(map(shown.line_words, shown.bands))
         how = "Hatched" if len(shown.axes) == 2 else "Shaded"
@@ -139,9 +144,10 @@ def _runs_table(shown: ProcessMap) -> str:
     for name, point, value, status, reason in zip(
         shown.names, shown.points, shown.values, shown.status, reasons, strict=True
     ):
+        # Keys and number in the units of the field; runs without a number say why.
         cells = [in_field_units(at, axis.unit) for at, axis in zip(point, shown.axes, strict=True)]
         cells += [in_field_units(value, shown.unit), ": ".join(filter(None, (status, reason)))]
         link = f'<a href="{RUNS}/{escape(name)}/">{escape(name)}</a>'
-        rest = "".join(f'<td class="number">{escape(cell)}</td>' for cell in cells)
-        lines.append(f"<tr><td>{link}</td>{rest}</tr>")
+        others = "".join(f'<td class="number">{escape(cell)}</td>' for cell in cells)
+        lines.append(f"<tr><td>{link}</td>{others}</tr>")
     return "\n".join([*lines, "</table>"])

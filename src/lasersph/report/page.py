@@ -26,7 +26,7 @@ p.lead { font-size: 1.12rem; margin: .2rem 0 1.1rem; }
 .numbers div { display: flex; flex-direction: column; border-top: 3px solid #d55e00;
   background: #f8f9fb; padding: .6rem .6rem .7rem; }
 .numbers dd { margin: 0; font-size: 1.05rem; font-weight: 650; line-height: 1.3;
-  white-space: nowrap; font-variant-numeric: tabular-nums; }
+  font-variant-numeric: tabular-nums; }
 .numbers dt { color: #44505e; font-size: .86rem; line-height: 1.35; margin-top: .2rem; }
 @media screen { .top.is-drawn figure { order: 2; margin: 1.2rem 0 0; } }
 p.result { font-size: 1.08rem; background: #eef5fa; border-left: 4px solid #0072b2;
@@ -51,7 +51,7 @@ th + th { white-space: normal; vertical-align: bottom; }
 figure { margin: 1.4rem 0 1.8rem; }
 figure img { max-width: 100%; height: auto; display: block; margin: 0 auto; }
 figcaption { color: #44505e; font-size: .92rem; margin-top: .4rem; }
-pre { background: #f6f8fa; padding: .8rem 1rem; overflow-x: auto; font-size: .86rem;
+pre { background: #f6f8fa; padding: .8rem 1rem; white-space: pre-wrap; font-size: .86rem;
   line-height: 1.4; border: 1px solid #e2e7ec; }
 code { font-size: .92em; }
 details { margin: .8rem 0; } summary { cursor: pointer; color: #0072b2; }
@@ -63,15 +63,15 @@ details.subject > summary { font-weight: 600; }
   nav, #viewer, figure:has([src^="data:image/gif"]) { display: none; }
   main { box-shadow: none; padding: 0; max-width: none; }
   h2, summary, tr:has(th) { break-after: avoid; } figure, tr, .numbers, p { break-inside: avoid; }
-  figure img { max-height: 120mm; width: auto; } pre { white-space: pre-wrap; }
+  figure img { max-height: 120mm; width: auto; }
   .warnings, p.note, p.result, .numbers div { print-color-adjust: exact; }
   .numbers { grid-template-columns: repeat(5, 1fr); gap: 3mm; } .numbers dd { font-size: 11.5pt; }
   details.subject { border: 0; padding: 0; }
   details.subject::details-content { content-visibility: visible; height: auto; } }
 @media screen and (max-width: 40rem) { main { padding: 1.2rem; overflow-wrap: anywhere; }
-  .numbers dd { white-space: normal; }
   table { display: block; overflow-x: auto; }
-  th, td { overflow-wrap: break-word; padding-right: .7rem; } }
+  th, td { overflow-wrap: break-word; padding-right: .7rem; }
+  td.number + td.number { white-space: normal; min-width: 4.4em; } }
 """
 LONGEST_NUMBER = 30
 """Letters of a cell that stays on one line: a number with its unit, error and place."""
@@ -94,6 +94,7 @@ def table(rows: Sequence[Sequence[str]], head: Sequence[str] = ()) -> str:
     if head:
         lines.append("<tr>" + "".join(f"<th>{escape(cell)}</th>" for cell in head) + "</tr>")
     for row in rows:
+        # A short cell is a number and stays on one line.
         cells = f"<td>{escape(row[0])}</td>"
         for cell in row[1:]:
             kind = ' class="number"' if len(cell) <= LONGEST_NUMBER else ""
@@ -107,6 +108,7 @@ def figure(image: Path, caption: str, number: int) -> str:
 
     Raises OSError where it cannot be read.
     """
+    # The image is inside the page, which needs no other file.
     data = base64.b64encode(image.read_bytes()).decode()
     return (
         f'<figure id="{escape(image.stem)}"><img alt="{escape(caption)}"'
@@ -142,6 +144,7 @@ def warnings_box(texts: Sequence[str]) -> str:
 
     On paper all are whole. Text is escaped.
     """
+    # A single warning needs no click.
     if len(texts) < 2:
         lines = [paragraph(text) for text in texts]
     else:

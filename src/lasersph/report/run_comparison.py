@@ -71,6 +71,7 @@ class RunComparison:
         Raises:
             OutputError: the folder cannot be written.
         """
+        # Pictures first, as the page holds them.
         target = Path(folder)
         with clear_errors("write", target):
             target.mkdir(parents=True, exist_ok=True)
@@ -78,6 +79,8 @@ class RunComparison:
             name: style.save(drawn, target / f"{name}.png")
             for name, drawn in self.figures().items()
         }
+
+        # The same as data, SI.
         content = {
             "schema_version": 1,
             "runs": [str(run.path.resolve()) for run in self.runs],
@@ -85,6 +88,8 @@ class RunComparison:
             "numbers": {key: list(values) for key, values in self.numbers.items()},
         }
         replace_json(target / "comparison.json", content)
+
+        # The page: settings, numbers, figures.
         title = " and ".join(self.names)
         body = [
             f"<h1>{escape(title)}</h1>",
@@ -116,8 +121,10 @@ def compare_runs(first: RunOrFolder, second: RunOrFolder) -> RunComparison:
     """
     runs = open_run(first), open_run(second)
     names = runs[0].path.name, runs[1].path.name
+    # Folders of one name are told apart by their parents.
     if names[0] == names[1]:
         names = str(runs[0].path), str(runs[1].path)
+    # Main numbers that either run has, in the words and units of their declarations.
     found: list[dict[str, tuple[Quantity, Any]]] = [
         {one.key: (one, value) for one, value in main_results(run.summary)} for run in runs
     ]
@@ -133,7 +140,7 @@ def compare_runs(first: RunOrFolder, second: RunOrFolder) -> RunComparison:
 
 
 LARGEST_PERCENT = 1000.0
-"""Differences above it are told without: nobody reads +338 409 %."""
+"""Differences above it stand without a percentage: nobody reads +338 409 %."""
 _NONE = (None, None)
 """Of a quantity that a run does not have."""
 
@@ -141,12 +148,14 @@ _NONE = (None, None)
 def _difference(first: Any, second: Any, unit: str) -> str:
     """The second value less the first with its sign, and in percent of the first; nothing where
     they are no numbers."""
+    # Only numbers can be subtracted.
     if not all(
         isinstance(one, int | float) and not isinstance(one, bool) for one in (first, second)
     ):
         return ""
     if second == first:
         return "the same"
+    # The change with its sign, and in percent where that says more.
     change = second - first
     text = f"{'+' if change > 0.0 else '−'}{in_words(abs(change), unit)}"
     if not first:
@@ -160,6 +169,7 @@ def _difference(first: Any, second: Any, unit: str) -> str:
 
 def _different_settings(first: Run, second: Run) -> Iterator[tuple[str, str, str]]:
     """Keys that the case files of two runs say differently: key, first, second."""
+    # As the files say it: defaults that nobody wrote do not differ.
     ours, theirs = (_settings_of(run.case_text) for run in (first, second))
     for key in dict.fromkeys([*ours, *theirs]):
         if ours.get(key) != theirs.get(key):
@@ -168,6 +178,7 @@ def _different_settings(first: Run, second: Run) -> Iterator[tuple[str, str, str
 
 def _settings_of(case_text: str) -> dict[str, str]:
     """Every key of a case file with its value as written; those of the command line win."""
+    # Settings of the command lie over the file, in its units.
     settings, text = split_settings(case_text)
     found = {key: str(value) for key, value in _flat(tomllib.loads(text))}
     for setting in settings:

@@ -47,6 +47,7 @@ def scene(run: Run) -> str:
 
 def embedded_frames(run: Run) -> dict[str, Any] | None:
     """Index and blocks for `inline` of viewer.js: as many frames as fit, the hottest among them."""
+    # Frames at even distances, the hottest among them.
     index = particle_index(run.path)
     count, start = len(index["times"]), index["start"]
     if not count:
@@ -56,15 +57,18 @@ def embedded_frames(run: Run) -> dict[str, Any] | None:
     places = np.linspace(0, count - 1, min(count, MOST_FRAMES)).astype(int)
     places[np.argmin(np.abs(places - start))] = start
     chosen = sorted(set(places.tolist()))
+    # All blocks of these frames, each field in steps of its own range.
     encoded: dict[str, dict[str, Any]] = {}
     for field, blocks in block_names(part_of(index, names, chosen)).items():
         encoded |= encode_field(run, blocks, 1 if field in COLORED else 3)
+    # Half of the frames at a time, until the page is small enough.
     while True:
         found = part_of(index, names, chosen)
         used = {name for blocks in block_names(found).values() for name in blocks}
         used |= {encoded[name]["first"] for name in used} - {None}
         if sum(len(encoded[name]["data"]) for name in used) <= LARGEST:
             return {"index": found, "blocks": {name: encoded[name] for name in sorted(used)}}
+        # The hottest frame stays whatever goes.
         fewer = sorted({*chosen[::2], start})
         if len(fewer) == len(chosen):
             return None
@@ -78,6 +82,7 @@ def part_of(index: dict[str, Any], names: list[str], chosen: list[int]) -> dict[
         blocks = {name: [file["blocks"][name][k] for k in chosen] for name in fields}
         return {"counts": [file["counts"][k] for k in chosen], "blocks": blocks}
 
+    # The line of a moving surface has the same frames.
     line = index["surface"]
     return {
         **index,
@@ -92,6 +97,7 @@ def part_of(index: dict[str, Any], names: list[str], chosen: list[int]) -> dict[
 def block_names(index: dict[str, Any]) -> dict[str, list[str]]:
     """Names of the blocks of each field, in the order of frames, each once."""
     files = {"particles": index, "surface": index["surface"] or {"blocks": {}}}
+    # Blocks that frames share are named once.
     return {
         f"{stem}.{field}" if stem == "surface" else field: list(
             dict.fromkeys(
@@ -110,21 +116,25 @@ def encode_field(run: Run, names: list[str], parts: int) -> dict[str, dict[str, 
     Args:
         parts: numbers a particle has, 1 or 3.
     """
+    # NaN has no 16-bit number: it becomes 0.
     blocks = {
         name: np.nan_to_num(np.frombuffer(particle_block(run.path, name), "<f4"))
         .reshape(-1, parts)
         .T.astype(float)
         for name in names
     }
+    # One range for all blocks, so that colors keep their meaning.
     low = np.min([block.min(axis=1) for block in blocks.values()], axis=0)
     high = np.max([block.max(axis=1) for block in blocks.values()], axis=0)
     step = np.where(high > low, high - low, 1.0) / STEPS
     first: dict[int, tuple[str, np.ndarray]] = {}
     encoded = {}
+    # Differences from the first block of the same length: what stayed in place is zeros.
     for name, block in blocks.items():
         steps = np.round((block - low[:, None]) / step[:, None]).astype("<u2")
         base = first.get(block.shape[1])
         first.setdefault(block.shape[1], (name, steps))
+        # Low and high bytes apart compress better than mixed.
         plain = (steps - base[1] if base else steps).ravel().view(np.uint8)
         data = zlib.compress(plain[0::2].tobytes() + plain[1::2].tobytes(), 6)
         ends = np.stack([low, low + STEPS * step], axis=1).tolist()

@@ -15,9 +15,11 @@ from lasersph.report.tables import moment, quantity, shown
 
 def verdict(summary: dict[str, Any]) -> str:
     """The course of a run in two to eight sentences."""
+    # A box has a flow and a balance, nothing melts in it.
     if "box" in summary:
         return " ".join([*box_flow(summary), *balance(summary)])
     parts = [hottest(summary)]
+    # Melting: off, none, begun, or with a pool.
     melt = summary.get("melt")
     if melt is None:
         melts = summary.get("material", {}).get("solidus_K") is not None
@@ -30,11 +32,12 @@ def verdict(summary: dict[str, Any]) -> str:
         )
     else:
         parts += melting(summary)
+    # Boiling is said by the crater where there is one.
     vapor = summary.get("vaporization")
     if vapor is not None and vapor["start_s"] is not None and "crater" not in summary:
         parts.append(boiling(summary))
-    told = [*parts, *crater(summary), *pool_flow(summary), *balance(summary)]
-    return " ".join(told)
+    sentences = [*parts, *crater(summary), *pool_flow(summary), *balance(summary)]
+    return " ".join(sentences)
 
 
 def hottest(summary: dict[str, Any]) -> str:
@@ -46,6 +49,7 @@ def hottest(summary: dict[str, Any]) -> str:
 def melting(summary: dict[str, Any]) -> list[str]:
     """Life and size of the pool."""
     melt = summary["melt"]
+    # Life of the pool, in pulses or in time.
     if "pulses" in summary:
         text = f"Completely fluid metal was there {lives(summary['pulses'], 'melt')}."
     elif melt["molten_at_end"]:
@@ -54,6 +58,7 @@ def melting(summary: dict[str, Any]) -> list[str]:
     else:
         start, end = (moment(summary, melt[f"{name}_s"]) for name in ("start", "end"))
         text = f"Completely fluid metal was there from {start} to {end}."
+    # Its size, in a section without width only the depth.
     deep = f"{quantity(melt['depth_max_m'], 'm')} deep"
     deep += f" (at {moment(summary, melt['depth_max_at_s'])})"
     if not melt["width_max_m"]:
@@ -65,6 +70,7 @@ def melting(summary: dict[str, Any]) -> list[str]:
 
 def lives(pulses: dict[str, Any], name: str) -> str:
     """After how many pulses of a train something lived, and for how long."""
+    # Pulses after which it lived, and the shortest and longest time.
     both = zip(pulses[f"{name}_starts_s"], pulses[f"{name}_ends_s"], strict=True)
     lengths = [end - start for start, end in both if start is not None]
     begun = len(pulses["starts_s"])
@@ -77,11 +83,13 @@ def lives(pulses: dict[str, Any], name: str) -> str:
 def boiling(summary: dict[str, Any]) -> str:
     """How long the surface was at the vaporization temperature and what came of it."""
     vapor = summary["vaporization"]
+    # When the surface boiled.
     start, end = (moment(summary, vapor[f"{name}_s"]) for name in ("start", "end"))
     when = f"from {start} to {end}"
     if "pulses" in summary:
         when = lives(summary["pulses"], "boiling")
     text = f"The surface was at the vaporization temperature or above {when}"
+    # What came of it: metal gone, metal that took up all the heat, or only a share of it.
     thickness = vapor["evaporated_thickness_max_m"]
     if thickness:
         return f"{text}; up to {quantity(thickness, 'm', 2)} evaporated."
@@ -96,6 +104,7 @@ def boiling(summary: dict[str, Any]) -> str:
 
 def balance(summary: dict[str, Any]) -> list[str]:
     """How well the energy budget closes; nothing where no energy went anywhere."""
+    # Nothing to balance without energy.
     energy = summary["energy"]
     if not exchanged(energy):
         return []
@@ -115,6 +124,7 @@ def warning_texts(summary: dict[str, Any] | None, events: list[dict[str, Any]]) 
         summary: None of a run that is not complete; one without `warnings` is of a run by an
             earlier version, what it found follows from its numbers.
     """
+    # A run that is not complete has the warnings of its events.
     if summary is None:
         return event_warnings(events)
     if "warnings" in summary:
@@ -125,12 +135,14 @@ def warning_texts(summary: dict[str, Any] | None, events: list[dict[str, Any]]) 
 def note_texts(summary: dict[str, Any]) -> list[str]:
     """Notes beside the numbers."""
     found = model_limits(summary)
+    # Whole cells move the spacing.
     requested, used = summary.get("spacing_requested_m"), summary.get("spacing_m")
     if requested and used and abs(used - requested) > 1e-6 * requested:
         found.append(
             f"The spacing of {quantity(requested, 'm')} was rounded to {quantity(used, 'm', 6)} so"
             " that whole cells fill the block."
         )
+    # Half of a symmetric body was computed.
     if summary.get("surface", {}).get("symmetry_factor") == 2:
         found.append(
             "Only x > 0 was computed, half of what is symmetric about x = 0: volumes and energies"
@@ -144,6 +156,7 @@ def pool_flow(summary: dict[str, Any]) -> list[str]:
     flow = summary.get("flow")
     if flow is None:
         return []
+    # No flow, or a flow below a surface at rest.
     if not flow["speed_max_m_s"]:
         return ["Nothing flowed."]
     if "surface_speed_max_m_s" not in flow:
@@ -151,6 +164,7 @@ def pool_flow(summary: dict[str, Any]) -> list[str]:
         return [
             f"{fastest}, at {moment(summary, flow['speed_max_at_s'])}; its surface did not move."
         ]
+    # Speed along the surface, when and where, and the flow back below it.
     place = quantity(abs(flow["surface_speed_max_x_m"]), "m", 3)
     first = (
         f"The liquid flowed along the surface at up to"
@@ -164,6 +178,7 @@ def pool_flow(summary: dict[str, Any]) -> list[str]:
 
 def extrema(summary: dict[str, Any]) -> list[str]:
     """Whether a second extremum of the surface speed appeared."""
+    # One extremum on each side, or two, and which of them was faster.
     found = summary["flow"].get("extrema")
     if found is None:
         return []
@@ -187,6 +202,7 @@ def box_flow(summary: dict[str, Any]) -> list[str]:
     size = f"{quantity(box['width_m'], 'm')} wide and {quantity(box['height_m'], 'm')} high"
     if not flow["speed_max_m_s"]:
         return [f"The liquid in the box, {size}, stayed at rest."]
+    # The strongest eddy is the larger of both extremes of the stream function.
     eddies, center = box["stream_function"], box["center"]
     strongest = max(("max", "min"), key=lambda name: abs(eddies[f"{name}_m2_s"]))
     turning = "counterclockwise" if strongest == "max" else "clockwise"
@@ -200,6 +216,7 @@ def box_flow(summary: dict[str, Any]) -> list[str]:
         f" {quantity(center['u_min_m_s'], 'm/s')} to {quantity(center['u_max_m_s'], 'm/s')} and w"
         f" from {quantity(center['w_min_m_s'], 'm/s')} to {quantity(center['w_max_m_s'], 'm/s')}.",
     ]
+    # Heat through the walls, where they have temperatures.
     heat = box.get("heat", {})
     numbers = {key: value for key, value in heat.items() if key.startswith("nusselt_")}
     if numbers:
@@ -216,6 +233,7 @@ def crater(summary: dict[str, Any]) -> list[str]:
         return []
     if not ejecta["count"]:
         return ["Nothing was ablated."]
+    # Size of the crater, then the ejecta and the energy that they took along.
     size = f"{quantity(found['depth_m'], 'm')} deep at the axis"
     if found["diameter_m"]:
         size += f" and {quantity(found['diameter_m'], 'm')} wide"
@@ -246,6 +264,8 @@ def model_limits(summary: dict[str, Any]) -> list[str]:
         "The model leaves out melt that the recoil of the vapor drives out, phase explosion, and"
         " light that vapor and plasma shield."
     ]
+
+    # Evaporation alone against the critical temperature.
     hot, explodes = found["evaporating_K"], found["phase_explosion_from_K"]
     critical = found["shielding_from_K"]
     if hot is not None and hot == critical:
@@ -258,6 +278,8 @@ def model_limits(summary: dict[str, Any]) -> list[str]:
             "To carry the absorbed flux away by evaporation alone the surface would have to be at"
             f" {quantity(hot, 'K')}."
         )
+
+    # Explosion of the metal, where its critical temperature is known.
     if explodes is None:
         parts.append("The material has no critical temperature to compare with.")
     elif hot is not None:
@@ -267,6 +289,8 @@ def model_limits(summary: dict[str, Any]) -> list[str]:
             " into vapor and drops"
             + (": take the computed depth as an estimate." if hot > explodes else ".")
         )
+
+    # Recoil moves the melt already below.
     recoil = found["recoil_from_K"]
     if recoil is not None:
         parts.append(f"Recoil moves the melt from about {quantity(recoil, 'K')} on.")

@@ -63,6 +63,7 @@ def measured(summary: dict[str, Any], kind: AnyObserver, name: str = "") -> Rows
         name: of one of several probes or traces.
     """
     rows: Rows = []
+    # Each declared result that the summary has, with when and where.
     for one in kind.all_results():
         value = value_at(summary, one.key.replace("<name>", name))
         if is_shown(one, value):
@@ -80,6 +81,7 @@ def is_shown(one: Quantity, value: object) -> bool:
 
 def moment(summary: dict[str, Any], time: float | None, *, typographic: bool = True) -> str:
     """A time of a run, as "57 ns"; in a train of pulses as "pulse 5 + 57 ns"."""
+    # In a train of pulses the start of the last one before counts.
     starts = (summary.get("pulses") or {}).get("starts_s")
     if time is None or not starts:
         return format_quantity(time, "s", typographic=typographic)
@@ -90,6 +92,7 @@ def moment(summary: dict[str, Any], time: float | None, *, typographic: bool = T
 
 def text_of(one: Quantity, value: Any, summary: dict[str, Any], *, typographic: bool = True) -> str:
     """A value of a summary with its unit."""
+    # Times are told by pulses, all else by its unit.
     if MOMENT.fullmatch(one.key):
         times = value if isinstance(value, list) else [value]
         return ", ".join(moment(summary, time, typographic=typographic) for time in times)
@@ -101,6 +104,7 @@ def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -
     value = value_at(summary, key)
     if value is None:
         return ""
+    # A key of a time, or the letter of an axis before _m.
     if key.endswith("_s"):
         return moment(summary, value, typographic=typographic)
     return f"{key[-3]} = {format_quantity(value, 'm', typographic=typographic)}"
@@ -108,6 +112,7 @@ def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -
 
 def main_results(summary: dict[str, Any]) -> list[tuple[Quantity, Any]]:
     """The quantities that `lasersph info` shows, with their values."""
+    # What `lasersph info` shows, of each probe or trace by its name.
     wanted = (one for kind in kinds_of(summary) for one in kind.all_results() if one.is_main)
     named = (each for one in wanted for each in each_named(one, summary))
     found = ((one, value_at(summary, one.key)) for one in named)
@@ -116,8 +121,9 @@ def main_results(summary: dict[str, Any]) -> list[tuple[Quantity, Any]]:
 
 def each_named(one: Quantity, summary: dict[str, Any]) -> list[Quantity]:
     """The quantity itself, or where it is that of something with a name that of each in a run."""
-    section, *rest = one.key.split(".")
-    if "<name>" not in rest:
+    # Only quantities of named things have a placeholder.
+    section, *names = one.key.split(".")
+    if "<name>" not in names:
         return [one]
     return [
         replace(
@@ -137,6 +143,7 @@ def main_rows(
     typographic: bool = True,
 ) -> Rows:
     """Main results: words, value with its error where that is known, and when."""
+    # The error decides on the digits of its number.
     rows, errors = [], (uncertainty or {}).get("numbers", {})
     for one, value in main_results(summary):
         text = text_of(one, value, summary, typographic=typographic)
@@ -175,7 +182,7 @@ def summary_rows(
 
 
 def half_text(summary: dict[str, Any]) -> str:
-    """What a run of one half says behind its number of particles; empty of a whole one."""
+    """Words behind the number of particles of a run of one half; empty of a whole one."""
     if summary.get("surface", {}).get("symmetry_factor") != 2:
         return ""
     return " at x > 0, as are volumes and energies"
@@ -183,6 +190,7 @@ def half_text(summary: dict[str, Any]) -> str:
 
 def computation(summary: dict[str, Any]) -> Rows:
     """How the run was computed: size, time, steps, what limited them, iterations."""
+    # What was computed, and how long it took.
     steps, count = summary.get("time_step", {}), max(summary["steps"], 1)
     rows: Rows = [
         ("solver", str(summary["solver"])),
@@ -195,10 +203,12 @@ def computation(summary: dict[str, Any]) -> Rows:
         ("smallest time step", entry("_s", steps.get("min_s"))),
         ("largest time step", entry("_s", steps.get("max_s"))),
     ]
+    # Where it was computed: card or threads.
     if summary.get("device"):
         rows.append(("device, precision", f"{summary['device']}, {summary['precision']}"))
     elif "threads" in summary:
         rows.append(("threads, precision", f"{summary['threads']}, {summary['precision']}"))
+    # Limits and iterations, the most frequent first.
     for name, times in sorted(steps.get("limits", {}).items(), key=lambda item: -item[1]):
         share = shown(100.0 * times / count, 3)
         rows.append((f"steps limited by: {name or 'unnamed'}", f"{times} ({share} %)"))
@@ -216,6 +226,7 @@ def energy(summary: dict[str, Any]) -> Rows:
     """The energy budget, absolute and relative to the incident energy."""
     incident = summary["energy"]["incident_J"]
     rows: Rows = []
+    # Terms that are zero are left out, but for those that a reader expects.
     for one in EnergyBudget.all_results():
         value = value_at(summary, one.key)
         is_nothing = one.key.endswith("_J") and not value and one.key not in ALWAYS_SHOWN
@@ -232,6 +243,7 @@ def removal_efficiency(summary: dict[str, Any]) -> Rows:
     incident = summary["energy"]["incident_J"]
     if "crater" not in summary or not incident:
         return []
+    # m^3/J in um^3/uJ is 1e12 larger.
     per_joule = 1e12 * summary["crater"]["removed_volume_m3"] / incident
     return [("removed volume over energy of the light", f"{format_number(per_joule)} µm³/µJ", "")]
 
@@ -244,6 +256,7 @@ def dimensionless(summary: dict[str, Any]) -> Rows:
 
 def flat(value: Any, name: str = "", unit: str = "J") -> Rows:
     """Every number of a nested summary as (dotted name, text)."""
+    # A table may have a unit of energy of its own.
     if isinstance(value, dict):
         unit = str(value.get("unit", unit))
         rows: Rows = []
@@ -257,6 +270,7 @@ def flat(value: Any, name: str = "", unit: str = "J") -> Rows:
 
 def entry(key: str, value: Any, energy_unit: str = "J") -> str:
     """A value of summary.json in words, its unit taken from the end of its key."""
+    # Long lists are counted.
     if isinstance(value, list) and len(value) > MOST_LISTED:
         return f"{len(value)} numbers"
     unit = unit_of(key)
@@ -278,6 +292,7 @@ def with_error(value: float, error: float | None, unit: str, *, typographic: boo
 
 def in_words(value: Any, unit: str, typographic: bool = True) -> str:
     """A truth, a text, a number with its unit, a list of them, or nothing."""
+    # By the kind of the value.
     if value is None:
         return "–"
     if isinstance(value, list):
@@ -286,6 +301,7 @@ def in_words(value: Any, unit: str, typographic: bool = True) -> str:
         return "yes" if value else "no"
     if isinstance(value, str):
         return value
+    # In the unit of the field.
     factor, name = READABLE.get(unit, (1.0, unit))
     name = name.replace("um", "µm") if typographic else name
     return format_quantity(factor * float(value), name, typographic=typographic)
@@ -296,7 +312,11 @@ def estimates(summary: dict[str, Any]) -> Rows:
     found = summary.get("estimates")
     if not found:
         return []
-    light, heat, vapor = found["absorption"], found["conduction"], found["vapor"]
+
+    # Light, heat and vapor, each beside the value that the paper gives.
+    light = found["absorption"]
+    heat = found["conduction"]
+    vapor = found["vapor"]
     rows: Rows = []
     if light:
         share = shown(100.0 * light["left_below_first_layer"], 3)
@@ -321,6 +341,8 @@ def estimates(summary: dict[str, Any]) -> Rows:
         both = (vapor["effusion_velocity_m_s"], vapor["mean_normal_velocity_m_s"])
         text = " and ".join(f"{shown(v)} m/s" for v in both)
         rows.append(("vapor at the boiling point: effusion, and eq. (6)", text, CITED_SPEEDS))
+
+    # Accelerations of the traces against those that the paper cites.
     rates = (life["acceleration_m_s2"] for life in summary.get("traces", {}).values())
     largest = entry("_m_s2", max((rate for rate in rates if rate is not None), default=None))
     rows.append(("largest acceleration of a traced particle", largest, CITED_ACCELERATIONS))
@@ -332,6 +354,7 @@ def left_out(summary: dict[str, Any]) -> Rows:
     found = (summary.get("estimates") or {}).get("left_out")
     if found is None:
         return []
+    # The temperature at which evaporation carries all flux away, beside each limit.
     hot = entry("_K", found["evaporating_K"])
     names = {
         "recoil_from_K": "melt driven out by the recoil of the vapor",

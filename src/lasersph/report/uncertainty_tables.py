@@ -32,6 +32,7 @@ def how_sure(summary: dict[str, Any], found: dict[str, Any] | None) -> list[str]
     """Main results with their errors and parts, the inputs, what failed, and all numbers."""
     if found is None:
         return []
+    # Main results with their parts, spacings, inputs, then all numbers folded.
     inputs = found["inputs"]
     head = ("result", "value ± error", "numerical", *map(short_name, inputs))
     body = [paragraph(MEANING), table(main_rows(summary, found), head)]
@@ -65,6 +66,7 @@ def main_rows(summary: dict[str, Any], found: dict[str, Any]) -> Rows:
             continue
         unit = unit_in(one.unit, int(summary["dimensions"]))
         twice = found["coverage"]
+        # Twice the standard deviation of each input holds about 95 %.
         parts = [entry["inputs"].get(key) for key in found["inputs"]]
         sizes = [None if part is None else twice * part["standard"] for part in parts]
         texts = (two_digits(size, unit) for size in (entry["numerical"], *sizes))
@@ -99,6 +101,7 @@ def bent(summary: dict[str, Any], found: dict[str, Any]) -> list[str]:
 def all_rows(summary: dict[str, Any], found: dict[str, Any]) -> Rows:
     """Every number of the summary."""
     rows: Rows = []
+    # A number that an observer declares has its unit there, any other in its key.
     declared = {one.key: one.unit for kind in OBSERVERS for one in kind.all_results()}
     for key, entry in found["numbers"].items():
         unit = unit_in(declared.get(key, unit_of(key)), int(summary["dimensions"]))

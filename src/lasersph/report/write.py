@@ -20,7 +20,7 @@ from lasersph.plots.animation import LEAST_FRAMES, animate_run
 from lasersph.plots.flow_fields import has_flow
 from lasersph.plots.run_figures import DRAWINGS, Begun, draw_run, pulse_note
 from lasersph.report import tables, uncertainty_tables
-from lasersph.report.headline import STILLS, large_numbers, what_was_computed
+from lasersph.report.headline import TELLING_FIGURES, large_numbers, what_was_computed
 from lasersph.report.page import (
     contents,
     details,
@@ -62,11 +62,13 @@ def write_report(
         OutputError: no run there, the run is not complete, or nothing can be written.
     """
     run = open_run(folder)
+    # Without a summary there are no results.
     if not run.is_complete:
         raise OutputError(
             f"{run.path}: the run is not complete, so there is nothing to report yet;"
             " go on with --resume"
         )
+    # Figures, the animation where anything moves, then the page.
     images = draw_run(folder, begun=begun)
     if is_moving(run):
         begun("animation", len(DRAWINGS), len(DRAWINGS))
@@ -90,15 +92,19 @@ def report_page(run: Run, images: list[Path], viewer: str = "") -> str:
     """The whole page; `viewer` is HTML. Raises OSError where an image cannot be read."""
     summary = run.summary
     name = str(summary.get("title") or summary["case"])
+
+    # The most telling still stands beside the large numbers at the top.
     versions = run.resolved.get("versions", {})
     still = min(
-        (image for image in images if image.stem in STILLS),
-        key=lambda image: STILLS.index(image.stem),
+        (image for image in images if image.stem in TELLING_FIGURES),
+        key=lambda image: TELLING_FIGURES.index(image.stem),
         default=None,
     )
     images = sorted(images, key=lambda image: image != still)
     figures = figures_by_part(run, images)
     top, *drawn = figures["results"] or [""]
+
+    # Parts of the page; empty ones are left out.
     parts = {
         "Results": results(run),
         "Figures": [*drawn, *folded("More figures", figures["more"])],
@@ -108,6 +114,8 @@ def report_page(run: Run, images: list[Path], viewer: str = "") -> str:
         "Reproduce": reproduce(run, versions),
     }
     parts = {title: part for title, part in parts.items() if part}
+
+    # Top: title, sentence, warnings, numbers, verdict; then contents and parts.
     body = [
         f"<h1>{escape(name)}</h1>",
         paragraph(what_was_computed(run), "lead"),
@@ -128,12 +136,14 @@ def figures_by_part(run: Run, images: list[Path]) -> dict[str, list[str]]:
     pulses = 1 + len(starts_after_pauses(run))
     found: dict[str, list[str]] = {"results": [], "more": [], "computation": []}
     wanted: dict[str, list[tuple[Path, str]]] = {part: [] for part in found}
+    # Each image goes to its part, with a note where it shows only the last pulse.
     for image in images:
         drawing = drawings.get(image.stem)
         caption = ANIMATION if drawing is None else drawing.caption
         if pulses > 1 and not (drawing and drawing.has_all_pulses):
             caption += f" Here {pulse_note(pulses)}."
         wanted["results" if drawing is None else drawing.part].append((image, caption))
+    # Figures are numbered through all parts.
     number = 0
     for part, pairs in wanted.items():
         for image, caption in pairs:
@@ -153,6 +163,7 @@ def results(run: Run) -> list[str]:
     body = [table(tables.main_rows(summary, run.uncertainty), ("result", "value", "at"))]
     if "probes" in summary:
         body.append(paragraph(Probes.note))
+    # A folded table for each observer, then energy, estimates, limits of the model.
     for kind in kinds_of(summary):
         body += measured(summary, kind)
     energy = table(tables.energy(summary), tables.ENERGY_HEAD) + paragraph(EnergyBudget.note)
@@ -178,13 +189,14 @@ def computation(summary: dict[str, Any], figures: list[str]) -> list[str]:
 
 
 def measured(summary: dict[str, Any], kind: AnyObserver) -> list[str]:
-    """What an observer found, folded: a table, or one for each of its probes or traces, and its
+    """Results of an observer, folded: a table, or one for each of its probes or traces, and its
     note."""
     if kind in (Steps, EnergyBudget) or (kind is Vaporization and "crater" in summary):
         return []  # steps and energy have parts of their own; ejecta say what vaporized
     section = kind.all_results()[0].key.split(".")[0]
     names = summary.get(section, {}) if "<name>" in kind.all_results()[0].key else [""]
     body = []
+    # A table for each name, of the crater with the removed volume over the energy.
     for name in names:
         rows = tables.measured(summary, kind, name)
         if kind is Crater:
@@ -227,6 +239,7 @@ def reproduce(run: Run, versions: dict[str, str]) -> list[str]:
 def command_of(run: Run) -> str:
     """The command that repeats the run, with what was set beside the case file."""
     words = ["lasersph", "run", "case.toml", "--out", "again"]
+    # Settings beside the file, errors of inputs, precision.
     words += [word for one in split_settings(run.case_text)[0] for word in ("--set", one)]
     if run.uncertainty is not None:
         words.append("--uncertainty")

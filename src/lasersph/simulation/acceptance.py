@@ -34,10 +34,12 @@ def accepted_forecast(
         CaseError: it needs more memory than there is. NoDevice: no card for "cuda".
     """
     try:
+        # First the rough size, then the exact one: absurd cases are not even laid out.
         refuse_if_too_large(case, backend)  # an estimate: absurd cases are not even laid out
         expected = forecast(case, threads=threads, backend=backend, recipe=recipe)
         refuse_if_too_large(case, backend, Size(expected.particles, expected.memory))
     except CaseError as error:
+        # The user insists: the refusal becomes the first warning.
         if not anyway:
             raise CaseError(error.problem, f"{error.hint}, {ANYWAY}", key=error.key) from None
         expected = forecast(case, threads=threads, backend=backend, recipe=recipe)
@@ -48,16 +50,18 @@ def accepted_forecast(
 def check(
     case: Case, *, threads: int | None = None, backend: Literal["cpu", "cuda"] = "cpu"
 ) -> Forecast:
-    """What a case would need, before anything runs: particles, memory, steps, time, warnings.
+    """Needs of a case before anything runs: particles, memory, steps, time, warnings.
 
         cost = lasersph.check(lasersph.load_case("dlip-steel"))
         print(cost)  # as `lasersph check`
         cost.particles, cost.wall_time, cost.warnings
 
     Args:
-        threads: for the expected time; all processors if not given. backend: where to compute.
+        threads: for the expected time; all processors if not given.
+        backend: where to compute.
 
     Raises:
-        CaseError: it needs more memory than there is. NoDevice: no card for "cuda".
+        CaseError: it needs more memory than there is.
+        NoDevice: no card for "cuda".
     """
     return accepted_forecast(case, backend, threads=chosen(threads))

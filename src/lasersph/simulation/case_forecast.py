@@ -17,18 +17,27 @@ from lasersph.simulation.recipes import FlowForecast
 
 @dataclass(frozen=True)
 class Forecast:
-    """What a case will cost; printed, the rows of `lasersph check` and its warnings.
+    """Cost and warnings of a case; printed, the rows of `lasersph check` and its warnings.
 
     Attributes:
-        case: what was asked about.
-        particles, layers: counts. pairs: estimate, of what is active. memory: peak [bytes].
-        spacing: finest, as used [m]. fine_depth: of the finest layers [m].
-        limits: time-step limits [s] while the light is on. binding: name of the smallest.
-        steps: estimate. wall_time: rough estimate [s] on `threads` threads.
-        absorption_length, penetration: 1/alpha and sqrt(D t_p) [m], None where there is no light.
-        warnings: what a user should think about, a sentence each. flow: of what flows, if anything
-            does. heating: what the light does to the surface, if there is any.
-        threads, backend: "cpu" or "cuda", for which the time and the memory were asked.
+        case: the case in question.
+        particles: count.
+        layers: count.
+        pairs: estimate, of what is active.
+        memory: peak [bytes].
+        spacing: finest, as used [m].
+        fine_depth: of the finest layers [m].
+        limits: time-step limits [s] while the light is on.
+        binding: name of the smallest of them.
+        steps: estimate.
+        wall_time: rough estimate [s] on `threads` threads.
+        absorption_length: 1/alpha [m], None where there is no light.
+        penetration: sqrt(D t_p) [m], None where there is no light.
+        warnings: sentences for a user to think about.
+        flow: forecast of the flow, if there is one.
+        heating: effect of the light on the surface, if there is any.
+        threads: for which the time was asked.
+        backend: "cpu" or "cuda", for which the memory was asked.
     """
 
     case: Case = field(repr=False)
@@ -57,9 +66,13 @@ class Forecast:
 
 def _rows(expected: Forecast) -> list[tuple[str, str]]:
     """Rows of what a case is and what it will cost, each with its name."""
-    case, threads, backend = expected.case, expected.threads, expected.backend
+    case = expected.case
+    threads = expected.threads
+    backend = expected.backend
     there = [words.format(in_words(most)) for words, most in memories(backend) if isfinite(most)]
     time = f"roughly {format_duration(expected.wall_time)} on {threads} thread{'s' * (threads > 1)}"
+
+    # What is computed: case, light, particles, memory.
     rows = [
         ("case", case.title or case.name),
         ("material", case.material.title or case.material.name),
@@ -74,17 +87,23 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
         ),
         ("memory", ", ".join([f"about {in_words(expected.memory)}", *there])),
     ]
+
+    # The limits of the step, the smallest first.
     for name, limit in sorted(expected.limits.items(), key=lambda item: item[1]):
         binds = "  <- binding" if name == expected.binding else ""
         shown = format_quantity(limit, "s") if isfinite(limit) else "none"
         rows.append((f"step limit: {name}", shown + binds))
     if loss := _losses(case):
         rows.append(("surface loses heat", loss))
+
+    # How much work that is.
     rows.append(("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"))
     rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
     if expected.flow is not None:
         rows.append(("viscosity of the melt", viscosity_text(case.material)))
         rows.append(("expected speed", f"up to about {expected.flow.speed:.2g} m/s"))
+
+    # Lengths that the particles must resolve.
     for name, length in (
         ("moving layer", expected.flow.layer if expected.flow else None),
         ("absorption length", expected.absorption_length),
@@ -97,9 +116,10 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
 
 
 def _losses(case: Case) -> str:
-    """What the surface loses to the surroundings, and who says so; empty where nothing."""
+    """Heat losses of the surface in words, and who says so; empty where there are none."""
     boundaries = case.boundaries
     losses = boundaries.surroundings(case.material, case.initial_temperature)
+    # A value of the case goes before that of the metal.
     owner = "as given" if boundaries.emissivity is not None else f"of {case.material.name}"
     parts = []
     if losses["eps"]:

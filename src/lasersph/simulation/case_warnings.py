@@ -1,4 +1,4 @@
-"""What a user should think about before a run, each as a sentence with its numbers."""
+"""Warnings about a case before its run, each a sentence with its numbers."""
 
 from __future__ import annotations
 
@@ -50,6 +50,7 @@ def run_warnings(
     """Warnings that hold of any solver: resolution, sizes, vapor, electrons, snapshots."""
     if text := what_is_not_shown(case):
         yield text
+    # Whole cells fill the domain, which moves the spacing.
     spacing = layers.spacing
     if abs(spacing - case.particles.spacing) > 1e-2 * case.particles.spacing:
         yield (
@@ -61,7 +62,9 @@ def run_warnings(
         yield from _sizes(case, heating)
         yield from _vapor(case, heating)
         yield from _electrons(case, curve, heating)
+        yield from _resting_spot(case)
         yield from _frames(case)
+    # Where heat raises the temperature without a boiling point there is no end to it.
     changes = case.solver.phase_change and (case.laser is not None or case.material.melting)
     if changes and case.material.vaporization is None:
         hot = "" if heating is None else f" (here to {heating.temperature:.0f} K)"
@@ -73,10 +76,25 @@ def run_warnings(
         yield "the time step is fixed: it may be unstable"
 
 
+def _resting_spot(case: Case) -> Iterator[str]:
+    """A spot that is said to move from pulse to pulse, which only the texture of a spot follows."""
+    assert case.laser is not None
+    spot = case.laser.spot
+    pulses = case.laser.pulse.count
+    shift = case.laser.displacement
+    is_shifted = spot is not None and (spot.shift is not None or spot.scan_speed is not None)
+    if is_shifted and shift is not None and pulses > 1:
+        yield (
+            f"the spot does not move by {format_quantity(shift, 'm')} from pulse to pulse in a "
+            f"run: all {pulses} pulses fall where the first does; lasersph texture moves it"
+        )
+
+
 def _frames(case: Case) -> Iterator[str]:
     """Snapshots of a flow that are further apart than its pulse lasts."""
     interval = case.output.snapshots.interval or case.end_of_pulse / DEFAULT_COUNT
     duration = pulse_duration(case)
+    # The melt of a pulse lasts about as long as the pulse.
     if computes_flow(case.solver) and interval > duration and not case.output.snapshots.times:
         yield (
             f"snapshots are {format_quantity(interval, 's', 3)} apart, longer than the pulse of "
@@ -105,18 +123,26 @@ def penetration_depth(case: Case) -> float:
 def _resolution(case: Case, layers: Layers) -> Iterator[str]:
     """Heat and light that are finer than the particles, or do not fit into the domain."""
     assert case.laser is not None
-    spacing, length, heat = layers.spacing, absorption_length(case), penetration_depth(case)
+    spacing = layers.spacing
+    length = absorption_length(case)
+    heat = penetration_depth(case)
+
+    # Heat: three spacings in sqrt(D t_p) are the least.
     if spacing > heat / 3.0:
         yield (
             f"the heat of a pulse reaches {format_quantity(heat, 'm', 3)}, less than 3 "
             f"spacings of {format_quantity(spacing, 'm', 3)}: take a finer spacing"
         )
+
+    # Light in depth: the energy of a layer is exact, but its shape is lost.
     if 0.0 < length < spacing:
         yield (
             f"the light is absorbed within {format_quantity(length, 'm', 3)}, less than one"
             f" spacing of {format_quantity(spacing, 'm', 3)}: its profile is not resolved, though"
             " its energy is exact"
         )
+
+    # Light along the surface: of a pattern, its period over 2 pi.
     scale = case.laser.beam.scale
     if scale < FEWEST_SPACINGS * spacing and case.solver.dimensions > 1:
         yield (
@@ -125,11 +151,15 @@ def _resolution(case: Case, layers: Layers) -> Iterator[str]:
             f"{FEWEST_SPACINGS:.0f} spacings of {format_quantity(spacing, 'm', 3)}: take a finer "
             "spacing"
         )
+
+    # The bottom is felt from about a fifth of the depth.
     if layers.thickness.sum() < 5.0 * heat:
         yield (
             f"the domain is {format_quantity(float(layers.thickness.sum()), 'm', 3)} deep, less "
             f"than 5 penetration depths of {format_quantity(heat, 'm', 3)}: the bottom will be felt"
         )
+
+    # A pulse that begins after the end heats nothing.
     if not case.laser.pulse.delivered(0.0, case.time.end) > 0.0:
         yield (
             f"no light falls before time.end of {format_quantity(case.time.end, 's')}: nothing "
@@ -146,6 +176,7 @@ def _sizes(case: Case, heating: HeatingForecast) -> Iterator[str]:
     )
     if isnan(heating.temperature):
         return
+    # Too little light: the rise at the surface.
     rise = heating.temperature - heating.cold
     if 0.0 < rise < LEAST_RISE:
         yield (
@@ -153,6 +184,8 @@ def _sizes(case: Case, heating: HeatingForecast) -> Iterator[str]:
         )
     if boiling is None:
         return
+    # Too much light: the absorbed fluence over rho (sqrt(D t_p) + 1/alpha) c_p (T_v - T_0), the
+    # heat that brings the layer which the pulse reaches to its boiling point.
     heated = case.material.density_reference * (penetration_depth(case) + absorption_length(case))
     capacity = float(case.material.heat_capacity_at(case.material.reference_temperature))
     needed = heated * capacity * (boiling.temperature - heating.cold)
@@ -174,23 +207,30 @@ def _vapor(case: Case, heating: HeatingForecast) -> Iterator[str]:
     metal, solver = case.material.vaporization, case.solver
     if metal is None or not chooses_vaporization(solver):
         return
+
+    # A flux of vapor needs data that not every metal has.
     missing = " and ".join(missing_for_flux(case.material))
     add = f"; give {missing} in [material.vaporization]" if missing else ""
     boils = f"it boils at {metal.temperature:.0f} K"
     is_cold = heating.temperature < NEAR_BOILING * metal.temperature
     wants_flux = wants_vapor_flux(solver, case.material) and not solver.has_vapor_flux
+
+    # A surface that moves and gets hot, but cannot lose vapor.
     if wants_flux and missing and not is_cold:
         yield (
             f'no vapor leaves the surface that moves, or pushes it: "{case.material.name}" has no '
             f"{missing}; light heats it to about {heating.temperature:.0f} K, {boils}{add}"
         )
     elif heating.held > LEAST_HELD:
+        # A plateau that takes up so much heat that vapor would have left.
         how = "" if missing else '; solver.vaporization = "flux" computes it'
         yield (
             f"by estimate the surface is held at its boiling point of {metal.temperature:.0f} K, "
             f"with the heat that would turn {format_quantity(heating.held, 'm', 2)} of metal "
             f"into vapor: vapor that leaves, its push and a hotter surface are left out{how or add}"
         )
+
+    # Beyond the critical temperature no model of evaporation holds.
     critical = metal.critical_temperature
     if critical is not None and heating.temperature > PHASE_EXPLOSION * critical:
         yield (
@@ -203,7 +243,9 @@ def _vapor(case: Case, heating: HeatingForecast) -> Iterator[str]:
 def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Iterator[str]:
     """How long electrons are hotter than the lattice, where a pulse is not much longer."""
     material, pulse = case.material, pulse_duration(case)
+    # A metal without data for its electrons is judged by the one that couples them most weakly.
     electrons = electrons_of(material.name)
+    # Where the estimate has no temperature, the end of the curve stands for it.
     hottest = np.nan_to_num(heating.temperature, nan=float(curve.temperature[-1]))
     hottest = min(max(hottest, heating.cold), float(curve.temperature[-1]))
     density = material.density_reference

@@ -1,4 +1,4 @@
-"""What a case will cost, before anything runs: particles, memory, steps, limits, resolution."""
+"""Cost of a case before anything runs: particles, memory, steps, limits, resolution."""
 
 from __future__ import annotations
 
@@ -38,6 +38,7 @@ def forecast(
     spacing, count = layers.spacing, layers.particle_count
     pairs = active_pairs(recipe)
     heating = heating_forecast(case, recipe.heating)
+    # Graded layers grow from the finest one downward.
     is_fine = layers.thickness <= spacing * (1.0 + 1e-9)
     return Forecast(
         case=case,
@@ -64,15 +65,17 @@ def forecast(
 def active_pairs(recipe: Recipe[Any, Any]) -> float:
     """Estimated number of pairs of particles that are computed."""
     case, layers = recipe.case, recipe.layers
+    # Heat reaches only a part of the block; in it each particle has the neighbors of a lattice.
     share = active_share(case, case.particles.support_over_spacing * layers.spacing)
     neighbors = neighbor_count(case.particles, case.solver.dimensions)
     return share * layers.particle_count * neighbors
 
 
 def spans_of(recipe: Recipe[Any, Any], steps: StepForecast, threads: int) -> tuple[Span, ...]:
-    """What each phase of a run is expected to cost on some threads."""
+    """Expected cost of each stage of a run on some threads."""
+    # Seconds of one product of the matrix of all pairs with a vector.
     product = active_pairs(recipe) / PAIRS_PER_SECOND / max(1, threads)
     return tuple(
-        Span(phase.name, phase.end, phase.steps * (phase.products * product + SECONDS_PER_STEP))
-        for phase in steps.phases
+        Span(stage.name, stage.end, stage.steps * (stage.products * product + SECONDS_PER_STEP))
+        for stage in steps.stages
     )

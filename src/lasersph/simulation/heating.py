@@ -1,4 +1,4 @@
-"""What light does to the surface of a case before anything runs: heat taken in, temperature, vapor.
+"""Effect of light on the surface of a case before it runs: heat taken in, temperature, vapor.
 
 The estimate is that of `analytic.melt_depth`: heat in columns, no flow. Where vapor leaves the
 surface it takes its heat and its metal along.
@@ -60,6 +60,7 @@ def heating_forecast(case: Case, estimate: MeltEstimate | None) -> HeatingForeca
         return None
     hottest = float("nan") if estimate is None else estimate.temperature
     R = reflectivity_at(case, cold)
+    # Without phase change there is nothing to melt or boil.
     marks = (case.material.melting, case.material.vaporization)
     melting, boiling = marks if case.solver.phase_change else (None, None)
     return HeatingForecast(
@@ -79,6 +80,7 @@ def heating_forecast(case: Case, estimate: MeltEstimate | None) -> HeatingForeca
 def reflectivity_at(case: Case, temperature: float) -> float:
     """Reflectivity of the surface [1]; that of a preset of the published rule of ejection."""
     assert case.laser is not None
+    # The published rule of ejection brings a reflectivity of its own; else that of the metal at T.
     if case.ejection is not None and case.ejection.reflectivity is not None:
         return case.ejection.reflectivity
     T, R = case.laser.reflectivity_table(case.material, COLDEST, HOTTEST)
@@ -97,6 +99,7 @@ def estimate_with_vapor(case: Case, without: MeltEstimate | None) -> MeltEstimat
     vapor = case.material.vaporization
     if found is None or vapor is None or not case.solver.evaporates:
         return found
+    # Vapor leaves where its saturation pressure exceeds that of the surroundings.
     ambient = ambient_pressure(case)
     hottest = saturation_pressure(found.temperature, **vapor_constants(vapor))
     return expected_heating(case, vapor_of(case)) if hottest > ambient else found
@@ -112,6 +115,7 @@ def vapor_of(case: Case) -> Vapor:
     metal = case.material.vaporization
     assert metal is not None
     constants, (ratio, flux, _) = vapor_constants(metal), outflow_tables()
+    # Table of m(T) and q(T), since the estimate asks for them in every cell and step.
     T = np.linspace(TABLE_START, min(constants["T_c"], TABLE_END * metal.temperature), TABLE_NODES)
     given = constants | {"p_e": ambient_pressure(case), "ratio_nodes": ratio, "flux_nodes": flux}
     heat, _, mass = np.array([evaporation_loss(float(t), **given) for t in T]).T

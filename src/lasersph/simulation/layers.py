@@ -44,12 +44,14 @@ def lay_out(case: Case, melt: Callable[[], MeltEstimate | None] | None = None) -
 def fine_depth(case: Case, melt: MeltEstimate | None) -> float:
     """Depth of the finest layers [m]: expected melt plus two support radii, and all the light."""
     spacing = case.particles.spacing
+    # At least a few layers, and all in which light is absorbed.
     least = LEAST_FINE_LAYERS * spacing
     if case.laser is not None:
         alpha = case.laser.absorption_coefficient(case.material)
         least = max(least, ABSORPTION_LENGTHS / alpha)
     if melt is None or melt.depth == 0.0:
         return least
+    # The melt of the estimate with its safety, and two supports of solid below it.
     return max(least, melt.safe_depth + 2.0 * case.particles.support_over_spacing * spacing)
 
 
@@ -57,7 +59,7 @@ def expected_melt(case: Case, vapor: Vapor | None = None) -> MeltEstimate | None
     """How deep light will melt the case, and when; None without light or melting.
 
     Args:
-        vapor: what leaves the surface, to be told how much evaporates; layers do not count on it.
+        vapor: flux that leaves the surface, for what evaporates; layers do not count on it.
     """
     melts = case.solver.phase_change and case.material.melting is not None
     return expected_heating(case, vapor) if melts else None
@@ -71,14 +73,21 @@ def expected_heating(case: Case, vapor: Vapor | None = None) -> MeltEstimate | N
     laser = case.laser
     if laser is None:
         return None
+
+    # Where pauses are jumped over, each pulse meets metal that is cold again.
     if case.pause != "compute":
         laser = laser.first_pulse
+
+    # A pattern needs columns from a bright line to a dark one, half a period apart; a spot only the
+    # one in its center.
     width = case.domain.width
     columns, column_width = 1, None
     if width is not None and laser.is_even and laser.beam.is_pattern:
         columns, column_width = ESTIMATE_COLUMNS, 0.5 * width / ESTIMATE_COLUMNS
     fluence = np.array([laser.peak_fluence])
     if column_width is not None:
+        # Mean energy per area in each column; divided by the share that is delivered, so that a
+        # fluence of the whole pulse comes out.
         faces = np.arange(columns + 1) * column_width
         pulse = laser.pulse
         share = float(pulse.delivered(-np.inf, np.inf)) or 1.0

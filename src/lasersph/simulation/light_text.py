@@ -17,19 +17,26 @@ def light_rows(laser: Laser) -> list[tuple[str, str]]:
     from lasersph.lasers import InterferenceBeam
     from lasersph.lasers.beam_image import MeasuredEnvelope
 
-    beam, spot, peak = laser.beam, laser.spot, laser.peak_fluence
+    # Shape of the pattern; without a spot its mean fluence says all.
+    beam = laser.beam
+    spot = laser.spot
+    peak = laser.peak_fluence
     rows, kind = [], "everywhere"
     if isinstance(beam, InterferenceBeam):
         rows.append(("pattern", beam.description))
         kind = f"mean over a period; at most {_fluence(peak)}"
     if spot is None and beam.area is None:
         return [*rows, ("fluence of a pulse", f"{_fluence(laser.mean_fluence)}, {kind}")]
+
+    # The fluence of a spot differs from place to place: its center, its mean.
     local = laser.spot_fluence
     if beam.is_pattern:
         highest = peak * local.center / laser.mean_fluence
         kind = f"mean over a period; at most {_fluence(highest)}"
     else:
         kind = "not averaged"
+
+    # A measured beam says how well an ideal one fits it.
     envelope, measured = local.envelope, []
     if isinstance(envelope, MeasuredEnvelope):
         measured = [("beam image", envelope.quality)]
@@ -43,20 +50,25 @@ def light_rows(laser: Laser) -> list[tuple[str, str]]:
             f"{_fluence(local.mean)}, energy over the circle of 1/e^2 or the top hat",
         ),
     ]
+
+    # What is computed is a small cell at some place of the spot.
     if spot is not None and spot.extent == "cell":
         place = ", ".join(format_quantity(each, "m") for each in spot.place)
         kind = "mean over a period" if rows[0][0] == "pattern" else "not averaged"
         rows.append(("fluence computed", f"{_fluence(laser.mean_fluence)}, {kind}, at ({place})"))
-    pulse, way = laser.pulse, laser.displacement
+
+    # Pulses: how often, how much power, how far apart.
+    pulse, displacement = laser.pulse, laser.displacement
     if pulse.interval is not None:
         rate = format_quantity(1.0 / pulse.interval, "Hz")
         power = format_quantity(local.energy / pulse.interval, "W")
         rows.append(("repetition", f"{rate}, {power} on average"))
-    if way is None:
+    if displacement is None:
         rows.append(("pulses per spot", f"{pulse.count}, all at one place"))
     else:
-        apart = f"{format_quantity(way, 'm')} apart, overlap {100.0 * local.overlap(way):.3g} %"
-        rows.append(("pulses per spot", f"{local.diameter / way:.3g}, {apart}"))
+        overlap = f"overlap {100.0 * local.overlap(displacement):.3g} %"
+        apart = f"{format_quantity(displacement, 'm')} apart, {overlap}"
+        rows.append(("pulses per spot", f"{local.diameter / displacement:.3g}, {apart}"))
     return rows
 
 
@@ -67,6 +79,7 @@ def heating_rows(case: Case, heating: HeatingForecast) -> list[tuple[str, str]]:
 
     cold, hot, (R, hot_R) = heating.cold, heating.temperature, heating.reflectivity
     rows = []
+    # A plane section of a spot is that of a line.
     if heating.sideways and case.solver.dimensions == 2:
         rows.append(
             ("section", "through the axis of the spot, its light the same at all y: a line focus")
@@ -79,6 +92,7 @@ def heating_rows(case: Case, heating: HeatingForecast) -> list[tuple[str, str]]:
         ("absorbed fluence", f"{_absorbed(heating)}, with the reflectivity at {cold:.0f} K")
     )
     rows.append(("highest temperature", _highest(case, heating)))
+    # Vapor leaves, or the surface keeps its boiling temperature.
     if heating.boils and case.solver.evaporates:
         gone = format_quantity(heating.evaporated, "m", 2)
         rows.append(("vapor", f"leaves the surface, about {gone} of metal in a pulse"))

@@ -15,8 +15,8 @@ import numpy as np
 
 from lasersph.input import format_duration, format_quantity
 
-FORGET = 0.99
-"""What counts of earlier steps, at each step: a pool grows, and so does the cost of its steps.
+WEIGHT_PER_STEP = 0.99
+"""Weight that earlier steps keep at each step: a pool grows, and so does the cost of its steps.
 Display: the time that is left is told from the last hundred."""
 OUTLIER = 5.0
 """Times the usual that a step may count. Display: loops are compiled or loaded in steps that take
@@ -32,7 +32,10 @@ class RunProgress:
     """How far a run is after a step; nothing in a run depends on it.
 
     Attributes:
-        time, end: simulated [s]. steps: done. hottest: largest temperature [K].
+        time: simulated so far [s].
+        end: time at which the run ends [s].
+        steps: done.
+        hottest: largest temperature [K].
         work_done: part of the work that is done, 0 to 1.
         remaining_s: expected wall time to the end [s], None before it can be told.
     """
@@ -101,6 +104,7 @@ class RemainingTime:
         Returns:
             Wall time to the end [s]; None before it can be told.
         """
+        # The first step only sets the clock.
         if self._wall is not None:
             self._count(time, wall - self._wall)
         self._time, self._wall = time, wall
@@ -108,11 +112,14 @@ class RemainingTime:
 
     def _count(self, time: float, seconds: float) -> None:
         self._steps += 1
+        # The step belongs to the span in which it began.
         kind = self._spans[self._place(self._time)].kind
         taken, expected = self._taken[kind]
         work = self._expected_until(time) - self._expected_until(self._time)
+        # Compiling takes long once: it counts as some steps at most.
         seconds = min(seconds, OUTLIER * self._usual_rate() * work)
-        self._taken[kind] = FORGET * taken + seconds, FORGET * expected + work
+        # Both sums forget earlier steps at the same rate, so their quotient stays a mean.
+        self._taken[kind] = WEIGHT_PER_STEP * taken + seconds, WEIGHT_PER_STEP * expected + work
 
     def _usual_rate(self) -> float:
         """Seconds taken over seconds expected, of all steps so far."""
@@ -121,8 +128,10 @@ class RemainingTime:
 
     def _remaining(self) -> float:
         usual = self._usual_rate()
+        # Kinds of span that the run has not met run at the rate of all others.
         rate = {kind: one / of if of > 0.0 else usual for kind, (one, of) in self._taken.items()}
         place = self._place(self._time)
+        # What is left of this span, and all that follow.
         seconds = rate[self._spans[place].kind] * (
             self._work[place + 1] - self._expected_until(self._time)
         )

@@ -32,11 +32,15 @@ def heat_scales(case: Case) -> dict[str, dict[str, float]]:
     material, laser = case.material, case.laser
     if laser is None or material.vaporization is None:
         return {}
+
+    # Scales: length sqrt(D t_p), rise to the boiling point, velocity D/length.
     duration = laser.pulse.on_time or 100.0 * laser.pulse.resolution
     diffusivity = material.diffusivity_reference
     length = thermal_diffusion_length(diffusivity, duration)
     rise = material.vaporization.temperature - case.initial_temperature
     capacity = float(material.heat_capacity_at(material.reference_temperature))
+
+    # Fo and Ph, and La where the light has a depth.
     numbers = {
         "Fo": fourier_number(case.time.end, duration),
         "Ph_liquid_vapor": phase_change_number(material.vaporization.latent_heat, capacity, rise),
@@ -87,6 +91,8 @@ def box_numbers(case: Case, flow: FlowConditions, settings: MeltPoolSettings) ->
     material = case.material
     if case.domain.width is None:
         return {}
+
+    # Pr always, Re of the fastest wall, Ra of the larger difference of opposite walls.
     T = material.flow_temperature
     nu, a = float(material.kinematic_viscosity_at(T)), material.diffusivity_reference
     numbers = {"Pr": prandtl_number(nu, a)}

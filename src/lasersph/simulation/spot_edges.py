@@ -6,7 +6,7 @@ from math import isclose
 
 from lasersph.case import Case
 
-SAME = 1e-9
+EDGE_TOLERANCE = 1e-9
 """Share of the width by which an axis may miss the edge. Rounding: of lengths."""
 
 
@@ -15,7 +15,9 @@ def halves_spot(case: Case) -> tuple[bool, bool]:
     laser, dimensions = case.laser, case.solver.dimensions
     if laser is None or laser.path is not None or not laser.is_bounded or dimensions == 1:
         return False, False
+
+    # The resting axis against both ends of x, up to rounding.
     (low, high), *_ = case.domain.lateral(dimensions)
-    near = SAME * (high - low)
+    near = EDGE_TOLERANCE * (high - low)
     x = laser.position[0]
     return isclose(x, low, abs_tol=near), isclose(x, high, abs_tol=near)

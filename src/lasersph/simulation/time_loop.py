@@ -6,18 +6,16 @@ No decision reads the clock, so that a run resumed from a checkpoint repeats the
 
 from __future__ import annotations
 
-import platform
 import time as clock
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from lasersph import __version__, compute
+from lasersph import compute
 from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.input.text_table import text_table
@@ -30,18 +28,16 @@ from lasersph.observers.view import View
 from lasersph.output import RunFolder
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.output.history import read_events
-from lasersph.output.run_owner import END as END_OF_CASE
-from lasersph.output.run_owner import Origin
 from lasersph.output.settings import SnapshotSchedule
 from lasersph.simulation.acceptance import accepted_forecast
 from lasersph.simulation.forecast import spans_of
 from lasersph.simulation.known_loops import compiling_ahead
 from lasersph.simulation.progress import ProgressLines, RemainingTime, RunProgress
 from lasersph.simulation.recipes import Recipe, recipe_of
+from lasersph.simulation.run_origin import keep_layers, origin_of
 from lasersph.solvers.step_control import PAUSE, Solver, StepFailed, choose_step
 
-PACKAGES = ("numpy", "numba", "scipy", "h5py", "pydantic", "matplotlib")
-END = 1.0 - 1e-12
+END_SHARE = 1.0 - 1e-12
 """Share of the end of a run from which it has been reached. Rounding: of sums of steps."""
 
 
@@ -60,9 +56,9 @@ class Result:
         """The main numbers as a table, warnings, and the folder."""
         from lasersph.report.tables import summary_rows
 
-        told = [f"warning: {text}" for text in self.summary.get("warnings", ())]
+        notes = [f"warning: {text}" for text in self.summary.get("warnings", ())]
         return "\n".join(
-            [text_table(summary_rows(self.summary)), *told, f"{self.folder}: complete"]
+            [text_table(summary_rows(self.summary)), *notes, f"{self.folder}: complete"]
         )
 
 
@@ -110,10 +106,12 @@ def run(
         same_case: refuse to resume with any change, for runs whose numbers are compared.
         overwrite: replace the run that `out` holds, once the case is found right.
         wait: how long another process that computes in `out` may take to leave it [s].
-        threads: None takes all processors. precision: "float64" or "float32".
+        threads: None takes all processors.
+        precision: "float64" or "float32".
         backend: "cpu", or "cuda" for a graphics card. Either continues what the other began.
         recipe: a class of one's own in place of that of the case's solver, with terms, boundaries
-            or a solver of one's own. observers: of one's own, beside those of the recipe.
+            or a solver of one's own.
+        observers: of one's own, beside those of the recipe.
         progress: True prints ten lines on standard error, with the time that is left; a function
             is called with a `RunProgress` after each step.
         warn: called with each warning, before the first step and at the end; None where it is
@@ -122,21 +120,26 @@ def run(
         should_stop: asked after each step; True writes a checkpoint and raises `Stopped`.
 
     Raises:
-        CaseError: too large for this machine or its card. ValueError: two observers with
-            the same column; both `resume` and `overwrite`.
+        CaseError: too large for this machine or its card.
+        ValueError: two observers with the same column; both `resume` and `overwrite`.
         FolderRefused, OutputError: see `output`.
         NoDevice: no graphics card for backend "cuda".
         StepFailed: a step does not converge however small; the last checkpoint is kept.
     """
+    # Refuse what cannot be right before anything is written.
     if resume and overwrite:
         raise ValueError("a run is resumed or overwritten, not both")
     Observers(observers)  # refuses them before anything is written
     device = compute.cuda(precision) if backend == "cuda" else compute.cpu(threads, precision)
+
+    # A recipe of one's own gives other numbers: its name goes into the hash.
     chosen = recipe_of(case) if recipe is None else recipe(case)
     own = "" if recipe is None else f"-{recipe.__name__}"
-    origin = _origin(case, precision + own)
+    origin = origin_of(case, precision + own)
     if same_case:
         origin = replace(origin, changeable=())
+
+    # A complete run of this very case needs no forecast and no solver.
     if resume and (done := RunFolder.complete(out, origin)) is not None:
         _say_each(done.summary.get("warnings", ()), warn)
         return Result(done.path, done.summary)
@@ -146,11 +149,13 @@ def run(
     else:
         folder = RunFolder.create(out, origin, overwrite=overwrite, wait=wait)
         checkpoint = None
+
+    # From here on the folder is locked.
     try:
         if folder.is_complete:  # by the process that was waited for
             _say_each(folder.summary.get("warnings", ()), warn)
             return Result(folder.path, folder.summary)
-        expected = (*expected, *_keep_layers(chosen, folder))
+        expected = (*expected, *keep_layers(chosen, folder))
         _say_each(expected, warn)
         with compiling_ahead(case):
             loop = _Loop(case, chosen, chosen.build(device), folder, observers)
@@ -170,32 +175,6 @@ def _say_each(texts: Iterable[str], warn: Callable[[str], None] | None) -> None:
             warn(text)
 
 
-def _origin(case: Case, variant: str) -> Origin:
-    versions = {"lasersph": __version__, "python": platform.python_version()}
-    versions |= {name: version(name) for name in PACKAGES}
-    # where pauses are jumped over, the end says how long each pulse is computed
-    changeable = ("output", END_OF_CASE) if case.pause == "compute" else ("output",)
-    case_hash = f"{case.hash()}-{variant}"
-    return Origin(case.text, case.resolved(), versions, case_hash, changeable)
-
-
-def _keep_layers(recipe: Recipe[Any, Any], folder: RunFolder) -> list[str]:
-    """Give a recipe the layers that a run of another end began with; warnings where they differ."""
-    first, case = folder.started_with.get(END_OF_CASE), recipe.case
-    if first is None:
-        return []
-    time = case.time.model_copy(update={"end": first})
-    layers, usual = type(recipe)(case.model_copy(update={"time": time})).layers, recipe.layers
-    recipe.layers = layers
-    if layers.particle_count == usual.particle_count:
-        return []
-    ends = [format_quantity(end, "s") for end in (first, case.time.end)]
-    return [
-        f"the {layers.particle_count} particles were laid out for an end of {ends[0]}; a run begun "
-        f"with {ends[1]} has {usual.particle_count}, which are fine down to another depth"
-    ]
-
-
 class _Loop:
     """One run from its first or resumed step to its end."""
 
@@ -207,23 +186,30 @@ class _Loop:
         folder: RunFolder,
         observers: Sequence[Observer],
     ) -> None:
-        self.case, self.recipe, self.solver, self.folder = case, recipe, solver, folder
+        self.case = case
+        self.recipe = recipe
+        self.solver = solver
+        self.folder = folder
         self._backend = solver.backend
         members = recipe.observers(tuple(solver.iterations)).members
         self.observers = Observers([*members, *observers])
         self.snapshots = SnapshotSchedule(case.output.snapshots, case.end_of_pulse)
-        self.steps, self.limit, self.wall_before = 0, "", 0.0
+        self.steps = 0
+        self.limit = ""
+        self.wall_before = 0.0
         self.started = clock.monotonic()
         self._remaining: RemainingTime | None = None
 
     def begin(self, checkpoint: Checkpoint | None, expected: Sequence[str]) -> None:
         """Start at rest, or where the checkpoint left off; note the warnings of the forecast."""
+        # A new run observes its first state before any step.
         if checkpoint is None:
             self.folder.log(f"{self.case.name}: {self.solver.particle_count} particles")
             self.folder.events.append("started", time=0.0, step=0, backend=self._backend.name)
             self._warn(expected, 0.0)
             self._observe()
             return
+        # A resumed one has observed it already.
         scalars = checkpoint.scalars
         self.steps, self.limit = checkpoint.step, scalars["limit"]
         self.wall_before = scalars["wall_time"]
@@ -246,23 +232,29 @@ class _Loop:
     def go(self, progress: Progress | None, should_stop: Callable[[], bool]) -> None:
         """Step until the end of the case."""
         state, end = self.solver.state, self.case.time.end
-        while state.time < end * END and not self.solver.is_steady:
+        while state.time < end * END_SHARE and not self.solver.is_steady:
+            # 1. Limits: of the solver, and the next snapshot; before a pause the last state is
+            # shown.
             limits = self.solver.time_step_limits()
             if PAUSE in limits:
                 self._snapshot(self._view())
             else:
                 until = max(self.snapshots.next_time - state.time, 0.0)
                 limits["snapshot"] = until or float("inf")
+            # 2. Step by the smallest limit; what binds it goes into the history.
             self.limit, step, unclipped_step = choose_step(limits)
             before = self.solver.checkpoint_scalars() if self.limit == PAUSE else {}
             taken = self._step(step, unclipped_step)
             if self.limit == PAUSE:
                 self._begin_pulse(taken, before)
+            # 3. A step never writes into a folder that another process has taken over.
             self.folder.confirm_lock()
+            # 4. The exact end or time of the snapshot, without the rounding of the sum.
             if taken == step and self.limit in ("end", "snapshot"):
                 state.time = end if self.limit == "end" else self.snapshots.next_time
             self.steps += 1
             self._observe()
+            # 5. Checkpoint, progress, and the wish of the caller to stop.
             if self.steps % self.case.output.checkpoint_every == 0:
                 self._save()
             if progress is not None:
@@ -292,6 +284,7 @@ class _Loop:
 
     def _progress(self) -> RunProgress:
         time, wall = self.solver.state.time, clock.monotonic()
+        # The expected cost of the stages is asked once, at the first step.
         if self._remaining is None:
             steps = self.recipe.step_forecast()
             self._remaining = RemainingTime(spans_of(self.recipe, steps, self._backend.threads))
@@ -324,6 +317,8 @@ class _Loop:
     def finish(self) -> dict[str, Any]:
         """Write the summary; the run is complete."""
         state = self.solver.state
+
+        # A run that became steady ends between two snapshots.
         if self.solver.is_steady:
             self._snapshot(self._view())
         self._save(is_last=True)
@@ -347,6 +342,8 @@ class _Loop:
             "dimensionless": self.recipe.dimensionless(),
             **self.recipe.summary(),
         }
+
+        # Warnings that follow from the numbers join those of the forecast.
         summary["numerical_sd"] = numerical_sd(summary)
         if own := declarations(self.observers.members):
             summary[OWN_OBSERVERS] = own
@@ -354,6 +351,8 @@ class _Loop:
         for text in found:
             self.folder.log(f"warning: {text}")
         summary["warnings"] = [*event_warnings(read_events(self.folder.events.path)), *found]
+
+        # The line of a surface at the end, then the mark of a complete run.
         relief = self._view().relief
         if relief is not None:
             self.folder.write_profile(relief.x, relief.height)

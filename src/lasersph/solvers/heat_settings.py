@@ -58,7 +58,7 @@ class HeatSettings(SolverSettings):
 
     @property
     def curve_plateau(self) -> Literal["hold", "clip", "evaporate"]:
-        """What the caloric curve does at the vaporization temperature."""
+        """Course of the caloric curve at the vaporization temperature."""
         return "evaporate" if self.has_vapor_flux else self.plateau
 
     @property

@@ -1,4 +1,4 @@
-"""What every solver shares of its steps: the members of a solver, limits, retries, failures.
+"""Control of steps, shared by all solvers: the members of a solver, limits, retries, failures.
 
 The time loop asks a solver for its limits, chooses the step from them and lets the solver take it.
 Where a step fails, half of it is tried, and so on; a step that fails however short ends the run.
@@ -38,7 +38,7 @@ class NotConverged(StepFailed):
 
 
 class State(Protocol):
-    """What a solver's state has in common with others: times [s] and energies exchanged [J]."""
+    """Part of a state that all solvers have: times [s] and energies exchanged [J]."""
 
     time: float
     time_step: float
@@ -46,7 +46,7 @@ class State(Protocol):
 
 
 class Solver(Protocol):
-    """What the time loop needs of a solver."""
+    """Members of a solver that the time loop calls."""
 
     @property
     def backend(self) -> Backend:

@@ -18,7 +18,7 @@ from lasersph.studies.calibration_run import calibrate
 from lasersph.studies.companions import Input, inputs_of, read_input
 from lasersph.studies.emulator import Box, Emulator, box_of, fit_emulator
 from lasersph.studies.find_runs import find
-from lasersph.studies.find_settings import FoundSettings, Wish, find_settings, read_wish
+from lasersph.studies.find_settings import FoundSettings, Target, find_settings, parse_target
 from lasersph.studies.fluence_threshold import Threshold, Trial, show_energy, threshold
 from lasersph.studies.maps import process_map
 from lasersph.studies.sensitivity import Sensitivity, assess_sensitivity
@@ -40,9 +40,9 @@ __all__ = [
     "SpotCrater",
     "SpotThreshold",
     "StudyRow",
+    "Target",
     "Threshold",
     "Trial",
-    "Wish",
     "assess_sensitivity",
     "assess_uncertainty",
     "box_of",
@@ -55,10 +55,10 @@ __all__ = [
     "fit_emulator",
     "inputs_of",
     "no_spot",
+    "parse_target",
     "process_map",
     "read_calibration_plan",
     "read_input",
-    "read_wish",
     "show_energy",
     "spot_threshold",
     "threshold",

@@ -84,7 +84,7 @@ class Calibration:
         value, error = self.model.measured
         return (value - mean[0]) / np.sqrt(error**2 + sd[0] ** 2 + self.model.numerical_sd**2)
 
-    def loose(self) -> set[str]:
+    def unidentified(self) -> set[str]:
         """Names of the unknowns that the data do not fix."""
         return {name for one in self.combinations for name in one.unknowns}
 
@@ -92,11 +92,11 @@ class Calibration:
         """Lines that a user must know before using the numbers."""
         found = [one.sentence() for one in self.combinations]
         sd = np.sqrt(np.diag(self.posterior.covariance))
-        loose = self.loose()
+        unidentified = self.unidentified()
         # not the mean: where a bound cuts the posterior, its mean lies a standard deviation inside
         for one, x, s in zip(self.plan.unknowns, self.posterior.most_probable, sd, strict=True):
             for end in (one.low, one.high):
-                if abs(x - end) < s and one.name not in loose:
+                if abs(x - end) < s and one.name not in unidentified:
                     found.append(
                         f"{one.name} is most probable within one standard deviation of its bound "
                         f"{end:.6g}: widen between"

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.case.overrides import override
+from lasersph.input import format_quantity
 from lasersph.input.schema import as_toml
 from lasersph.input.shown_unit import ShownUnit, units_written
 from lasersph.plots.calibration import unit_of_unknown
@@ -51,7 +52,7 @@ def answer(found: Calibration) -> dict[str, Any]:
             "between": [one.low, one.high],
             "known": known,
             "emulators_share_of_variance": float(posterior.emulators_share[number]),
-            "is_fixed_by_data": one.name not in found.loose(),
+            "is_fixed_by_data": one.name not in found.unidentified(),
         }
 
     # each measured value beside the computed one, with all errors
@@ -63,7 +64,7 @@ def answer(found: Calibration) -> dict[str, Any]:
             "measurement": place + 1,
             "settings": dict(plan.conditions[place].settings),
             "number": column,
-            "unit": "m" if column.startswith(COMPONENT) else unit_of_number(column),
+            "unit": _unit_of(column),
             "measured": float(value[number]),
             "standard_error": float(error[number]),
             "computed": float(computed[0, number]),
@@ -184,11 +185,22 @@ def answer_lines(content: dict[str, Any]) -> list[str]:
     if check["failed"]:
         lines.append(f"check: the run of {check['failed']} failed")
     for one in check["numbers"]:
-        text = f"check: {one['number']} {one['run']:.5g}, emulated {one['emulated']:.5g}"
+        unit = _unit_of(one["number"])
+        run, emulated, error = (
+            format_quantity(one[key], unit, digits)
+            for key, digits in (("run", 5), ("emulated", 5), ("standard_error", 2))
+        )
+        text = f"check: {one['number']} {run}, emulated {emulated}"
         if one["shift_at_half_spacing"] is not None:
-            text += f"; half the spacing shifts it by {one['shift_at_half_spacing']:.2g}"
-        lines.append(f"{text} ({one['standard_error']:.2g} measured)")
+            shift = format_quantity(one["shift_at_half_spacing"], unit, 2)
+            text += f"; half the spacing shifts it by {shift}"
+        lines.append(f"{text} ({error} measured)")
     return lines
+
+
+def _unit_of(column: str) -> str:
+    """Unit of a number of a summary, or of a component of a profile."""
+    return "m" if column.startswith(COMPONENT) else unit_of_number(column)
 
 
 def posterior_text(found: Calibration) -> str:

@@ -45,7 +45,7 @@ class MeasuredComparison:
     content: dict[str, Any] = field(repr=False)
 
     def __str__(self) -> str:
-        """What was aligned, how the heights differ, and what that means."""
+        """Alignment, differences of the heights, and what they mean."""
         content = self.content
         head = ("unknown", "value", "standard error", "95 %")
         aligned = text_table(unknown_rows(content), head)

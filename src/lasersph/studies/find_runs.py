@@ -26,9 +26,9 @@ from lasersph.input import QuantityError, build
 from lasersph.studies.calibration_run import make_or_stop, read_answer
 from lasersph.studies.find_settings import (
     FoundSettings,
-    Wish,
+    Target,
     find_settings,
-    read_wish,
+    parse_target,
     refuse_other_keys,
 )
 from lasersph.studies.run_budget import RunBudget
@@ -56,7 +56,7 @@ class FindPlan:
     """A plan that the case takes: the first runs, what is wanted, how many runs at most."""
 
     sweep: SweepPlan
-    wishes: tuple[Wish, ...]
+    targets: tuple[Target, ...]
     budget: RunBudget
 
     @property
@@ -74,11 +74,11 @@ def read_find_plan(file: str | PathLike[str]) -> FindPlan:
     """
     document = read_plan_file(file, "find")
     entry = build(FindEntry, document)
-    mistakes, wishes = Mistakes(document), []
+    mistakes, targets = Mistakes(document), []
     # what is wanted, then how many runs, then what varies
     for number, text in enumerate(entry.want):
         try:
-            wishes.append(read_wish(text))
+            targets.append(parse_target(text))
         except QuantityError as error:
             mistakes.add(("want", number), str(error), key="want")
     if not entry.want:
@@ -89,7 +89,7 @@ def read_find_plan(file: str | PathLike[str]) -> FindPlan:
     first = entry.runs.first_runs(keys)
     sampling = Sampling(kind="sobol", runs=first, seed=entry.runs.seed)
     sweep = compare_with_case(mistakes, entry, sampling)
-    return FindPlan(sweep, tuple(wishes), entry.runs)
+    return FindPlan(sweep, tuple(targets), entry.runs)
 
 
 def find(
@@ -118,14 +118,16 @@ def find(
         At most five settings; none where all are impossible.
 
     Raises:
-        CaseError: every mistake of the plan or its case. QuantityError: a wrong wish.
+        CaseError: every mistake of the plan or its case. QuantityError: a wrong target.
         ValueError: too few runs, or numbers that none of them has. OutputError: see `make_runs`.
         Stopped: `should_stop` said so.
     """
     # a folder of runs is only read; a plan makes runs of its own
     known = None if under is None else read_answer(under)
     if Path(plan).is_dir():
-        return find_settings(Table.read(plan), [read_wish(one) for one in want], calibration=known)
+        return find_settings(
+            Table.read(plan), [parse_target(one) for one in want], calibration=known
+        )
     if want or out is None:
         raise ValueError("a plan says itself what is wanted, and its runs need a folder")
     loaded = read_find_plan(plan)
@@ -136,12 +138,13 @@ def find(
             points, Path(out), loaded.study, engine or LocalEngine(), report, should_stop
         )
         # run the settings whose probability the emulator decides, as far as the budget goes
-        found = find_settings(table, loaded.wishes, calibration=known, seed=loaded.budget.seed)
+        found = find_settings(table, loaded.targets, calibration=known, seed=loaded.budget.seed)
         unsure = sorted(
-            (one for one in found if one.doubt > LARGEST_EMULATOR_SHARE), key=lambda o: -o.doubt
+            (one for one in found if one.emulator_share > LARGEST_EMULATOR_SHARE),
+            key=lambda o: -o.emulator_share,
         )
         wanted = [
-            sweep.template.point({k: float(f"{v:.{DIGITS}g}") for k, v in one.reached.items()})
+            sweep.template.point({k: float(f"{v:.{DIGITS}g}") for k, v in one.case_keys.items()})
             for one in unsure
         ]
         there = {point.hash for point in points}

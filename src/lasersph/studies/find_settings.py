@@ -42,11 +42,11 @@ Answer = tuple[dict[str, Any], Array]
 """Of a calibration: content of calibration.json, points of the posterior with their weights."""
 ParameterSample = list[tuple[int, Relation, float]]
 """One drawn value of each unknown: number of its key, relation and value."""
-_WISH = re.compile(r"\s*([\w.]+)\s*(=|<=?|>=?)\s*(.+)")
+_TARGET = re.compile(r"\s*([\w.]+)\s*(=|<=?|>=?)\s*(.+)")
 
 
 @dataclass(frozen=True)
-class Wish:
+class Target:
     """A number of summaries that shall lie between low and high, in SI."""
 
     column: str
@@ -59,51 +59,51 @@ class FoundSettings:
     """Settings that may do what is wanted, in SI.
 
     Attributes:
-        settings: by key. probability: that all wishes come true.
-        numbers: mean of those that are wished for. reached: the keys of the case that the settings
+        settings: by key. probability: that all targets are met.
+        numbers: mean of those that have a target. case_keys: the keys of the case that the settings
             act as, by a calibration; the settings themselves without one.
-        doubt: how much of the probability, from 0 to 1, is the emulator's: its distance from what
-            it would be were the means exact.
+        emulator_share: how much of the probability, from 0 to 1, is the emulator's: its distance
+            from what it would be were the means exact.
     """
 
     settings: dict[str, float]
     probability: float
     numbers: dict[str, float]
-    reached: dict[str, float]
-    doubt: float
+    case_keys: dict[str, float]
+    emulator_share: float
 
 
-def read_wish(text: str) -> Wish:
-    """A wish from "melt.depth_max_m = 200 +- 10 nm" or "temperature_max_K < 3000 K".
+def parse_target(text: str) -> Target:
+    """A target from "melt.depth_max_m = 200 +- 10 nm" or "temperature_max_K < 3000 K".
 
     Raises:
         QuantityError: no such number, no such unit, neither = with +- nor < nor >.
     """
     # a value with its error is an interval, a limit is open at one end
-    match = _WISH.fullmatch(text)
+    match = _TARGET.fullmatch(text)
     if match is None:
         raise QuantityError(
-            f'"{text}" is no wish; write e.g. "melt.depth_max_m = 200 +- 10 nm" or '
+            f'"{text}" is no target; write e.g. "melt.depth_max_m = 200 +- 10 nm" or '
             '"temperature_max_K < 3000 K"'
         )
     column, sign, wanted = match.groups()
     kind = kind_of_number(column)
     if sign == "=":
         value = read_measured(wanted, kind)
-        return Wish(column, value.value - value.sd, value.value + value.sd)
+        return Target(column, value.value - value.sd, value.value + value.sd)
     limit = parse_quantity(wanted, kind) if kind else float(wanted)
-    return Wish(column, -math.inf, limit) if "<" in sign else Wish(column, limit, math.inf)
+    return Target(column, -math.inf, limit) if "<" in sign else Target(column, limit, math.inf)
 
 
 def find_settings(
     table: Table,
-    wishes: Sequence[Wish],
+    targets: Sequence[Target],
     *,
     calibration: Answer | None = None,
     count: int = 5,
     seed: int = 1,
 ) -> list[FoundSettings]:
-    """The most probable settings of a sweep for some wishes, the best first; none where all are
+    """The most probable settings of a sweep for some targets, the best first; none where all are
     impossible.
 
     Args:
@@ -117,7 +117,7 @@ def find_settings(
     points = np.column_stack([table.values(key) for key in table.varied])
     box = box_of_runs(points)
     emulators: dict[str, Emulator] = {}
-    numerical = {wish.column: numerical_deviation(table, wish.column) for wish in wishes}
+    numerical = {target.column: numerical_deviation(table, target.column) for target in targets}
     for column, noise in numerical.items():
         values = sizes_of(table, column)
         has = np.isfinite(values)
@@ -135,11 +135,11 @@ def find_settings(
         for sample in samples:
             keys = _case_keys(settings, sample)
             part = next(iter(emulators.values())).is_inside(keys).astype(float)
-            for wish in wishes:
-                mean, sd = emulators[wish.column].predict(keys)
-                least = max(numerical[wish.column], 1e-9 * abs(float(np.max(mean))))
+            for target in targets:
+                mean, sd = emulators[target.column].predict(keys)
+                least = max(numerical[target.column], 1e-9 * abs(float(np.max(mean))))
                 sd = np.hypot(0.0 if are_exact else sd, least)
-                part *= ndtr((wish.high - mean) / sd) - ndtr((wish.low - mean) / sd)
+                part *= ndtr((target.high - mean) / sd) - ndtr((target.low - mean) / sd)
             total += part
         return total / len(samples)
 

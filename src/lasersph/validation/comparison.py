@@ -43,13 +43,13 @@ class Row:
     """One compared number.
 
     Attributes:
-        quantity: what it is. unit: of published, reference, computed and tolerance.
+        quantity: its name. unit: of published, reference, computed and tolerance.
         published: as the paper prints it; a text where it gives a range; None where it is silent.
-        reference: what decides: an exact solution, a derivation or an independent program.
+        reference: number that decides: an exact solution, a derivation or an independent program.
         computed: ours; for a claim whether it holds. tolerance: largest |computed - reference|.
         verdict: True or False; None where the number is shown and not judged.
         source: of the published number and the reference. kind: its table in `rows.toml`.
-        reason: why the tolerance is so wide. changed: what it was before, and why it was changed.
+        reason: why the tolerance is so wide. changed: its former value, and why it was changed.
         own: whether the reference is another result of ours, by which nothing is judged.
     """
 
@@ -117,16 +117,22 @@ class Comparison:
         """
         words = words or {}
         source = self.source.format(**words)
+
+        # A claim holds or does not.
         if self.claim:
             found = "holds" if computed else "does not hold"
             text = self.claim.format(**words)
             verdict = bool(computed) if self.is_judged and judge else None
             notes: dict[str, Any] = {"reason": self.reason, "changed": self.changed}
             return Row(text, "", "claimed", None, found, None, verdict, source, self.name, **notes)
+
+        # Numbers of this row win over those of the file.
         reference = self.reference if reference is None else float(reference)
         published = self.published if published is None else published
         band = self.quick if quick and self.quick is not None else self.band
         value = None if computed is None else float(computed)
+
+        # Without a band, or where it does not count, the number is only shown.
         tolerance, verdict = None, None
         if band is not None and judge:
             reference = 0.0 if reference is None else reference
@@ -171,6 +177,7 @@ def read_comparisons(files: Iterable[Path]) -> dict[str, Comparison]:
         ValueError: a key that there is not, or a comparison without words.
     """
     known = {field.name for field in fields(Comparison)} - {"name"}
+    # Later files add keys to the kinds of earlier ones.
     found: dict[str, dict[str, Any]] = {}
     for file in files:
         content = tomllib.loads(file.read_text(encoding="utf-8"))

@@ -24,23 +24,23 @@ class Curve:
     x: Values
     y: Values
     label: str = ""
-    look: dict[str, Any] = field(default_factory=dict)
+    options: dict[str, Any] = field(default_factory=dict)
 
 
-def exact(x: Values, y: Values, label: str = "exact", **look: Any) -> Curve:
+def exact(x: Values, y: Values, label: str = "exact", **options: Any) -> Curve:
     """A gray line: what a run should give."""
-    return Curve(x, y, label, {"color": style.GRAY} | look)
+    return Curve(x, y, label, {"color": style.GRAY} | options)
 
 
-def line(x: Values, y: Values, label: str = "", k: int = 0, **look: Any) -> Curve:
+def line(x: Values, y: Values, label: str = "", k: int = 0, **options: Any) -> Curve:
     """A line in the color of number k."""
-    return Curve(x, y, label, {"color": style.COLORS[k % len(style.COLORS)]} | look)
+    return Curve(x, y, label, {"color": style.COLORS[k % len(style.COLORS)]} | options)
 
 
-def marks(x: Values, y: Values, label: str = "", k: int = 0, **look: Any) -> Curve:
+def marks(x: Values, y: Values, label: str = "", k: int = 0, **options: Any) -> Curve:
     """Points with the mark and in the color of number k."""
     mark = {"marker": MARKS[k % len(MARKS)], "linestyle": "", "markersize": 3}
-    return line(x, y, label, k, **(mark | look))
+    return line(x, y, label, k, **(mark | options))
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Panel:
     """One pair of axes.
 
     Attributes:
-        x, y: their names, with units. curves: what is drawn. title: above.
+        x, y: their names, with units. curves: those drawn. title: above.
         scales: of x and y, "linear" or "log". low, high: ends of the y axis.
         level: a value of y that is marked by a line, and its name.
     """
@@ -70,12 +70,13 @@ def draw(panels: Sequence[Panel], *, height: float = 3.4, rows: int = 1, legend:
         height: of the figure, inches. legend: columns of one legend above all panels; 0 puts one
             into each panel whose curves have names.
     """
+    # Panels row by row, each with its scales and curves.
     figure, all_axes = style.new_figure(rows, len(panels) // rows, height=height)
     for axes, panel in zip(all_axes, panels, strict=True):
         axes.set_xscale(panel.scales[0])
         axes.set_yscale(panel.scales[1])
         for curve in panel.curves:
-            axes.plot(curve.x, curve.y, label=curve.label or "_", **curve.look)
+            axes.plot(curve.x, curve.y, label=curve.label or "_", **curve.options)
         if panel.level is not None:
             style.level_line(axes, *panel.level)
         if panel.low is not None or panel.high is not None:
@@ -83,6 +84,7 @@ def draw(panels: Sequence[Panel], *, height: float = 3.4, rows: int = 1, legend:
         style.label(axes, panel.x, panel.y, title=panel.title)
         if not legend:
             style.legend(axes)
+    # One legend for all panels, or one each.
     if legend:
         style.legend_above(figure, all_axes[0], columns=legend)
     return figure

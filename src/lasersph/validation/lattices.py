@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 
 def cubic_lattice(dimension: int, side: int, spacing: float = 1.0) -> Array:
     """Positions of side^dimension particles, shape (dimension, n)."""
+    # The axes in the order of the index.
     axes = np.meshgrid(*[spacing * np.arange(float(side))] * dimension, indexing="ij")
     return np.array([axis.ravel() for axis in axes], dtype=np.float64)
 

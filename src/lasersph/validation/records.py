@@ -35,7 +35,7 @@ ROUND_OFF = 1e-8
 """Relative difference of numbers that are the same. Sums in another order differ by 1e-16 and let
 solves end elsewhere below their residual, 1e-8 of the energy of a step: 1.2e-9 was found in a
 temperature after 2000 steps. A formula or a constant that changed is seen far above."""
-NOUGHT = 1e-12
+ZERO_TOLERANCE = 1e-12
 """In the unit of its row: what should vanish, and is round-off."""
 WORDS = ("reason", "changed", "source")
 """Keys of `rows.toml` that change no number."""
@@ -48,8 +48,8 @@ class State:
 
     Attributes:
         name: of the validation. word: "current", "confirmed", "stale", "failed" or "missing".
-        record: what is stored, its reasons as `rows.toml` gives them now. changes: what differs
-            from when it was computed, or confirmed.
+        record: content of its file, with the reasons that `rows.toml` gives now. changes: names of
+            sources and tables that differ from when it was computed, or confirmed.
     """
 
     name: str
@@ -65,8 +65,17 @@ class State:
     @property
     def text(self) -> str:
         """Dates, what failed and what changed, as one line."""
+        parts = list(self.outcome)
+        if self.changes:
+            more = f" and {len(self.changes) - 4} more" if len(self.changes) > 4 else ""
+            parts.append("changed since: " + ", ".join(self.changes[:4]) + more)
+        return "; ".join(parts)
+
+    @property
+    def outcome(self) -> tuple[str, ...]:
+        """When it was computed and confirmed, and what failed; nothing where it never was."""
         if self.record is None:
-            return ""
+            return ()
         parts = [f"computed {self.record['computed']['date']}"]
         if self.record["confirmed"] and not self.changes:
             parts.append(f"confirmed {self.record['confirmed']['date']}")
@@ -74,10 +83,7 @@ class State:
             verdicts = Counter(row["verdict"] for row in self.record["rows"])
             judged = verdicts[True] + verdicts[False]
             parts.append(self.record["error"] or f"{verdicts[False]} of {judged} judged not met")
-        if self.changes:
-            more = f" and {len(self.changes) - 4} more" if len(self.changes) > 4 else ""
-            parts.append("changed since: " + ", ".join(self.changes[:4]) + more)
-        return "; ".join(parts)
+        return tuple(parts)
 
 
 def state_of(name: str, folder: Path) -> State:
@@ -86,17 +92,20 @@ def state_of(name: str, folder: Path) -> State:
     Raises:
         ValueError: a record of another version of this file.
     """
+    # No record, or one of another format.
     file = folder / f"{name}.json"
     if not file.is_file():
         return State(name, "missing")
     record = json.loads(file.read_text(encoding="utf-8"))
     if record["schema_version"] != SCHEMA_VERSION:
         raise ValueError(f"{file}: schema_version {record['schema_version']}, not {SCHEMA_VERSION}")
+    # Reasons are those of today: they change no number.
     kinds = Study(name, Path()).comparisons
     for row in record["rows"]:
         if (kind := kinds.get(row["kind"])) is not None:
             is_judged = row["tolerance"] is not None or row["verdict"] is not None
             row |= {"reason": kind.reason if is_judged else "", "changed": kind.changed}
+    # Changes since it was computed, or since it was confirmed.
     changes, word = changes_since(record["computed"], name), "current"
     if changes and record["confirmed"]:
         changes, word = changes_since(record["confirmed"], name), "confirmed"
@@ -128,8 +137,11 @@ def make_record(
     Raises:
         OutputError, OSError: the folder cannot be written, or a run in it not be read.
     """
+    # The shortened form first: it shows soon what is broken.
     run = partial(validate, name, threads=threads, backend=backend)
-    short, report, error = None, Report(name, "", ()), ""
+    short = None
+    report = Report(name, "", ())
+    error = ""
     sources.hashes([module_of(name), sources.TIME_LOOP])  # of the files as they are loaded now
     try:
         short = run(out / "short" / name, quick=True)
@@ -138,11 +150,15 @@ def make_record(
         raise
     except Exception as failure:
         error = f"broke off: {type(failure).__name__}: {' '.join(str(failure).split())}"
+
+    # Figures of the record replace those of an earlier one.
     content = report.as_dict()
     shutil.rmtree(folder / name, ignore_errors=True)
     for figure in report.figures:
         (folder / name).mkdir(parents=True, exist_ok=True)
         shutil.copyfile(figure, folder / name / figure.name)
+
+    # Rows, figures and origin of both forms.
     record = {
         "schema_version": SCHEMA_VERSION,
         **{key: content[key] for key in ("name", "passed", "rows", "remarks")},
@@ -166,6 +182,7 @@ def confirm(state: State, folder: Path, out: Path, *, threads: int | None = None
     """
     record, name = state.record, state.name
     assert record is not None
+    # Nothing to compare with, own tables changed, or a case that the form overrides.
     if record["short"] is None:
         return ["it has no shortened form"]
     if own := [text for text in state.changes if text.startswith("own ")]:
@@ -173,9 +190,11 @@ def confirm(state: State, folder: Path, out: Path, *, threads: int | None = None
     before = record["computed"]
     if _changed(before["cases"]) and not _changed(before["short_cases"]):
         return ["a case differs in what the shortened form overrides"]
+    # Compute the form; it has to give its stored numbers.
     short = validate(name, out / "short" / name, quick=True, threads=threads)
     found = differences(record["short"]["rows"], short.as_dict()["rows"])
     if not found:
+        # Confirmed: today's sources give the same numbers.
         origin = _origin(name, Report(name, "", ()), short)
         origin["cases"] = {label: _case(label)[0] for label in before["cases"]}
         origin["roots"] = sorted({*origin["roots"], *before["roots"]})
@@ -186,6 +205,7 @@ def confirm(state: State, folder: Path, out: Path, *, threads: int | None = None
 
 def differences(before: list[Entry], after: list[Entry], round_off: float = ROUND_OFF) -> list[str]:
     """Rows whose numbers or verdicts are not those of before, or that only one of both has."""
+    # By quantity, so that rows may change their places.
     first, second = keyed_rows(before), keyed_rows(after)
     return [
         key[0]
@@ -203,12 +223,14 @@ def differences(before: list[Entry], after: list[Entry], round_off: float = ROUN
 def relative(first: Entry, second: Entry, what: str = "computed") -> float:
     """Difference of two rows over their size; infinite where only one has a number."""
     a, b = first[what], second[what]
+    # Equal, without a number, or round-off of what should vanish.
     if a == b:
         return 0.0
     if not (isinstance(a, int | float) and isinstance(b, int | float)):
         return float("inf")
-    if abs(a - b) < NOUGHT:
+    if abs(a - b) < ZERO_TOLERANCE:
         return 0.0
+    # Over the largest of the numbers that the row is about.
     sizes = (a, b, first["reference"] or 0.0, first["tolerance"] or 0.0)
     return abs(a - b) / max(abs(size) for size in sizes)
 
@@ -225,6 +247,7 @@ def keyed_rows(rows: list[Entry]) -> dict[tuple[str, int], Entry]:
 
 def changes_since(origin: Entry, name: str) -> tuple[str, ...]:
     """Tables, cases, materials and modules that differ from those of a computation."""
+    # Tables and cases first, then the modules, by their hashes.
     cases = origin["cases"] | origin["short_cases"]
     found = [*_differ(origin["own"], _own_tables(name)), *_changed(cases)]
     return (*found, *_differ(origin["sources"], sources.hashes(origin["roots"])))
@@ -237,6 +260,7 @@ def _differ(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
 def _changed(cases: Mapping[str, list[str]]) -> list[str]:
     """Names of the cases and the materials that differ from what was run."""
     found = []
+    # Hashes of today against those of before.
     for label, before in cases.items():
         now, names = _case(label)
         found += [
@@ -254,6 +278,7 @@ def _case(label: str) -> tuple[list[str], tuple[str, str]]:
         case = load_case(name, settings)
     except CaseError as error:
         return [str(error), ""], (name, f"of {name}")
+    # The material apart, so that its change is told as such.
     content = case.resolved()
     material = content.pop("material")
     return [hash_of_case(content), hash_of_case(material)], (name, case.material.name)
@@ -261,6 +286,7 @@ def _case(label: str) -> tuple[list[str], tuple[str, str]]:
 
 def _own_tables(name: str) -> dict[str, str]:
     """Hashes of what a validation states itself: what it runs, what it compares, and with what."""
+    # What is run and compared, without words that change no number; tables as they lie.
     studies = [Study(name, Path(), quick=quick) for quick in (False, True)]
     plans = [vars(study.plan) | {"remarks": (), "order": 0} for study in studies]
     kinds = {key: asdict(kind) for key, kind in studies[0].comparisons.items()}
@@ -271,7 +297,8 @@ def _own_tables(name: str) -> dict[str, str]:
 
 
 def _origin(name: str, report: Report, short: Report | None) -> Entry:
-    """What a record was computed from, when and where."""
+    """Origin of a record: what it was computed from, when and where."""
+    # Modules from which the computation starts.
     kinds = {*report.solvers, *(short.solvers if short else ())}
     recipes = [sources.recipe_module(kind) for kind in sorted(kinds)]
     roots = [module_of(name), sources.JUDGE, *recipes, *([sources.TIME_LOOP] if kinds else [])]
@@ -290,6 +317,7 @@ def _origin(name: str, report: Report, short: Report | None) -> Entry:
 
 def _machine() -> str:
     """Processor, number of processors and system."""
+    # The system may not have a list of its processors.
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.is_file() else []
     models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
@@ -305,6 +333,7 @@ def _commit() -> str | None:
         command = ["git", "-C", str(sources.ROOT), *words, "--", "."]
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
+    # Without git there is no commit.
     try:
         found = git("log", "-1", "--format=%h")
         return f"{found} with changes" if found and git("status", "--porcelain") else found or None

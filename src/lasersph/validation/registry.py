@@ -17,6 +17,7 @@ from lasersph.validation.study import HOME, Study, module_of, title_of
 
 def names() -> tuple[str, ...]:
     """Names of all validations, in the order in which they are best run."""
+    # A folder with a README is a validation; case.toml gives its place in the order.
     homes = [file.parent for file in HOME.glob("*/README.md")]
     return tuple(home.name.replace("_", "-") for home in sorted(homes, key=_order))
 
@@ -66,6 +67,7 @@ def validate(
     Raises:
         CaseError: no such validation; says the nearest name. NoDevice: no graphics card.
     """
+    # The module compares, the study collects.
     module = import_module(module_of(known_name(name)))
     folder = Path(out)
     folder.mkdir(parents=True, exist_ok=True)

@@ -20,7 +20,7 @@ class Report:
 
     Attributes:
         name: as in `lasersph validate NAME`. title: the question, in one line.
-        rows: compared numbers. figures: files drawn. remarks: what the numbers say.
+        rows: compared numbers. figures: files drawn. remarks: sentences on the numbers.
         quick: whether it ran shortened. seconds: that it took, with those of runs that were kept.
         cases, solvers: as of `Study`.
     """
@@ -62,6 +62,7 @@ class Report:
 
     def table(self) -> str:
         """Plain text: title, one line per number, remarks, verdict."""
+        # Title, numbers, remarks, changes, figures, verdict.
         lines = [f"{self.name}: {self.title}" + (" (quick)" if self.quick else ""), ""]
         lines += [text_table(map(_cells, self.rows), HEAD)]
         lines += ["", *(f"- {text}" for text in self.remarks)]

@@ -28,6 +28,7 @@ def run_case(case: Case, folder: Path, *, threads: int | None = None, backend: s
     Raises:
         CaseError: the folder holds something that is no run.
     """
+    # A run of other sources is removed and computed anew.
     made_by = folder.with_name(f"{folder.name}.made-by")
     maker = fingerprint(case, backend)
     if not made_by.is_file() or made_by.read_text(encoding="utf-8") != maker:
@@ -39,7 +40,8 @@ def run_case(case: Case, folder: Path, *, threads: int | None = None, backend: s
 
 
 def fingerprint(case: Case, backend: str = "cpu") -> str:
-    """What a run depends on: case, sources that compute it, versions below them, where it runs."""
+    """Fingerprint of a run: case, sources that compute it, versions below them, where it runs."""
+    # Versions of the libraries below count as sources.
     versions = " ".join(f"{name} {version(name)}" for name in NUMERICS)
     modules = sources.hashes([sources.TIME_LOOP, sources.recipe_module(case.solver.kind)])
     return f"case {case.hash()}\nsources {hash_of_case(modules)}\n{versions}\nbackend {backend}\n"
@@ -47,6 +49,7 @@ def fingerprint(case: Case, backend: str = "cpu") -> str:
 
 def _remove(folder: Path) -> None:
     """Remove an older run; a folder that holds something else is refused."""
+    # A folder that is no run is somebody else's.
     if not folder.exists():
         return
     if any(folder.iterdir()) and not (folder / "resolved.json").exists():

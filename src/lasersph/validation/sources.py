@@ -37,6 +37,7 @@ def hashes(modules: Iterable[str]) -> dict[str, str]:
     A text is read once a process: what was loaded counts, though files are edited meanwhile.
     """
     found: dict[str, str] = {}
+    # Follow imports until no module is new.
     left = list(modules)
     while left:
         module = left.pop()
@@ -47,6 +48,7 @@ def hashes(modules: Iterable[str]) -> dict[str, str]:
 
 
 def _has_no_numbers(module: str) -> bool:
+    # Only some files of this room judge; figures never do.
     room, *inner = [*module.split(".")[1:], ""]
     if room == "validation" and len(inner) == 2:
         return inner[0] not in NUMBERS_OF_VALIDATION
@@ -75,6 +77,7 @@ def _imports(module: str) -> frozenset[str]:
 def _imported(module: str, *, runs: bool) -> tuple[tuple[str, str], ...]:
     """(name, module it comes from) of all imports; `runs`: but for those of type checkers."""
     file = _file(module)
+    # Walk through the syntax tree: imports inside of functions count as well.
     left: list[ast.AST] = [ast.parse(file.read_text(encoding="utf-8"))] if file.is_file() else []
     found = []
     while left:
@@ -90,6 +93,7 @@ def _imported(module: str, *, runs: bool) -> tuple[tuple[str, str], ...]:
 
 def _definer(module: str, name: str) -> str:
     """Module that defines what is imported by a name from a module or a package."""
+    # A package gives the name from one of its files, or from elsewhere.
     file = _file(module)
     if not name or file.name != "__init__.py":
         return module

@@ -41,8 +41,8 @@ class Study:
             runs shortened. plan: the keys of `case.toml`, those of its table `quick` over them
             where it runs shortened. folder: of its runs and figures.
         comparisons: kinds of rows by name, as `rows.toml` states them.
-        rows, figures, remarks: what there is so far. cases: what was asked for, as a text that
-            JSON reads as name and settings. solvers: kinds of those that ran.
+        rows, figures, remarks: those so far. cases: cases that were asked for, as texts that JSON
+            reads as name and settings. solvers: kinds of those that ran.
     """
 
     def __init__(
@@ -54,7 +54,11 @@ class Study:
         threads: int | None = None,
         backend: str = "cpu",
     ) -> None:
-        self.name, self.title, self.folder, self.quick = name, title_of(name), folder, quick
+        # Plan and comparisons, those of another validation below its own.
+        self.name = name
+        self.title = title_of(name)
+        self.folder = folder
+        self.quick = quick
         self.threads, self.device = threads, backend
         homes = homes_of(name)
         self.plan = SimpleNamespace(**_plan_of(homes, quick=quick))
@@ -62,6 +66,7 @@ class Study:
         self.comparisons = read_comparisons(
             file for home in homes if (file := home / "rows.toml").is_file()
         )
+        # What is collected.
         self.rows: list[Row] = []
         self.figures: list[Path] = []
         self.remarks: list[str] = list(getattr(self.plan, "remarks", ()))
@@ -80,6 +85,7 @@ class Study:
 
     def run(self, label: str, *settings: str, case: str = "") -> Run:
         """A run of that case, or of another shipped one, computed or taken from `runs/label`."""
+        # Wall time of a run that is kept counts, too.
         wanted, begin = self._load(case or self.plan.case, settings), monotonic()
         self.solvers.add(wanted.solver.kind)
         folder = self.folder / "runs" / label
@@ -156,6 +162,7 @@ def home_of(name: str) -> Path:
 
 def homes_of(name: str) -> list[Path]:
     """Folders whose keys and rows hold for a validation, its own last."""
+    # Each folder may name another one that holds below it.
     homes = [home_of(name)]
     while LIKE in (keys := _keys_of(homes[0])):
         homes.insert(0, home_of(keys[LIKE]))
@@ -180,6 +187,7 @@ def title_of(name: str) -> str:
 
 def _plan_of(homes: list[Path], *, quick: bool) -> dict[str, Any]:
     """Keys of `case.toml` in some folders, later ones over earlier ones, those of `quick` last."""
+    # Keys of the table `quick` lie over the others where it runs shortened.
     keys, short = {}, {}
     for home in homes:
         keys |= _keys_of(home)

@@ -13,6 +13,7 @@ def read_table(file: Path) -> dict[str, np.ndarray]:
     Raises:
         FileNotFoundError: there is no such table.
     """
+    # Comments and empty lines are for people.
     text = file.read_text(encoding="utf-8")
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
     head, *rows = [[cell.strip() for cell in line.split(",")] for line in lines]

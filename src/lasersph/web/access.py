@@ -49,11 +49,13 @@ class Access:
         """
         self.app, self._token = app, token
         self._outer = frozenset(name.lower() for name in hosts)
+        # The cookie is named by the token: two servers of one machine keep theirs apart.
         digest = hashlib.sha256(b"lasersph " + token.encode()).hexdigest()
         self._cookie, self._value = f"lasersph-{digest[:12]}", digest[12:]
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request, or refuse it."""
+        # Start and end of the server pass, requests are judged.
         if scope["type"] == "lifespan":
             await self.app(scope, receive, send)
             return
@@ -68,18 +70,22 @@ class Access:
                     headers.setdefault(name, value)
             await send(message)
 
+        # Refuse, greet or answer; every answer gets the headers.
         answer = self._refusal(request) or self._welcome(request)
         await (answer or self.app)(scope, receive, send_with_headers)
 
     def _refusal(self, request: Request) -> Response | None:
         """The answer to a request that must not be served."""
         headers = request.headers
+        # Names of this server only, against DNS rebinding.
         if host_name(headers.get("host", "")) not in {*LOOPBACK, *self._outer}:
             return PlainTextResponse(
                 "This name is not one of the server's: add --allow-host NAME.\n", 400
             )
+        # Changes come from a page of this server, against requests forged by other sites.
         if request.method not in ("GET", "HEAD") and not self._is_own_page(headers):
             return PlainTextResponse("The request comes from another site.\n", 403)
+        # No body longer than a case, and none of unknown length.
         length = headers.get("content-length", "0")
         if not length.isdigit() or int(length) > LARGEST_BODY or "transfer-encoding" in headers:
             return PlainTextResponse("The request is too long.\n", 413)
@@ -87,6 +93,7 @@ class Access:
 
     def _welcome(self, request: Request) -> Response | None:
         """A cookie for the token, a refusal without either, nothing where all is well."""
+        # The address with the token is traded for a cookie, once.
         given = request.query_params.get("token")
         if given is not None and request.url.path in ("", "/"):
             if not hmac.compare_digest(given.encode(), self._token.encode()):
@@ -97,6 +104,7 @@ class Access:
                 self._cookie, self._value, path=None, httponly=True, samesite="strict"
             )
             return answer
+        # A script sends the token itself, a browser its cookie; both are compared in constant time.
         scheme, _, bearer = request.headers.get("authorization", "").partition(" ")
         if scheme.lower() == "bearer":
             is_known = hmac.compare_digest(bearer.strip().encode(), self._token.encode())
@@ -117,11 +125,13 @@ class Access:
 
     def _is_own_page(self, headers: Headers) -> bool:
         """Whether a page of this server sent a request; scripts send no origin."""
+        # Browsers say where a request comes from; a script that knows the token may not.
         if headers.get("sec-fetch-site", "same-origin") not in ("same-origin", "none"):
             return False
         origin = headers.get("origin")
         if origin is None:
             return "authorization" in headers
+        # The origin is this host, or the name of a proxy.
         found = urlsplit(origin)
         is_same = found.netloc.lower() == headers.get("host", "").lower()
         return is_same or (found.hostname or "") in self._outer

@@ -1,4 +1,4 @@
-/** What a new run begins with: a shipped case, a case file below the folder, a text, an earlier run. */
+/** Source of a new run: a shipped case, a case file below the folder, a text, an earlier run. */
 
 import { h } from "./dom.js";
 

@@ -1,4 +1,4 @@
-"""What a new run begins with: a shipped case, a case file, a text, or an earlier run.
+"""Source of the case of a new run: a shipped case, a case file, a text, or an earlier run.
 
 A case file is named by its path below the folder that is served; nothing above it and no link is
 read. A text that was pasted, and the case of an earlier run, are written into a folder of their own
@@ -30,7 +30,7 @@ class CaseSource:
     """A case before it is changed.
 
     Attributes:
-        path: its file. settings: what an earlier run had changed of it, as `--set` takes it.
+        path: its file. settings: changes of an earlier run, as `--set` takes it.
         name: by which a run of it may be called. kept: a folder of this server's that holds the
             file as long as this object lives.
     """
@@ -49,10 +49,12 @@ def source_of(content: dict[str, Any], folders: FolderList) -> CaseSource:
             names none or several, or a file that is not below the folder. OutputError: the run
             cannot be read, or has no case file.
     """
+    # Exactly one source.
     given = [kind for kind in KINDS if content.get(kind) is not None]
     if len(given) != 1 or not isinstance(content[given[0]], str):
         raise ValueError(f"one of {', '.join(KINDS)} is wanted, a text")
     (kind,), value = given, content[given[0]]
+    # Shipped cases and files as they lie; texts are written into a folder of this server's.
     if kind == "case":
         return CaseSource(available_cases()[value], value)
     if kind == "file":
@@ -60,6 +62,7 @@ def source_of(content: dict[str, Any], folders: FolderList) -> CaseSource:
         return CaseSource(path, path.stem)
     if kind == "text":
         return _written(value, "own-case")
+    # An earlier run: its case file, with the settings that it was started with.
     entry = folders.find(value, "run")
     refuse_links(entry.path)
     try:
@@ -71,8 +74,8 @@ def source_of(content: dict[str, Any], folders: FolderList) -> CaseSource:
             f"{entry.name} was made by a study or in Python and has no case file: start from the "
             "case of that study"
         )
-    settings, rest = split_settings(text)
-    return _written(rest, entry.path.name, tuple(settings))
+    settings, without_settings = split_settings(text)
+    return _written(without_settings, entry.path.name, tuple(settings))
 
 
 def file_below(root: Path, name: str) -> Path:
@@ -81,6 +84,7 @@ def file_below(root: Path, name: str) -> Path:
     Raises:
         ValueError: the path leads out of the folder, through a link, or to no case file.
     """
+    # The path may neither lead out of the folder nor through a link.
     try:
         path = Path(os.path.normpath(root / name))
         is_inside = path.resolve() == path and path.is_relative_to(root)
@@ -96,6 +100,7 @@ def file_below(root: Path, name: str) -> Path:
 
 def in_words(error: CaseError) -> str:
     """The first mistake of a case in one line, with its line in the file, and how many more."""
+    # The first problem with its line; the file's name without its folder.
     first, more = error.problems[0], len(error.problems) - 1
     line = f"line {first.line}" if first.line else ""
     text = ": ".join(filter(None, (line, first.key, first.problem)))

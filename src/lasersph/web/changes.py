@@ -1,4 +1,4 @@
-"""What a run changed of its case file, in the units in which the file is written."""
+"""Changes of a run to its case file, in the units in which the file is written."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from lasersph.report.tables import value_at
 def changes(case_text: str) -> list[dict[str, str]]:
     """Changes of a run to its case file: key, value in the file, value that was computed."""
     settings, text = split_settings(case_text)
+    # Without settings nothing was changed.
     try:
         given = tomllib.loads(text) if settings else {}
     except tomllib.TOMLDecodeError:
@@ -25,6 +26,7 @@ def changes(case_text: str) -> list[dict[str, str]]:
     for setting in settings:
         name, _, value = setting.partition("=")
         key, now = name.strip(), value.strip().strip('"')
+        # A setting that says what the file says, in whatever unit, is no change.
         before = value_at(given, key)
         was = "" if before is None else str(before)
         if _letters(was) != _letters(now) and _letters(was) != _letters(in_unit_of(now, was)):

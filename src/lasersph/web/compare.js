@@ -14,6 +14,7 @@ export async function showComparison(place, signal, head, ...ids) {
 
   const hosts = runs.map(() => h("div", {}));
   const charts = h("div", { class: "charts row" });
+  // Keys in which the cases differ, each in its unit.
   const keys = [...new Set(runs.flatMap((run) => Object.keys(run.resolved)))].sort();
   const textOf = (run, key) => {
     const value = run.resolved[key], unit = run.units[key];
@@ -66,10 +67,12 @@ export async function showComparison(place, signal, head, ...ids) {
       if (shown[other] !== closest) viewers[other].setFrame(closest);
     },
   }));
+  // The viewer that is touched leads.
   for (const [k, host] of hosts.entries()) {
     for (const kind of ["pointerdown", "keydown", "focusin"]) host.addEventListener(kind, () => { leading = k; }, { capture: true });
   }
 
+  // The same charts for both runs, with the columns that either has.
   const relief = await reliefChart(runs, signal);
   if (relief) charts.prepend(relief.element);
   const drawn = new Map();
@@ -94,11 +97,13 @@ export async function showComparison(place, signal, head, ...ids) {
       drawn.set(title, { name, chart: found });
     }
   };
+  // Whoever leaves the page takes its pictures along.
   signal.addEventListener("abort", () => {
     for (const viewer of viewers) viewer.destroy();
     relief?.destroy();
     for (const { chart } of drawn.values()) chart.destroy();
   }, { once: true });
+  // Events of each run one after the other, so that no row is taken twice.
   for (const [k, id] of ids.entries()) {
     let asked = Promise.resolve();
     listen(id, () => {
@@ -120,6 +125,7 @@ function numbersOf(runs) {
   return table(rows, ["number", ...runs.map((run) => run.name), "difference"]);
 }
 
+/** The second number less the first, with its share of the first; a dash where one is missing. */
 function differenceOf(one, other) {
   if (!Number.isFinite(one?.value) || !Number.isFinite(other?.value)) return "–";
   const more = other.value - one.value, sign = more > 0 ? "+" : "−";

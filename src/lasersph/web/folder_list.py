@@ -27,7 +27,7 @@ class Entry:
 
     Attributes:
         id: in addresses. path: its folder. name: path below the folder that is shown.
-        kind: what it is. sweep: id of the sweep or study that a run belongs to, else empty.
+        kind: "run" or "sweep". sweep: id of the sweep or study that a run belongs to, else empty.
         study: kind of the study whose runs lie there; a sweep has none.
     """
 
@@ -49,7 +49,7 @@ def id_of(name: str) -> str:
 
 
 class FolderList:
-    """What lies below a folder now.
+    """List of the runs, sweeps and studies that lie below a folder now.
 
     Attributes:
         root: the folder.
@@ -62,7 +62,7 @@ class FolderList:
     def entries(self) -> list[Entry]:
         """All runs and sweeps, sweeps before their runs."""
         found: list[Entry] = []
-        self._look(self.root, "", 0, found)
+        self._scan(self.root, "", 0, found)
         self._known = {entry.id: entry for entry in found}
         return found
 
@@ -72,11 +72,13 @@ class FolderList:
         Raises:
             KeyError: there is none. OutputError: its folder has become a link.
         """
+        # A folder that appeared since the last look.
         if id not in self._known:
             self.entries()
         entry = self._known[id]
         if entry.kind != kind:
             raise KeyError(id)
+        # The folder may have become a link since then.
         if entry.path.resolve() != entry.path:
             raise OutputError(f"{entry.name} is reached through a link, which is not followed")
         return entry
@@ -85,7 +87,8 @@ class FolderList:
         """Address of a folder below the root."""
         return id_of(path.relative_to(self.root).as_posix())
 
-    def _look(self, folder: Path, sweep: str, depth: int, found: list[Entry]) -> None:
+    def _scan(self, folder: Path, sweep: str, depth: int, found: list[Entry]) -> None:
+        # Names of what lies in the folder; a run has no runs below it.
         try:
             with os.scandir(folder) as scan:
                 inside = sorted(scan, key=lambda one: one.name)
@@ -97,6 +100,8 @@ class FolderList:
         if RESOLVED in names:
             found.append(Entry(id_of(name), folder, shown, "run", sweep))
             return
+
+        # A sweep has its points, a study runs of its names; their runs belong to them.
         is_sweep = POINTS in names
         inside = [
             one
@@ -108,11 +113,13 @@ class FolderList:
             sweep = id_of(name)
             found.append(Entry(sweep, folder, shown, "sweep", study=study))
             inside = [one for one in inside if study or one.name == RUNS]
+
+        # Deeper folders; the folder `runs` of a sweep counts as no level.
         if depth == DEEPEST:
             return
         for one in inside:
             is_part = sweep and one.name == RUNS
-            self._look(folder / one.name, sweep, depth + (not is_part), found)
+            self._scan(folder / one.name, sweep, depth + (not is_part), found)
 
 
 def _study(folder: Path, inside: list[str]) -> str:
@@ -125,6 +132,7 @@ def _study(folder: Path, inside: list[str]) -> str:
 
 def refuse_links(folder: Path) -> None:
     """Refuse a run folder that holds a link, which could lead anywhere. Raises OutputError."""
+    # Figures are served from their own folder.
     for place in (folder, folder / "figures"):
         try:
             with os.scandir(place) as scan:

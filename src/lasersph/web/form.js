@@ -29,6 +29,7 @@ async function fillForm(place, signal, first) {
   const settings = () => [...rows].filter(([, { text, given }]) => text() !== given).map(([key, { text }]) => `${key}=${text()}`);
   const send = (path, content) => ask(path, { signal, method: "POST", body: JSON.stringify(content), headers: { "content-type": "application/json" } });
 
+  // Check once nothing was typed for a while; only the last answer counts.
   let last = 0;
   const check = async () => {
     const mine = ++last;
@@ -67,6 +68,7 @@ async function fillForm(place, signal, first) {
   const drawChanges = () => changed.replaceChildren(...[...rows].filter(([, { text, given }]) => text() !== given).map(([key, { text, given }]) =>
     h("li", { title: `${key}: ${given || "not given"} in the case file` }, `${key} ${/^[[{]/.test(text()) ? "changed" : text() || "left out"}`)));
 
+  // Fields of the case; parts that the reader opened stay open.
   const draw = (form) => {
     const groupOf = (details) => details.closest("fieldset").firstElementChild.textContent;
     const open = [...keys.querySelectorAll("details[open]")].map(groupOf);
@@ -87,6 +89,7 @@ async function fillForm(place, signal, first) {
     document.getElementById(id).focus();
     checkLater();
   };
+  // Another case: everything typed belongs to the last one.
   const begin = async (wanted) => {
     last += 1;
     start.disabled = true;

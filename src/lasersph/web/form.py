@@ -35,6 +35,7 @@ def form_of(source: CaseSource, settings: Sequence[str] = ()) -> dict[str, Any]:
     Raises:
         CaseError: the file is no case, or a setting is not KEY=VALUE.
     """
+    # The file as written, and the same with settings.
     document = CaseFile(source.path).document
     fields = _Fields(document.data, override(document, settings).data)
     return {
@@ -50,6 +51,7 @@ class _Fields:
 
     def __init__(self, written: dict[str, Any], data: dict[str, Any]) -> None:
         """Take the data of the file, and those with settings."""
+        # Units that the file uses, by the SI unit that they stand for.
         self._schema, self._data = Schema(Case), data
         self._written, self._now = dict(_given(written)), dict(_given(data))
         self._whole = written
@@ -61,6 +63,7 @@ class _Fields:
 
     def all(self) -> list[dict[str, Any]]:
         """Given keys, then those that may be given beside them."""
+        # Given keys in their order, then those that their tables may have as well.
         paths = dict.fromkeys([*self._now, *self._written])
         fields = [self._field(path) for path in paths if not self._is_table(path)]
         known = {field["key"] for field in fields}
@@ -80,17 +83,20 @@ class _Fields:
         return isinstance(value, dict)
 
     def _field(self, path: Path) -> dict[str, Any]:
+        # What the schema says of the key, with the value and the unit in which it is written.
         schema, data = self._schema, self._data
         now, written = self._now.get(path, ""), self._written.get(path, "")
         field: dict[str, Any] = {
             "key": dotted(path),
             "value": _text(now),
             "given": _text(written),
-            **_told(schema, path, data),
+            **_key_description(schema, path, data),
         }
         field["unit"] = self._unit(field["unit"], field["value"] or field["given"])
+        # A key that another kind of its table had is left over.
         is_known = bool(schema.parts(path, data))
         field["is_left"] = not is_known and bool(schema.parts(path, self._whole))
+        # Lists have rows and columns, each column a unit of its own.
         if any(part.get("type") == "array" for part in schema.parts(path, data)):
             found = _list(schema, path, data, now or [])
             found["given"] = _list(schema, path, data, written or [])["rows"]
@@ -103,6 +109,7 @@ class _Fields:
 
     def _unit(self, si: str, text: str) -> str:
         """The unit of a field: that of its value, else that of others of its kind, else of SI."""
+        # Its own unit first, then that of the file for this kind.
         own = number_and_unit(text)[1] if si else ""
         return own if own and _is_unit(own) else self._units.get(si, si)
 
@@ -124,9 +131,10 @@ def _is_unit(text: str) -> bool:
     return True
 
 
-def _told(schema: Schema, path: Path, data: Any) -> dict[str, Any]:
-    """What the schema says of a key: help, unit, kind, choices, whether a number may stand there
-    and whether a text may."""
+def _key_description(schema: Schema, path: Path, data: Any) -> dict[str, Any]:
+    """Description of a key by its schema: help, unit, kind, choices, and whether a number or a text
+    may stand there."""
+    # Choices are words, or true and false.
     parts = schema.parts(path, data)
     choices = [str(one) for part in parts for one in part.get("enum", ())]
     if any(part.get("type") == "boolean" for part in parts):
@@ -158,22 +166,31 @@ def _list(schema: Schema, path: Path, data: Any, value: list[Any]) -> dict[str, 
         `shape`: "tables", a row each; "rows", lists of a length; "values", a cell each; "row", one
         list of a length. `columns`: `name`, and what the schema says of each. `rows`: texts.
     """
+    # The shape of the list, from what the schema allows inside.
     array = next(part for part in schema.parts(path, data) if part.get("type") == "array")
     inside: Path = (*path, 0)
     item = schema.parts(inside, data)
     if "prefixItems" in array:
-        shape, places, rows = "row", [(*path, k) for k in range(array["maxItems"])], [value]
+        shape = "row"
+        places = [(*path, k) for k in range(array["maxItems"])]
+        rows = [value]
     elif names := schema.keys(inside, data):
         shape, places = "tables", [(*inside, name) for name in names]
         rows = [[one.get(name, "") for name in names] for one in value]
     elif row := next((part["prefixItems"] for part in item if "prefixItems" in part), None):
-        shape, places, rows = "rows", [(*inside, k) for k in range(len(row))], value
+        shape = "rows"
+        places = [(*inside, k) for k in range(len(row))]
+        rows = value
     else:
-        shape, places, rows = "values", [inside], [[one] for one in value]
+        shape = "values"
+        places = [inside]
+        rows = [[one] for one in value]
     columns = [
-        {"name": place[-1] if shape == "tables" else "", **_told(schema, place, data)}
+        {"name": place[-1] if shape == "tables" else "", **_key_description(schema, place, data)}
         for place in places
     ]
+
+    # An empty row stands for a list that must have one.
     filled = rows if any(rows) else [[""] * len(places)] if shape == "row" else []
     return {
         "shape": shape,
@@ -182,9 +199,18 @@ def _list(schema: Schema, path: Path, data: Any, value: list[Any]) -> dict[str, 
     }
 
 
+def _from_browser(text: str, source: CaseSource) -> str:
+    """A problem without the folder into which a text was written, beside which no file lies."""
+    folder = f"{source.path.parent}/"
+    if source.kept is None or folder not in text:
+        return text
+    return f"{text.replace(folder, '')} here: write its whole path"
+
+
 def checked(source: CaseSource, settings: Sequence[str]) -> dict[str, Any]:
     """Answer of `lasersph check` to a case with settings: problems by key and line, or the
     forecast with its warnings."""
+    # The same checks as `lasersph check`, problems by their keys.
     try:
         case = load_case(source.path, settings)
         threads = chosen(None)
@@ -194,16 +220,18 @@ def checked(source: CaseSource, settings: Sequence[str]) -> dict[str, Any]:
             {
                 "key": one.key,
                 "line": one.line,
-                "text": "; ".join(filter(None, (one.problem, one.hint))),
+                "text": _from_browser("; ".join(filter(None, (one.problem, one.hint))), source),
             }
             for one in error.problems
         ]
         return {"problems": problems, "forecast": [], "warnings": []}
+    # The forecast in four rows.
     there = [words.format(in_words(most)) for words, most in memories("cpu") if isfinite(most)]
+    counted = f"{threads} thread{'s' * (threads > 1)}"
     rows = [
         ("particles", str(expected.particles)),
         ("memory", ", ".join([f"about {in_words(expected.memory)}", *there])),
         ("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"),
-        ("time", f"roughly {format_duration(expected.wall_time)} on {threads} threads"),
+        ("time", f"roughly {format_duration(expected.wall_time)} on {counted}"),
     ]
     return {"problems": [], "forecast": rows, "warnings": list(expected.warnings)}

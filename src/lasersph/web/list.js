@@ -15,7 +15,7 @@ const ORDERS = {
 };
 const STATES = ["all states", "running", "complete", "stopped", "damaged"];
 const chosen = { text: "", state: STATES[0], order: "newest", compared: new Set() };
-/** What the reader chose stays when a run was opened in between. */
+/** The reader's choice, which stays when a run was opened in between. */
 
 export async function showList(place, signal, head) {
   const cards = new Map();
@@ -31,6 +31,7 @@ export async function showList(place, signal, head) {
     } }, "Clear"));
   let content = { runs: [], sweeps: [] };
 
+  // The cards that the reader's words, state and order choose; a card is replaced where it changed.
   const draw = () => {
     const words = chosen.text.toLowerCase().split(/\s+/).filter(Boolean);
     const key = ORDERS[chosen.order][1];
@@ -45,6 +46,7 @@ export async function showList(place, signal, head) {
       grid.replaceChildren(...wanted);
       if (grid.contains(focused)) focused.focus();
     }
+    // How many there are, or how to begin.
     const running = content.runs.filter((run) => run.state === "running").length;
     count.textContent = all.length
       ? [`${shown.length} of ${all.length}`, running ? `${running} running` : ""].filter(Boolean).join(", ")
@@ -53,6 +55,7 @@ export async function showList(place, signal, head) {
       grid.replaceChildren(h("p", { class: "empty" }, "No run lies in this folder yet. Start one: ",
         h("code", {}, `lasersph run dlip-steel --out ${content.folder}/steel`)));
     }
+    // Two ticked runs can be compared.
     const picked = content.runs.filter((run) => chosen.compared.has(run.id));
     bar.hidden = !picked.length;
     compare.hidden = picked.length !== 2;
@@ -62,6 +65,7 @@ export async function showList(place, signal, head) {
     if (picks.textContent !== told) picks.textContent = told;
   };
 
+  // A card is made anew only where its content has changed, so that pictures do not flicker.
   const cardOf = (run) => {
     const text = JSON.stringify(run);
     const known = cards.get(run.id);
@@ -83,6 +87,7 @@ export async function showList(place, signal, head) {
       count),
     grid, bar);
 
+  // Ask again as long as the page is seen.
   for (let isFirst = true; ; isFirst = false) {
     content = await getJson("api/runs", { signal });
     head(content);
@@ -93,6 +98,7 @@ export async function showList(place, signal, head) {
   }
 }
 
+/** Words of a run among which the reader searches. */
 function wordsOf(run) {
   const changes = (run.changes ?? []).map((one) => `${one.key} ${one.now}`).join(" ");
   const spans = (run.spans ?? []).map((one) => one.key).join(" ");
@@ -108,6 +114,7 @@ function options(entries, value, change) {
     entries.map(([name, words]) => h("option", { value: name, selected: name === value }, words)));
 }
 
+/** The card of a run: picture, state, numbers; of a damaged one the reason. */
 function runCard(run, changed) {
   if (run.state === "damaged") {
     return h("article", { class: "card damaged" },
@@ -137,6 +144,7 @@ function runCard(run, changed) {
         run.warnings.length > 0 && h("span", { class: "chip warned", title: run.warnings.join("\n") }, `${run.warnings.length} warning${run.warnings.length > 1 ? "s" : ""}`), h("label", { class: "pick" }, pick, "compare"))));
 }
 
+/** The picture of a run, else a small curve of its temperature. */
 function pictureOf(run) {
   if (run.picture) {
     return h("img", { src: `api/run/${run.id}/figure/${run.picture}`, loading: "lazy", decoding: "async",
@@ -153,13 +161,14 @@ function pointsOf(points) {
     svg("circle", { cx: 12 + 136 * x, cy: 78 - 62 * y, r: points.length > 60 ? 2.2 : 3.4, fill: share === null ? "none" : `rgb(${colorAt(share).join()})`, class: "point" })));
 }
 
-/** What varies between which values: "fluence 0.15 J/cm² to 0.6 J/cm²". */
+/** A key that varies and its values: "fluence 0.15 J/cm² to 0.6 J/cm²". */
 function spanOf({ key, unit, ends }) {
   const words = ends.map((one) => (typeof one === "number" ? quantity(one, unit) : String(one)));
   const isRange = ends.every((one) => typeof one === "number");
   return `${key.split(".").pop()} ${[...new Set(words)].join(isRange ? " to " : ", ")}`;
 }
 
+/** The card of a sweep: its runs over two keys, its state, what varies. */
 function sweepCard(sweep) {
   if (sweep.state === "damaged") return runCard(sweep);
   const counts = Object.entries(sweep.counts);

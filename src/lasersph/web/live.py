@@ -28,9 +28,10 @@ async def events(
     """Lines of the event stream, until the server stops or the folder is gone.
 
     Args:
-        note_of: what a process that this server started said when it failed.
+        note_of: last words of a process that this server started and that failed.
     """
     before, silent = None, 0
+    # Look, say what changed, and now and then that nothing did.
     while not is_stopping():
         found = await anyio.to_thread.run_sync(_sizes, entry.path)
         found["note"] = note_of(entry)
@@ -42,6 +43,7 @@ async def events(
             silent = 0
         else:
             silent += 1
+        # The folder is gone: there is nothing more to say.
         if found["state"] == "gone":
             return
         await anyio.sleep(PAUSE)
@@ -49,6 +51,7 @@ async def events(
 
 def _sizes(folder: Path) -> dict[str, Any]:
     """State and sizes of what grows."""
+    # Sizes of files that grow, times of those that are replaced.
     try:
         started = (folder / "resolved.json").stat().st_mtime_ns
     except OSError:

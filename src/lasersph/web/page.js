@@ -4,7 +4,7 @@ import { h } from "./dom.js";
 import { showList } from "./list.js";
 import { Refused } from "./net.js";
 
-/** What is shown for an address; the list does not wait for the modules of the others. */
+/** Views by address; the list does not wait for the modules of the others. */
 const ADDRESSES = [
   [/^#\/run\/([0-9a-f]+)$/, async () => (await import("./run.js")).showRun],
   [/^#\/compare\/([0-9a-f]+)\/([0-9a-f]+)$/, async () => (await import("./compare.js")).showComparison],
@@ -15,12 +15,14 @@ const ADDRESSES = [
 ];
 let shown = null;
 
+/** Name the folder, and offer a new run where the server may start one. */
 function head(content) {
   document.getElementById("folder").textContent = content.folder;
   const actions = document.getElementById("actions");
   if (content.may_run && !actions.children.length) actions.append(h("a", { class: "button", href: "#/new" }, "New run"));
 }
 
+/** Show what belongs to the address; what was shown before is ended. */
 async function show() {
   const address = location.hash;
   const [match, view] = ADDRESSES.map(([pattern, view]) => [address.match(pattern), view]).find(([match]) => match) ?? [];

@@ -6,6 +6,7 @@ import { fieldPicture } from "./map.js";
 const INKS = [[253, 205, 160], [214, 84, 18]]; // where 95 % and 68 % of the posterior lie
 const SHARES = [0.95, 0.68];
 
+/** Sentence, warnings, corner of posteriors, data with their deviations, and chi squared. */
 export function calibrationOf(found) {
   const names = Object.keys(found.unknowns);
   return [h("h2", {}, "Calibration"),
@@ -20,6 +21,7 @@ export function calibrationOf(found) {
     h("p", { class: "quiet" }, `χ² = ${number(found.chi_squared.value, 3)} with ${found.chi_squared.degrees_of_freedom} degrees of freedom, p = ${number(found.chi_squared.probability, 2)}`)];
 }
 
+/** The histogram of one unknown, with the band of 95 %. */
 function posteriorOf(name, one, { edges, density }) {
   const low = edges[0], high = edges.at(-1), most = Math.max(...density);
   const toX = (value) => (100 * (Math.max(low, Math.min(high, value)) - low)) / (high - low || 1);
@@ -39,12 +41,15 @@ function levelOf(cells, share) {
   return sorted.find((one) => (sum += one) >= share * total) ?? 0;
 }
 
+/** Where a pair of unknowns lies, with the correlation of both. */
 function pairOf(found, across, below, column, row) {
+  // Cells above the densities that enclose 95 % and 68 %.
   const cells = found.pairs[`${across} ${below}`], [outer, inner] = SHARES.map((share) => levelOf(cells, share));
   const [x, y] = [across, below].map((name) => found.posterior[name].edges);
   const [xs, ys] = [x, y].map((edges) => [0.5 * (edges[0] + edges[1]), 0.5 * (edges.at(-2) + edges.at(-1))]); // middles of the outer cells
   const [u, v] = [across, below].map((name) => found.unknowns[name]);
   const toX = (value) => (100 * (value - x[0])) / (x.at(-1) - x[0] || 1), toY = (value) => 100 - (100 * (value - y[0])) / (y.at(-1) - y[0] || 1);
+  // Covariance over both standard deviations.
   const together = found.covariance[row][column] / Math.sqrt(found.covariance[row][row] * found.covariance[column][column]);
   const text = `correlation ${number(together, 2)}`;
   const picture = fieldPicture(cells, (value) => (value >= inner ? INKS[1] : value >= outer ? INKS[0] : null), 360, 360);

@@ -39,6 +39,7 @@ class Processes:
 
     def free_name(self, case: str) -> str:
         """Name of a folder that a run of a case may get, "steel-2" where "steel-1" is taken."""
+        # A number is put behind the name, in place of one that it has.
         plain = re.sub(r"[^A-Za-z0-9._-]+", "-", re.sub(r"-[0-9]+$", "", case)).lstrip("._-")
         names = (f"{plain[:LONGEST_STEM] or 'run'}-{number}" for number in count(1))
         return next(name for name in names if not os.path.lexists(self._root / name))
@@ -49,11 +50,13 @@ class Processes:
         Raises:
             ValueError: the name is no name of a folder, or is taken. OutputError: it did not start.
         """
+        # The name may not lead out of the folder.
         if FOLDER_NAME.fullmatch(name) is None:
             raise ValueError("name the run with letters, digits, dots, dashes: steel-0.8")
         folder = self._root / name
         if folder.exists() or folder.is_symlink():
             raise ValueError(f"{name} is taken: choose another name")
+        # The case file lasts as long as the run may need it.
         self._sources[folder] = source
         self._run(folder, [str(source.path), *_options(settings)])
         return folder
@@ -62,6 +65,7 @@ class Processes:
         """Go on with a run that was stopped. Raises OutputError where that did not start."""
         if is_computing(folder):
             raise OutputError("the run is computed already")
+        # The case as it was started, with its settings.
         settings, _ = split_settings((folder / "case.toml").read_text(encoding="utf-8"))
         self._run(folder, [str(folder / "case.toml"), *_options(settings), "--resume"])
 
@@ -70,19 +74,22 @@ class Processes:
 
         Raises OutputError where there is none on this machine.
         """
+        # Only a process of this machine can be signaled.
         owner = read_owner(folder / NAME)
         number = owner.get("process")
         if not is_computing(folder) or not isinstance(number, int) or number <= 1:
             raise OutputError("nobody computes this run")
         if owner.get("machine") != machine():
             raise OutputError(f"the run is computed on {owner.get('host')}: stop it there")
+        # The number may belong to another program by now.
         command = Path(f"/proc/{number}/cmdline")
         if command.parent.parent.is_dir() and b"lasersph" not in _read(command):
             raise OutputError("the process that held this folder has ended")
         os.kill(number, signal.SIGTERM)
 
     def note_of(self, folder: Path) -> str:
-        """What a process of this server said when it failed; empty where none did."""
+        """Last words of a process of this server that failed; empty where none did."""
+        # A process that still runs, ended well or was stopped has nothing to say.
         process, said = self._started.get(folder, (None, None))
         if process is None or said is None or process.poll() in (None, 0, 143):
             return ""
@@ -91,6 +98,7 @@ class Processes:
 
     def _run(self, folder: Path, arguments: Sequence[str]) -> None:
         said = tempfile.TemporaryFile()  # noqa: SIM115  (kept for note_of)
+        # A session of its own: it outlives the server and its terminal.
         command = [sys.executable, "-m", "lasersph", "run", *arguments, "--out", str(folder)]
         process = subprocess.Popen(
             command,
@@ -100,6 +108,7 @@ class Processes:
             start_new_session=True,
         )
         self._started[folder] = (process, said)
+        # Wait until it holds its folder, or has ended with a message.
         for _ in range(LOOKS):
             if (folder / "resolved.json").exists() and is_computing(folder):
                 return

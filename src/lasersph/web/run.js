@@ -27,6 +27,7 @@ export async function showRun(place, signal, head, id) {
   place.replaceChildren(path, top, note, numbers, h("div", { class: "wide" }, scene, beside), charts, below,
     h("section", {}, h("h2", {}, "Log"), log));
 
+  // Stop or resume, by the server; its refusal is shown.
   const change = async (event) => {
     event.target.disabled = true;
     try {
@@ -39,6 +40,7 @@ export async function showRun(place, signal, head, id) {
     }
   };
 
+  // Title, state and numbers, which change with every step.
   const drawTop = () => {
     const done = partDone(run);
     const end = run.pulses.length ? `${run.pulses.length} pulses` : quantity(run.end_s, "s");
@@ -56,6 +58,7 @@ export async function showRun(place, signal, head, id) {
       h("dt", {}, one.words), h("dd", {}, one.text, one.error && h("small", {}, ` ± ${one.error}`)), one.at && h("dd", { class: "at" }, `at ${one.at}`))));
   };
 
+  // Figures, notes, case and tables, which change with the state.
   const drawBelow = () => below.replaceChildren(...[
     run.figures.length > 0 && h("section", {}, h("h2", {}, "Figures"), h("div", { class: "figures" }, run.figures.map((one) =>
       h("figure", {}, h("a", { href: `${base}figure/${one.name}` },
@@ -72,6 +75,7 @@ export async function showRun(place, signal, head, id) {
     charts.prepend(relief.element);
   };
 
+  // A chart is kept as long as it shows the same curves.
   const drawCharts = () => {
     for (const [title, unit, curves] of history.charts()) {
       const name = `${title} ${curves.length}`;
@@ -89,6 +93,7 @@ export async function showRun(place, signal, head, id) {
     }
   };
 
+  // A viewer of its own for each start of the run: earlier frames are of another one.
   const start = () => {
     viewer?.destroy();
     const host = h("div", {});
@@ -96,7 +101,7 @@ export async function showRun(place, signal, head, id) {
     viewer = mount(host, http(base), { live: run?.state === "running" });
   };
 
-  /** What an event says to have changed is fetched; a later event waits for an earlier one. */
+  /** Fetch what an event says to have changed; a later event waits for an earlier one. */
   let waiting = null, busy = false;
   const follow = async (found) => {
     waiting = found;
@@ -109,15 +114,18 @@ export async function showRun(place, signal, head, id) {
         sizes = now;
         note.textContent = now.note ?? "";
         note.hidden = !now.note;
+        // The folder was removed.
         if (now.state === "gone") {
           run.state = "gone";
           drawTop();
           return;
         }
+        // The run was started anew: its history and frames begin again.
         if (before && now.started !== before.started) {
           history.clear();
           start();
         }
+        // Rows, log and state, each where the event says that it grew.
         const grew = await history.pull(signal);
         if (grew) drawCharts();
         if (!before || now.log !== before.log) log.textContent = await (await ask(`${base}log`, { signal })).text();
@@ -135,11 +143,13 @@ export async function showRun(place, signal, head, id) {
     }
   };
 
+  // Whoever leaves the page takes its pictures along.
   signal.addEventListener("abort", () => {
     viewer?.destroy();
     relief?.destroy();
     for (const { chart } of drawn.values()) chart.destroy();
   }, { once: true });
+  // Particles first: they take longest.
   start();
   try {
     run = await asked;
@@ -157,7 +167,7 @@ export async function showRun(place, signal, head, id) {
   }), signal);
 }
 
-/** What was changed of the case file, the file, and every value. */
+/** Changes of the case file, the file, and every value. */
 function caseOf(run) {
   const changed = run.changes.length
     ? table(run.changes.map((one) => [one.key, one.was || "–", one.now]), ["changed", "in the case file", "computed with"])

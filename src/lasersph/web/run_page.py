@@ -1,4 +1,4 @@
-"""What is told of one run: a card in the list, and its page. Reads files, writes none."""
+"""Content of one run: a card in the list, and its page. Reads files, writes none."""
 
 from __future__ import annotations
 
@@ -37,9 +37,10 @@ class Cards:
         self._known: dict[Path, tuple[tuple, dict[str, Any]]] = {}
 
     def card(self, entry: Entry) -> dict[str, Any]:
-        """What the list shows of a run; where it cannot be read, why, in its own card alone."""
+        """Card of a run in the list; where it cannot be read, why, in its own card alone."""
         head = {"id": entry.id, "name": entry.name, "sweep": entry.sweep}
         try:
+            # Stamps of the files tell whether the card is still right.
             with telling_damage(entry):
                 refuse_links(entry.path)
                 signature = tuple(_stamp(entry.path / name) for name in WATCHED)
@@ -85,6 +86,7 @@ def state_of(folder: Path) -> str:
 
 
 def _card(run: Run) -> dict[str, Any]:
+    # From the case and the last row of the history, which every run has.
     case = run.case
     history = run.path / "history.csv"
     row = last_row(history) if history.exists() else {}
@@ -104,6 +106,8 @@ def _card(run: Run) -> dict[str, Any]:
         "numbers": [],
         "values": {TEMPERATURE: row.get(TEMPERATURE)},
     }
+
+    # A complete run has its numbers.
     if run.is_complete:
         summary = run.summary
         found["case"] = str(summary["case"])
@@ -119,6 +123,7 @@ def _card(run: Run) -> dict[str, Any]:
         found["numbers"] = main_numbers(run)
         found["time_s"] = summary["time_s"]
     elif TEMPERATURE in row:
+        # One that is computed has those of its last row.
         found["numbers"] = [
             {
                 "words": "highest temperature now",
@@ -129,6 +134,8 @@ def _card(run: Run) -> dict[str, Any]:
             found["numbers"].append(
                 {"words": "melt depth now", "text": tables.in_words(row["melt_depth_any_m"], "m")}
             )
+
+    # Without a picture a small curve.
     if found["picture"] is None and history.exists():
         found["curve"] = some_values(history, TEMPERATURE, SPARKS)
     return found
@@ -137,6 +144,7 @@ def _card(run: Run) -> dict[str, Any]:
 def main_numbers(run: Run) -> list[dict[str, str]]:
     """The most telling results of a complete run, with their errors where these are known."""
     errors = (run.uncertainty or {}).get("numbers", {})
+    # In the order of the headline, as many as it has.
     known = telling_results(run.summary)
     found = []
     for key, words in LARGE.items():
@@ -158,6 +166,7 @@ def main_numbers(run: Run) -> list[dict[str, str]]:
 def results(summary: dict[str, Any]) -> list[dict[str, Any]]:
     """The main results with their words, for a table: `value` and `unit` of those that are numbers
     that can be taken from one another, `text` of all."""
+    # Numbers with units can be subtracted on the page, texts cannot.
     dimensions = int(summary.get("dimensions", 3))
     return [
         {
@@ -182,6 +191,7 @@ def relief(entry: Entry) -> dict[str, list[float]]:
     if not path.is_file():
         raise KeyError(path.name)
     with telling_damage(entry), path.open(newline="", encoding="utf-8") as stream:
+        # Half a period is mirrored.
         rows = [(float(row["x_m"]), float(row["height_m"])) for row in csv.DictReader(stream)]
         if open_run(entry.path).symmetry_factor == 2:
             rows = [*((-x, height) for x, height in reversed(rows) if x > 0.0), *rows]
@@ -211,6 +221,7 @@ def details(entry: Entry) -> dict[str, Any]:
 
 
 def _details(entry: Entry, run: Run) -> dict[str, Any]:
+    # The card, the case and what lies in the folder.
     resolved, files = run.resolved, _figure_files(entry.path)
     found = {
         "id": entry.id,
@@ -231,6 +242,8 @@ def _details(entry: Entry, run: Run) -> dict[str, Any]:
         "tables": [],
         "results": [],
     }
+
+    # Results and tables of a complete run.
     if run.is_complete:
         summary = run.summary
         found["results"] = results(summary)
@@ -249,6 +262,7 @@ def _captions(files: dict[str, Path]) -> list[dict[str, str]]:
     from lasersph.plots.run_figures import DRAWINGS
     from lasersph.report.write import ANIMATION
 
+    # The order of the report.
     known = {drawing.name: drawing.caption for drawing in DRAWINGS} | {"animation": ANIMATION}
     names = [name for name in known if name in files]
     return [{"name": name, "caption": known[name]} for name in names]
@@ -267,6 +281,7 @@ def log_text(folder: Path) -> str:
     path = folder / "run.log"
     if not path.exists():
         return ""
+    # The end of the log, without its first line, which may be cut.
     with open(path, "rb") as stream:
         size = stream.seek(0, 2)
         stream.seek(max(0, size - LOG_TAIL))

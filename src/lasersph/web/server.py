@@ -60,7 +60,7 @@ class Pages:
     """Answers of one server.
 
     Attributes:
-        folders: what lies below its folder. is_stopping: whether the server is about to end.
+        folders: runs and sweeps below its folder. is_stopping: whether the server is about to end.
         may_run: whether runs can be started.
     """
 
@@ -102,6 +102,7 @@ class Pages:
 
     def read_ahead(self) -> None:
         """Read what the first visitor asks for: the list, and the library that reads particles."""
+        # The list, and the library of HDF5, which takes long to load.
         self.list_runs()
         importlib.import_module("lasersph.output.frame_blocks")
 
@@ -110,7 +111,7 @@ class Pages:
         return JSONResponse(self.list_runs())
 
     def list_runs(self) -> dict[str, Any]:
-        """What the start page shows."""
+        """Content of the start page."""
         entries = self.folders.entries()
         shown = [one for one in entries if one.kind == "run" and not one.sweep]
         return {
@@ -133,6 +134,7 @@ class Pages:
 
     def map(self, request: Request) -> Response:
         """A number of a sweep between its runs."""
+        # Keys and column of the map.
         entry = self.folders.find(request.path_params["id"], "sweep")
         asked = request.query_params
         keys = [key for key in (asked.get("x", ""), asked.get("y", "")) if key]
@@ -142,6 +144,7 @@ class Pages:
         """New rows of history.csv; the header X-Next says where the next ones begin."""
         entry = self._entry(request)
         path = entry.path / "history.csv"
+        # The number of bytes comes from outside.
         text = request.query_params.get("from", "0")
         if not text.isascii() or not text.isdigit() or len(text) > 15:
             raise HTTPException(400, "from must be a number of bytes")
@@ -165,7 +168,7 @@ class Pages:
         )
 
     def note_of(self, entry: Entry) -> str:
-        """What is to be said of a run beside its files."""
+        """Note on a run beside its files."""
         return ""
 
     def figure(self, request: Request) -> Response:
@@ -193,6 +196,7 @@ class Pages:
         """Numbers of one field at one time, little-endian float32."""
         from lasersph.output.frame_blocks import particle_block
 
+        # Blocks never change: the browser keeps them.
         numbers = particle_block(self._entry(request).path, request.path_params["name"])
         headers = {"cache-control": FOREVER}
         return Response(numbers, media_type="application/octet-stream", headers=headers)
@@ -218,8 +222,9 @@ def make_app(
 
     Args:
         hosts: names beside those of this machine under which a proxy passes requests on.
-        pages: what answers; default: pages that only read.
+        pages: functions that answer; default: those that only read.
     """
+    # Guard around the pages, and an answer in words for each kind of error.
     pages = pages or Pages(root)
     return Starlette(
         routes=pages.routes(),
@@ -261,6 +266,7 @@ def serve(
     Args:
         listening: bound to the address. started: called when requests are answered.
     """
+    # Quiet, and with time for open requests at the end.
     config = uvicorn.Config(
         app,
         log_level="warning",
@@ -268,8 +274,9 @@ def serve(
         server_header=False,
         timeout_graceful_shutdown=SHUTDOWN,
     )
-    config.load()  # before the address is told
+    config.load()  # before the address is printed
     server = uvicorn.Server(config)
+    # Event streams end when the server is asked to.
     pages.is_stopping = lambda: server.should_exit
     listening.listen()
     threading.Thread(target=pages.read_ahead, daemon=True).start()

@@ -13,6 +13,7 @@ export function ramp(colors) {
   const stops = COLORS[colors].map((text) =>
     [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)));
   const bytes = new Uint8Array(256 * 4).fill(255);
+  // Each byte lies between the two given colors around its place.
   for (let k = 0; k < 256; k++) {
     const place = (k / 255) * (stops.length - 1), before = Math.min(Math.floor(place), stops.length - 2);
     for (let part = 0; part < 3; part++)
@@ -21,6 +22,7 @@ export function ramp(colors) {
   return bytes;
 }
 
+// Shared by all vertex programs: from meters to the window, and what is not shown.
 export const VIEW = `#version 300 es
 precision highp float;
 uniform mat3 turn; uniform vec3 center; uniform vec2 halfWindow; uniform float metersPerPixel, reach;
@@ -32,6 +34,7 @@ bool isHidden(vec3 p, float gate) {
   return gate < kept.x || gate > kept.y || dot(cut.xyz, vec3(side * p.x, p.yz)) > cut.w;
 }
 `;
+// A particle of a section: a rectangle of its width.
 export const CELL = `
 in vec2 corner; in vec3 position, width; in float value, gate; uniform float column, grow;
 void main() {
@@ -40,6 +43,7 @@ void main() {
   vec3 p = place(position) + vec3(corner * (0.5 * (size.xz + grow) / metersPerPixel + 0.35), 0.0);
   gl_Position = isHidden(position, gate) ? vec4(2.0, 2.0, 2.0, 1.0) : onScreen(p);
 }`;
+// A particle in space: a point as large as a sphere of its volume.
 export const SPHERE = `
 in vec3 position, width; in float value, gate; uniform float swell; out float depth;
 void main() {
@@ -49,6 +53,7 @@ void main() {
   gl_PointSize = max(2.0 * radius, 1.5);
   depth = radius * metersPerPixel / reach;
 }`;
+// A piece of the line of a surface, as thick as wanted.
 export const SEGMENT = `
 in vec2 corner; in vec3 from, to; uniform float thickness;
 void main() {
@@ -59,6 +64,7 @@ void main() {
   gl_Position = onScreen(p);
   shade = 0.0;
 }`;
+// Colors of the pieces: from the scale, a lit sphere, or one ink.
 export const FLAT = `#version 300 es
 precision highp float;
 in float shade; uniform sampler2D colors; out vec4 color;

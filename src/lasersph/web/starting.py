@@ -39,7 +39,7 @@ class StartingPages(Pages):
         ]
 
     def note_of(self, entry: Entry) -> str:
-        """What a process of this server said when it failed."""
+        """Last words of a process of this server that failed."""
         return self._processes.note_of(entry.path)
 
     async def form(self, request: Request) -> Response:
@@ -56,6 +56,7 @@ class StartingPages(Pages):
     async def start(self, request: Request) -> Response:
         """Start a run whose case is right."""
         asked = await self._asked(request)
+        # A run that the case refuses would end at once.
         found = await run_in_threadpool(form.checked, asked.source, asked.settings)
         if found["problems"]:
             first = found["problems"][0]
@@ -92,6 +93,7 @@ def asked_for(content: Any, folders: FolderList) -> Asked:
 
     Raises ValueError, and what `source_of` raises.
     """
+    # The content comes from outside: a table, texts, a list of bounded length.
     if not isinstance(content, dict):
         raise ValueError("a case, settings and a name are wanted")
     source, name = source_of(content, folders), content.get("name", "")

@@ -24,8 +24,8 @@ RUN_NAMES = {
     "converge": re.compile(rf"spacing-{NUMBER}nm"),
     "spot": re.compile(rf"[0-9]{{2,}}-fluence-{NUMBER}"),
 }
-"""What `studies.fluence_threshold`, `spacing_study` and `spot_threshold` call the folders of their
-runs, by the kind of the study; for folders without `study.json`."""
+"""Names of the folders of the runs of `studies.fluence_threshold`, `spacing_study` and
+`spot_threshold`, by the kind of the study; for folders without `study.json`."""
 
 
 def kind_of_study(folder: Path, inside: Iterable[str]) -> str:
@@ -34,6 +34,7 @@ def kind_of_study(folder: Path, inside: Iterable[str]) -> str:
     Raises:
         OutputError: its mark is damaged.
     """
+    # The mark says it; a folder of an older version is known by the names of its runs.
     if mark := read_mark(folder):
         return mark.kind
     names = list(inside)
@@ -43,6 +44,7 @@ def kind_of_study(folder: Path, inside: Iterable[str]) -> str:
 
 def study_title(folder: Path) -> str:
     """Title of a study: "threshold of dlip-steel to melt"; without a mark kind and case."""
+    # Without a mark, kind and case.
     if mark := read_mark(folder):
         return mark.title
     runs = _runs(folder)
@@ -60,12 +62,14 @@ def study_table(folder: Path, before: Table | None = None) -> Table:
     Raises:
         OutputError: a run cannot be read.
     """
+    # Keys in which the runs differ.
     runs = _runs(folder)
     known = {row.run: row for row in before.rows} if before is not None else {}
     cases = {run.name: _numbers(read_json(run / "resolved.json")["case"]) for run in runs}
     mark = read_mark(folder)
     units = {mark.key: mark.unit} if mark else _varying(cases.values())
     rows = []
+    # A complete run stays as it is; others are looked at again.
     for run in runs:
         settings = {key: cases[run.name][key] for key in units}
         old, summary = known.get(run.name), run / "summary.json"
@@ -76,6 +80,7 @@ def study_table(folder: Path, before: Table | None = None) -> Table:
             rows.append(Row(run.name, "complete", settings, numbers))
         else:
             rows.append(Row(run.name, "stopped", settings))
+    # In the order of what varies.
     rows.sort(key=lambda row: tuple(row.settings.values()))
     columns = dict.fromkeys(name for row in rows for name in row.numbers)
     return Table(folder, tuple(rows), units, tuple(columns))
@@ -87,6 +92,7 @@ def _runs(folder: Path) -> list[Path]:
 
 def _varying(cases: Collection[Mapping[str, float]]) -> dict[str, str]:
     """Keys in which cases differ, with their SI units."""
+    # Keys with a unit: names of cases and titles differ, too.
     every = dict.fromkeys(key for case in cases for key in case)
     return {key: unit for key in every if (unit := unit_of_key(key)) and _varies(key, cases)}
 

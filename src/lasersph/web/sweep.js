@@ -16,6 +16,7 @@ export async function showSweep(place, signal, head, id) {
   const rows = h("div", {}), warnings = h("div", {});
   const state = h("p", { class: "state", "aria-live": "polite" });
 
+  // State, table and warnings at once; the field comes when the server has it.
   const draw = () => {
     const counts = Object.entries(sweep.counts).filter(([, count]) => count).map(([name, count]) => `${count} ${name}`);
     state.replaceChildren(`${sweep.rows.length} runs: ${counts.join(", ")}`);
@@ -53,6 +54,7 @@ export async function showSweep(place, signal, head, id) {
       select("Up", [["", "the number itself"], ...keys.map((key) => [key, key])], "y"),
       select("Number", sweep.columns.map((one) => [one, sweep.words[one] ? `${sweep.words[one]} (${one})` : one]), "column")),
     map, h("h2", {}, "Runs"), rows);
+  // Ask again until no run can change any more.
   for (;;) {
     draw();
     if (sweep.rows.every((row) => ["complete", "failed", "wrong"].includes(row.status))) return;
@@ -61,6 +63,7 @@ export async function showSweep(place, signal, head, id) {
   }
 }
 
+/** The runs with their keys, main numbers and state. */
 function drawTable(sweep) {
   const keys = Object.keys(sweep.units);
   const columns = sweep.main;

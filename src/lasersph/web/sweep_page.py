@@ -1,4 +1,4 @@
-"""What is told of a sweep: a card in the list, and its page with table, map and calibration."""
+"""Content of a sweep: a card in the list, and its page with table, map and calibration."""
 
 from __future__ import annotations
 
@@ -41,8 +41,9 @@ class Sweeps:
         self._known: dict[Path, Table] = {}
 
     def card(self, entry: Entry) -> dict[str, Any]:
-        """What the list shows of a sweep; where it cannot be read, why, in its own card alone."""
+        """Card of a sweep in the list; where it cannot be read, why, in its own card alone."""
         head = {"id": entry.id, "name": entry.name, "kind": "sweep"}
+        # A sweep that is damaged has a card that says so.
         try:
             with telling_damage(entry):
                 table = self._table(entry)
@@ -70,6 +71,7 @@ class Sweeps:
         with telling_damage(entry):
             table = self._table(entry)
             rows = []
+            # Rows of the table; what is computed now is asked of the folders.
             for row in table.rows:
                 folder = entry.runs() / row.run
                 is_there = (folder / RESOLVED).exists()
@@ -111,6 +113,7 @@ class Sweeps:
         """
         from lasersph.studies.maps import process_map
 
+        # A map is over the keys that vary, between runs that the library can interpolate.
         with telling_damage(entry):
             table = self._table(entry)
             if entry.study:
@@ -121,6 +124,7 @@ class Sweeps:
                 shown = process_map(table, *keys, show=column)
             except (KeyError, ValueError) as error:
                 return {"refused": str(error.args[0])}
+            # Axes, field, lines and bands, rounded to what a screen shows.
             axes = [
                 {"grid": _rounded(one.grid, 9), "is_logarithmic": one.is_logarithmic}
                 for one in shown.axes
@@ -165,6 +169,7 @@ def _warnings(entry: Entry, table: Table) -> list[dict[str, Any]]:
 
 def _counts(entry: Entry, table: Table) -> Counter[str]:
     """How many runs have a state; of those that are begun, what is computed now."""
+    # Runs that are begun: some of them are computed now.
     begun = [row.run for row in table.rows if row.status == "stopped"]
     running = sum(is_computing(entry.runs() / run) for run in begun)
     counts = Counter[str](table.status)
@@ -180,6 +185,7 @@ def _spans(table: Table) -> list[dict[str, Any]]:
     for key, unit in table.units.items():
         values = list(dict.fromkeys(row.settings[key] for row in table.rows))
         numbers = [one for one in values if isinstance(one, int | float)]
+        # Numbers have a range, words are listed.
         ends = [min(numbers), max(numbers)] if len(numbers) == len(values) > 0 else values
         spans.append({"key": key, "unit": unit, "ends": ends})
     return spans
@@ -201,6 +207,7 @@ def _main_numbers(table: Table) -> list[str]:
 def _points(table: Table) -> list[list[float | None]]:
     """For each run its place among the others, 0 to 1, over one or two keys, and the first of the
     main numbers: x, y, color; None where it is not known. Empty where keys hold words."""
+    # Up to two keys and the first main number.
     names = [*table.varied[:2], *_main_numbers(table)[:1]]
     try:
         columns = [table.values(name) for name in names]
@@ -208,6 +215,7 @@ def _points(table: Table) -> list[list[float | None]]:
         return []
     if len(columns) < 2 or not np.any(np.isfinite(columns[-1])):
         return []
+    # Shares of the range of each; a key with one value has all at 0.
     columns = [columns[0], columns[1], columns[-1]]  # of one key the number itself goes up
     shares = [(one - np.nanmin(one)) / (np.nanmax(one) - np.nanmin(one) or 1.0) for one in columns]
     return _rounded(np.stack(shares, axis=1), DIGITS)
@@ -229,6 +237,7 @@ def _calibration(folder: Path) -> dict[str, Any] | None:
     of each pair in its cells, rows from low to high, the largest 1."""
     if not (folder / CALIBRATION).exists() or not (folder / POSTERIOR).exists():
         return None
+    # The posterior: unknowns and, in the last column, weights.
     found = read_json(folder / CALIBRATION)
     with (folder / POSTERIOR).open(newline="", encoding="utf-8") as stream:
         names, *rows = csv.reader(stream)
@@ -236,6 +245,7 @@ def _calibration(folder: Path) -> dict[str, Any] | None:
     weights, names = values[:, -1], names[:-1]
     edges = [_edges(column) for column in values.T[:-1]]
     posterior, pairs = {}, {}
+    # Histograms of each unknown, and of pairs over the same edges.
     for row, name in enumerate(names):
         density, _ = np.histogram(values[:, row], edges[row], weights=weights, density=True)
         shown = unit_of_unknown(found["unknowns"].get(name, {})).numbers(edges[row])
@@ -245,6 +255,7 @@ def _calibration(folder: Path) -> dict[str, Any] | None:
             bins = [edges[column], edges[row]]
             cells, _, _ = np.histogram2d(across, up, bins, weights=weights)
             pairs[f"{names[column]} {name}"] = _rounded(cells.T / cells.max(), DIGITS)
+    # Numbers in the units in which the plan gives them.
     unknowns = {name: _in_units_of_the_plan(one) for name, one in found["unknowns"].items()}
     return found | {"unknowns": unknowns, "posterior": posterior, "pairs": pairs}
 
@@ -260,6 +271,7 @@ def _in_units_of_the_plan(one: dict[str, Any]) -> dict[str, Any]:
 
 def _edges(values: Any) -> Any:
     """Edges of the cells of an unknown: around the lines of a grid, or of even size."""
+    # A grid has few values: each cell ends halfway to the next one.
     lines = np.unique(values)
     if not 1 < lines.size <= MOST_LINES:
         return np.histogram_bin_edges(values, BINS)

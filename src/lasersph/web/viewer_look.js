@@ -47,6 +47,7 @@ button:disabled { opacity: .55; cursor: default; }
 @container (max-width: 520px) { .stage { aspect-ratio: 4 / 3; } .title { font-size: 12px; }
   .legend { font-size: 11px; right: 4px; top: 30px; width: 104px; } }
 `;
+// Picture with its legends, then the controls below it.
 export const HTML = `
 <section class="viewer" aria-label="Particle viewer">
   <div class="stage">

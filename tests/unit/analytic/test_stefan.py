@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.special import erf
 
-from lasersph.analytic.stefan import Melting, Phase
+from lasersph.analytic.stefan import Melting, PhaseProperties
 
-LIQUID = Phase(conductivity=90.0, specific_heat=1100.0)
-SOLID = Phase(conductivity=230.0, specific_heat=950.0)
+LIQUID = PhaseProperties(conductivity=90.0, specific_heat=1100.0)
+SOLID = PhaseProperties(conductivity=230.0, specific_heat=950.0)
 
 
 def melting(**changes):

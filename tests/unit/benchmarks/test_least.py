@@ -10,6 +10,8 @@ from hot_loops.particles import jittered
 from hot_loops.sweeping import least_of_sweep
 
 from lasersph import compute
+from lasersph.compute.compiled_iteration import run_step
+from lasersph.compute.graph import graph
 from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
 from lasersph.sph.kernels import kernel
@@ -132,36 +134,39 @@ def test_sweep(backend, neighbors):
     assert least.operations == 2.0 * stored + (3 + 1) * N and least.divisions == N
 
 
-def test_called_prepared_and_recorded_count_the_same(backend):
-    """Each run of a loop once, called, prepared or recorded; and only while it is asked for."""
-    b, c, out = (backend.asarray(np.arange(float(N))) for _ in range(3))
-    fields = {"b": b, "c": c}
+class Adding:
+    """The triad as a graph."""
 
-    def called():
-        backend.pointwise(triad, fields, out, s=0.5)
+    def __init__(self, backend):
+        self.backend = backend
+        self.b, self.c, self.out = (backend.asarray(np.arange(float(N))) for _ in range(3))
 
-    prepared = backend.prepare(triad, fields, out, s=0.5)
-    recorded = backend.recorded(called)
-    assert backend.least(called) == backend.least(prepared) == backend.least(recorded)
-    called()
+    @graph
+    def add(self):
+        """a = b + s c."""
+        self.backend.pointwise(triad, {"b": self.b, "c": self.c}, self.out, s=0.5)
+
+    @graph
+    def step(self, s: float):
+        """The same with a number, for an iteration."""
+        self.backend.pointwise(triad, {"b": self.b, "c": self.c}, self.out, s=s)
+
+
+def once(step, number):
+    """Run a step once with a number."""
+    run_step(step, number)
+    return (number,)
+
+
+def test_calls_graphs_and_steps_count_the_same(backend):
+    """Each run of a loop once, called or of a graph; and only while it is asked for."""
+    adding = Adding(backend)
+    fields = {"b": adding.b, "c": adding.c}
+    called = backend.least(lambda: backend.pointwise(triad, fields, adding.out, s=0.5))
+    for _ in range(3):
+        assert backend.least(adding.add) == called
+        assert backend.least(lambda: backend.iterate(once, (adding.step,), 0.5)) == called
     assert backend.least(lambda: None) == Least()
     plain = np.zeros(N)
     compute.cpu(threads=1).pointwise(triad, fields, plain, s=0.5)
-    np.testing.assert_array_equal(out, plain)
-
-
-def test_few_of_many_values(backend):
-    """A list that names one of few values for each row does not read the others."""
-    from types import SimpleNamespace
-
-    def value(v_j):
-        return v_j
-
-    parents = SimpleNamespace(
-        row_start=backend.asarray(np.arange(N + 1), "offset"),
-        neighbor=backend.asarray(np.arange(N) // 10, "index"),
-        support=None, position=None, kernel=None, mean=None, period=(),
-    )  # fmt: skip
-    fields, out = {"v": np.ones(N)}, np.zeros(N)
-    least = backend.least(lambda: backend.pair_sum(value, parents, fields, out))
-    assert least.traffic == 8.0 * (N + 1) + 4.0 * N + 8.0 * 10 + 16.0 * N
+    np.testing.assert_array_equal(adding.out, plain)

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pytest
 
@@ -19,6 +20,7 @@ from lasersph.case.quick import expected_crater, quick_settings, what_is_not_sho
 from lasersph.case.size import in_words
 from lasersph.compute import cuda_device
 from lasersph.input import CaseError, parse_quantity
+from lasersph.input.document import split_settings
 from lasersph.materials import material_file
 
 
@@ -326,3 +328,21 @@ def test_case_larger_than_the_graphics_card_is_refused(monkeypatch):
     refuse_if_too_large(case)
     monkeypatch.setattr(cuda_device, "free_memory", lambda: 2.0**60)
     refuse_if_too_large(case, "cuda")
+
+
+def test_kept_text_finds_the_files_of_the_case(tmp_path):
+    """The case.toml of a run names an own metal by its whole path, so that it runs from there."""
+    metal = material_file("copper").read_text(encoding="utf-8")
+    (tmp_path / "own.toml").write_text(metal, encoding="utf-8")
+    text = case_file("texture-steel").read_text(encoding="utf-8")
+    file = tmp_path / "case.toml"
+    file.write_text(re.sub(r"(?m)^material = .*", 'material = "own.toml"', text), encoding="utf-8")
+    settings = ["laser.wavelength=532 nm", "laser.absorption.kind=surface"]
+    case = load_case(file, settings)
+    first, *kept = split_settings(case.text)[0]
+    assert (first, kept) == (f"material={tmp_path / 'own.toml'}", settings)
+    elsewhere = tmp_path / "run/case.toml"
+    elsewhere.parent.mkdir()
+    elsewhere.write_text(case.text, encoding="utf-8")
+    assert load_case(elsewhere, [first, *kept]).hash() == case.hash()
+    assert load_case(file, [*settings, "material=copper"]).material.name == "copper"

@@ -120,3 +120,18 @@ def test_a_start_from_a_file_is_kept_with_the_case(tmp_path):
     assert Case.model_validate(case.resolved()).hash() == case.hash()
     (tmp_path / "field.csv").write_text("x,z,u,w\n0,0,1,3\n", encoding="utf-8")
     assert load_case(tmp_path / "case.toml").hash() != case.hash()
+
+
+def test_another_kind_of_solver_by_a_setting():
+    """The message says how to leave out what the file gives the other kind; both ways are right."""
+    other = ["solver.kind=conduction"]
+    with pytest.raises(
+        CaseError, match=r"leave it out with --set solver\.flow= or, in a plan, "
+    ) as error:
+        load_case("texture-steel", other)
+    assert str(error.value).endswith('"solver" = { kind = "conduction" }')
+    for settings in ([*other, "solver.flow="], ['solver={ kind = "conduction" }']):
+        assert load_case("texture-steel", settings).solver.kind == "conduction"
+    with pytest.raises(CaseError) as error:  # its own fault, told as before
+        load_case("texture-steel", [*other, "solver.flow.surface=flat"])
+    assert "leave it out with" not in str(error.value)

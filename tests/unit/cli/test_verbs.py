@@ -146,7 +146,7 @@ def test_new_then_check(capsys):
         (["run", "dlip-steel", "--set", "material.melting.solidus=3kg"], "metals"),
         (["sweep", "."], "sweeps"),
         (["map", ".", "--levels", "1nm"], "maps"),
-        (["find", ".", "--out", "a"], "calibration"),
+        (["find", ".", "--out", "a"], "find"),
         (["info", "."], "results"),
         (["serve", "none"], "web"),
     ],

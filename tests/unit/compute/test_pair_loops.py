@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from lasersph.compute import vectors
+from lasersph.compute.graph import graph
 from lasersph.compute.vectors import dot, inverse, matvec, norm, outer, trace
 
 STEFAN_BOLTZMANN = 5.670374419e-8
@@ -213,25 +214,6 @@ def test_pointwise_rows(backend):
     ) == (-np.inf, 0.0)
 
 
-def test_recorded_loops_run_again(backend):
-    """T <- 2 T, then v <- T + 2 T: once while recorded, once more for the present T."""
-    T, v = backend.asarray([1.0, 2, 5]), backend.zeros(3)
-
-    def run():
-        backend.pointwise(doubled, {"v": T}, T)
-        backend.pointwise(euler, {"T": T, "total": T}, v, dt=2.0)
-
-    again = backend.recorded(run)
-    assert backend.to_host(v).tolist() == [6.0, 12.0, 30.0]
-    backend.copy(backend.asarray([10.0, 20, 50]), T)
-    again()
-    assert backend.to_host(T).tolist() == [20.0, 40.0, 100.0]
-    assert backend.to_host(v).tolist() == [60.0, 120.0, 300.0]
-    with pytest.raises(ValueError, match="no reduction is recorded"):
-        backend.recorded(lambda: backend.pointwise(doubled, {"v": T}, None, reduce="sum") and None)
-    run()
-
-
 def test_dummy_particles_and_kinds(backend):
     """Two rows, three particles; integer fields are compared with integers."""
     neighbors = three(backend, rows=2)
@@ -384,27 +366,41 @@ def test_components(backend):
             assert backend.to_host(found).tolist() == row.tolist()
 
 
-def test_prepared_loop_takes_new_numbers(backend):
-    """T <- factor T, twice with another factor; the sum of T^2 before comes back."""
-    T = backend.asarray([1.0, 2.0])
-    loop = backend.prepare(scaled, {"T": T}, (T, None), reduce=(None, "sum"), factor=2.0)
-    assert loop() == (5.0,)
-    assert loop(factor=10.0) == (20.0,)
-    assert backend.to_host(T).tolist() == [20.0, 40.0]
-    with pytest.raises(KeyError):
-        loop(other=1.0)
+class Stepping:
+    """A step of three particles as a graph."""
+
+    def __init__(self, backend):
+        self.backend, self.neighbors, self.out = backend, three(backend), backend.zeros(3)
+        self.T = backend.asarray([1.0, 2.0, 4.0])
+        self.weights = backend.single(backend.asarray(np.ones(4)))
+
+    @graph
+    def step(self, dt: float):
+        """Temperatures after dt."""
+        fields = {"g_ij": self.weights, "T": self.T}
+        self.backend.pair_sum(flow, self.neighbors, fields, self.out, finish=euler, dt=dt)
 
 
-def test_prepared_pair_sum(backend):
-    """The sums of test particles with T, after T has changed in place."""
-    neighbors, T, out = three(backend), backend.asarray([1.0, 2.0, 4.0]), backend.zeros(3)
-    fields = {"g_ij": backend.single(backend.asarray(np.ones(4))), "T": T}
-    loop = backend.prepare(flow, fields, out, neighbors=neighbors, finish=euler, dt=0.5)
-    backend.copy(backend.asarray([0.0, 2.0, 4.0]), T)
-    loop()
-    assert backend.to_host(out).tolist() == [1.0, 2.0, 3.0]
-    loop(dt=1.0)
-    assert backend.to_host(out).tolist() == [2.0, 2.0, 2.0]
+def test_recorded_pair_sum(backend):
+    """The sums of test particles with T, after T has changed in place, with other numbers."""
+    stepping = Stepping(backend)
+    for _ in range(2):
+        stepping.step(0.5)
+    backend.copy(backend.asarray([0.0, 2.0, 4.0]), stepping.T)
+    stepping.step(0.5)
+    assert backend.to_host(stepping.out).tolist() == [1.0, 2.0, 3.0]
+    stepping.step(dt=1.0)
+    assert backend.to_host(stepping.out).tolist() == [2.0, 2.0, 2.0]
+
+
+def test_single_precision_copies(backend):
+    """A copy is written anew where it has as many elements."""
+    first = backend.single(backend.asarray([0.1, 0.2]))
+    again = backend.single(backend.asarray([0.3, 0.4]), first)
+    assert again is first and first.dtype == np.float32
+    assert backend.to_host(first).tolist() == np.float32([0.3, 0.4]).tolist()
+    other = backend.single(backend.asarray([0.5]), first)
+    assert other is not first and backend.single(other) is other
 
 
 def test_no_particles(backend):

@@ -7,6 +7,8 @@ import numpy as np
 
 from lasersph import compute
 from lasersph.compute import loops
+from lasersph.compute.graph import graph
+from lasersph.compute.kept_graph import KeptGraph
 from lasersph.compute.rebinding import has_known_layout
 from lasersph.compute.vectors import element
 
@@ -59,49 +61,67 @@ def test_calls_that_store_different_results():
     assert first.tolist() == [2.0, 4.0] and second.tolist() == [1.0, 2.0]
 
 
-def test_a_prepared_loop_takes_other_arrays():
-    """Prepared again, a loop runs with the new arrays, row counts and numbers, and is the same."""
-    backend, launch, seen = compute.cpu(threads=1), None, []
+class Scaling:
+    """A loop as a graph, on arrays that are replaced; `function` and kind may change too."""
+
+    def __init__(self, backend):
+        self.backend, self.function, self.sums = backend, scaled, {"reduce": (None, "sum")}
+
+    def renew(self, values, kind="real"):
+        self.a = self.backend.asarray(values, kind)
+        self.out = self.backend.zeros(len(values), kind)
+
+    @graph
+    def scale(self, factor: float):
+        """A multiple, and its sum."""
+        out = (self.out, None) if self.function is scaled else self.out
+        constants = {"factor": factor} if self.function is scaled else {}
+        self.backend.pointwise(self.function, {"a": self.a}, out, **self.sums, **constants)
+
+
+def test_a_graph_takes_other_arrays():
+    """With other arrays, row counts and numbers its launches are the same, bound again."""
+    backend, seen = compute.cpu(threads=1), []
+    scaling = Scaling(backend)
     for size, factor in ((3, 2.0), (5, 3.0), (4, 5.0)):
-        a, out = backend.asarray(np.arange(float(size))), backend.zeros(size)
-        reduce = (None, "sum")
-        launch = backend.prepare(
-            scaled, {"a": a}, (out, None), reduce=reduce, again=launch, factor=factor
-        )
-        seen.append(launch)
-        del a
-        assert launch() == (factor * size * (size - 1) / 2.0,)
-        assert out.tolist() == [factor * k for k in range(size)]
-    assert seen[2] is seen[1]
+        scaling.renew(np.arange(float(size)))
+        for _ in range(3):
+            assert scaling.scale(factor) == (factor * size * (size - 1) / 2.0,)
+            assert scaling.out.tolist() == [factor * k for k in range(size)]
+        (kept,) = [one for one in vars(scaling).values() if isinstance(one, KeptGraph)]
+        seen.append(kept.recording.launches[0].launch)
+    assert seen[0] is seen[1] is seen[2]
 
 
-def test_a_loop_prepared_anew_lets_go_of_the_arrays_before():
+def test_a_graph_bound_anew_lets_go_of_the_arrays_before():
     """Where rows outgrow the sums of a launch another takes its place, and nothing holds that of
     before: as long as a melt pool grew, each left a ring with the pairs of its last step."""
-    backend, launch, seen = compute.cpu(threads=1), None, []
+    scaling, seen = Scaling(compute.cpu(threads=1)), []
     gc.disable()
     try:
         for size in (3, 4, 20_000):
-            a, out = backend.asarray(np.ones(size)), backend.zeros(size)
-            how = {"reduce": (None, "sum"), "again": launch, "factor": 2.0}
-            launch = backend.prepare(scaled, {"a": a}, (out, None), **how)
-            seen.append(ref(a))
-            del a, out, how
-        assert launch() == (40_000.0,)
+            scaling.renew(np.ones(size))
+            seen.append(ref(scaling.a))
+            for _ in range(3):
+                assert scaling.scale(2.0) == (2.0 * size,)
         assert [one() is None for one in seen] == [True, True, False]
     finally:
         gc.enable()
 
 
-def test_a_prepared_loop_of_other_kinds_is_bound_anew():
-    """What was another loop is left alone."""
-    backend = compute.cpu(threads=1)
-    a, first, second = backend.asarray([1.0, 2.0]), backend.zeros(2), backend.zeros(2)
-    launch = backend.prepare(doubled, {"a": a}, first)
-    other = backend.prepare(scaled, {"a": a}, (second, None), again=launch, factor=3.0)
-    other()
-    launch()
-    assert first.tolist() == [2.0, 4.0] and second.tolist() == [3.0, 6.0]
+def test_a_graph_of_other_kinds_is_bound_anew():
+    """Another function, and arrays of another type."""
+    scaling = Scaling(compute.cpu(threads=1))
+    scaling.renew([1.0, 2.0])
+    for _ in range(3):
+        assert scaling.scale(3.0) == (9.0,)
+    scaling.renew([1.0, 2.0])
+    scaling.function, scaling.sums = doubled, {}
+    for _ in range(3):
+        assert scaling.scale(3.0) == () and scaling.out.tolist() == [2.0, 4.0]
+    scaling.renew([1, 2], "index")
+    for _ in range(3):
+        assert scaling.scale(3.0) == () and scaling.out.tolist() == [2, 4]
 
 
 def test_calls_that_alternate_keep_their_launches(monkeypatch):

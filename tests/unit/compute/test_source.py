@@ -8,7 +8,7 @@ import pytest
 
 from lasersph.compute.source import SourceUnit, is_current
 from lasersph.compute.values import LoopSourceError
-from lasersph.compute.vectors import interpolate, interpolation_slope, inverse, vector
+from lasersph.compute.vectors import interpolate, interpolation_slope, inverse, multilinear, vector
 
 REAL, WHOLE, PLANE = ("real", ()), ("int", ()), ("real", (2,))
 LIMIT = 3.0
@@ -57,6 +57,34 @@ def whole(kind, count):
     return kind + 1 if count == 2 else kind
 
 
+def along_axes(x):
+    total = 0.0
+    for k in range(len(x)):
+        if x[k] > 1.0:
+            return -1.0
+        total += (k + 1) * x[k]
+    for k in range(len(x) - 1, -1, -1):
+        total = 2.0 * total - x[k]
+    return total
+
+
+def corner_weights(place):
+    return multilinear(place)
+
+
+def names_of_temporary_values(t):
+    return 2.0 * t
+
+
+def breaks(x):
+    total = 0.0
+    for k in range(len(x)):
+        if x[k] > 1.0:
+            break
+        total += x[k]
+    return total
+
+
 def powers(x):
     return x**2, x**-3, x**0.5, x**1.5, x**2.7, x**0
 
@@ -70,6 +98,7 @@ def powers(x):
         (forgets, (REAL,), "not every path returns"),
         (mixes, (PLANE, ("real", (2, 2))), "do not fit"),
         (starred, (REAL,), "plain arguments"),
+        (names_of_temporary_values, (PLANE,), "cannot have the name t"),
         (unknown, (REAL,), "undefined_name is not defined"),
         (len, (REAL,), "not a plain Python function"),
         (lambda T: T, (REAL,), "not written as a plain"),
@@ -156,6 +185,34 @@ def test_constants_of_objects(backend):
     out = backend.zeros(1)
     backend.pointwise(with_object, {"x": backend.asarray([[4.0], [5.0]])}, out)
     assert backend.to_host(out)[0] == pytest.approx(10 + 3 * math.pi)
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+def test_loops_over_axes_are_written_out(backend, dimension):
+    """Components by the number of the axis, forward and backward, with a return on the way."""
+    x = np.random.default_rng(2).normal(size=(dimension, 5))
+    out = backend.zeros(5)
+    backend.pointwise(along_axes, {"x": backend.asarray(x)}, out)
+    expected = [along_axes(x[:, k]) for k in range(5)]
+    assert backend.to_host(out) == pytest.approx(expected, rel=1e-14)
+    assert len({value == -1.0 for value in expected}) == 2 or dimension == 1
+    with pytest.raises(LoopSourceError, match="cannot break"):
+        SourceUnit().add(breaks, (("real", (dimension,)),))
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+def test_multilinear_weights(backend, dimension):
+    """Products over the axes, the last axis fastest: their sum is 1, the mean corner the place."""
+    t = np.array([[0.25, 0.0], [0.5, 1.0], [0.125, 0.5]])[:dimension]
+    out = backend.zeros((2**dimension, 2))
+    backend.pointwise(corner_weights, {"place": backend.asarray(t)}, out)
+    weights, corners = backend.to_host(out), np.array(list(np.ndindex((2,) * dimension))).T
+    assert weights[:, 0].tolist() == [
+        np.prod(np.where(corner, t[:, 0], 1.0 - t[:, 0])) for corner in corners.T
+    ]
+    assert weights.sum(axis=0) == pytest.approx([1.0, 1.0])
+    assert corners @ weights == pytest.approx(t)
+    assert multilinear(t[:, 1]) == pytest.approx(weights[:, 1])
 
 
 def test_vectors_in_plain_python():

@@ -1,8 +1,10 @@
 """Components: labels of touching particles, and the means that are removed from them."""
 
 import numpy as np
+import pytest
 
-from lasersph.linear_solvers.components import Components
+from lasersph.compute.cell_grid import CellGrid
+from lasersph.linear_solvers.components import Components, connected_parts
 
 SUPPORT = 3.75
 
@@ -60,3 +62,55 @@ def test_no_particle(backend):
     """Nothing is labeled where all are masked."""
     components, number = found(backend, lines(0), np.zeros(5))
     assert number == [0] * 5 and components.count == 0
+
+
+def test_sides_and_corners():
+    """Cells that touch at a corner are one part, numbered by its first cell; empty ones have 0."""
+    filled = np.array([[1, 0, 0, 0], [0, 1, 0, 1], [0, 0, 0, 1]], bool)
+    assert connected_parts(filled, (False, False)).tolist() == [
+        [1, 0, 0, 0], [0, 1, 0, 2], [0, 0, 0, 2],
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("repeats, expected", [
+    ((False, False), [1, 2, 3, 4]), ((True, False), [1, 2, 1, 2]), ((False, True), [1, 1, 2, 2]),
+    ((True, True), [1, 1, 1, 1]),
+])  # fmt: skip
+def test_around_ends(repeats, expected):
+    """Across a period the last cells touch the first, those of a corner along both axes."""
+    filled = np.zeros((4, 4), bool)
+    filled[[0, 0, 3, 3], [0, 3, 0, 3]] = True
+    assert connected_parts(filled, repeats)[filled].tolist() == expected
+
+
+@pytest.mark.parametrize("shape", [(40,), (12, 15), (6, 7, 8)])
+def test_parts_of_random_grids(shape):
+    """As the smallest number spreads from cell to cell, with and without periods."""
+    random, d = np.random.default_rng(4), len(shape)
+    for share in (0.1, 0.25, 0.5):
+        for repeats in np.ndindex((2,) * d):
+            filled = random.random(shape) < share
+            grid = CellGrid((0.0,) * d, shape, (1.0,) * d, repeats)
+            number = np.append(np.where(filled.ravel(), np.arange(grid.count), -1), -1)
+            around, before = grid.around(), None
+            while not np.array_equal(before, number):
+                before = number.copy()
+                near = np.where(number[around] < 0, grid.count, number[around]).min(axis=0)
+                number[:-1] = np.where(number[:-1] >= 0, np.minimum(number[:-1], near), -1)
+            firsts = sorted({*number[:-1]} - {-1})
+            expected = [1 + firsts.index(k) if k >= 0 else 0 for k in number[:-1]]
+            assert connected_parts(filled, repeats).ravel().tolist() == expected
+
+
+@pytest.mark.parametrize("dimension", [1, 3])
+def test_lines_and_blocks(backend, dimension):
+    """Two heaps of particles on a line and in space, and a third that the period joins."""
+    heap = np.indices((2 if dimension > 1 else 4,) * dimension).reshape(dimension, -1)
+    starts = (0.5, 10.0, 17.0)
+    position = np.concatenate([heap + start for start in starts], axis=1)
+    for period, expected in ((0.0, [1, 2, 3]), (20.0, [1, 2, 1])):
+        components, number = found(backend, position, period=(period,) * dimension)
+        if dimension > 1 and period:
+            expected = [1, 2, 3]  # 18.0 and 20.5 do not touch
+        assert number == np.repeat(expected, heap.shape[1]).tolist()
+        assert components.count == max(expected)

@@ -39,10 +39,11 @@ def test_cells_by_hand(backend):
     """Cells of width 2 around the free particles, line by line; the held one comes last."""
     cells = Cells(backend, 4, 2.0, (0.0, 0.0))
     position = np.array([[2.5, 5.0, 3.0, 90.0], [-1.0, 1.5, -3.9, 0.0]])
-    cells.place(backend.asarray(position), backend.asarray([1.0, 1.0, 1.0, 0.0]))
-    assert (cells.x.cells, cells.z.cells) == (2, 3)
-    assert backend.to_host(cells.u)[:3].tolist() == [0.25, 1.5, 0.5]
-    assert backend.to_host(cells.w)[:3] == pytest.approx([1.5, 2.75, 0.05])
+    cells.update(backend.asarray(position), backend.asarray([1.0, 1.0, 1.0, 0.0]))
+    assert cells.grid.shape == (2, 3)
+    place = backend.to_host(cells.place)[:, :3]
+    assert place[0].tolist() == [0.25, 0.5, 0.5]
+    assert place[1] == pytest.approx([0.5, 0.75, 0.05])
     assert backend.to_host(cells.number).tolist() == [1, 5, 0, 6]
 
 
@@ -131,7 +132,7 @@ def test_correction_is_symmetric_and_positive(backend):
 
     def product(a, b):
         z = backend.zeros(pairs.count)
-        (found,) = correction.correction(backend.asarray(b), diagonal, held, z)()
+        (found,) = correction.correct(backend.asarray(b), diagonal, held, z)
         z = backend.to_host(z)
         assert found == pytest.approx(b @ z, rel=1e-9) and not z[mask == 0.0].any()
         return float(a @ z)

@@ -246,6 +246,42 @@ def test_half_a_spot_is_doubled(row, halves_spot, width):
     assert pool_width(view, 1.0) == pytest.approx(width)
 
 
+def even_spot(noise):
+    """A view from above of a round molten spot of 9 cells of 10 nm, all but evenly hot."""
+    x, y = (grid.ravel() * 10e-9 for grid in np.meshgrid(np.arange(15) - 7.0, np.arange(15) - 7.0))
+    fraction = (np.hypot(x, y) < 45e-9).astype(float)
+    flat = view_of(fraction.reshape(1, -1), symmetry=1)
+    return replace(
+        flat,
+        position=np.array([x, y, np.full(x.size, -5e-9)]),
+        width=np.full((3, x.size), 10e-9),
+        temperature=flat.temperature + noise,
+        enthalpy=flat.enthalpy + 1e-3 * noise,
+    )
+
+
+def test_width_of_an_even_spot_does_not_depend_on_rounding():
+    """Whichever cell of it is the hottest by rounding, the width is that through its middle."""
+    random = np.random.default_rng(1)
+    noises = [np.zeros(225), *random.normal(0.0, 0.1, (20, 225))]
+    for level in (1.0, 0.5, 0.0):
+        widths = [pool_width(even_spot(noise), level) for noise in noises]
+        assert widths == pytest.approx([90e-9] * len(widths))
+
+
+def test_width_of_a_hotter_row_counts():
+    """A pool that is wider but colder is another one."""
+    view = even_spot(np.zeros(225))
+    colder = view.position[1] < -10e-9
+    temperature = np.where(colder, np.minimum(view.temperature, 1200.0), view.temperature)
+    assert pool_width(replace(view, temperature=temperature), 1.0) == pytest.approx(90e-9)
+    only = view.position[1] > 35e-9
+    temperature = np.where(only, view.temperature, np.minimum(view.temperature, 1200.0))
+    enthalpy = np.where(only, view.enthalpy, np.minimum(view.enthalpy, 1.0))
+    narrow = replace(view, temperature=temperature, enthalpy=enthalpy)
+    assert pool_width(narrow, 1.0) == pytest.approx(50e-9)
+
+
 def test_ejecta_are_no_pool():
     """What flies stays molten, but the pool ends when the body is solid."""
     early, late = synthetic_ablation.view_at(8e-9, 16, 2), synthetic_ablation.view_at(2e-8, 40, 2)

@@ -1,5 +1,6 @@
 """GhostParticles of moving particles beyond the faces of a box, placed by hand."""
 
+from itertools import product
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,6 +11,7 @@ from lasersph.particles.ghosts import (
     MIRROR,
     OPEN,
     PERIODIC,
+    TANGENT,
     UPPER,
     FacePair,
     GhostParticles,
@@ -128,6 +130,74 @@ def test_order(ghosts):
         (LOWER, LOWER, 2),
         (UPPER, LOWER, 0),
     ]
+
+
+def unit_box(*kinds):
+    """Faces of a box from 0 to 1 along each axis, of one kind of both."""
+    return tuple(FacePair(kind, kind, 0.0, 1.0) for kind in kinds)
+
+
+def found_at(backend, faces, place, below=None):
+    """Places and types of the ghosts of one particle within 0.3 of the faces."""
+    types = ghost_types_of(faces)
+    found = GhostParticles(backend, 1, 0.3, types)
+    below = below and tuple(backend.asarray([one]) for one in below)
+    found.find(backend.asarray(np.array(place)[:, None]), below)
+    of_type = backend.to_host(found.ghost_type).astype(int)[1 : found.total]
+    places = types.sign[:, of_type] * np.array(place)[:, None] + types.offset[:, of_type]
+    return {tuple(np.round(one, 12)) for one in places.T}, types.crossed[:, of_type], of_type
+
+
+def test_one_dimension(backend):
+    """Beyond one end of a rod, and at none."""
+    places, crossed, _ = found_at(backend, unit_box(MIRROR), [0.9])
+    assert places == {(1.1,)} and crossed.tolist() == [[UPPER]]
+    assert found_at(backend, unit_box(MIRROR), [0.5])[0] == set()
+
+
+@pytest.mark.parametrize(
+    ("place", "count"),
+    [((0.5, 0.5, 0.5), 0), ((0.1, 0.5, 0.5), 1), ((0.1, 0.9, 0.5), 3), ((0.1, 0.9, 0.2), 7)],
+)
+def test_faces_edges_and_corners_in_space(backend, place, count):
+    """One ghost beyond a face, three beside an edge, seven in a corner: every product of images."""
+    found, _, _ = found_at(backend, unit_box(*[MIRROR] * 3), place)
+    images = [(x, -x if x < 0.3 else 2.0 - x) if abs(x - 0.5) > 0.2 else (x,) for x in place]
+    expected = {tuple(np.round(one, 12)) for one in product(*images)} - {place}
+    assert len(expected) == count and found == expected
+
+
+def test_corner_of_two_periods_and_an_open_face(backend):
+    """One period away along x, along y and along both; nothing beyond the open top."""
+    found, _, _ = found_at(backend, unit_box(PERIODIC, PERIODIC, OPEN), (0.1, 0.9, 0.9))
+    assert found == {(1.1, 0.9, 0.9), (0.1, -0.1, 0.9), (1.1, -0.1, 0.9)}
+
+
+def test_types_of_a_box_in_space():
+    """27 products, the first axis first; a reflection turns its own axis around alone."""
+    types = ghost_types_of(unit_box(MIRROR, MIRROR, MIRROR))
+    assert types.count == 27 and types.crossed[:, :4].T.tolist() == [
+        [0, 0, 0], [LOWER, 0, 0], [UPPER, 0, 0], [0, LOWER, 0],
+    ]  # fmt: skip
+    assert np.array_equal(types.sign, np.where(types.crossed > 0, -1.0, 1.0))
+    assert np.array_equal(types.offset, np.where(types.crossed == UPPER, 2.0, 0.0))
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+@pytest.mark.parametrize(("distance", "near"), [(0.2, True), (0.4, False)])
+def test_surface_instead_of_an_upper_face(backend, dimension, distance, near):
+    """Ghosts across a tangent are told by the distance from it, not from the face; those beside it
+    by a wider radius, 2.5 times as large."""
+    top = FacePair(OPEN, TANGENT, 0.0, 1.0)
+    place = (0.6,) * (dimension - 1) + (0.4,)
+    faces = (*unit_box(*[MIRROR] * dimension)[1:], top)
+    _, crossed, of_type = found_at(backend, faces, place, below=(distance, 0.3))
+    types = ghost_types_of(faces)
+    assert np.array_equal(types.crosses_surface, (types.crossed[-1] == UPPER).astype(float))
+    assert types.sign[-1, :].tolist() == [1.0] * types.count
+    # both sides lie within 0.75, alone or together with the tangent
+    assert crossed.shape[1] == (2 * 3 ** (dimension - 1) - 1 if near else 0)
+    assert np.count_nonzero(types.crosses_surface[of_type]) == (3 ** (dimension - 1) if near else 0)
 
 
 def test_first_particles_alone(ghosts):

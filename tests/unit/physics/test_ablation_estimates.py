@@ -70,13 +70,6 @@ def test_flux_carried_near_the_critical_point():
     assert estimate.evaporating_temperature(2.5e11, **heats, **near) == 8000.0
 
 
-def test_recoil_against_capillary_pressure():
-    """With 2 gamma/(0.54 r) = 1 atm the recoil moves the melt from the boiling point on."""
-    radius = 2.0 * 0.87 / (0.54 * 101325.0)
-    found = estimate.recoil_moves_melt_at(radius, 0.87, ALUMINIUM)
-    assert found == pytest.approx(2730.0)
-
-
 def test_estimates_of_a_case():
     """Penetration of eq. (34), velocities of eq. (6), loss of a disc to its sides."""
     from lasersph.simulation.recipes.ablation.estimates import ablation_estimates

@@ -16,12 +16,12 @@ from lasersph import compute
 from lasersph.materials import load_material
 from lasersph.physics import evaporation as e
 from lasersph.physics.knudsen_layer import (
-    gauge_recoil_pressure,
     net_mass_flux,
     outflow_tables,
     vapor_behind,
 )
 from lasersph.physics.losses import evaporation_loss
+from lasersph.physics.recoil import gauge_recoil_pressure
 
 FOLDER = Path(__file__).parent
 ATMOSPHERE = 101325.0

@@ -1,13 +1,16 @@
 """Figures of a run: drawn from files alone, with units on their axes."""
 
+import importlib
 import json
 import re
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import synthetic_run
 
+import lasersph
 from lasersph.output import OutputError, open_run
 from lasersph.plots import (
     arrangement,
@@ -54,6 +57,19 @@ def test_all_figures_of_a_plane_run(folders, tmp_path):
     ]
     assert all(path.read_bytes().startswith(b"\x89PNG") for path in written)
     assert all(path.parent == copy / "figures" for path in written)
+
+
+def test_one_figure_by_its_name(run, folders):
+    """`lasersph.plot` of a run or its folder; a wrong name is told the nearest, or all of them."""
+    for given in (run, folders[2]):
+        labels = [axes.get_ylabel() for axes in axes_of(lasersph.plot(given, "temperature"))]
+        assert labels == ["temperature [K]"]
+    with pytest.raises(ValueError, match=r'no figure "temprature" \(do you mean "temperature"\?\)'):
+        lasersph.plot(run, "temprature")
+    with pytest.raises(ValueError, match=r'no figure "42"; there are .*temperature, .*melt-pool'):
+        lasersph.plot(run, "42")
+    with pytest.raises(OutputError, match='has no figure "crater": it has nothing of what it show'):
+        lasersph.plot(run, "crater")
 
 
 def test_one_dimension_leaves_out_what_has_no_meaning(folders):
@@ -167,6 +183,34 @@ def test_picture_shows_the_closest_cell():
     assert [picture[10, quarter * k + 5] for k in range(4)] == [8, 7, 7, 8]
     alone = Cells(np.array([[0.5, 9.5], [-0.5, -0.5]]), np.ones((2, 2)), np.array([7, 8]))
     assert alone.picture()[10, picture.shape[1] // 2] == -1
+
+
+def test_picture_ends_at_the_upper_faces():
+    """A flat surface is drawn at 0 beside a rim that stands above it; gaps inside are filled."""
+    center = np.array([[0.5, 0.5, 1.5, 1.5], [-1.5, -0.5, -1.6, 0.4]])
+    cells = Cells(center, np.ones((2, 4)), np.arange(4))
+    picture = cells.picture((0.0, 2.0, -2.0, 1.0), (300, 200))
+    assert np.count_nonzero(picture[:, 50] >= 0) == 200  # from -2 to 0
+    assert np.flatnonzero(picture[:, 150] >= 0).max() == 289  # up to 0.9
+    assert picture[99, 150] >= 0  # half way between two cells that are twice their height apart
+
+
+def test_rim_is_inside_the_map(run, monkeypatch):
+    """The axes of a map reach above the highest cell of a surface that moved."""
+    maps = importlib.import_module("lasersph.plots.particle_map")
+    original = maps.cells_of_cut
+    monkeypatch.setattr(
+        maps,
+        "cells_of_cut",
+        lambda step, depth: replace(
+            cells := original(step, depth),
+            center=cells.center + np.array([[0.0], [0.2 * depth]]),
+        ),
+    )
+    for axes in axes_of(particle_map(run)):
+        (image,) = axes.images
+        assert image.get_extent()[3] > 0.0
+        assert axes.get_ylim()[1] > image.get_extent()[3]
 
 
 def test_units_suit_the_numbers():

@@ -76,6 +76,17 @@ def test_energies_in_the_wrong_unit(fluence, words):
     assert words in warnings and "laser.fluence right, or its unit" in warnings
 
 
+def test_a_spot_that_a_run_does_not_move():
+    """A cell gets every pulse of the train, also those after which a moving spot is far away."""
+    train = ("laser.pulse.count=3", "laser.pulse.repetition_rate=20 kHz", "time.end=100.3 us")
+    spot = 'laser.spot={diameter="60 um", definition="1/e^2"'
+    words = "does not move by 20 um from pulse to pulse in a run: all 3 pulses fall"
+    assert words in said("texture-steel", f'{spot}, shift="20 um"}}', *train)
+    assert words in said("texture-steel", f'{spot}, scan_speed="0.4 m/s"}}', *train)
+    assert "from pulse to pulse" not in said("texture-steel", f"{spot}}}", *train)
+    assert "from pulse to pulse" not in said("texture-steel", f'{spot}, shift="20 um"}}')
+
+
 def test_a_pattern_finer_than_the_particles():
     """Less than two spacings in the length over which light changes."""
     settings = ["laser.beam.period=300 nm", "domain.width=3 um", "particles.spacing=60 nm"]

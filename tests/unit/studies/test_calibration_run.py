@@ -1,6 +1,7 @@
 """Calibration in a folder and from the command line, with an engine that computes nothing."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -135,6 +136,9 @@ def test_command(plan, tmp_path, capsys, monkeypatch):
     assert then.startswith("run ")
     assert "factor = 1." in text
     assert "half the spacing shifts it by 0" in text
+    (check, *_) = (line for line in text.splitlines() if line.startswith("check: "))
+    number = r"[0-9.]+ [nu]m"
+    assert re.fullmatch(rf"check: \S+ {number}, emulated {number}; .* \({number} measured\)", check)
     assert (out / "calibration.png").stat().st_size > 10_000
     plan.write_text(PLAN.replace("between = [0.7, 1.6]", "betwen = [0.7, 1.6]"))
     assert main(["calibrate", str(plan), "--out", str(tmp_path / "new")]) == 2

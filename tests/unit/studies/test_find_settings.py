@@ -12,7 +12,7 @@ from sweep_runs import PretendingEngine
 from lasersph.cli import main
 from lasersph.input import QuantityError
 from lasersph.output.errors import FolderRefused
-from lasersph.studies import Wish, find, find_settings, read_wish
+from lasersph.studies import Target, find, find_settings, parse_target
 from lasersph.studies.find_runs import read_find_plan
 from lasersph.sweeps import Row, Table, make_runs
 
@@ -31,12 +31,12 @@ def table():
     return Table(Path("made-up"), tuple(rows), {"laser.fluence": "J/m^2"}, ())
 
 
-def test_wishes():
+def test_targets():
     """A band, and limits from above and below, in SI."""
-    wish = read_wish("melt.depth_max_m = 200 +- 10 nm")
-    assert (wish.low, wish.high) == pytest.approx((190e-9, 210e-9))
-    assert read_wish("temperature_max_K<3000 K").high == 3000.0
-    assert read_wish("temperature_max_K > 300 K").low == 300.0
+    target = parse_target("melt.depth_max_m = 200 +- 10 nm")
+    assert (target.low, target.high) == pytest.approx((190e-9, 210e-9))
+    assert parse_target("temperature_max_K<3000 K").high == 3000.0
+    assert parse_target("temperature_max_K > 300 K").low == 300.0
 
 
 def test_number_of_runs_and_their_time_are_said_first(tmp_path, capsys, monkeypatch):
@@ -57,15 +57,15 @@ def test_number_of_runs_and_their_time_are_said_first(tmp_path, capsys, monkeypa
     "text",
     ["200 nm", "melt.depth_mx_m < 2 nm", "melt.depth_max_m < 2 s", "melt.depth_max_m = 2 nm"],
 )
-def test_bad_wishes(text):
+def test_bad_targets(text):
     """No sign, no such number, another unit, no width."""
     with pytest.raises(QuantityError):
-        read_wish(text)
+        parse_target(text)
 
 
 def test_settings_by_hand(table):
     """200 nm need 0.4 J/cm^2, where the depth is within +- 10 nm nearly surely."""
-    found = find_settings(table, [Wish("melt.depth_max_m", 190e-9, 210e-9)])
+    found = find_settings(table, [Target("melt.depth_max_m", 190e-9, 210e-9)])
     assert found[0].settings["laser.fluence"] == pytest.approx(4000.0, rel=0.03)
     assert found[0].probability > 0.99
     assert found[0].numbers["melt.depth_max_m"] == pytest.approx(200e-9, rel=0.03)
@@ -73,9 +73,9 @@ def test_settings_by_hand(table):
 
 def test_limits_exclude(table):
     """As deep and as cold as wanted do not go together: 300 nm are 2400 K."""
-    deep = Wish("melt.depth_max_m", 300e-9, np.inf)
-    assert find_settings(table, [deep, Wish("temperature_max_K", -np.inf, 2000.0)]) == []
-    found = find_settings(table, [deep, Wish("temperature_max_K", -np.inf, 2800.0)])
+    deep = Target("melt.depth_max_m", 300e-9, np.inf)
+    assert find_settings(table, [deep, Target("temperature_max_K", -np.inf, 2000.0)]) == []
+    found = find_settings(table, [deep, Target("temperature_max_K", -np.inf, 2800.0)])
     assert 6000.0 < found[0].settings["laser.fluence"] < 7000.0
 
 
@@ -83,7 +83,7 @@ def test_a_number_that_never_changes_is_named(table):
     """All runs reach the same temperature."""
     rows = [replace(row, numbers={"temperature_max_K": 3000.0}) for row in table.rows]
     with pytest.raises(ValueError, match="temperature_max_K: all 8 runs give 3000"):
-        find_settings(replace(table, rows=tuple(rows)), [Wish("temperature_max_K", 0.0, 2000.0)])
+        find_settings(replace(table, rows=tuple(rows)), [Target("temperature_max_K", 0.0, 2000.0)])
 
 
 def test_under_a_calibration(table):
@@ -92,15 +92,15 @@ def test_under_a_calibration(table):
     factor = np.linspace(1.09, 1.41, 201)
     weights = np.exp(-0.5 * ((factor - 1.25) / 0.04) ** 2)
     content = {"unknowns": {"factor": {"key": "laser.fluence", "relation": "scales"}}}
-    wish = Wish("melt.depth_max_m", 190e-9, 210e-9)
+    target = Target("melt.depth_max_m", 190e-9, 210e-9)
     points = np.column_stack([factor, weights])
-    found = find_settings(table, [wish], calibration=(content, points))
+    found = find_settings(table, [target], calibration=(content, points))
     assert found[0].settings["laser.fluence"] == pytest.approx(3200.0, rel=0.03)
     assert 0.7 < found[0].probability < 0.97
     assert found[0].numbers["melt.depth_max_m"] == pytest.approx(200e-9, rel=0.03)
     content["unknowns"]["factor"]["key"] = "laser.pulse.fwhm"
     with pytest.raises(ValueError, match="does not vary"):
-        find_settings(table, [wish], calibration=(content, points))
+        find_settings(table, [target], calibration=(content, points))
 
 
 def test_command(table, capsys, monkeypatch, tmp_path):
@@ -113,7 +113,9 @@ def test_command(table, capsys, monkeypatch, tmp_path):
     assert "laser.fluence" in head and "laser.fluence_J_m2" not in head
     assert " %" in first and re.search(r" 0\.\d+ J/cm\^2 .* nm", first)
     assert main(["find", str(tmp_path), "--want", "melt.depth_max_m > 2 um"]) == 2
-    assert "no settings" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "no settings" in said
+    assert re.search(r"they reach melt\.depth_max_m from [0-9.]+ [nu]m to [0-9.]+ [nu]m; see", said)
 
 
 PLAN = """case = "dlip-steel"
@@ -139,7 +141,7 @@ def test_runs_are_added_where_the_answer_is_unsure(tmp_path):
     found = find(plan, tmp_path / "out", engine=engine)
     assert 4 < len(engine.made) <= 8
     assert depth(found[0].settings["laser.fluence"]) == pytest.approx(60e-9, abs=1e-9)
-    assert found[0].probability > 0.9 and found[0].doubt < 0.1
+    assert found[0].probability > 0.9 and found[0].emulator_share < 0.1
     made = list(engine.made)
     assert find(plan, tmp_path / "out", engine=engine) == found and engine.made == made
     sweep = read_find_plan(plan).sweep

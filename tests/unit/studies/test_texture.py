@@ -7,6 +7,7 @@ import pytest
 import synthetic_flow
 import synthetic_run
 from scipy.optimize import brentq
+from sweep_runs import PretendingEngine
 from texture_cells import (
     AMBIENT,
     COARSE,
@@ -20,6 +21,7 @@ from texture_cells import (
     table,
 )
 
+import lasersph
 from lasersph.cli import main
 from lasersph.output import OutputError, open_run
 from lasersph.output.image_file import read_maps
@@ -255,6 +257,26 @@ def test_files(plan, tmp_path, monkeypatch):
     figure = texture_figure(maps, content)
     assert any("ISO 25178" in axes.get_title(loc="left") for axes in figure.axes)
     assert figure.axes[0].get_xlabel() == "x [µm]"
+
+
+def test_from_python(tmp_path, monkeypatch):
+    """`lasersph.texture` makes the cells, then all files; the same call again makes none. A cell
+    that fails leaves no texture and is named."""
+    monkeypatch.setattr(make, "read_table", lambda folder, period: table())
+    settings = settings_of_a_spot()
+    failing = PretendingEngine(fails=(HIGHEST,))
+    with pytest.raises(OutputError, match=r"not all cells are complete, .*no step converges"):
+        lasersph.texture("dlip-steel", tmp_path / "none", set=settings, cells=6, engine=failing)
+    assert not (tmp_path / "none/texture.json").exists()
+    engine, out = PretendingEngine(), tmp_path / "spot"
+    for _ in range(2):
+        content = lasersph.texture(
+            "dlip-steel", out, set=settings, cells=6, pixel=1e-6, engine=engine
+        )
+        assert content == json.loads((out / "texture.json").read_text())
+    assert len(engine.made) == 6
+    assert content["depth_max_m"] == pytest.approx(-relief(HIGHEST, 0.0), rel=1e-3)
+    assert {"texture.png", "profile.csv", "maps.vtkhdf"} <= {file.name for file in out.iterdir()}
 
 
 def test_shared_runs(plan, tmp_path):

@@ -3,6 +3,8 @@
 import sys
 from pathlib import Path
 
+import matplotlib.pyplot as plt
+
 from lasersph.validation import names
 from lasersph.validation.comparison import Comparison
 from lasersph.validation.records import State, state_of
@@ -11,6 +13,7 @@ from lasersph.validation.study import home_of
 
 DOCS = Path(__file__).parents[3] / "docs"
 sys.path.insert(0, str(DOCS / "_extensions"))
+from validation_charts import draw_charts  # noqa: E402  # pyright: ignore  # no package
 from validation_pages import validation_page  # noqa: E402  # pyright: ignore  # no package
 from validation_table import NOT_MET, validation_table  # noqa: E402  # pyright: ignore
 
@@ -21,7 +24,12 @@ OWN = Comparison("T|2", "K", band=0.5, own=True, changed="was 1 K until May, bec
 def record(*rows, confirmed=None, error=""):
     """A record of some rows."""
     report = Report("x", "Why?", rows, seconds=120.0).as_dict()
-    made = {"date": "2026-11-20", "lasersph": "0.1.0", "commit": "abc", "machine": "a machine"}
+    made = {
+        "date": "2026-11-20",
+        "lasersph": "0.1.0",
+        "commit": "a1b2c3d with changes",
+        "machine": "a machine",
+    }
     content = {key: report[key] for key in ("rows", "passed", "remarks")}
     return content | {
         "seconds": 120.0, "figures": ["f.png"], "error": error, "confirmed": confirmed,
@@ -103,8 +111,8 @@ def test_each_has_a_page():
 
 
 def test_a_stale_page_says_what_changed():
-    """The case and the module."""
-    assert "changed since: case steel, lasersph.sph.kernels" in page("old")
+    """The case by its name, of modules how many: nobody reads a list of 190."""
+    assert "changed since: case steel, 1 module of the program" in page("old")
 
 
 def test_a_failed_page_explains():
@@ -121,8 +129,15 @@ def test_figure_comes_first_then_rows_and_origin():
     assert text.index("![good](../../validation/good/f.png)") < text.index("**Source.**")
     assert "| T \\[K\\] |  | 300 | 300.1 | 0.5 (1) | ok |" in text
     assert "| T\\|2 \\[K\\] |  | 1 | 9 | 0.5 (2) | own |" in text
-    assert "- (1) read from a figure" in text and "- (2) Changed: was 1 K until May" in text
-    assert "2 min on a machine, threads: 1; lasersph 0.1.0, abc, 2026-11-20" in text
+    assert "- (1) read from a figure" in text and "- (2) changed: was 1 K until May" in text
+    assert "2 min on a machine, threads: 1; lasersph 0.1.0, 2026-11-20" in text
+
+
+def test_a_head_stands_above_a_table():
+    """And in the first line of a paragraph; a table that follows a word is none."""
+    readme = "# Is it?\n\n## Source\nNone.\n\n## Bands\n| a | b |\n|---|---|\n| 1 | 2 |\n"
+    text = validation_page(STATES[0], readme)
+    assert "**Source.** None." in text and "**Bands.**\n\n| a | b |\n|---|---|" in text
 
 
 def test_identities_are_folded():
@@ -132,6 +147,21 @@ def test_identities_are_folded():
     assert "<summary>12 more numbers, judged and equal in every digit shown</summary>" in folded
     assert all(f"| sum {k} |" in folded for k in range(12))
     assert "sum 3" in page("good", *MANY[:5]).partition("<details>")[0]  # a short table stays open
+
+
+def test_no_page_names_a_commit():
+    """Readers want a date; the record keeps the commit."""
+    assert not any("a1b2c3d" in page(state.name) for state in STATES)
+
+
+def test_labels_of_a_chart_are_whole(tmp_path, monkeypatch):
+    """A long name takes two lines of its row."""
+    monkeypatch.setitem(plt.rcParams, "svg.fonttype", "none")
+    name = "root of the mean square deviation of the front from the measured places"
+    row = Comparison(name, "K", band=0.5, name="T").row(300.1, 300.0)
+    draw_charts([State("good", "current", record(row))], tmp_path)
+    drawn = (tmp_path / "validation-good.svg").read_text(encoding="utf-8")
+    assert "…" not in drawn and "measured places" in drawn
 
 
 def test_the_records_of_the_package():

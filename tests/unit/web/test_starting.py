@@ -215,6 +215,14 @@ def test_text_of_a_case_is_refused_in_one_line_or_started(browser, tmp_path):
     assert again["name"] == "mine" and again["settings"] == []
 
 
+def test_text_with_a_metal_of_its_own_asks_for_the_whole_path(browser, tmp_path):
+    """The server has the text alone: no file lies beside it."""
+    text = re.sub(r"(?m)^material = .*", 'material = "own.toml"', OWN_CASE)
+    found = browser.post("/api/check", json={"text": text, "settings": []}).json()
+    (problem,) = found["problems"]
+    assert problem["text"] == "own.toml: no such file here: write its whole path"
+
+
 def test_run_again_begins_with_what_was_changed(browser, tmp_path):
     """The case file of a run with its overrides; they stand once in the case.toml of the next."""
     begun = asked(settings=["time.end=20 ns"], name="first")

@@ -23,6 +23,7 @@ def read_surface(file: str | PathLike[str]) -> HeightMap:
         OutputError: the file cannot be read, or is of no known format; one line with its name.
     """
     path = Path(file)
+    # The ending chooses the format.
     kind = path.suffix.lower()
     with clear_errors("read", path):
         content = path.read_bytes()
@@ -32,6 +33,7 @@ def read_surface(file: str | PathLike[str]) -> HeightMap:
         if kind != ".sdf" and kind not in TEXT:
             known = ", ".join((".x3p", ".sdf", *TEXT))
             raise OutputError(f'no format "{kind}" of a surface; there are {known}')
+        # Instruments write their units in either encoding.
         try:
             text = content.decode("utf-8")
         except UnicodeDecodeError:

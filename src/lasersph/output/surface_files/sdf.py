@@ -25,6 +25,7 @@ MISSING = "BAD"
 def sdf_text(z: np.ndarray, dx: float, dy: float, note: str = "") -> str:
     """The file of heights z (ny, nx) [m] at steps dx, dy [m]; NaN where one is missing."""
     ny, nx = z.shape
+    # Header: lengths in meters, so that the scale of z is 1 and its resolution unknown (-1).
     made = datetime.now(UTC).strftime("%d%m%Y%H%M")
     head = {
         "ManufacID": "lasersph",
@@ -41,6 +42,7 @@ def sdf_text(z: np.ndarray, dx: float, dy: float, note: str = "") -> str:
         "CheckType": NO_CHECKSUM,
     }
     lines = [VERSIONS[0], *(f"{name:<12}= {value}" for name, value in head.items()), "*"]
+    # One line a row of heights; the trailer holds the note.
     for row in z:
         lines.append(" ".join(MISSING if np.isnan(one) else f"{one:.9e}" for one in row))
     return "\n".join([*lines, "*", note, "*"]) + "\n"
@@ -53,13 +55,14 @@ def read_sdf(text: str) -> tuple[np.ndarray, float, float]:
         OutputError: no ASCII file of this format, or another number of heights than its header
             says.
     """
-    version, _, rest = text.lstrip("\ufeff").partition("\n")
+    # Version, header and heights are parted by asterisks.
+    version, _, after_version = text.lstrip("\ufeff").partition("\n")
     if version.strip() not in VERSIONS:
         raise OutputError(
             f'it begins with "{version.strip()[:20]}", not with {VERSIONS[0]}: only ASCII files of '
             "this format are read"
         )
-    head, _, body = rest.partition("*")
+    head, _, body = after_version.partition("*")
     entries = (line.partition("=") for line in head.splitlines() if "=" in line)
     fields = {name.strip().lower(): value.strip() for name, _, value in entries}
     try:
@@ -69,6 +72,7 @@ def read_sdf(text: str) -> tuple[np.ndarray, float, float]:
         raise OutputError(f"its header misses {error.args[0]}") from None
     except ValueError as error:
         raise OutputError(f"its header holds {error}") from None
+    # Heights are scaled by Zscale to meters.
     words = body.partition("*")[0].split()
     if len(words) != nx * ny:
         raise OutputError(f"it holds {len(words)} heights, its header says {nx} times {ny}")

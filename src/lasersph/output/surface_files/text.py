@@ -18,7 +18,7 @@ import numpy as np
 from lasersph.input import QuantityError, parse_quantity
 from lasersph.output.errors import OutputError
 
-EVEN = 0.1
+GRID_TOLERANCE = 0.1
 """Share of a step by which places may lie beside an even grid: coordinates are rounded where they
 are written, 88.2 nm to 0.0882 um, and a tenth of a step moves no line."""
 NAME = re.compile(r"(.*?)[ _]*(?:\[|\(|_| )\s*([nuµμm]?m)\s*[\])]?$", re.IGNORECASE)
@@ -48,6 +48,7 @@ def read_text(text: str) -> Grid:
     lines = [line.strip() for line in text.lstrip("\ufeff").splitlines() if line.strip()]
     if not lines:
         raise OutputError("it is empty")
+    # Gwyddion and Keyence name their units in lines of their own; columns have them in their names.
     if any(line.startswith("# Value units") for line in lines[:10]):
         return _gwyddion(lines)
     if found := CALIBRATION.search("\n".join(lines[:40])):
@@ -56,9 +57,12 @@ def read_text(text: str) -> Grid:
 
 
 def _columns(lines: list[str]) -> Grid:
+    # Names are parted by commas, semicolons or tabs, else by spaces.
     names = [one.strip(' "#') for one in re.split(r"[,;\t]", lines[0])]
     if len(names) < 2:
         names = lines[0].strip("# ").split()
+
+    # The first column that can be x, y or z is taken as it.
     found: dict[str, tuple[int, float]] = {}
     for place, name in enumerate(names):
         if (known := _axis_of(name)) is not None and known[0] not in found:
@@ -67,13 +71,19 @@ def _columns(lines: list[str]) -> Grid:
         raise OutputError(f'its first line is "{lines[0][:40]}": {HINT}')
     axes = [one for one in ("x", "y", "z") if one in found]
     columns, scales = zip(*(found[one] for one in axes), strict=True)
+
+    # Numbers in meters.
     table = _numbers(lines[1:], len(names), columns) * scales
     if table.shape[0] < 3:
         raise OutputError(f"it holds {table.shape[0]} points, too few for a profile")
+
+    # A profile: places in order along x.
     if len(axes) == 2:
         order = np.argsort(table[:, 0], kind="stable")
         x, z = table[order].T
         return _even(x, "x"), np.zeros(1), z[None, :]
+
+    # A map: each point goes to its place in the grid of all x and y; places without one stay NaN.
     x, columns = np.unique(table[:, 0], return_inverse=True)
     y, rows = np.unique(table[:, 1], return_inverse=True)
     if x.size * y.size != table.shape[0]:
@@ -91,6 +101,7 @@ def _axis_of(name: str) -> tuple[str, float] | None:
     if (match := NAME.match(name)) is None:
         return None
     word, scale = match[1].strip().lower(), _length(f"1 {match[2]}")
+    # Names as listed, or any that begins with the letter of the axis, such as x_lateral.
     for axis, words in AXES.items():
         if word in words or re.fullmatch(rf"{axis}\w*", word):
             return axis[-1], -scale if axis == "-z" else scale
@@ -98,6 +109,7 @@ def _axis_of(name: str) -> tuple[str, float] | None:
 
 
 def _gwyddion(lines: list[str]) -> Grid:
+    # Lines with # hold the size of the field, width and height, and the unit of the heights.
     head = dict(line[1:].split(":", 1) for line in lines if line.startswith("#") and ":" in line)
     fields = {name.strip().lower(): value.strip() for name, value in head.items()}
     for name in ("width", "height", "value units"):
@@ -112,10 +124,12 @@ def _gwyddion(lines: list[str]) -> Grid:
 
 
 def _keyence(lines: list[str], found: re.Match[str]) -> Grid:
+    # The step of the pixels is the same for both axes.
     step = _length(f"{found[1]} {found[2]}")
     unit = re.search(r'"?Unit"?\W+([nuµμm]?m)\b', "\n".join(lines), re.IGNORECASE)
     if unit is None:
         raise OutputError('it misses the unit of its heights ("Unit")')
+    # The matrix follows the line "Height".
     start = next((n for n, line in enumerate(lines) if line.strip('", ').lower() == "height"), None)
     if start is None:
         raise OutputError('it misses the line "Height" before its matrix')
@@ -138,6 +152,7 @@ def _numbers(lines: list[str], count: int, columns: Sequence[int] | None = None)
     """Numbers (lines, count), or of some columns only; a word such as BAD or nan is a height that
     is missing."""
     rows = [[one for one in SEPARATORS.split(line) if one] for line in lines]
+    # Rows of one length only: a torn file is refused at its line.
     for number, row in enumerate(rows):
         if len(row) != count:
             raise OutputError(f"row {number + 1} holds {len(row)} numbers, not {count}")
@@ -146,6 +161,7 @@ def _numbers(lines: list[str], count: int, columns: Sequence[int] | None = None)
     try:
         return np.array(rows, dtype=float)
     except ValueError:
+        # Word by word, where one of them marks a height that is missing.
         return np.array([[_number(one, n + 1) for one in row] for n, row in enumerate(rows)])
 
 
@@ -167,8 +183,9 @@ def _length(text: str) -> float:
 
 def _even(places: np.ndarray, name: str) -> np.ndarray:
     """Places of equal steps. Raises OutputError where the steps differ."""
+    # Compare with equal steps between the same ends.
     even = np.linspace(places[0], places[-1], places.size)
-    if places.size > 1 and np.max(np.abs(places - even)) > EVEN * (even[1] - even[0]):
+    if places.size > 1 and np.max(np.abs(places - even)) > GRID_TOLERANCE * (even[1] - even[0]):
         steps = np.diff(places)
         raise OutputError(
             f"the steps of {name} differ, from {steps.min():.4g} m to "

@@ -18,7 +18,9 @@ import numpy as np
 
 from lasersph.output.errors import OutputError
 
-MAIN, DATA, SUMS = "main.xml", "bindata/data.bin", "md5checksum.hex"
+MAIN = "main.xml"
+DATA = "bindata/data.bin"
+SUMS = "md5checksum.hex"
 SPACE = "http://www.opengps.eu/2008/ISO5436_2"
 NUMBERS = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 """Types of numbers by their letter: 16 and 32 bits, single and double precision."""
@@ -28,11 +30,15 @@ def x3p_bytes(z: np.ndarray, dx: float, dy: float, note: str = "") -> bytes:
     """The file of heights z (ny, nx) [m] at steps dx, dy [m]; NaN where one is missing."""
     ny, nx = z.shape
     data = np.ascontiguousarray(z, "<f8").tobytes()
+
+    # Record 1: axes, of which x and y have equal steps and z is absolute.
     root = xml.Element(f"{{{SPACE}}}ISO5436_2")
     one = _table(root, "Record1", Revision="ISO5436 - 2000", FeatureType="SUR" if ny > 1 else "PRF")
     axes = xml.SubElement(one, "Axes")
     for name, kind, step in (("CX", "I", dx), ("CY", "I", dy), ("CZ", "A", 1.0)):
         _table(axes, name, AxisType=kind, DataType="D", Increment=repr(float(step)), Offset="0.0")
+
+    # Record 2: who made the map, and the note.
     made = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     two = _table(root, "Record2", Date=made)
     who = {"Manufacturer": "lasersph", "Model": "lasersph", "Serial": "-", "Version": "1"}
@@ -40,13 +46,19 @@ def x3p_bytes(z: np.ndarray, dx: float, dy: float, note: str = "") -> bytes:
     xml.SubElement(two, "CalibrationDate").text = made
     _table(two, "ProbingSystem", Type="Software", Identification="computed")
     xml.SubElement(two, "Comment").text = note
+
+    # Record 3: size of the matrix, and the binary file with its checksum.
     three = xml.SubElement(root, "Record3")
     _table(three, "MatrixDimension", SizeX=str(nx), SizeY=str(ny), SizeZ="1")
     checksum = hashlib.md5(data, usedforsecurity=False).hexdigest().upper()
     _table(three, "DataLink", PointDataLink=DATA, MD5ChecksumPointData=checksum)
+
+    # Record 4: the checksum of this XML stands in a file of its own.
     _table(root, "Record4", ChecksumFile=SUMS)
     xml.register_namespace("p", SPACE)
     text = xml.tostring(root, encoding="UTF-8", xml_declaration=True)
+
+    # The three files of the archive.
     target = io.BytesIO()
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as file:
         file.writestr(MAIN, text)
@@ -71,6 +83,7 @@ def read_x3p(content: bytes) -> tuple[np.ndarray, float, float]:
         OutputError: no file of this format, axes that are not incremental, heights in the XML, or
             a checksum that is not that of the data.
     """
+    # Size, axes and type of the numbers from the XML, heights from the binary file that it names.
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as file:
             root = xml.fromstring(file.read(MAIN))
@@ -82,6 +95,7 @@ def read_x3p(content: bytes) -> tuple[np.ndarray, float, float]:
         dtype = np.dtype(NUMBERS[_text(root, "Record1/Axes/CZ/DataType")])
     except (zipfile.BadZipFile, KeyError, ValueError, xml.ParseError) as error:
         raise OutputError(f"it is no X3P file: {error}") from None
+    # Axes with listed places, sums that differ and torn data are refused.
     if any(kind != "I" for kind in kinds.values()):
         raise OutputError("its x and y are no steps of equal length; only such maps are read")
     wanted = _text(root, "Record3/DataLink/MD5ChecksumPointData", "").lower()
@@ -90,6 +104,7 @@ def read_x3p(content: bytes) -> tuple[np.ndarray, float, float]:
     if len(data) != nx * ny * dtype.itemsize:
         raise OutputError(f"it holds {len(data)} bytes of heights, not {nx} times {ny} numbers")
     z = np.frombuffer(data, dtype).reshape(ny, nx).astype(float)
+    # The increment of z scales stored numbers to meters.
     return steps[2] * z, steps[0], steps[1]
 
 

@@ -8,8 +8,8 @@ from lasersph.simulation.recipes.conduction import ConductionRecipe
 from lasersph.simulation.recipes.melt_pool import MeltPoolRecipe
 from lasersph.simulation.recipes.recipe import (
     FlowForecast,
-    Phase,
     Recipe,
+    RunStage,
     StepForecast,
 )
 
@@ -19,8 +19,8 @@ __all__ = [
     "ConductionRecipe",
     "FlowForecast",
     "MeltPoolRecipe",
-    "Phase",
     "Recipe",
+    "RunStage",
     "StepForecast",
     "recipe_of",
 ]

@@ -13,7 +13,7 @@ from lasersph.compute.backend import Backend
 from lasersph.lasers.pulses import PulseTrain
 from lasersph.observers import Observers, heat_observers
 from lasersph.observers.view import View
-from lasersph.simulation.recipes.recipe import Phase, Recipe, SolverT, StepForecast
+from lasersph.simulation.recipes.recipe import Recipe, RunStage, SolverT, StepForecast
 from lasersph.solvers.conduction.body import assemble
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import Conduction, next_light
@@ -30,13 +30,13 @@ EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
 """Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx. Forecast: largest eigenvalues of
 the discrete Laplacian; the one of 2-D is interpolated."""
 SPAN = 50
-"""Most steps of a phase. Forecast: within it steps are taken as equally long."""
+"""Most steps of a stage. Forecast: within it steps are taken as equally long."""
 LARGEST_STEPS = 10_000_000
 """Steps that are counted one by one. Forecast: more are told as "more than"."""
 
 
 class HeatRecipe(Recipe[HeatT, SolverT]):
-    """What runs share whose heat is conducted between particles of a body."""
+    """Recipe of runs whose heat is conducted between particles of a body."""
 
     def build_heat(
         self, backend: Backend, settings: ConductionSettings, *, recedes: bool = False
@@ -65,10 +65,12 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         )
 
     def heat_view(
-        self, solver: Any, step: int, limit: str, take: Callable[[Array], np.ndarray]
+        self, solver: Any, step: int, limit: str, fetch: Callable[[Array], np.ndarray]
     ) -> dict[str, Any]:
-        """Fields of `View` for a body at rest; `take` fetches an array of the solver."""
-        body, particles, count = solver.body, solver.particles, solver.body.count
+        """Fields of `View` for a body at rest; `fetch` gets an array of the solver."""
+        body = solver.body
+        particles = solver.particles
+        count = solver.body.count
         shown = body.backend.shown
         return self.common_view(solver, step, limit) | {
             "position": shown(body.filling.position[:, :count]),
@@ -76,10 +78,10 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             "volume": shown(body.filling.volume[:count]),
             "mass": body.backend.look(particles["mass"]),
             "latent_heats": body.curve.latent_heats,
-            "temperature": take(particles["temperature"]),
-            "enthalpy": take(particles["enthalpy"]),
-            "melt_fraction": take(particles["melt_fraction"]),
-            "vapor_fraction": take(particles["vapor_fraction"]),
+            "temperature": fetch(particles["temperature"]),
+            "enthalpy": fetch(particles["enthalpy"]),
+            "melt_fraction": fetch(particles["melt_fraction"]),
+            "vapor_fraction": fetch(particles["vapor_fraction"]),
             "surface": body.filling.surface,
             "solidus": body.curve.solidus,
             "liquidus": body.curve.liquidus,
@@ -102,7 +104,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         return mass / self.case.material.density_reference
 
     def observers(self, iterations: Sequence[str]) -> Observers:
-        """What observes every run with heat and melting."""
+        """Observers of every run with heat and melting."""
         return heat_observers(
             self.settings.dimensions,
             pulses=self.pulse_observer(),
@@ -110,56 +112,74 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             iterations=iterations,
         )
 
-    def lit_phases(self, pulse: PulseTrain, longest: float, shortest: float) -> tuple[Phase, ...]:
-        """Phases of a run with light and implicit steps, by walking along its steps.
+    def lit_stages(
+        self, pulse: PulseTrain, longest: float, shortest: float
+    ) -> tuple[RunStage, ...]:
+        """Stages of a run with light and implicit steps, by walking along its steps.
 
         Args:
             longest: step while the light is on [s]. shortest: while something flows [s].
         """
-        time, melt, end = self.case.time, self.melt, self.case.end_of_pulse
+        time = self.case.time
+        melt = self.melt
+        end = self.case.end_of_pulse
         molten = (melt.start, melt.end) if melt is not None and self.flow else (np.nan, np.nan)
         found: list[tuple[str, float, int]] = []
-        count, now, lit_until = 0, 0.0, 0.0
+        count = 0
+        now = 0.0
+        lit_until = 0.0
         while now < end and count < LARGEST_STEPS:
+            # A step goes to the next change of the light; after it steps grow with the time of
+            # cooling.
             step = next_light(pulse, now, longest)
             if lit_until > 0.0:
                 step = min(step, max(longest, time.cooling * (now - lit_until)))
             is_lit = pulse.active(now, now + step)
             if is_lit:
                 lit_until = now + step
+            # Name of the stage: the pool flows while metal is expected to be molten.
             name = "light" if is_lit else "cooling" if lit_until > 0.0 else "before the light"
             if molten[0] <= now < molten[1]:
                 name, step = "flow", min(step, shortest)
             now += step
             count += 1
+            # Steps of one name are counted together, up to `SPAN` of them.
             if found and found[-1][0] == name and found[-1][2] < SPAN:
                 found[-1] = (name, now, found[-1][2] + 1)
             else:
                 found.append((name, now, 1))
-        return tuple(Phase(name, end, steps, self.products_of(name)) for name, end, steps in found)
+        return tuple(
+            RunStage(name, end, steps, self.products_of(name)) for name, end, steps in found
+        )
 
-    def products_of(self, _phase: str) -> float:
-        """Cost of a step, see `Phase`."""
+    def products_of(self, _stage: str) -> float:
+        """Cost of a step, see `RunStage`."""
         return PRODUCTS["explicit" if self.settings.is_explicit else "implicit"]
 
     def implicit_forecast(self, flow_limits: dict[str, float]) -> StepForecast:
         """Steps of a body whose heat is implicit; a pool may flow from the first light on."""
         time, laser = self.case.time, self.case.laser
         limits = {"end": self.case.end_of_pulse} | flow_limits
+
+        # Without light a thousandth of the run, else half of what resolves the pulse.
         longest = time.step or (1e-3 * time.end if laser is None else 0.5 * laser.pulse.resolution)
         limits[name_of_longest(laser is not None)] = longest
         shortest = min(limits.values())
+
+        # With light: the walk of one pulse, repeated where pauses are jumped over.
         if laser is not None:
             if self.case.pause == "compute":
-                return StepForecast(limits, self.lit_phases(laser.pulse, longest, shortest))
-            one = self.lit_phases(laser.first_pulse.pulse, longest, shortest)
+                return StepForecast(limits, self.lit_stages(laser.pulse, longest, shortest))
+            one = self.lit_stages(laser.first_pulse.pulse, longest, shortest)
             starts = (number * (laser.pulse.interval or 0.0) for number in range(laser.pulse.count))
             return StepForecast(
                 limits,
-                tuple(replace(phase, end=start + phase.end) for start in starts for phase in one),
+                tuple(replace(stage, end=start + stage.end) for start in starts for stage in one),
             )
+
+        # Without light: what flows does so from the start, then heat alone remains.
         duration = min(self.flow.duration, time.end) if self.flow is not None else 0.0
-        resting = Phase(
+        resting = RunStage(
             "conduction",
             time.end,
             int(np.ceil((time.end - duration) / longest)),
@@ -168,7 +188,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         if duration == 0.0:
             return StepForecast(limits, (resting,))
         flowing = int(np.ceil(duration / shortest))
-        first = Phase("flow", duration, flowing, self.products_of("flow"))
+        first = RunStage("flow", duration, flowing, self.products_of("flow"))
         return StepForecast(limits, (first, resting))
 
 
@@ -193,6 +213,7 @@ class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
             return fixed
         if not self.settings.is_explicit:
             return self.implicit_forecast({})
+        # Explicit steps: dt <= C dx^2 / D, with the steepest D = (dPhi/dh)/rho of the curve.
         steepest = float(np.max(np.diff(self.curve.potential) / np.diff(self.curve.enthalpy)))
         diffusivity = steepest / self.case.material.density_reference
         stable = EXACT_LIMIT[self.settings.dimensions] * self.layers.spacing**2 / diffusivity

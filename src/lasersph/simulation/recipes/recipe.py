@@ -33,7 +33,7 @@ SolverT = TypeVar("SolverT", bound=Solver)
 
 
 @dataclass(frozen=True)
-class Phase:
+class RunStage:
     """A span of a run in which all steps cost alike.
 
     Attributes:
@@ -49,15 +49,15 @@ class Phase:
 
 @dataclass(frozen=True)
 class StepForecast:
-    """Named limits of the steps of a run [s], the smallest ones, and its phases in their order."""
+    """Named limits of the steps of a run [s], the smallest ones, and its stages in their order."""
 
     limits: dict[str, float]
-    phases: tuple[Phase, ...]
+    stages: tuple[RunStage, ...]
 
     @property
     def steps(self) -> int:
         """Expected number of all steps."""
-        return sum(phase.steps for phase in self.phases)
+        return sum(stage.steps for stage in self.stages)
 
 
 @dataclass(frozen=True)
@@ -123,13 +123,14 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
 
     @abstractmethod
     def observers(self, iterations: Sequence[str]) -> Observers:
-        """What observes a run; `iterations` are the names of what the solver counts."""
+        """Observers of a run; `iterations` are the names of what the solver counts."""
 
     def pulse_observer(self) -> Pulses | None:
         """Observer of the pulses of a train; None of a single one or without light."""
         pulse = None if self.case.laser is None else self.case.laser.pulse
         if pulse is None or pulse.count == 1 or pulse.interval is None:
             return None
+        # Pulses that begin after the end of the case are not observed.
         starts = (number * pulse.interval for number in range(pulse.count))
         begun = tuple(start for start in starts if start < self.case.time.end)
         return Pulses(pulse.count, pulse.interval, begun)
@@ -139,7 +140,7 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
         """Limits, number and cost of the steps."""
 
     def warnings(self) -> list[str]:
-        """What a user should think about before the run."""
+        """Warnings for a user before the run."""
         return []
 
     def dimensionless(self) -> dict[str, dict[str, float]]:
@@ -163,7 +164,7 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
         """The forecast of a run whose steps are all alike, from its limits [s]."""
         end = self.case.time.end
         steps = ceil(end / min(limits.values()))
-        return StepForecast(limits, (Phase(name, end, steps, products),))
+        return StepForecast(limits, (RunStage(name, end, steps, products),))
 
     def longest_step(self) -> dict[str, float]:
         """The limit that the case sets, by its name [s]; empty where it sets none."""
@@ -171,7 +172,7 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
         return {} if step is None else {name_of_longest(self.case.laser is not None): step}
 
     def common_view(self, solver: SolverT, step: int, limit: str) -> dict[str, Any]:
-        """What `View` holds of every run: times, energies, symmetry, what bound the step."""
+        """Entries of `View` of every run: times, energies, symmetry, the limit of the step."""
         state = solver.state
         return {
             "time": state.time,

@@ -23,8 +23,8 @@ import numpy as np
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
+from lasersph.compute.cell_grid import CellGrid
 from lasersph.compute.vectors import dot, element
-from lasersph.particles.cell_grid import CellGrid
 from lasersph.particles.kinds import EJECTED, GONE
 from lasersph.particles.neighbor_lists import Subset
 
@@ -76,18 +76,18 @@ class ActiveRegion:
         period: Sequence[float],
         lit: Rows,
     ) -> None:
-        self.backend, self.period = backend, tuple(period)
+        self.backend = backend
         self.count = position.shape[1]
         host = backend.look(position)
         low, high = host.min(axis=1), host.max(axis=1)
-        extent = np.where(np.array(self.period) > 0.0, self.period, high - low)
-        self._grid = CellGrid.over(low, extent, support)
+        extent = np.where(np.array(period) > 0.0, period, high - low)
+        self._grid = CellGrid.over(low, extent, support, [length > 0.0 for length in period])
         self._shape = self._grid.shape
         self.cell = self._grid.find_cells(backend, position)
         self._largest = 0.0
         self._mark = backend.zeros(self.count)
         self.fields = {"active": backend.zeros(self._grid.count)}
-        self._set_active(self._around(self._cells_of(position, lit), ACTIVE_AROUND))
+        self._set_active(self._grid.grown(self._cells_of(position, lit), ACTIVE_AROUND))
         self._checks_all = True
 
     @property
@@ -127,9 +127,9 @@ class ActiveRegion:
         if found == 0.0:
             return False
         cells = self._cells_of(fields["x"], self._marked(rows))
-        if not np.any(self._around(cells, ACTIVE_AROUND) & ~self._active):
+        if not np.any(self._grid.grown(cells, ACTIVE_AROUND) & ~self._active):
             return False
-        self._set_active(self._active | self._around(cells, ACTIVE_AROUND + ACTIVE_BEYOND))
+        self._set_active(self._active | self._grid.grown(cells, ACTIVE_AROUND + ACTIVE_BEYOND))
         return True
 
     def _marked(self, rows: Rows | None) -> Rows:
@@ -156,8 +156,8 @@ class ActiveRegion:
         if active.all():
             self.rows = self.subset = None
             return
-        self._edge = self._particles_in(active & self._around(~active, ACTIVE_AROUND + 1))
-        members = self._particles_in(self._around(active, 1))
+        self._edge = self._particles_in(active & self._grid.grown(~active, ACTIVE_AROUND + 1))
+        members = self._particles_in(self._grid.grown(active, 1))
         self.rows = self._particles_in(active)
         places = backend.asarray(np.arange(members.shape[0]), "index")
         self.subset = Subset(members, self._marked_places(members), places)
@@ -175,18 +175,3 @@ class ActiveRegion:
         backend.gather(position, rows, x)
         counts = backend.count_by_key(self._grid.find_cells(backend, x), self._grid.count)
         return backend.to_host(counts).reshape(self._shape) > 0
-
-    def _around(self, cells: np.ndarray, distance: int) -> np.ndarray:
-        """The cells and all within `distance` of them, around the ends of periodic axes."""
-        grown = cells.copy()
-        for axis in range(cells.ndim):
-            before = grown.copy()
-            for shift in range(1, min(distance, cells.shape[axis] - 1) + 1):
-                if self.period[axis] > 0.0:
-                    grown |= np.roll(before, shift, axis) | np.roll(before, -shift, axis)
-                    continue
-                low, high = [slice(None)] * cells.ndim, [slice(None)] * cells.ndim
-                low[axis], high[axis] = slice(None, -shift), slice(shift, None)
-                grown[tuple(high)] |= before[tuple(low)]
-                grown[tuple(low)] |= before[tuple(high)]
-        return grown

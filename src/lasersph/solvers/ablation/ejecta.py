@@ -1,4 +1,4 @@
-"""What leaves in a step, and what it takes along."""
+"""Particles that leave in a step, and the mass and energy that they take along."""
 
 from __future__ import annotations
 

@@ -136,7 +136,7 @@ def advance_enthalpy(h, dh, dt):
 
 
 def trial_step(m, rho, a, drho, dh, dt):
-    """What a step would bring: energy taken up [J], density [kg/m^d], |dv/dt|^2 [m^2/s^4]."""
+    """Changes by a trial step: energy taken up [J], density [kg/m^d], |dv/dt|^2 [m^2/s^4]."""
     return energy_gain(m, dh, dt), rho + dt * drho, dot(a, a)
 
 

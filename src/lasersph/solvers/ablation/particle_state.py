@@ -29,9 +29,9 @@ DERIVED = (
     "volume",
     "acting_volume",
 )
-"""What `evaluate_state` finds, in its order."""
+"""Results of `evaluate_state`, in its order."""
 LEVEL = ("position", "velocity", "density", "enthalpy", *DERIVED)
-"""What changes within a step."""
+"""Fields that change within a step."""
 OTHERS = (
     "mass",
     "support",
@@ -63,7 +63,7 @@ def evaluate_state(
     c_0,
     has_tension,
 ):
-    """What follows from enthalpy, density and kind.
+    """Quantities that follow from enthalpy, density and kind.
 
     Returns temperature [K], melt and vapor fraction [1], conductivity [W/(m K)], pressure [Pa],
     volume and acting volume [m^d], and 1 for what has not been ejected.

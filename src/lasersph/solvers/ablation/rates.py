@@ -14,7 +14,6 @@ from __future__ import annotations
 from enum import Enum
 from math import isfinite, sqrt
 
-from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array, Rows
 from lasersph.input import format_quantity
 from lasersph.particles.particles import Particles
@@ -36,6 +35,7 @@ from lasersph.solvers.ablation.particle_state import ParticleState
 from lasersph.solvers.ablation.state import AblationState
 from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.laplacian import harmonic_flow
+from lasersph.surface.surface import upward
 
 LEAST_DENSITY = 0.01
 """Share of the density at rest below which a step has failed. Guard: a density that fell a
@@ -43,7 +43,7 @@ hundredfold in one step is no solution, matter would be torn apart; the step is 
 
 
 class Moving(Enum):
-    """What moves in a step, see above."""
+    """Particles that move in a step, see above."""
 
     NOTHING = 0
     VAPOR = 1

@@ -12,7 +12,6 @@ from math import sqrt
 
 import numpy as np
 
-from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.compute.array_types import Array, Rows
 from lasersph.input import format_quantity
 from lasersph.irradiation.first_hit import FirstHitLight
@@ -36,6 +35,7 @@ from lasersph.solvers.step_control import (
     retry_step,
 )
 from lasersph.solvers.time_settings import TimeSettings
+from lasersph.surface.free_surface import FreeSurface
 
 
 class Ablation:
@@ -222,7 +222,7 @@ class Ablation:
         self._rates.prepare(self._what_moves(square, leaving), self.rows)
 
     def _what_moves(self, interior: float, leaving: float) -> Moving:
-        """What moves, by the largest |v|^2 of the interior and of what leaves [m^2/s^2]."""
+        """Movers of a step, by the largest |v|^2 of the interior and of what leaves [m^2/s^2]."""
         if not self.state.is_balanced or interior > 0.0 or self.parameters.gravity > 0.0:
             return Moving.ALL
         return Moving.VAPOR if leaving > 0.0 else Moving.NOTHING

@@ -1,4 +1,4 @@
-"""What survives a step of an ablation beside the fields of the particles."""
+"""State of an ablation beside the fields of its particles."""
 
 from __future__ import annotations
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
-from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.layered import LayeredLight
@@ -30,10 +29,11 @@ from lasersph.solvers.conduction.walls import walls_of
 from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.laplacian import layered_weight, weight
 from lasersph.sph.second_moment import layer_factors
+from lasersph.surface.surface import upward
 
 KINDS = {"adiabatic": MIRROR, "prescribed-flux": MIRROR, "periodic": PERIODIC, "free": FREE}
 KINDS |= {"fixed-temperature": DIRICHLET, "wall": DIRICHLET}
-"""What lies beyond a face of each kind."""
+"""Continuation of the body beyond a face of each kind."""
 HISTORY = ("enthalpy", "enthalpy_excess", "enthalpy_before", "enthalpy_two_before")
 """Fields from which a step is predicted."""
 DERIVED = ("temperature", "potential", "melt_fraction", "vapor_fraction")

@@ -21,15 +21,12 @@ added to the enthalpies, so that no energy is lost with it, and its sum is booke
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lasersph.compute.array_types import Array, Rows
-from lasersph.compute.launch import Launch
+from lasersph.compute.graph import graph
 from lasersph.compute.vectors import interpolate, interpolation_slope, same
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
-from lasersph.linear_solvers.multigrid import are_same
 from lasersph.physics.phase_change import balanced_enthalpy, follow_potential, potential_slope
 from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.conduction.state import HeatState
@@ -128,6 +125,7 @@ class ImplicitStep:
     def __init__(self, body: Body, exchange: SurfaceExchange, tolerance: float) -> None:
         backend, count = body.backend, body.count
         self.body, self.exchange, self.tolerance = body, exchange, tolerance
+        self.backend = backend
         self.solver = ConjugateGradient(backend, body.pairs, count, rounds=True, rests=True)
         self.h, self.T, self.P, self.slope, self.spare, self.start, self.r, self.C, self.mask = (
             backend.zeros(count) for _ in range(9)
@@ -141,10 +139,6 @@ class ImplicitStep:
         self.size = 0.0
         self.newton = self.linear = 0
         self.forcing = FIRST_FORCING
-        self._residual: Launch | None = None
-        self._bound: tuple[object, ...] = ()
-        self._move = backend.phase(ImplicitStep._run_move)
-        self._linearize = backend.phase(ImplicitStep._run_linearization)
 
     def advance(self, state: HeatState, step: float, exchanged: float) -> dict[str, float]:
         """Enthalpies after `step` [s] into the particles; returns the energies of the step.
@@ -189,7 +183,7 @@ class ImplicitStep:
 
     def assemble(self, step: float) -> Rows | None:
         """Diagonal C and mask of Newton's matrix; returns the particles on plateaus, if any."""
-        (freest,) = self._linearize(self, reads=(), s=step)
+        (freest,) = self.linearize(step)
         return self.body.backend.rows_where(self.mask, 0.0) if freest == 0.0 else None
 
     def solve(self, step: float, wanted: float) -> None:
@@ -206,7 +200,7 @@ class ImplicitStep:
         backend, damping = self.body.backend, 1.0
         backend.copy(self.h, self.start)
         for _ in range(HALVINGS):
-            self._move(self, reads=(), damping=damping)
+            self.move(damping)
             if plateau is not None:
                 self._balance(step, plateau)
             found, energy = self.find_residual(step)
@@ -231,27 +225,26 @@ class ImplicitStep:
             backend.pointwise(interpolate, {"x": self.h}, self.T, rows=rows, **self.nodes)
         absorbed = body.light.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
-        error, walls, self.size = self._bind_residual()(s=step)
+        error, walls, self.size = self.balance(step)
         surface = {"absorbed": absorbed, "lost": lost * step, "removed": removed * step}
         return error, surface | {"walls": walls * step}
 
-    def _bind_residual(self) -> Launch:
-        """Sum of the residual over the pairs that the body has now."""
-        pairs, launch = self.body.pairs, self._residual
-        now = (pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights)
-        if launch is None or not are_same(now, self._bound):
-            out, reduce = (self.r, None, None, None), (None, "sum", "sum", "sum")
-            how: dict[str, Any] = {"finish": residual, "reduce": reduce, "again": launch, "s": 0.0}
-            prepare, fields = self.body.backend.prepare, self._fields()
-            launch = prepare(flow, fields, out, neighbors=pairs.neighbors, **how)
-            self._residual, self._bound = launch, now
-        return launch
+    @graph
+    def balance(self, s: float) -> None:
+        """Residual into `r`; reduces its size, what walls give, and the size of its terms."""
+        out, reduce = (self.r, None, None, None), (None, "sum", "sum", "sum")
+        pairs, how = self.body.pairs.neighbors, {"finish": residual, "reduce": reduce}
+        self.backend.pair_sum(flow, pairs, self._fields(), out, **how, s=s)
 
-    def _run_move(self, damping: float) -> None:
+    @graph
+    def move(self, damping: float) -> None:
+        """Enthalpy, potential and dP/dh after a damped step of Newton's iteration."""
         fields, out = {"h": self.start, "dP": self.solver.solution}, (self.h, self.P, self.slope)
         self.body.backend.pointwise(move, fields, out, damping=damping, **self.curve)
 
-    def _run_linearization(self, s: float) -> None:
+    @graph
+    def linearize(self, s: float) -> None:
+        """Diagonal C and mask of Newton's matrix; reduces the smallest mask."""
         fields = {"h": self.h, "slope": self.slope, "m": self.mass, "dq": self.exchange.slope}
         out, reduce = (self.C, self.mask), (None, "min")
         self.body.backend.pointwise(linearize, fields, out, reduce=reduce, s=s, **self.T_curve)

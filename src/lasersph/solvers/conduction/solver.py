@@ -8,6 +8,7 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.compute.graph import graph
 from lasersph.irradiation.light import energies
 from lasersph.lasers import Laser
 from lasersph.lasers.pulses import PulseTrain
@@ -15,12 +16,12 @@ from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.conduction.explicit import ExplicitStep
 from lasersph.solvers.conduction.implicit import ImplicitStep
 from lasersph.solvers.conduction.published.steepest_descent import PublishedStep
-from lasersph.solvers.conduction.recession import Recession
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.conduction.surface_exchange import SurfaceExchange
 from lasersph.solvers.step_control import common_limits, name_of_longest, retry_step
 from lasersph.solvers.time_settings import TimeSettings
+from lasersph.surface.recession import Recession
 
 EXPECTED_SHARE = 1e-3
 """Share of the incident energy that scales residuals before any was absorbed. Accuracy: what is
@@ -65,9 +66,11 @@ class Conduction:
             body, evaporates=settings.evaporates, ambient_pressure=ambient_pressure
         )
         backend: Backend = body.backend
-        self.recession = Recession(body) if recedes else None
+        self.recession: Recession | None = None
+        if recedes:
+            density = body.material.density_reference
+            self.recession = Recession(body.particles, body.filling, density)
         self._before = backend.zeros(body.count)
-        self._update_temperature = backend.phase(Conduction._run_temperature)
         if settings.scheme == "explicit":
             self.scheme: ExplicitStep | ImplicitStep = ExplicitStep(body, self.exchange)
             self._stable = self.scheme.stable_step()
@@ -197,7 +200,7 @@ class Conduction:
             state.energy["removed"] += self.recession.advance()
         energy = self.scheme.advance(state, step, self._exchanged())
         discarded = self._discard()
-        (state.temperature_change,) = self._update_temperature(self, reads=())
+        (state.temperature_change,) = self.update_temperature()
         if self.settings.evaporates:
             self.exchange.accumulate(particles["evaporated_mass"], step)
         if self.recession is not None:
@@ -209,7 +212,8 @@ class Conduction:
         state.time, state.time_step = state.time + step, step
         state.unclipped_step = step if unclipped_step is None else unclipped_step
 
-    def _run_temperature(self) -> None:
+    @graph
+    def update_temperature(self) -> None:
         """Temperatures and fractions; reduces the largest change of temperature [K]."""
         self.body.update_temperature()
         fields = {"T": self.particles["temperature"], "T_old": self._before}

@@ -1,4 +1,4 @@
-"""What a run of heat reaches beside the fields of its particles: time, steps, energies."""
+"""State of a run of heat beside the fields of its particles: time, steps, energies."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ ENERGIES = (
     *("incident", "absorbed", "reflected", "transmitted", "unassigned"),
     *("lost", "removed", "discarded", "shifting", "ejection_work", "newton_residual", "pauses"),
 )
-"""What steps exchange; what the particles store is summed from their fields by observers."""
+"""Energies that steps exchange; the stored one is summed from fields by observers."""
 
 
 @dataclass

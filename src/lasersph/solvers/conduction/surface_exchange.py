@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.vectors import same
 from lasersph.input import format_quantity
@@ -15,6 +14,7 @@ from lasersph.physics.knudsen_layer import outflow_tables
 from lasersph.physics.losses import evaporation_loss, surface_loss
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.step_control import StepFailed
+from lasersph.surface.columns import SurfaceColumns
 
 
 def surface_power(T, area, T_a, h_c, eps):

@@ -49,7 +49,7 @@ def walls_of(
     row: NDArray[np.int64],
     neighbor: NDArray[np.uint32],
 ) -> Walls:
-    """What the faces bring; weights of the pairs with Dirichlet faces are set to zero.
+    """Terms of the faces; weights of the pairs with Dirichlet faces are set to zero.
 
     Args:
         weights: (pairs,) g_ij, changed in place. row, neighbor: (pairs,) i and j.

@@ -1,4 +1,4 @@
-"""What `Block` and those who read it do with one particle or one pair."""
+"""Terms of `Block` and of those who read it, of one particle or one pair."""
 
 from __future__ import annotations
 

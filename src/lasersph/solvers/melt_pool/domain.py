@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf
 
 import numpy as np
 
-from lasersph.boundaries.surface import Surface
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
-from lasersph.solvers.melt_pool.block import SKIN, Block, StaticParticleData
-from lasersph.solvers.melt_pool.face_conditions import FACES, FaceConditions
+from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.block_layers import SKIN, StaticParticleData
+from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.step_control import StepFailed
+from lasersph.surface.surface import Surface
 
 ROOM = 16
 """Layers by which a block grows. Cost: how often arrays grow."""
@@ -33,19 +33,14 @@ class PoolTooDeep(StepFailed):
 
 def fluid_depth(x, fluid):
     """Depth of a fluid particle below the top of the layers [m]."""
-    return -fluid * x[1]
-
-
-def depth_in_box(x, top):
-    """Depth of a particle below the top of a box [m]."""
-    return top - x[1]
+    return -fluid * x[-1]
 
 
 class PoolDomain:
     """Conditions at the faces, surface and blocks.
 
     Attributes:
-        box: ((x0, x1), (z0, z1)) [m]. periods: width along each axis where it repeats, else 0.
+        box: lower and upper end of each axis [m]. periods: width along each that repeats, else 0.
         spacing, support: of the particles that move [m]. block_layers: layers of the
             present block but for its margin. volume: (n,) of the particles [m^2].
     """
@@ -56,7 +51,7 @@ class PoolDomain:
         layers: Layers,
         lattice: StaticParticleData,
         conditions: FaceConditions,
-        surface: Surface | None,
+        surface: Surface,
         potential: Callable[[np.ndarray], np.ndarray],
         enthalpy: Callable[[np.ndarray], np.ndarray],
         volume: Array,
@@ -68,11 +63,10 @@ class PoolDomain:
         self.is_box = conditions.flow is not None
         self.spacing, self.support = layers.spacing, float(lattice.support.min())
         self.box = conditions.box
-        across, along = (
+        self.periods = tuple(
             high - low if conditions.flow_kind(names[0]) == "periodic" else 0.0
-            for names, (low, high) in zip(FACES, self.box, strict=True)
+            for names, (low, high) in zip(conditions.faces, self.box, strict=True)
         )
-        self.periods = across, along
         self._bottom = np.cumsum(layers.thickness)
         self.fine_depth = layers.fine_depth
         self._starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
@@ -80,15 +74,10 @@ class PoolDomain:
         self._block: Block | None = None
 
     @property
-    def room(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """The box with no upper end where the surface moves [m]."""
-        x, (bottom, top) = self.box
-        return x, (bottom, inf if self.surface_moves else top)
-
-    @property
-    def surface_moves(self) -> bool:
-        """Whether the surface is no plane."""
-        return self.surface is not None and self.surface.ghosts is not None
+    def room(self) -> tuple[tuple[float, float], ...]:
+        """The box up to the top of the surface [m]."""
+        *sides, (bottom, _) = self.box
+        return (*sides, (bottom, self.surface.top))
 
     @property
     def width(self) -> float:
@@ -97,10 +86,7 @@ class PoolDomain:
 
     def find_depth(self, position: Array, out: Array) -> None:
         """Depth of the particles below the surface, or the top of a box without one [m]."""
-        if self.surface is not None:
-            self.surface.find_depth(position, out)
-        else:
-            self.backend.pointwise(depth_in_box, {"x": position}, out, top=self.box[1][1])
+        self.surface.find_depth(position, out)
 
     def cover_fine_layers(self) -> None:
         """Let the block hold all of the finest layers, with room below them."""
@@ -145,7 +131,7 @@ class PoolDomain:
             )
         self._grow(deepest)
         total = self._bottom.size
-        if self._block is None or self._block.layers != self.block_layers:
+        if self._block is None or self._block.complete_layers != self.block_layers:
             below = self._bottom[self.block_layers - 1] + MARGIN * self.spacing
             last = int(np.searchsorted(self._bottom, below * (1.0 + 1e-9))) + 1
             last = min(last, total)
@@ -156,7 +142,7 @@ class PoolDomain:
                 self.surface,
                 self.volume,
                 fine_depth=self.fine_depth,
-                layers=self.block_layers,
+                complete_layers=self.block_layers,
                 complete_rows=int(self._starts[self._complete_layers(last)]),
                 count=int(self._starts[last]),
                 bottom=-float(self._bottom[last - 1]),

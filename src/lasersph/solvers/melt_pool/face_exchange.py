@@ -1,12 +1,12 @@
-"""What the liquid of a box exchanges with each face, as the steps exchange it.
+"""Heat and momentum that the liquid of a box exchanges with each face, as the steps exchange it.
 
 Heat is that of the implicit step: the sums over the pairs with ghosts beyond a Dirichlet or Neumann
 face that balance the enthalpies of the particles beside it,
 
     Q = dt sum_i sum_k [ g_ik c_ik (P_w - P_i) + 2 g_ik q n_k ]
 
-(`block.wall_terms`). Where no heat crosses, a ghost gives its source what that gives back, and
-nothing is booked. Momentum along the face is that of the viscous step, t its tangent,
+(`block_terms.wall_terms`). Where no heat crosses, a ghost gives its source what that gives back,
+and nothing is booked. Momentum along the face is that of the viscous step, t its tangent,
 
     I = dt rho nu sum_i sum_k g_ik (v_k - v_i) . t
 
@@ -29,6 +29,7 @@ from collections.abc import Mapping
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
+from lasersph.compute.graph import graph
 from lasersph.particles.faces import PLANE
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import wall_terms
@@ -68,27 +69,27 @@ def heat_of_row(P, a_0, a_1, a_2, a_3, b_0, b_1, b_2, b_3):
     return b_0 - a_0 * P, b_1 - a_1 * P, b_2 - a_2 * P, b_3 - a_3 * P
 
 
-def along_and_across(force, wall_x, wall_z):
+def along_and_across(force, wall):
     """Components of a force along each face and then across it.
 
     In a corner both are across: each component is that of one face.
     """
-    a_0, a_1, _, _ = of_face(force[1], wall_x if wall_z == 0.0 else 0.0)
-    _, _, a_2, a_3 = of_face(force[0], wall_z if wall_x == 0.0 else 0.0)
-    c_0, c_1, _, _ = of_face(force[0], wall_x)
-    _, _, c_2, c_3 = of_face(force[1], wall_z)
+    a_0, a_1, _, _ = of_face(force[1], wall[0] if wall[1] == 0.0 else 0.0)
+    _, _, a_2, a_3 = of_face(force[0], wall[1] if wall[0] == 0.0 else 0.0)
+    c_0, c_1, _, _ = of_face(force[0], wall[0])
+    _, _, c_2, c_3 = of_face(force[1], wall[1])
     return a_0, a_1, a_2, a_3, c_0, c_1, c_2, c_3
 
 
-def viscous_terms(g_ij, v_i, v_j, wall_x_j, wall_z_j):
+def viscous_terms(g_ij, v_i, v_j, wall_j):
     """Viscous force on i over eta, along and across each face [m/s]."""
-    return along_and_across(g_ij * (v_j - v_i), wall_x_j, wall_z_j)
+    return along_and_across(g_ij * (v_j - v_i), wall_j)
 
 
-def pressure_terms(p_i, p_j, C_i, C_j, G_ij, wall_x_j, wall_z_j):
+def pressure_terms(p_i, p_j, C_i, C_j, G_ij, wall_j):
     """Share of a pair in grad p, along and across each face [Pa/m]."""
     grad = corrected_symmetric_term(p_i, p_j, C_i, C_j, G_ij)
-    return along_and_across(grad, wall_x_j, wall_z_j)
+    return along_and_across(grad, wall_j)
 
 
 def force_across(total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7, V):
@@ -117,35 +118,35 @@ class FaceExchange:
         faces = range(0 if potential is None else len(PLANE))
         names = [f"{name}_{k}" for name in "ab" for k in faces]
         self._sums = {name: backend.zeros(count) for name in names}
-        self._sum_walls = backend.phase(FaceExchange._run_walls)
-        self._sum_heat = backend.phase(FaceExchange._run_heat)
-        self._sum_viscous_forces = backend.phase(FaceExchange._run_viscous_forces)
-        self._sum_pressure = backend.phase(FaceExchange._run_pressure)
 
     def find_walls(self, block: Block) -> None:
         """Sums over the pairs with each face, while weights toward ghosts are not yet set to 0."""
-        if self.potential is not None and block.has_walls:
-            self._sum_walls(self, block, reads=block.arrays, rows=(block.rows_near_faces,))
+        if self.potential is not None and block.walls.exchange_heat:
+            self.sum_walls(block)
 
-    def _run_walls(self, block: Block) -> None:
-        fields = {"g_ij": block.weights, "heat_face": block.walls["heat_face"]}
+    @graph
+    def sum_walls(self, block: Block) -> None:
+        """A and A P_w + b of each row near a face, by face."""
+        fields = {"g_ij": block.weights, "heat_face": block.walls.faces["heat_face"]}
         self.backend.pair_sum(
             heat_terms,
             block.pairs,
-            fields | block.rules,
+            fields | block.walls.rules,
             tuple(self._sums.values()),
             finish=sums_of_row,
             rows=block.rows_near_faces,
-            closest=block.closest,
+            closest=block.walls.closest,
         )
 
     def book_heat(self, block: Block, step: float) -> None:
         """Add the heat of a step that has just been taken."""
-        if self.potential is not None and block.has_walls:
-            rows = block.rows_near_faces
-            add_to(self.heat, self._sum_heat(self, rows, reads=(), rows=(rows,)), step)
+        if self.potential is not None and block.walls.exchange_heat:
+            add_to(self.heat, self.sum_heat(block.rows_near_faces), step)
 
-    def _run_heat(self, rows: Rows) -> None:
+    @graph
+    def sum_heat(self, rows: Rows) -> None:
+        """Reduce the heat that flows in over each face [W/m]."""
+        assert self.potential is not None
         fields, out = {"P": self.potential} | self._sums, (None,) * len(PLANE)
         reduce = ("sum",) * len(PLANE)
         self.backend.pointwise(heat_of_row, fields, out, rows=rows, reduce=reduce)
@@ -154,22 +155,21 @@ class FaceExchange:
         """Add the momentum of a viscous step that has just been taken."""
         if self.potential is None:
             return
-        reads = (flow.stress_jump, block.viscous_weights, *block.arrays)
-        rows = (block.rows_near_faces,)
-        seen = {"step": flow.viscous_step(step)}
-        found = self._sum_viscous_forces(self, block, flow, reads=reads, rows=rows, **seen)
+        found = self.sum_viscous_forces(block, flow, flow.viscous_step(step))
         factor = step * flow.liquid.density * flow.liquid.viscosity
         add_to(self.impulse, found[: len(PLANE)], factor)
-        if not flow.has_tangents:
+        if not flow.surface.moves:
             add_to(self.pressing, outward(found[len(PLANE) :]), -factor)
 
-    def _run_viscous_forces(self, block: Block, flow: Flow, step: float) -> None:
+    @graph
+    def sum_viscous_forces(self, block: Block, flow: Flow, step: float) -> None:
+        """Reduce the viscous force over eta, along and across each face [m^2/s]."""
         v, weights = flow.extend_velocity(flow.viscous.velocity, step), block.viscous_weights
         fields = {"v": v, "g_ij": weights}
         self.backend.pair_sum(
             viscous_terms,
             block.pairs,
-            fields | block.walls,
+            fields | block.walls.faces,
             (None,) * (2 * len(PLANE)),
             finish=sums_of_row,
             rows=block.rows_near_faces,
@@ -181,23 +181,19 @@ class FaceExchange:
         if self.potential is None or flow.pressure_seen is None:
             return
         fields, lowest = flow.pressure_seen
-        found = self._sum_pressure(
-            self,
-            block,
-            fields,
-            reads=(*fields.values(), *block.arrays),
-            rows=(block.rows_near_faces,),
-        )
+        found = self.sum_pressure(block, fields)
         add_to(self.pressing, outward(found), step)
         (x_0, x_1), (z_0, z_1) = block.conditions.box
         width, height = x_1 - x_0, z_1 - z_0
         add_to(self.pressing, (height, height, width, width), step * lowest)
 
-    def _run_pressure(self, block: Block, fields: dict[str, Array]) -> None:
+    @graph
+    def sum_pressure(self, block: Block, fields: dict[str, Array]) -> None:
+        """Reduce the force of the pressure across each face [N/m]."""
         self.backend.pair_sum(
             pressure_terms,
             block.pairs,
-            fields | block.walls | {"V": block.volume},
+            fields | block.walls.faces | {"V": block.volume},
             (None,) * len(PLANE),
             finish=force_across,
             rows=block.rows_near_faces,

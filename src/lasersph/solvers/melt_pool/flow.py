@@ -7,13 +7,8 @@ for that ghosts carry the mirrored pressure and, in the divergence, the mirrored
 nothing crosses a face, whatever its motion, which viscosity alone sees.
 
 Deviations from the paper: where particles are too dense the projection is asked for a divergence
-that parts them again (`sph.density_drift`), 0 on a lattice. And the constant of the pressure, which
-nothing fixes, is such that its gradient sees none below 0: where p < 0 the symmetric gradient
-contracts the particles [Monaghan2000].
-
-Below a surface that moves the pressure is given there, and the gradient is that of its differences,
-exact on linear fields: the symmetric one pushes where the kernel sums of neighbors differ. It is
-not adjoint to the divergence. Viscosity acts on the velocity in the middle of the step.
+that parts them again (`sph.density_drift`), 0 on a lattice. Pressure and gradient are those that
+the surface brings (`surface.pressure_gradient`), and so is the time at which viscosity acts.
 """
 
 from __future__ import annotations
@@ -23,8 +18,8 @@ from math import exp, isfinite
 
 import numpy as np
 
-from lasersph.boundaries.surface import Surface, upward
 from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.graph import graph
 from lasersph.particles.particles import Particles
 from lasersph.physics import viscosity
 from lasersph.physics.buoyancy import buoyancy
@@ -40,12 +35,11 @@ from lasersph.solvers.melt_pool.wall_pressure import WallPressure
 from lasersph.solvers.step_control import NotConverged
 from lasersph.sph.correction import (
     bounded_inverse,
-    corrected_difference_term,
     corrected_divergence_term,
-    corrected_symmetric_term,
     moment_term,
 )
 from lasersph.sph.lattice_sums import kernel_sum
+from lasersph.surface.surface import Surface, upward
 
 ACCEPTED = 10.0
 """Residual of the pressure equation over its tolerance with which a step is still taken. Guard: a
@@ -72,7 +66,7 @@ class Flow:
         self,
         particles: Particles,
         liquid: Liquid,
-        surface: Surface | None,
+        surface: Surface,
         settings: MeltPoolSettings,
         spacing: float,
     ) -> None:
@@ -80,19 +74,21 @@ class Flow:
         particles.add("velocity", "pressure", "settled_jump")
         self.spacing, self.particles = spacing, particles
         self.backend, self.liquid, self.surface, self.settings = backend, liquid, surface, settings
+        # v and p of all particles, v^n beside them, and the acceleration of buoyancy
         self.velocity, self.pressure = particles["velocity"], particles["pressure"]
         self.before, self.body_force = backend.zeros((2, count)), backend.zeros((2, count))
-        self._nothing = backend.zeros(count)
         self.largest_speed = self.largest_acceleration = 0.0
         self.iterations = {"pressure": 0, "viscosity": 0}
         self.divergence = (0.0, 0.0)
         self.pressure_seen: tuple[dict[str, Array], float] | None = None
+        # viscosity: the equation of (68), and the table of nu(T)/nu_l that its pairs are weighed by
         self.viscous = ViscousStep(
             backend, particles["volume"], liquid.viscosity, settings.viscosity
         )
         T, m = (backend.asarray(values) for values in liquid.relative_viscosity)
         self._viscosity_nodes = {"T_nodes": T, "m_nodes": m}
         self.relative_viscosity = backend.asarray(np.ones(count))
+        # pressure along walls that ghosts have to know of, a deviation of `wall_pressure`
         self.wall_pressure = WallPressure(
             backend, liquid.density, liquid.viscosity, self.relative_viscosity
         )
@@ -103,27 +99,24 @@ class Flow:
         self.backend.copy(self.backend.asarray(velocity), self.velocity)
         self.largest_speed = float(np.sqrt(np.max(np.sum(velocity * velocity, axis=0))))
 
-    def enter(self, block: Block, periods: tuple[float, float]) -> None:
+    def enter(self, block: Block, periods: tuple[float, ...]) -> None:
         """Work on a new block; periods: width along each axis that repeats, else 0 [m]."""
         self.current_block, backend, count = block, self.backend, block.count
+        # work vectors of the size of the block: C, right-hand side and pressure of (69)
         self._C = backend.zeros((2, 2, count))
         self._rhs, self._p = backend.zeros(count), backend.zeros(count)
         self._V = block.volume
+        # kernel sum of a perfect lattice, the density from which drift is counted
         weighing = block.lattice.weighing
         self._lattice_sum = kernel_sum(weighing.kernel, weighing.ratio)
+        # the equation for p: conjugate gradients, or the paper's matrix for comparison
         tolerance = self.settings.pressure_tolerance
         self.equation = PressureEquation(
-            backend, count, block.moving_support, tolerance=tolerance, period=periods
+            backend, count, block.layers.moving_support, tolerance=tolerance, period=periods
         )
         self.published = None
         if self.settings.pressure == "published":
             self.published = PublishedPressure(backend, count, tolerance=tolerance)
-        self._correct_kernel = backend.phase(Flow._run_kernel)
-        self._find_forces = backend.phase(Flow._run_forces)
-        self._find_load = backend.phase(Flow._run_load)
-        self._take_pressure = backend.phase(Flow._run_dummies)
-        self._find_lowest = backend.phase(Flow._run_lowest)
-        self._accelerate = backend.phase(Flow._run_acceleration)
 
     @property
     def correction(self) -> Array:
@@ -135,16 +128,6 @@ class Flow:
         """The block of particles that may move."""
         assert self.current_block is not None
         return self.current_block
-
-    def ghost_velocity_jump(self) -> Array:
-        """By how much the surface makes ghosts faster than their sources [m/s].
-
-        (n,) along a plane, (2, n) across the tangents of a surface that is none.
-        """
-        if self.surface is None:
-            return self._nothing
-        beyond = self.surface.ghosts
-        return self.surface.ghost_velocity_jump if beyond is None else beyond.jump
 
     @cached_property
     def _viscosity_varies(self) -> bool:
@@ -166,6 +149,7 @@ class Flow:
         """
         if not self._viscosity_varies:
             return
+        # (grad v)^T grad nu, both gradients corrected by C, beside the force of buoyancy
         block = self.block
         fields = {"v": extended, "m": block.gather(self.relative_viscosity), "C": self._C}
         fields |= {"G_ij": block.gradient, "b": self.body_force}
@@ -173,33 +157,37 @@ class Flow:
         terms_of, nu = viscosity.transposed_terms, self.liquid.viscosity
         self.backend.pair_sum(terms_of, block.pairs, fields, self.body_force, **how, nu=nu)
 
+    @graph
     def correct_kernel(self, rows: Rows) -> None:
         """Correction matrices of some rows at the present positions."""
-        self._correct_kernel(self, rows, reads=self.block.arrays, rows=(rows,))
-
-    def _run_kernel(self, rows: Rows) -> None:
         pairs, fields, finish = self.block.pairs, {"G_ij": self.block.gradient}, bounded_inverse
         self.backend.pair_sum(moment_term, pairs, fields, self._C, finish=finish, rows=rows)
 
     def predict(self, T: Array, kinds: ParticleKinds, step: float) -> None:
         """Velocity after viscous and body forces (68)."""
-        backend, block = self.backend, self.block
-        ahead, rows = self.viscous_step(step), (kinds.fluid_rows,)
+        # grad p/rho of the last step along walls, then buoyancy and the ghosts' velocity
+        block, ahead = self.block, self.viscous_step(step)
         self.wall_pressure.find(block, self.pressure, self._C)
-        reads = self.stress_jump, *block.arrays
-        self._find_forces(self, T, kinds, reads=reads, rows=rows, step=ahead)
+        self.find_forces(T, kinds, ahead)
+        # v* after viscosity and body forces, over the share of the step after which they act
         self.iterations["viscosity"] = self.viscous.advance(
             block, self.velocity, self.body_force, self._extended, kinds, ahead
         )
-        if self.has_tangents:
-            fields = {"v": self.velocity, "v_old": self.before}
-            backend.pointwise(terms.continue_from_middle, fields, self.velocity)
+        # from there to the end of the step, where viscosity was found in its middle
+        self.surface.time_rule.finish(self.backend, self.velocity, self.before)
         self.stop(kinds)
 
-    def _run_forces(self, T: Array, kinds: ParticleKinds, step: float) -> None:
-        """Keep the velocity; find the body force, and the velocity of the ghosts."""
+    @graph
+    def find_forces(self, T: Array, kinds: ParticleKinds, step: float) -> None:
+        """Keep the velocity; find the body force, and the velocity of the ghosts.
+
+        Args:
+            T: (n,) temperature [K]. step: from v^n to what viscosity sees [s].
+        """
         backend, liquid = self.backend, self.liquid
+        # v^n, from which the correction finds the acceleration
         backend.copy(self.velocity, self.before)
+        # Boussinesq buoyancy from the temperature at the start of the step
         backend.pointwise(
             buoyancy,
             {"T": T},
@@ -209,23 +197,17 @@ class Flow:
             g=liquid.gravity,
             up=upward(2),
         )
+        # ghosts with the stress of the surface, and what a varying viscosity adds
         self._extended = self.extend_velocity(self.velocity, step)
         self._add_transposed_stress(self._extended, kinds)
 
-    @property
-    def stress_jump(self) -> Array:
-        """`ghost_velocity_jump`, as the viscosity of a step sees it [m/s]."""
-        beyond = None if self.surface is None else self.surface.ghosts
-        return self.ghost_velocity_jump() if beyond is None else beyond.stress_jump
-
     def viscous_step(self, step: float) -> float:
-        """From v^n to what viscosity sees [s]: the end of a step; its middle below a surface that
-        moves, of second order."""
-        return 0.5 * step if self.has_tangents else step
+        """From v^n to what viscosity sees [s], as the surface has it."""
+        return self.surface.time_rule.share * step
 
     def extend_velocity(self, v: Array, step: float) -> Array:
         """v (2, n) on the block with ghosts (2, M), as the viscosity of a step sees it [m/s]."""
-        extended = self.block.extend_velocity(v, self.stress_jump)
+        extended = self.block.ghosts.extend_velocity(v, self.surface.stress_jump)
         return self.wall_pressure.add_to(extended, self.block, step)
 
     def project(self, kinds: ParticleKinds, step: float) -> None:
@@ -235,46 +217,52 @@ class Flow:
             NotConverged: the pressure equation is not solved.
         """
         backend, block = self.backend, self.block
+        # speed that scales the drift of density, and the time in which viscosity crosses a support
         speed = max(self.largest_speed, block.conditions.largest_wall_speed())
-        time = block.moving_support**2 / self.liquid.viscosity
-        self._find_load(
-            self,
+        time = block.layers.moving_support**2 / self.liquid.viscosity
+        # right-hand side of (69), with the jump of ghosts decayed over the step
+        self.find_load(
             kinds,
-            reads=(self.ghost_velocity_jump(), *block.arrays),
-            rows=(kinds.unknown_rows,),
-            rest=exp(-step / time),
+            remaining=exp(-step / time),
             fraction=self.liquid.density / step,
             rate=DRIFT_RATE * speed / self.spacing,
         )
         head, count = backend.head, block.count
         mask = head(kinds.unknown, count)
+        # matrix (77) of the present pairs, solved from the last pressure
         if self.published is not None:
             self.published.set_operator(
-                block.pairs, block.source, block.weights, head(kinds.kind, count), self._V
+                block.pairs, block.ghosts.source, block.weights, head(kinds.kind, count), self._V
             )
             outcome = self.published.solve(self._rhs, self._p)
         else:
-            given = None if self.surface is None else self.surface.pressure
-            coefficient, value, flux = given or (None, None, None)
+            # pairs across the surface weigh nothing: its pressure is a boundary of each particle
+            coefficient, value, flux = self.surface.pressure
             pairs, weights = block.without_ghosts(), block.weights_within()
             self.equation.set_operator(pairs, weights, mask, self._V, coefficient)
             outcome = self.equation.solve(self._rhs, self._p, value=value, flux=flux)
+        # a pressure that is far off would leave a divergence: halve the step instead
         if not outcome.residual <= ACCEPTED * self.settings.pressure_tolerance:
             raise NotConverged(
                 f"the pressure equation is left with a residual of {outcome.residual:.1e} of its "
                 f"right-hand side after {outcome.iterations} iterations"
             )
         self.iterations["pressure"] = outcome.iterations
-        self._set_dummy_pressure(kinds)
+        self.take_pressure(kinds)
 
-    def _run_load(self, kinds: ParticleKinds, rest: float, fraction: float, rate: float) -> None:
-        """Right-hand side of the pressure equation, and the pressure to begin with."""
+    @graph
+    def find_load(
+        self, kinds: ParticleKinds, remaining: float, fraction: float, rate: float
+    ) -> None:
+        """Right-hand side of the pressure equation, and the pressure to begin with.
+
+        Args:
+            remaining: share that the jump of ghosts keeps of what it was. fraction: rho / dt
+                [kg/(m^3 s)]. rate: at which particles that are too dense part [1/s].
+        """
         backend, block = self.backend, self.block
-        if not self.has_tangents:
-            settled = self.particles["settled_jump"]
-            fields = {"settled": settled, "jump": self.ghost_velocity_jump()}
-            fields["m"] = self.relative_viscosity
-            backend.pointwise(terms.settle, fields, settled, rest=rest)
+        # the jump of ghosts that the divergence sees, then rho / dt V (D - d)
+        self.surface.settle(self.particles["settled_jump"], self.relative_viscosity, remaining)
         backend.pair_sum(
             terms.divergence_terms,
             block.pairs,
@@ -286,6 +274,7 @@ class Flow:
             lattice_sum=self._lattice_sum,
             rate=rate,
         )
+        # first guess: the pressure of the last step
         backend.copy(backend.head(self.pressure, block.count), self._p)
 
     def correct(self, kinds: ParticleKinds, step: float) -> None:
@@ -294,37 +283,37 @@ class Flow:
         Raises:
             NotConverged: the velocity is not finite.
         """
-        arrays = self.block.arrays
-        found = self._find_lowest(self, kinds, reads=arrays, rows=(kinds.unknown_rows,))
-        lowest, reads = found[0] if found else 0.0, (self._extended_C, *arrays)
-        square, speed_square = self._accelerate(
-            self, kinds, reads=reads, rows=(kinds.fluid_rows,), lowest=lowest, step=step
-        )
-        self.pressure_seen = (self._pressure_fields, lowest) if found else None
+        # p_0: under the symmetric gradient p < 0 would contract the particles [Monaghan2000]
+        found = self.find_lowest_pressure(kinds)
+        lowest = found[0] if found else 0.0
+        # (70), and the largest values that limit the next step
+        square, speed_square = self.accelerate(kinds, lowest, step)
+        is_over_lowest = self.surface.pressure_gradient.is_over_lowest
+        self.pressure_seen = (self._pressure_fields, lowest) if is_over_lowest else None
         self.largest_acceleration = max(square, 0.0) ** 0.5
         self.largest_speed = max(speed_square, 0.0) ** 0.5
         if not isfinite(self.largest_speed):
             raise NotConverged("the velocity is not finite")
 
-    def _run_lowest(self, kinds: ParticleKinds) -> None:
+    @graph
+    def find_lowest_pressure(self, kinds: ParticleKinds) -> None:
         """Corrections of the gradient with those of ghosts; reduces the lowest pressure, where the
         gradient sees the pressure over that."""
-        self._extended_C = self.block.extend_tensor(self._C)
-        if not self.has_tangents:
-            fields, rows = {"p": self.pressure}, kinds.unknown_rows
-            self.backend.pointwise(terms.pressure_of, fields, (None,), rows=rows, reduce=("min",))
+        self._extended_C = self.block.ghosts.extend_tensor(self._C)
+        self.surface.pressure_gradient.find_lowest(self.backend, self.pressure, kinds.unknown_rows)
 
-    def _run_acceleration(self, kinds: ParticleKinds, lowest: float, step: float) -> None:
-        """Apply the gradient of the pressure; reduces |dv/dt|^2 and |v|^2."""
+    @graph
+    def accelerate(self, kinds: ParticleKinds, lowest: float, step: float) -> None:
+        """Apply the gradient of the pressure over the lowest one [Pa]; reduces |dv/dt|^2, |v|^2."""
         backend, block = self.backend, self.block
-        gradient, p = corrected_difference_term, block.pressure_across(self.pressure)
-        if p is None:
-            gradient, p = corrected_symmetric_term, backend.zeros(block.total)
-            tables, ghosts = {"p": self.pressure}, {"source": block.source}
-            backend.pointwise(terms.pressure_over_lowest, ghosts, p, **tables, lowest=lowest)
+        gradient = self.surface.pressure_gradient
+        # p of particles and ghosts in the form of the gradient that the surface brings
+        p = gradient.extend(backend, block.ghosts, self.pressure, lowest)
         self._pressure_fields = {"p": p, "G_ij": block.gradient, "C": self._extended_C}
+
+        # v - dt / rho G{p}, and what the solid keeps at rest
         backend.pair_sum(
-            gradient,
+            gradient.term,
             block.pairs,
             self._pressure_fields | {"v": self.velocity, "v_old": self.before},
             (self.velocity, None),
@@ -340,6 +329,7 @@ class Flow:
         """Reduce the sum of squares of the divergence that the projection left and the largest one,
         then the kinetic energy of all that flows [J per meter], for observers."""
         fields = self.particles.by_symbol("velocity", "volume")
+        # divergence that is left, by the same operator that the projection used
         self.backend.pair_sum(
             corrected_divergence_term,
             self.block.pairs,
@@ -365,24 +355,18 @@ class Flow:
 
     def _divergence_fields(self) -> dict[str, Array]:
         block = self.block
-        settled = self.particles["settled_jump"]
-        jump = self.ghost_velocity_jump() if self.has_tangents else settled
-        v = block.mirror_velocity(self.velocity, jump)
+        # walls mirror the velocity, so that nothing crosses them; a stressed surface continues it
+        jump = self.surface.settled_jump(self.particles["settled_jump"])
+        v = block.ghosts.mirror_velocity(self.velocity, jump)
         return {"v": v, "C": self._C, "G_ij": block.gradient}
 
-    @property
-    def has_tangents(self) -> bool:
-        """Whether the surface is no plane."""
-        return self.surface is not None and self.surface.ghosts is not None
-
-    def _set_dummy_pressure(self, kinds: ParticleKinds) -> None:
+    @graph
+    def take_pressure(self, kinds: ParticleKinds) -> None:
         """Take the pressure of the block; dummies have that of the edge."""
-        self._take_pressure(self, kinds, reads=self.block.arrays, rows=(kinds.dummy_rows,))
-
-    def _run_dummies(self, kinds: ParticleKinds) -> None:
         backend, block, rows = self.backend, self.block, kinds.dummy_rows
         pressure = backend.head(self.pressure, block.count)
         backend.copy(self._p, pressure)
+        # dummies: mean of the edge within the support, dp/dn = 0 at the melt's wall
         if not kinds.is_box:
             fields = {"p": block.gather(self.pressure), "unknown": block.gather(kinds.unknown)}
             fields["dummy"], finish = kinds.dummy, terms.dummy_pressure

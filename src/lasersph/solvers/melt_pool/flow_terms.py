@@ -1,4 +1,4 @@
-"""What the steps of `Flow` do with one particle or one pair."""
+"""Terms of the steps of `Flow`, of one particle or one pair."""
 
 from __future__ import annotations
 
@@ -17,33 +17,10 @@ def move(x, v_old, v, step):
     return x + 0.5 * step * (v_old + v)
 
 
-def continue_from_middle(v, v_old):
-    """Velocity at the end of a step from that in its middle [m/s]."""
-    return 2.0 * v - v_old
-
-
 def stop_solid(v, fluid):
     """Velocity of what flows, 0 of all others [m/s]; and |v|^2."""
     flowing = fluid * v
     return flowing, dot(flowing, flowing)
-
-
-def settle(settled, jump, m, rest):
-    """Jump that the divergence sees [m/s]; at once the present one where there was none.
-
-    Ghosts beyond a stressed surface continue the profile of u, and where they do so unevenly their
-    divergence is that of the profile. A stress that changes at once has no profile yet: its
-    divergence would have to be undone within the step, by a pressure that grows as 1 / dt. So the
-    jump follows within the time l^2 / nu in which momentum crosses a support, nu of the particle.
-    Under a given pressure at the surface nothing is to be undone: it is seen at once.
-
-    Args:
-        m: relative viscosity. rest: of the difference after the step, exp(-dt nu / l^2) where m is
-            1.
-    """
-    if settled == 0.0:
-        return 1.0 * jump
-    return settled + (1.0 - rest**m) * (jump - settled)
 
 
 def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
@@ -66,16 +43,6 @@ def dummy_pressure(total_0, total_1, p, dummy):
     if dummy > 0.0:
         return total_0 / max(total_1, 1.0e-300)
     return p
-
-
-def pressure_of(p):
-    """The pressure itself, for its minimum [Pa]."""
-    return 1.0 * p
-
-
-def pressure_over_lowest(source, p, lowest):
-    """Pressure of a particle or ghost over the lowest one [Pa]."""
-    return p[source] - lowest
 
 
 def correct(total, v, v_old, step, density):

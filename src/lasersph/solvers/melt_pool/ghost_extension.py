@@ -1,7 +1,7 @@
 """`GhostExtension`: fields of the particles of a block, extended to their ghosts.
 
-What a ghost carries follows from its source and its type (`ghost_fields`), and across the local
-tangent of a surface that is no plane from where that lies.
+What a ghost carries follows from its source, its type and the tangent there (`ghost_fields`). Where
+no surface moves no type crosses a tangent, and there is none: normals and shifts are 0.
 """
 
 from __future__ import annotations
@@ -10,165 +10,205 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from lasersph.boundaries.surface import Surface, SurfaceGhosts
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
-from lasersph.compute.launch import Launch
 from lasersph.compute.vectors import element
-from lasersph.particles.ghosts import UPPER, GhostParticles
-from lasersph.particles.neighbor_lists import NeighborList
+from lasersph.particles.ghosts import GhostParticles
 from lasersph.solvers.melt_pool import ghost_fields
 from lasersph.solvers.melt_pool.face_conditions import GhostRules
+from lasersph.surface.surface import Surface, SurfaceGhosts
 
 
 class GhostExtension:
     """Fields (..., n) of all particles on those of a block with ghosts, (..., M).
 
     Attributes:
-        ghosts: of its particles. total: M, see `ghosts`. source: (M,) particle behind each of the
-            block with ghosts. sources: these and the types, the fields of `ghost_fields`. signs:
-            tables of its arguments sign_x and sign_z.
+        dimension: d. particles: which ghosts there are. size: M, their number with capacity for a
+            few more. source: (M,) particle behind each. sources: these and the types, the fields of
+            `ghost_fields`. place: (d, M) [m]. surface_ghosts: those across a surface that moves,
+            None without one. crosses_surface: (M,) 1 for these.
     """
 
-    total: int
-    source: Array
-    sources: Mapping[str, Array]
-    pairs: NeighborList
-
-    def __init__(self, backend: Backend, ghosts: GhostParticles, surface: Surface | None) -> None:
-        self.backend, self.ghosts = backend, ghosts
-        self._tangent = (1.0, 0.0) if surface is None else surface.tangent
-        self._beyond: SurfaceGhosts | None = None if surface is None else surface.ghosts
+    def __init__(
+        self,
+        backend: Backend,
+        particles: GhostParticles,
+        rules: GhostRules,
+        surface: Surface,
+    ) -> None:
+        self.backend, self.particles = backend, particles
+        self.dimension = particles.ghost_types.sign.shape[0]
+        self.size, self.source = 0, particles.source
+        self.sources: dict[str, Array] = {}
+        self.place = backend.zeros((self.dimension, 0))
+        self.surface_ghosts: SurfaceGhosts | None = surface.ghosts
+        self.crosses_surface = backend.zeros(0)
+        # what carries the velocity on: a number along the tangent of a plane, else a vector
+        moves = surface.ghosts is not None
+        self._along: float | tuple[float, ...] = 1.0 if moves else surface.tangent
+        # the planes of sources below a surface that moves
+        if self.surface_ghosts is not None:
+            self._normal, self._shift = self.surface_ghosts.normal, self.surface_ghosts.shift
+        else:
+            self._normal = self._shift = backend.zeros((self.dimension, particles.count))
+        self._set_tables(rules)
 
     def _set_tables(self, rules: GhostRules) -> None:
         """Tables of what ghosts carry, by their type."""
-        ghosts, types = self.ghosts, self.ghosts.ghost_types
-        self.signs = ghosts.tables("sign_x", "sign_z", types.sign)
-        self._offsets = ghosts.tables("offset_x", "offset_z", types.offset)
-        self._across = {"across": ghosts.table((types.crossed[1] == UPPER).astype(float))}
-        self._within = {"across": ghosts.table((types.crossed[1] != UPPER).astype(float))}
-        slope: Constants = self._across
-        if self._beyond is None:
-            slope = {"slope": ghosts.table(rules.slope), "along": self._tangent}
-        self._factors = ghosts.tables("factor_x", "factor_z", rules.factor)
-        self._velocity = self._factors | ghosts.tables("added_x", "added_z", rules.added) | slope
-        self._mirror = ghosts.tables("factor_x", "factor_z", types.sign) | slope
-        self._mirror |= ghosts.tables("added_x", "added_z", 0.0 * rules.added)
-        # walls below a surface that moves: what no liquid slips on, and where that lies
-        wall, is_still = rules.wall, rules.factor < 0.0
-        lateral, bottom = (wall == 1.0) | (wall == 2.0), wall == 3.0
-        along = np.stack([bottom & is_still[0], lateral & is_still[1]]).astype(float)
-        self.has_still_walls = self._beyond is not None and bool(along.any())
-        plane = 0.5 * np.where(bottom, types.offset[1], types.offset[0])
-        self._walls_along = ghosts.tables("along_x", "along_z", along)
-        self._walls_along["plane"] = ghosts.table(plane)
+        table, types = self.particles.table, self.particles.ghost_types
+        self._crosses_surface = table(types.crosses_surface)
+        self._stays_inside = table(1.0 - types.crosses_surface)
+        # S and o, with the tangent between as far as there is one
+        self._sign = table(types.sign)
+        self._mirrors: Constants = {"sign": self._sign, "normal": self._normal}
+        self._mirrors["crosses_surface"] = self._crosses_surface
+        self._images: Constants = {"sign": self._sign, "offset": table(types.offset)}
+        self._images["shift"] = self._shift
+        # F and v_0 of walls, or S alone
+        self._factor = table(rules.factor)
+        carry: Constants = {"stressed": table(rules.stressed), "along": self._along}
+        self._velocity = carry | {"factor": self._factor, "added": table(rules.added)}
+        self._mirror = carry | {"factor": self._sign, "added": table(0.0 * rules.added)}
+        self._set_still_walls(rules)
+
+    def _set_still_walls(self, rules: GhostRules) -> None:
+        """Tables of walls below a surface that moves on which no liquid slips: the components that
+        they turn around, their normal, and their place along it."""
+        types = self.particles.ghost_types
+        is_wall = (rules.walls > 0.0) & rules.has_one_wall & (types.crosses_surface == 0.0)
+        along = (~is_wall & is_wall.any(axis=0) & (rules.factor < 0.0)).astype(float)
+        self.has_still_walls = self.surface_ghosts is not None and bool(along.any())
+        # S x + o = x lies on the plane of the wall: n . x = o/2
+        normal = is_wall.astype(float)
+        plane = 0.5 * np.sum(normal * types.offset, axis=0)
+        named = {"along": along, "normal": normal, "plane": plane}
+        self._still_walls = {name: self.particles.table(values) for name, values in named.items()}
+
+    def find(self, position: Array, radius: Array) -> None:
+        """Find the ghosts of the particles at `position`, shape (d, n) [m].
+
+        Args:
+            radius: (count,) within which particles have ghosts across a surface that moves [m].
+        """
+        surface, particles = self.surface_ghosts, self.particles
+        particles.find(position, None if surface is None else (surface.distance, radius))
+        self.size, self.source = particles.source.shape[0], particles.source
+        self.sources = {"source": particles.source, "ghost_type": particles.ghost_type}
+        if self.place.shape[1] != self.size:
+            self.place = self.backend.zeros((self.dimension, self.size))
 
     def gather(self, field: Array) -> Array:
         """The field of all particles on the block with ghosts: (n,) to (M,)."""
-        out, fields = self.backend.zeros(self.total), {"place": self.source}
+        out, fields = self.backend.zeros(self.size), {"place": self.source}
         self.backend.pointwise(element, fields, out, table=field)
         return out
 
     def of_type(self, table: Array) -> Array:
         """(M,) values by the type of each particle."""
-        out, fields = self.backend.zeros(self.total), {"place": self.ghosts.ghost_type}
+        out, fields = self.backend.zeros(self.size), {"place": self.sources["ghost_type"]}
         self.backend.pointwise(element, fields, out, table=table)
         return out
 
-    def extend(self, function: Callable, tables: Constants, out: Array | None = None) -> Array:
-        """Vectors (2, M) by a function of `ghost_fields`, into `out` where it is given."""
-        found = self.backend.zeros((2, self.total)) if out is None else out
+    def _extend(self, function: Callable, tables: Constants, out: Array | None = None) -> Array:
+        """Vectors (d, M) by a function of `ghost_fields`, into `out` where it is given."""
+        found = self.backend.zeros((self.dimension, self.size)) if out is None else out
         self.backend.pointwise(function, self.sources, found, **tables)
         return found
 
     def extend_velocity(self, v: Array, jump: Array) -> Array:
-        """Velocities (2, M) from those of the particles (2, n) [m/s].
+        """Velocities (d, M) from those of the particles (d, n) [m/s].
 
         Args:
-            jump: (n,) 2 d tau / eta [m/s].
+            jump: by how much the surface makes a ghost faster than its source [m/s]: (n,) along a
+                plane, 2 d tau / eta, (d, n) across a surface that moves.
         """
-        return self._extended_velocity(v, jump, self._velocity)
-
-    def add_at_walls(self, v: Array, a: Array, relative: Array, step: float, nu: float) -> None:
-        """Add to velocities (2, M) what `ghost_fields.velocity_at_wall` says.
-
-        Args:
-            a: (2, n) grad p/rho [m/s^2]. relative: (n,) viscosity over that at the liquidus.
-                step: [s]. nu: at the liquidus [m^2/s].
-        """
-        a_x, a_z = (self.backend.component(a, k) for k in (0, 1))
-        tables: Constants = {"m": relative, "a_x": a_x, "a_z": a_z, **self._walls_along}
-        fields = {**self.sources, "v": v, "x": self.pairs.position}
-        function = ghost_fields.velocity_at_wall
-        self.backend.pointwise(function, fields, v, **tables, step=step, nu=nu)
+        return self._extend(ghost_fields.ghost_velocity, {"v": v, "jump": jump, **self._velocity})
 
     def mirror_velocity(self, v: Array, jump: Array) -> Array:
-        """Velocities (2, n) on the block with ghosts as mirrors at the walls show them [m/s].
+        """Velocities (d, M) on the block with ghosts as mirrors at the walls show them [m/s].
 
         Beyond a stressed surface they continue the profile: mirrored, it would bend there, and its
         divergence with it. Args as of `extend_velocity`.
         """
-        return self._extended_velocity(v, jump, self._mirror)
+        return self._extend(ghost_fields.ghost_velocity, {"v": v, "jump": jump, **self._mirror})
 
-    def _extended_velocity(self, v: Array, jump: Array, rules: Constants) -> Array:
-        v_x, v_z = (self.backend.component(v, k) for k in (0, 1))
-        tables = {"v_x": v_x, "v_z": v_z, **rules}
-        if self._beyond is None:
-            return self.extend(ghost_fields.extended_velocity, tables | {"jump": jump})
-        tables["jump_x"], tables["jump_z"] = (self.backend.component(jump, k) for k in (0, 1))
-        return self.extend(ghost_fields.velocity_across, tables)
+    def add_at_walls(self, v: Array, a: Array, relative: Array, step: float, nu: float) -> None:
+        """Add to velocities (d, M) what `ghost_fields.velocity_at_wall` says.
 
-    def mirror(self, v: Array) -> Array:
-        """A vector field (2, n) on the block with ghosts, as the faces between mirror it."""
-        v_x, v_z = (self.backend.component(v, k) for k in (0, 1))
-        tables: Constants = {"v_x": v_x, "v_z": v_z, **self.signs}
-        if self._beyond is None:
-            return self.extend(ghost_fields.mirrored_vector, tables)
-        return self.extend(ghost_fields.vector_across, tables | self._normals())
+        Args:
+            a: (d, n) grad p/rho [m/s^2]. relative: (n,) viscosity over that at the liquidus.
+                step: [s]. nu: at the liquidus [m^2/s].
+        """
+        fields = {**self.sources, "v": v, "x": self.place}
+        tables: Constants = {"m": relative, "a": a, **self._still_walls}
+        function = ghost_fields.velocity_at_wall
+        self.backend.pointwise(function, fields, v, **tables, step=step, nu=nu)
 
-    def _normals(self) -> Constants:
-        """Tables of the surface's normal at each particle, and of what lies beyond it."""
-        assert self._beyond is not None
-        n_x, n_z = (self.backend.component(self._beyond.normal, k) for k in (0, 1))
-        return {"n_x": n_x, "n_z": n_z, **self._across}
+    def extend_velocity_change(self, d: Array, out: Array) -> None:
+        """Extend a change (d, n) of velocities, where walls and stress stay the same, into `out`
+        (d, M) [m/s]."""
+        self._extend(ghost_fields.velocity_change, {"d": d, "factor": self._factor}, out)
 
-    def pressure_across(self, p: Array) -> Array | None:
-        """(M,) pressure, carried on beyond a surface that moves; None where there is none."""
-        if self._beyond is None:
-            return None
-        found, tables = self.backend.zeros(self.total), {"p": p, "p_b": self._beyond.pressure}
-        function = ghost_fields.pressure_across
-        self.backend.pointwise(function, self.sources, found, **tables, **self._across)
-        return found
-
-    def prepare_velocity_change(self, d: Array, out: Array, again: Launch | None) -> Launch:
-        """Loop that extends a change (2, n) of velocities, where walls and stress stay the same."""
-        d_x, d_z = (self.backend.component(d, k) for k in (0, 1))
-        tables: Constants = {"d_x": d_x, "d_z": d_z, **self._factors}
-        function = ghost_fields.velocity_change
-        return self.backend.prepare(function, self.sources, out, again=again, **tables)
+    def mirror(self, a: Array) -> Array:
+        """A vector field (d, n) on the block with ghosts, as the planes between mirror it."""
+        return self._extend(ghost_fields.ghost_vector, {"a": a, **self._mirrors})
 
     def extend_tensor(self, M: Array) -> Array:
-        """Tensors (2, 2, count) of the block on the block with ghosts."""
-        backend, names = self.backend, ("M_xx", "M_xz", "M_zx", "M_zz")
-        tables = {name: backend.component(M, k) for k, name in enumerate(names)}
-        out = backend.zeros((2, 2, self.total))
-        function = ghost_fields.extended_tensor
-        if self._beyond is not None:
-            function, tables = ghost_fields.tensor_across, tables | self._normals()
-        backend.pointwise(function, self.sources, out, **tables, **self.signs)
-        return out
+        """Tensors (d, d, count) of the block on the block with ghosts."""
+        out = self.backend.zeros((self.dimension, self.dimension, self.size))
+        return self._extend(ghost_fields.ghost_tensor, {"M": M, **self._mirrors}, out)
 
-    def _place(
-        self, position: Array, out: Array | None = None, across: Constants | None = None
+    def extend_pressure(self, p: Array) -> Array | None:
+        """(M,) pressure, carried on beyond a surface that moves; None where there is none."""
+        if self.surface_ghosts is None:
+            return None
+        tables: Constants = {"p": p, "p_b": self.surface_ghosts.pressure}
+        tables["crosses_surface"] = self._crosses_surface
+        return self._extend(ghost_fields.ghost_pressure, tables, self.backend.zeros(self.size))
+
+    def put_in_place(self, position: Array) -> None:
+        """Set `place` from the positions of the particles (d, n) [m]."""
+        self._images_of(position, self._crosses_surface, self.place)
+
+    def places_of(self, position: Array) -> Array:
+        """Places (d, M) of particles at other positions (d, n), with their ghosts [m]."""
+        return self._images_of(position, self._crosses_surface)
+
+    def places_swapped(self, position: Array) -> Array:
+        """Places (d, M) where all sources lie across the surface, and their ghosts there in the
+        places of the sources [m]."""
+        return self._images_of(position, self._stays_inside)
+
+    def _images_of(
+        self, position: Array, crosses_surface: Array, out: Array | None = None
     ) -> Array:
-        """Places of all; `across` says by type what is shifted across the surface."""
-        x, z = (self.backend.component(position, k) for k in (0, 1))
-        tables = {"x": x, "z": z, **self.signs, **self._offsets}
-        if self._beyond is None:
-            return self.extend(ghost_fields.ghost_position, tables, out)
-        tables["shift_x"], tables["shift_z"] = (
-            self.backend.component(self._beyond.shift, k) for k in (0, 1)
+        """Places of all; `crosses_surface` says by type what is shifted across the surface."""
+        tables = {"x": position, "crosses_surface": crosses_surface, **self._images}
+        return self._extend(ghost_fields.ghost_position, tables, out)
+
+    def mark_crossing(self) -> None:
+        """Set `crosses_surface` of the ghosts that were found."""
+        self.crosses_surface = self.of_type(self._crosses_surface)
+
+    def find_tangent_planes(
+        self, given: Mapping[str, Array], heat_face: Array, surface: float
+    ) -> None:
+        """Set normal (d, M) and plane (M,) of the faces between ghosts and sources to those of the
+        tangents below a surface that moves.
+
+        Args:
+            given: both, as they are for planes. heat_face: by type, the number of the face that
+                heat crosses. surface: number of the surface.
+        """
+        assert self.surface_ghosts is not None
+        self.backend.pointwise(
+            ghost_fields.tangent_plane,
+            {**self.sources, "x": self.place, **given},
+            (given["normal"], given["plane"]),
+            surface_normal=self.surface_ghosts.normal,
+            distance=self.surface_ghosts.distance,
+            sign=self._sign,
+            crosses_surface=self._crosses_surface,
+            heat_face=heat_face,
+            surface=surface,
         )
-        tables |= across or self._across
-        return self.extend(ghost_fields.position_across, tables, out)

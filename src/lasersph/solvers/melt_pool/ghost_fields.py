@@ -1,33 +1,76 @@
 """Fields of the particles of a block and of their ghosts, from those of the particles.
 
-A ghost has a source and a type (`particles.ghosts`). Arguments of the particles are tables that are
-read at the source, those that say what ghosts carry are tables that are read at the type; a
-particle of the block is its own source and of type 0. So one loop fills a field with ghosts.
+A ghost has a source s and a type (`particles.ghosts`), and is its image in the planes between them:
+in those of the faces, whose product is S = diag(sign) with the offset o, and, where the type
+crosses a surface that moves (c = 1), before in the tangent with the normal n of the source,
+H = I - 2 c n n^T. So
+
+    position   S (x_s + c d_s) + o                  vector     S H a_s
+    velocity   F (v_s + t j_s) + v_0                tensor     S H M_s H S
+    pressure   p_s + 2 c (p_b - p_s)
+
+with F = S but for the components that a wall turns around. Arguments of the particles are tables
+that are read at the source, those that say what ghosts carry are tables that are read at the type;
+a particle of the block is its own source and of type 0, where S = I and c = t = 0. So one loop
+fills a field with ghosts, in any number of dimensions.
 """
 
 from __future__ import annotations
 
-from lasersph.boundaries.surface_loops import reflected
-from lasersph.compute.vectors import dot, identity, matmul, outer, vector
+from lasersph.compute.vectors import dot, outer
+from lasersph.particles.reflection import reflected, reflected_tensor
 
 
-def ghost_position(source, ghost_type, x, z, sign_x, sign_z, offset_x, offset_z):
-    """Place [m]: sign times that of the source, and an offset."""
-    return vector(
-        sign_x[ghost_type] * x[source] + offset_x[ghost_type],
-        sign_z[ghost_type] * z[source] + offset_z[ghost_type],
-    )
+def ghost_position(source, ghost_type, x, shift, crosses_surface, sign, offset):
+    """Place [m]: that of the source, shifted across the tangent by d_s, then S x + o."""
+    image = x[source] + crosses_surface[ghost_type] * shift[source]
+    return sign[ghost_type] * image + offset[ghost_type]
 
 
-def position_across(
-    source, ghost_type, x, z, shift_x, shift_z, sign_x, sign_z, offset_x, offset_z, across
-):
-    """`ghost_position` of the source, shifted across the tangent of the surface if so."""
-    a = across[ghost_type]
-    return vector(
-        sign_x[ghost_type] * (x[source] + a * shift_x[source]) + offset_x[ghost_type],
-        sign_z[ghost_type] * (z[source] + a * shift_z[source]) + offset_z[ghost_type],
-    )
+def ghost_vector(source, ghost_type, a, normal, crosses_surface, sign):
+    """Vector of the source as the planes between mirror it, S H a."""
+    return sign[ghost_type] * reflected(a[source], normal[source], crosses_surface[ghost_type])
+
+
+def ghost_tensor(source, ghost_type, M, normal, crosses_surface, sign):
+    """Tensor of the source as the planes between mirror it, S H M H S with S diagonal."""
+    S = sign[ghost_type]
+    return outer(S, S) * reflected_tensor(M[source], normal[source], crosses_surface[ghost_type])
+
+
+def ghost_velocity(source, ghost_type, v, jump, along, stressed, factor, added):
+    """Velocity [m/s]: that of the source, carried on beyond a stressed surface, then F v + v_0.
+
+    Args:
+        jump: what the surface makes a ghost faster than its source [m/s], a number along the
+            tangent `along`, or a vector where that is 1. stressed: 1 where the surface lies
+            between. factor: diagonal of F. added: v_0 of a wall that moves [m/s].
+    """
+    carried_on = v[source] + stressed[ghost_type] * jump[source] * along
+    return factor[ghost_type] * carried_on + added[ghost_type]
+
+
+def velocity_change(source, ghost_type, d, factor):
+    """F d of the source: what remains of its velocity where walls rest and no stress acts [m/s]."""
+    return factor[ghost_type] * d[source]
+
+
+def ghost_pressure(source, ghost_type, p, p_b, crosses_surface):
+    """Pressure [Pa]: that of the source, beyond the surface carried on through p_b there."""
+    return p[source] + 2.0 * crosses_surface[ghost_type] * (p_b[source] - p[source])
+
+
+def velocity_at_wall(source, ghost_type, v, x, m, a, along, normal, plane, step, nu):
+    """Velocity of a ghost [m/s], with what the pressure does along a wall (`wall_pressure`).
+
+    Args:
+        x: place of the ghost [m]. m: relative viscosity of the source [1], nu: what that counts
+            from [m^2/s]. a: grad p/rho [m/s^2]. along: 1 for the components along a wall. normal,
+            plane: of that, and its place along the normal [m]. step: [s].
+    """
+    d = dot(x, normal[ghost_type]) - plane[ghost_type]
+    viscosity = nu * m[source]
+    return v + along[ghost_type] * (2.0 * step + d * d / viscosity) * a[source]
 
 
 def ghost_layers(
@@ -48,8 +91,8 @@ def ghost_layers(
     )
 
 
-def ghost_walls(ghost_type, dirichlet, flux, plane, T_w, P_w, wall_enthalpy, normal_x, normal_z):
-    """What `wall_terms` and `range_enthalpy` want to know of the face that lies between."""
+def ghost_walls(ghost_type, dirichlet, flux, plane, T_w, P_w, wall_enthalpy, normal):
+    """Rules of the face that lies between, for `wall_terms` and `range_enthalpy`."""
     return (
         dirichlet[ghost_type],
         flux[ghost_type],
@@ -57,127 +100,31 @@ def ghost_walls(ghost_type, dirichlet, flux, plane, T_w, P_w, wall_enthalpy, nor
         T_w[ghost_type],
         P_w[ghost_type],
         wall_enthalpy[ghost_type],
-        vector(normal_x[ghost_type], normal_z[ghost_type]),
+        1.0 * normal[ghost_type],
     )
 
 
-def ghost_faces(ghost_type, wall_x, wall_z, heat_face):
-    """Faces across x and across z beyond which a ghost lies, and that across which heat flows."""
-    return wall_x[ghost_type], wall_z[ghost_type], heat_face[ghost_type]
-
-
-def ghost_velocity(v, factor, added, slope, jump, along):
-    """Velocity of a ghost [m/s]: S v + c, and the slope of a stressed surface.
-
-    Args:
-        jump: 2 d tau / eta of the source [m/s]. along: tangent of the surface.
-    """
-    return factor * v + added + slope * jump * along
-
-
-def extended_velocity(
-    source, ghost_type, v_x, v_z, jump, factor_x, factor_z, added_x, added_z, slope, along
-):
-    """`ghost_velocity` of the source's velocity (v_x, v_z)."""
-    return ghost_velocity(
-        vector(v_x[source], v_z[source]),
-        vector(factor_x[ghost_type], factor_z[ghost_type]),
-        vector(added_x[ghost_type], added_z[ghost_type]),
-        slope[ghost_type],
-        jump[source],
-        along,
-    )
-
-
-def velocity_across(
-    source,
-    ghost_type,
-    v_x,
-    v_z,
-    jump_x,
-    jump_z,
-    factor_x,
-    factor_z,
-    added_x,
-    added_z,
-    across,
-):
-    """`ghost_velocity` where a jump (jump_x, jump_z) carries it on across a tangent [m/s]."""
-    a = across[ghost_type]
-    return vector(
-        factor_x[ghost_type] * (v_x[source] + a * jump_x[source]) + added_x[ghost_type],
-        factor_z[ghost_type] * (v_z[source] + a * jump_z[source]) + added_z[ghost_type],
-    )
-
-
-def velocity_at_wall(source, ghost_type, v, x, m, a_x, a_z, along_x, along_z, plane, step, nu):
-    """Velocity of a ghost [m/s], with what the pressure does along a wall (`wall_pressure`).
-
-    Args:
-        x: place of the ghost [m]. m: relative viscosity of the source [1], nu: what that counts
-            from [m^2/s]. a_x, a_z: grad p/rho [m/s^2]. along_x, along_z: 1 beyond a wall along that
-            axis. plane: its place [m]. step: [s].
-    """
-    viscosity = nu * m[source]
-    d_x, d_z = x[0] - plane[ghost_type], x[1] - plane[ghost_type]
-    return vector(
-        v[0] + along_x[ghost_type] * (2.0 * step + d_z * d_z / viscosity) * a_x[source],
-        v[1] + along_z[ghost_type] * (2.0 * step + d_x * d_x / viscosity) * a_z[source],
-    )
-
-
-def mirrored_vector(source, ghost_type, v_x, v_z, sign_x, sign_z):
-    """A vector of the source as the faces between mirror it."""
-    return vector(sign_x[ghost_type] * v_x[source], sign_z[ghost_type] * v_z[source])
-
-
-def vector_across(source, ghost_type, v_x, v_z, n_x, n_z, sign_x, sign_z, across):
-    """`mirrored_vector` where the surface's tangent is one of the mirrors."""
-    n = vector(n_x[source], n_z[source])
-    v = reflected(vector(v_x[source], v_z[source]), n, across[ghost_type])
-    return vector(sign_x[ghost_type] * v[0], sign_z[ghost_type] * v[1])
+def ghost_faces(ghost_type, wall, heat_face):
+    """Face across each axis beyond which a ghost lies, and that across which heat flows."""
+    return 1.0 * wall[ghost_type], heat_face[ghost_type]
 
 
 def tangent_plane(
-    source, ghost_type, x, normal, plane, n_x, n_z, distance, sign_x, across, heat_face, surface
+    source,
+    ghost_type,
+    x,
+    normal,
+    plane,
+    surface_normal,
+    distance,
+    sign,
+    crosses_surface,
+    heat_face,
+    surface,
 ):
     """Normal and place of the face between a ghost and its source for heat: of the surface where
     that is what lies between, else as they were."""
-    if across[ghost_type] <= 0.0 or heat_face[ghost_type] != surface:
+    if crosses_surface[ghost_type] <= 0.0 or heat_face[ghost_type] != surface:
         return 1.0 * normal, plane
-    n = vector(sign_x[ghost_type] * n_x[source], n_z[source])
+    n = sign[ghost_type] * surface_normal[source]
     return n, dot(x, n) - distance[source]
-
-
-def pressure_across(source, ghost_type, p, p_b, across):
-    """Pressure [Pa]: that of the source, beyond the surface carried on through p_b there."""
-    return p[source] + 2.0 * across[ghost_type] * (p_b[source] - p[source])
-
-
-def velocity_change(source, ghost_type, d_x, d_z, factor_x, factor_z):
-    """S d of the source: what remains of its velocity where walls rest and no stress acts [m/s]."""
-    return vector(factor_x[ghost_type] * d_x[source], factor_z[ghost_type] * d_z[source])
-
-
-def ghost_tensor(M, sign):
-    """Tensor of a ghost, S M S with the signs on the diagonal of S."""
-    return outer(sign, sign) * M
-
-
-def tensor_across(source, ghost_type, M_xx, M_xz, M_zx, M_zz, n_x, n_z, sign_x, sign_z, across):
-    """`extended_tensor` where the surface's tangent is one of the mirrors."""
-    M = outer(vector(1.0, 0.0), vector(M_xx[source], M_xz[source])) + outer(
-        vector(0.0, 1.0), vector(M_zx[source], M_zz[source])
-    )
-    n = vector(n_x[source], n_z[source])
-    mirror = identity(2) - 2.0 * across[ghost_type] * outer(n, n)
-    seen = matmul(mirror, matmul(M, mirror))
-    return ghost_tensor(seen, vector(sign_x[ghost_type], sign_z[ghost_type]))
-
-
-def extended_tensor(source, ghost_type, M_xx, M_xz, M_zx, M_zz, sign_x, sign_z):
-    """`ghost_tensor` of the source's tensor."""
-    M = outer(vector(1.0, 0.0), vector(M_xx[source], M_xz[source])) + outer(
-        vector(0.0, 1.0), vector(M_zx[source], M_zz[source])
-    )
-    return ghost_tensor(M, vector(sign_x[ghost_type], sign_z[ghost_type]))

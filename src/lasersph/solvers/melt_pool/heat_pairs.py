@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from lasersph.compute.array_types import Rows
+from lasersph.compute.graph import graph
 from lasersph.compute.splice import PairRows, splice
 from lasersph.compute.vectors import dot
 from lasersph.solvers.conduction.body import Body
@@ -46,19 +47,18 @@ class HeatPairs:
     def __init__(self, body: Body) -> None:
         self.backend, self.body = body.backend, body
         self._renewed = body.particles["has_moving_pairs"]
-        self._weigh = body.backend.phase(HeatPairs._run_weighing)
 
-    def even_out_flux(self, block: Block) -> None:
+    def normalize_surface_flux(self, block: Block) -> None:
         """Scale the flux through a surface that moves so that all of it enters, however rows lie.
 
         Pairs across it see its length where rows are a spacing high. Those from which mass has
         evaporated are lower: three rows in D/v took 10 % more than the flux.
         """
-        length_ratio = None if block.surface is None else block.surface.length_ratio()
-        if length_ratio is None or not block.has_walls:
+        length_ratio = block.surface.length_ratio()
+        if length_ratio is None or not block.walls.exchange_heat:
             return
         backend, fields = self.backend, {"g_ij": block.weights, "across": block.across}
-        fields |= {name: block.rules[name] for name in ("flux", "normal", "plane")}
+        fields |= {name: block.walls.rules[name] for name in ("flux", "normal", "plane")}
         rows, out = block.rows_near_faces, (None,)
         (seen,) = backend.pair_sum(
             flux_length, block.pairs, fields, out, rows=rows, reduce=("sum",)
@@ -79,8 +79,7 @@ class HeatPairs:
         backend, body, pairs, rows = self.backend, self.body, self.body.pairs, None
         if block.has_row is not None:
             rows = backend.rows_where(backend.head(block.has_row, block.complete_rows), 1.0)
-        listed = (block.rows_near_faces,) if rows is None else (block.rows_near_faces, rows)
-        self._weigh(self, block, rows, reads=block.arrays, rows=listed)
+        self.weigh(block, rows)
         row_start, neighbor = block.pairs.row_start, block.without_ghosts().neighbor
         if rows is None:
             pairs.neighbors = replace(pairs.neighbors, row_start=row_start, neighbor=neighbor)
@@ -97,13 +96,14 @@ class HeatPairs:
         )
         pairs.weights = joined.values
 
-    def _run_weighing(self, block: Block, rows: Rows | None) -> None:
+    @graph
+    def weigh(self, block: Block, rows: Rows | None) -> None:
         """Terms of walls, weights between particles and their sums."""
         backend, body, pairs = self.backend, self.body, self.body.pairs
-        fields = {"g_ij": block.weights} | block.rules
-        if block.has_walls:
+        fields = {"g_ij": block.weights} | block.walls.rules
+        if block.walls.exchange_heat:
             out = (pairs.boundary_coefficient, body.wall_flow, body.wall_heat)
-            near, closest = block.rows_near_faces, block.closest
+            near, closest = block.rows_near_faces, block.walls.closest
             backend.pointwise(no_walls, {"A": out[0]}, out, rows=rows)
             how = {"rows": near, "finish": wall_sums, "closest": closest}
             backend.pair_sum(wall_terms, block.pairs, fields, out, **how)

@@ -13,10 +13,6 @@ from lasersph.solvers.step_control import NotConverged
 SHORTEST = 1e-9
 """Time in which the fastest particle crosses its support, over the time to compute. Guard: in a
 flow that takes less its speeds have grown without bound."""
-FASTEST = 1000.0
-"""Speed of metal below a surface that moves [m/s]. Guard: a quarter of the speed of sound in liquid
-steel and aluminum, some 4 km/s; what flows faster is not incompressible, and no texture flows at
-200 m/s."""
 
 
 def refuse_unstable(flow: Flow, domain: PoolDomain, position: Array, time: float) -> None:
@@ -29,7 +25,7 @@ def refuse_unstable(flow: Flow, domain: PoolDomain, position: Array, time: float
         NotConverged: with the speed, the place and what to change.
     """
     speed = flow.largest_speed
-    is_possible = speed <= FASTEST or not domain.surface_moves
+    is_possible = speed <= domain.surface.largest_speed
     if is_possible and speed * SHORTEST * time <= domain.support:
         return
     host = flow.backend.to_host

@@ -75,8 +75,7 @@ class LayoutRenewal:
         layout, surface = self._layout(), self.domain.surface
         self.volume += float(np.sum(layout.volume) - np.sum(self._fine("volume")))
         self.recedes = False
-        if surface is not None:
-            surface.reset()
+        surface.reset()
         mass = self.body.material.density_reference * layout.volume
         self._place({"position": layout.position, "volume": layout.volume, "mass": mass})
 
@@ -87,7 +86,7 @@ class LayoutRenewal:
         Raises:
             UnevenRelief: the relief is too deep for these layers.
         """
-        if not self.domain.surface_moves:
+        if not self.domain.surface.moves:
             return
         if not self.recedes:
             fields: dict[str, Array] = {"value": self._fine_volume}
@@ -103,7 +102,7 @@ class LayoutRenewal:
             self.domain.layers, layout, place, volume, np.vstack(carried)
         )
         new = {"position": layout.position, "volume": volume, "mass": density * volume}
-        new |= {"pressure": p, "velocity": np.array(v)} | dict.fromkeys(HISTORY, h)
+        new |= {"pressure": p, "velocity": np.array(v)} | {name: h for name in HISTORY}
         self._place(new | {"enthalpy_excess": 0.0 * h})
 
     def _fine(self, name: str) -> NDArray[np.float64]:
@@ -112,10 +111,8 @@ class LayoutRenewal:
         return np.array(values[..., : self._fine_volume.shape[0]])
 
     def _layout(self) -> ReliefLayout:
-        surface, domain = self.domain.surface, self.domain
-        height = np.zeros(self.body.filling.surface.size)
-        if surface is not None and "surface_height" in surface.arrays:
-            height = self.body.backend.to_host(surface.arrays["surface_height"])
+        domain = self.domain
+        height = domain.surface.heights(self.body.filling.surface.size)
         more = "give a larger particles.fine_depth (of a box domain.depth)"
         try:
             layout = lay_below(domain.layers, height)
@@ -142,8 +139,7 @@ class LayoutRenewal:
         self.kinds.remember()
         # pairs of all particles that lie elsewhere now, and of those near them
         position = particles["position"]
-        if surface is not None:
-            surface.find(position)
+        surface.find(position)
         domain.cover_fine_layers()
         block = domain.block_for(position, self.kinds)
         has_row = backend.zeros(block.count)

@@ -1,4 +1,4 @@
-"""What is kept of each pair at a set of positions: functions of its distance, computed once.
+"""Values of each pair at a set of positions: functions of its distance, computed once.
 
 Root and divisions take most of the time of a sum over pairs; sums that read these have none.
 """
@@ -47,7 +47,7 @@ def layered_pair_geometry(
 
 
 GEOMETRY = {weight: pair_geometry, layered_weight: layered_pair_geometry}
-"""What is kept of each pair, by the function of its weight."""
+"""Function of a pair's values, by the function of its weight."""
 
 
 def distance_square(x_ij):
@@ -57,7 +57,7 @@ def distance_square(x_ij):
 
 def even_rows(x, has_row, even_above):
     """1 for a row above a plane, and 1 for one below."""
-    if x[1] > even_above:
+    if x[-1] > even_above:
         return has_row, 0.0 * has_row
     return 0.0 * has_row, has_row
 
@@ -74,11 +74,6 @@ class PairGeometry:
         self.arrays = (backend.zeros(0), backend.zeros((2, 0)), backend.zeros(0))
         self._others: dict[str, Array] = {}
         self._rows: list[tuple[Mean, Rows | None]] = []
-
-    @property
-    def rows(self) -> tuple[Rows, ...]:
-        """Lists of rows in the order in which `find` takes them, where they are not all."""
-        return tuple([rows for _, rows in self._rows if rows is not None])
 
     def per_pair(self, name: str) -> Array:
         """(pairs,) an array that is kept under a name while lists have as much room."""

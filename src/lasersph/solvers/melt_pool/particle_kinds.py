@@ -9,6 +9,7 @@ step.
 from __future__ import annotations
 
 from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.graph import graph
 from lasersph.particles.kinds import DUMMY, EDGE, FLUID, INTERIOR
 from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.block import Block
@@ -69,7 +70,6 @@ class ParticleKinds:
         self.fluid, self.unknown = backend.zeros(count), backend.zeros(count)
         self.dummy, self.active = backend.zeros(count), backend.zeros(count)
         self._is_marked = False
-        self._mark_walls = backend.phase(ParticleKinds._run_walls)
 
     def find_fluid(self, melt_fraction: Array) -> float:
         """Mark what flows, all of a box; returns how many particles do."""
@@ -99,11 +99,12 @@ class ParticleKinds:
         """Mark edge and dummies among the particles of a block; a box has none."""
         if self.is_box:
             return
-        listed = () if block.rows is None else (block.rows,)
-        self._mark_walls(self, block, reads=block.arrays, rows=listed)
+        self.mark_walls(block)
         self._find_rows()
 
-    def _run_walls(self, block: Block) -> None:
+    @graph
+    def mark_walls(self, block: Block) -> None:
+        """Kinds and marks of the particles of a block, by their fluid neighbors."""
         backend, count = self.backend, block.count
         marks = (self.kind, self.unknown, self.dummy, self.active)
         for mark in marks:

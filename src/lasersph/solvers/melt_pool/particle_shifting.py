@@ -19,15 +19,16 @@ three tenths.
 
 from __future__ import annotations
 
-from lasersph.boundaries.surface import upward
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.compute.graph import graph
 from lasersph.compute.vectors import dot, matvec, outer, vector
 from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.sph.shifting import repulsion_terms, shift
+from lasersph.surface.surface import upward
 
 LARGEST = 0.1
 """Largest shift over the spacing. Guard: a step shifts by at most 0.04 times 0.06 times 3.75, 0.009
@@ -45,11 +46,9 @@ def velocity_terms(v_i, v_j, G_ij):
 
 def adjust_velocity(total_0, total_1, total_2, v, C, displacement):
     """v + grad v . shift, within the range of the neighbors [m/s] (74)."""
+    # grad v . d by the corrected gradient, then clipped so that no new extreme appears
     new = v + matvec(total_0, matvec(C, displacement))
-    return vector(
-        clip_to_range(new[0], v[0], total_1[0], total_2[0]),
-        clip_to_range(new[1], v[1], total_1[1], total_2[1]),
-    )
+    return vector(*(clip_to_range(new[k], v[k], total_1[k], total_2[k]) for k in range(len(new))))
 
 
 def clip_to_range(new, old, low, high):
@@ -84,6 +83,7 @@ def exchange(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j):
 
     Nothing beyond a Dirichlet face: no heat crosses a face because particles are shifted.
     """
+    # the gradient across a front is the latent heat over a spacing: nothing is exchanged there
     if phase_i != phase_j or dirichlet_j > 0.0:
         return 0.0 * h_i
     return (h_j - h_i) * dot(shift_i - shift_j, G_ij)
@@ -91,6 +91,7 @@ def exchange(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j):
 
 def exchange_terms(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j):
     """Gains and losses of h by exchange, and the range of neighbors of the same phase [J/kg]."""
+    # the range comes from neighbors of the same phase alone, each other one counts as oneself
     q = exchange(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j)
     h = h_j if phase_i == phase_j else h_i
     return max(q, 0.0), max(-q, 0.0), h, h
@@ -98,6 +99,7 @@ def exchange_terms(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift
 
 def allowed_shares(total_0, total_1, total_2, total_3, h):
     """Shares of its gains and of its losses that keep h within the neighbors' range."""
+    # how far h may rise and fall, over what all pairs together would bring [Zalesak1979]
     gain, loss = max(total_3 - h, 0.0), max(h - total_2, 0.0)
     up = gain / total_0 if total_0 > gain else 1.0
     down = loss / total_1 if total_1 > loss else 1.0
@@ -119,6 +121,7 @@ def limited_exchange(
     down_j,
 ):
     """Exchange of a pair, by the smaller of the shares that its two particles allow [J/kg]."""
+    # the giver's share of losses and the taker's share of gains: the same q for both, heat is kept
     q = exchange(h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j)
     return q * (min(up_i, down_j) if q > 0.0 else min(down_i, up_j))
 
@@ -135,14 +138,12 @@ def shifted_position(x, displacement, fluid, low, high, width, gap):
     new = x + displacement
     if fluid <= 0.0:
         return new
-    return vector(
-        confine(new[0], low[0], high[0], width[0], gap),
-        confine(new[1], low[1], high[1], width[1], gap),
-    )
+    return vector(*(confine(new[k], low[k], high[k], width[k], gap) for k in range(len(new))))
 
 
 def confine(x, low, high, width, gap):
     """One coordinate between its faces, or within its period."""
+    # along a period particles come back at the other end, else faces hold them off
     if width > 0.0:
         if x < low:
             return x + width
@@ -165,24 +166,31 @@ class ParticleShifting:
         count: int,
         factor: float,
         spacing: float,
-        box: tuple[tuple[float, float], tuple[float, float]],
-        periods: tuple[float, float],
+        box: tuple[tuple[float, float], ...],
+        periods: tuple[float, ...],
     ) -> None:
         self.backend, self.factor, self.spacing = backend, factor, spacing
         self.box, self.periods = box, periods
         self.displacement, self._v = backend.zeros((2, count)), backend.zeros((2, count))
         self._up, self._down = backend.zeros(count), backend.zeros(count)
 
+    @graph
     def rearrange(
         self, flow: Flow, kinds: ParticleKinds, particles: Particles, at_face: Array, scale: float
     ) -> None:
-        """Shift the particles; reduces the heat added by it [J], if there is any shift."""
+        """Shift the particles; reduces the heat added by it [J], if there is any shift.
+
+        Args:
+            scale: C times largest speed times step [m].
+        """
+        # d by (73), then v, h and x in this order: v and h read the pairs at x
         self.shift(flow.block, kinds, at_face, scale)
         self.adjust(flow, kinds, particles)
 
     def adjust(self, flow: Flow, kinds: ParticleKinds, particles: Particles) -> None:
         """Move the particles by their displacements, with what they carry there."""
-        block, jump = flow.block, flow.ghost_velocity_jump()
+        block, jump = flow.block, flow.surface.velocity_jump
+        # velocity (74), enthalpy (75), then the positions that both refer to
         self.adjust_velocity(block, kinds, flow.velocity, jump, flow.correction)
         h, vapor, m = (particles[name] for name in ("enthalpy", "vapor_fraction", "mass"))
         self.adjust_enthalpy(block, kinds, h, vapor, m)
@@ -198,6 +206,7 @@ class ParticleShifting:
         backend.fill(self.displacement, 0.0)
         if self.factor == 0.0:
             return
+        # C a R_i from the distances of neighbors, kept along faces and below the largest shift (73)
         fields = {"is_fluid": kinds.fluid, "at_face": at_face, "G_ij": block.gradient}
         backend.pair_sum(
             repulsion_terms,
@@ -218,8 +227,9 @@ class ParticleShifting:
         if self.factor == 0.0:
             return
         backend = self.backend
+        # all rows read the velocities before the adjustment, hence the copy
         backend.copy(v, self._v)
-        fields = {"v": block.extend_velocity(v, jump), "G_ij": block.gradient, "C": C}
+        fields = {"v": block.ghosts.extend_velocity(v, jump), "G_ij": block.gradient, "C": C}
         fields["displacement"] = self.displacement
         backend.pair_sum(
             velocity_terms,
@@ -239,14 +249,19 @@ class ParticleShifting:
         if self.factor == 0.0:
             return 0.0
         backend, pairs, rows = self.backend, block.pairs, kinds.fluid_rows
-        heat, phase, up, down = (backend.zeros(block.total) for _ in range(4))
-        shift = block.mirror(self.displacement)
-        tables, sources = {"h": h, "fluid": kinds.fluid, "f_v": f_v}, {"source": block.source}
+        # h, phase and shift of ghosts; beyond a Dirichlet face the enthalpy of its temperature
+        heat, phase, up, down = (backend.zeros(block.ghosts.size) for _ in range(4))
+        shift = block.ghosts.mirror(self.displacement)
+        tables, sources = (
+            {"h": h, "fluid": kinds.fluid, "f_v": f_v},
+            {"source": block.ghosts.source},
+        )
         backend.pointwise(what_is_exchanged, sources, (heat, phase), **tables)
-        if block.has_walls:
-            backend.pointwise(range_enthalpy, {"h": heat} | block.rules, heat)
+        if block.walls.exchange_heat:
+            backend.pointwise(range_enthalpy, {"h": heat} | block.walls.rules, heat)
+        # gains and losses that (75) asks for, and the share of them that keeps h in range
         fields = {"h": heat, "phase": phase, "shift": shift, "G_ij": block.gradient}
-        fields["dirichlet"] = block.rules["dirichlet"]
+        fields["dirichlet"] = block.walls.rules["dirichlet"]
         backend.pair_sum(
             exchange_terms,
             pairs,
@@ -256,8 +271,9 @@ class ParticleShifting:
             rows=rows,
             combine=("sum", "sum", "min", "max"),
         )
+        # exchange by the smaller share of both particles; what gains and losses sum to is booked
         shares = {"up": self._up, "down": self._down}
-        backend.pointwise(shares_of, block.sources, (up, down), **shares)
+        backend.pointwise(shares_of, block.ghosts.sources, (up, down), **shares)
         fields |= {"up": up, "down": down, "m": m}
         how = {"finish": add_exchange, "reduce": (None, "sum"), "rows": rows}
         (added,) = backend.pair_sum(limited_exchange, pairs, fields, (h, None), **how)

@@ -19,7 +19,7 @@ pressure has mean 0. Other components are left alone. Too few particles for a co
 
 The preconditioner (`linear_solvers.grid_correction`) is made from the present particles in every
 step and has no memory, so that only the pressure itself, the first guess, survives a step. The
-published matrix is in `published.pressure_equation`. Left out: one and three dimensions.
+published matrix is in `published.pressure_equation`. Boxes of one, two and three dimensions.
 Reference: [Saad2003], Algorithm 9.1.
 """
 
@@ -27,11 +27,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.compute.launch import Launch
-from lasersph.compute.routine import Step
+from lasersph.compute.graph import graph
 from lasersph.linear_solvers.components import Components
 from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.iteration import conjugate_gradients
@@ -132,10 +132,6 @@ class PressureEquation:
         self.components = Components(backend, count, support, period)
         self._correction = GridCorrection(backend, count, support, period)
         self._nothing, self._inner = backend.zeros(count), backend.zeros(0)
-        self._launches: tuple[Launch | None, ...] = (None,) * 3
-        self._sum_weights = backend.phase(PressureEquation._run_weights)
-        self._begin = backend.phase(PressureEquation._run_begin)
-        self._remove_means = backend.phase(PressureEquation._run_means)
         self._d, self._b, self._r, self._z, self._s, self._q = (
             backend.zeros(count) for _ in range(6)
         )
@@ -151,7 +147,7 @@ class PressureEquation:
         """Take the operator of the present particles; call it whenever one of these has changed.
 
         Args:
-            neighbors: folded list of pairs with position (2, n) [m]. weights: (pairs,) g_ij.
+            neighbors: folded list of pairs with position (d, n) [m]. weights: (pairs,) g_ij.
             mask: (n,) 1 for unknown pressures, else 0. volume: (n,) V_i [m^2].
             coefficient: (n,) a_i >= 0; None for no boundary with a given pressure.
         """
@@ -160,13 +156,14 @@ class PressureEquation:
         self._coefficient = self._nothing if coefficient is None else coefficient
         position = neighbors.position
         assert position is not None
+        # pools that do not touch have a pressure each: weights between them count for nothing
         components.find(position, mask, self._coefficient)
         if components.count > 1:
             if self._inner.shape[0] != weights.shape[0]:
                 self._inner = backend.zeros(weights.shape[0])
             self._weights = self._inner
-        reads = (neighbors.neighbor, weights, self._weights, self._coefficient)
-        self._sum_weights(self, weights, reads=reads)
+        # diagonal, and the preconditioner of the present particles
+        self.sum_weights(weights)
         self._correction.prepare(position, components.mask, volume, self._coefficient)
 
     def solve(
@@ -181,63 +178,84 @@ class PressureEquation:
         Returns:
             The outcome; with a residual above the tolerance where the iteration ended without.
         """
-        nothing, neighbor = self._nothing, self._neighbors.neighbor
+        nothing = self._nothing
         given = nothing if value is None else value, nothing if flux is None else flux
-        reads = (b, pressure, *given, neighbor, self._weights, self._coefficient)
-        parts = self.components.arrays
-        square, r_r = self._begin(self, b, pressure, *given, reads=(*reads, *parts))
-        scale, mask = square**0.5, self.components.mask
-        correction = self._correction.correction(self._r, self._d, mask, self._z)
+        # residual of the first guess, and the norm that the tolerance refers to
+        square, r_r = self.begin(b, pressure, *given)
+        scale = square**0.5
+        vectors = self._r, self._d, self.components.mask, self._z
         wanted, iterations = (self.tolerance * scale) ** 2, 0.0
+
+        # [Saad2003, Algorithm 9.1] with z = M^-1 r by the correction on a grid
         if r_r > wanted:
-            (r_z,) = correction()
-            iterations, _, r_r = self.backend.routine(
+            (r_z,) = self._correction.correct(*vectors)
+            iterations, _, r_r = self.backend.iterate(
                 conjugate_gradients,
-                (*self._steps, correction),
+                (
+                    self.set_direction,
+                    partial(self.approach, pressure),
+                    partial(self._correction.correct, *vectors),
+                ),
                 1.0,
                 r_z,
                 r_r,
                 wanted,
                 self.max_iterations,
             )[:3]
-        self._remove_means(self, pressure, reads=(pressure, *parts))
+
+        # a pressure that nothing fixes is that of mean 0
+        self.remove_means(pressure)
         return Outcome(int(iterations), r_r**0.5 / scale if scale > 0.0 else 0.0)
 
-    def _run_weights(self, weights: Array) -> None:
+    @graph
+    def sum_weights(self, weights: Array) -> None:
         """Diagonal of the operator, and its weights where there are several components."""
         backend, neighbors = self.backend, self._neighbors
+        # d_i = sum_j g_ij + a_i within a component
         fields = {"g_ij": weights, "component": self.components.number, "a": self._coefficient}
         backend.pair_sum(inner, neighbors, fields, self._d, finish=total_weight)
+        # the weights themselves, only where components have to be kept apart
         if self._weights is not weights:
             backend.pair_values(inner, neighbors, fields, self._inner)
 
-    def _run_begin(self, b: Array, p: Array, p_b: Array, f: Array) -> None:
-        """Prepare the iteration; reduces b b and r r of the first guess."""
+    @graph
+    def begin(self, b: Array, p: Array, p_b: Array, f: Array) -> None:
+        """Residual of the first guess; reduces the squares of the right-hand side and of it."""
         backend, components = self.backend, self.components
-        r, s, q, mask = self._r, self._s, self._q, components.mask
-        fields = {"p": p, "r": r, "z": self._z, "s": s, "q": q, "d": self._d, "mask": mask}
-        fields |= {"b": b, "a": self._coefficient, "f": f, "p_b": p_b, "g_ij": self._weights}
+        fields = {"p": p, "d": self._d, "mask": components.mask, "g_ij": self._weights}
+        fields |= {"b": b, "a": self._coefficient, "f": f, "p_b": p_b}
+        # the first guess is 0 where there is no equation
         backend.pointwise(masked_value, fields, p)
+
+        # a p_b + f - b, without its mean where nothing fixes the pressure
         backend.pointwise(right_side, fields, self._b)
         components.remove_means(self._b)
+
+        # r = b - A p
         given, reduce = fields | {"b": self._b}, (None, "sum")
         how = {"finish": rest, "reduce": reduce}
-        backend.pair_sum(neighbor_value, self._neighbors, given, (r, None), **how)
-        turned, multiplied, advanced = self._launches
-        turned = backend.prepare(turn, fields, s, again=turned, beta=0.0)
-        multiplied = backend.prepare(
-            neighbor_value,
-            fields | {"p": s},
-            (q, None),
-            neighbors=self._neighbors,
-            finish=multiply,
-            reduce=(None, "sum"),
-            again=multiplied,
-        )
-        out, reduce = (p, r, None, None), (None, None, "sum", "sum")
-        advanced = backend.prepare(advance, fields, out, reduce=reduce, again=advanced, alpha=0.0)
-        self._launches = turned, multiplied, advanced
-        self._steps = Step([turned, multiplied], "beta"), Step([advanced], "alpha")
+        backend.pair_sum(neighbor_value, self._neighbors, given, (self._r, None), **how)
 
-    def _run_means(self, p: Array) -> None:
+    @graph
+    def set_direction(self, beta: float) -> None:
+        """Direction s = z + beta s, and q = A s; reduces s q."""
+        s, q = self._s, self._q
+        # s = z + beta s, conjugate to the directions before
+        self.backend.pointwise(turn, {"z": self._z, "s": s}, s, beta=beta)
+        fields = {"p": s, "s": s, "d": self._d, "mask": self.components.mask}
+        # q = A s by one sum over the pairs, with s q for the length of the step
+        fields["g_ij"] = self._weights
+        how = {"finish": multiply, "reduce": (None, "sum")}
+        self.backend.pair_sum(neighbor_value, self._neighbors, fields, (q, None), **how)
+
+    @graph
+    def approach(self, p: Array, alpha: float) -> None:
+        """p += alpha s, r -= alpha q; reduces r r twice, see `advance`."""
+        fields = {"p": p, "r": self._r, "s": self._s, "q": self._q}
+        out, reduce = (p, self._r, None, None), (None, None, "sum", "sum")
+        self.backend.pointwise(advance, fields, out, reduce=reduce, alpha=alpha)
+
+    @graph
+    def remove_means(self, p: Array) -> None:
+        """Subtract from the pressure of each component that nothing fixes its mean."""
         self.components.remove_means(p)

@@ -11,9 +11,8 @@ from typing import Literal
 
 import numpy as np
 
-from lasersph.boundaries.surface import SurfaceStep
-from lasersph.boundaries.surface_columns import SurfaceColumns
 from lasersph.compute.array_types import Array
+from lasersph.compute.graph import graph
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.solvers.conduction.implicit import ImplicitStep
 from lasersph.solvers.conduction.solver import Conduction
@@ -32,6 +31,8 @@ from lasersph.solvers.melt_pool.pauses import Pauses
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
 from lasersph.solvers.step_control import PAUSE, StepFailed, retry_step
+from lasersph.surface.columns import SurfaceColumns
+from lasersph.surface.surface import SurfaceStep
 
 
 def larger(a, b):
@@ -73,15 +74,18 @@ class MeltPool:
         self.particles.add("position", "has_moving_pairs")
         self.position = self.particles["position"]
         self.particles.set("position", heat.body.filling.position[:, :count])
+        # what a step moves, and how: x*, kinds, shifts, and pairs that conduct
         self._advected, self._depth = backend.zeros((2, count)), backend.zeros(count)
         self.kinds = ParticleKinds(self.particles, domain.spacing, is_box=domain.is_box)
         self.shifting = ParticleShifting(
             backend, count, settings.shifting, domain.spacing, domain.room, domain.periods
         )
         self.pairs = HeatPairs(heat.body)
+        # faces book heat at the potential that the implicit step ends with
         scheme = heat.scheme
         potential = scheme.P if domain.is_box and isinstance(scheme, ImplicitStep) else None
         self.exchange = FaceExchange(backend, count, potential)
+        # between pulses: new lattice, time jump; and the test of a steady flow
         self.layout_renewal = LayoutRenewal(heat.body, domain, self.kinds, self.pairs)
         self.pauses: Pauses | None = None
         if pause != "compute" and heat.laser is not None:
@@ -95,8 +99,6 @@ class MeltPool:
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
-        self._find_sizes = backend.phase(MeltPool._run_sizes)
-        self._rearrange = backend.phase(ParticleShifting.rearrange)
         self._find_surface()
 
     @property
@@ -112,8 +114,7 @@ class MeltPool:
     @property
     def fields(self) -> dict[str, Array]:
         """Arrays of a checkpoint by name."""
-        surface = self.domain.surface
-        return self.particles.kept | ({} if surface is None else surface.arrays)
+        return self.particles.kept | self.domain.surface.state.kept
 
     @property
     def iterations(self) -> dict[str, int]:
@@ -127,9 +128,8 @@ class MeltPool:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        surface = self.domain.surface
         numbers = self.heat.checkpoint_scalars() | self.steadiness.checkpoint_scalars()
-        numbers |= {} if surface is None else surface.checkpoint_scalars()
+        numbers |= self.domain.surface.checkpoint_scalars()
         numbers |= self.exchange.checkpoint_scalars()
         return numbers | {
             "largest_speed": self.flow.largest_speed,
@@ -146,9 +146,10 @@ class MeltPool:
         """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
         backend = self.backend
         self.heat.restore(arrays, numbers)
-        if self.domain.surface is not None:
-            self.domain.surface.restore_arrays(arrays)
+        self.domain.surface.state.restore(arrays)
+        self.domain.surface.take_state()
         self._restore_numbers(numbers)
+        # pairs are no part of a checkpoint: find those of rows that have moved again
         if backend.rows_where(self.particles["has_moving_pairs"], 1.0).shape[0]:
             block, has_row = self.domain.block_for(self.position, self.kinds), None
             if not self.kinds.is_box:
@@ -162,7 +163,8 @@ class MeltPool:
         if not self._melt():
             start = self._end_of_pause()
             return limits if start is None else {PAUSE: start - self.state.time}
-        flow, liquid, surface = self.flow, self.flow.liquid, self.domain.surface
+        # limits of convection, forces, viscosity and capillary waves, where anything flows
+        flow, liquid = self.flow, self.flow.liquid
         found = flow_limits(
             self.settings.step_limits,
             support=self.domain.support,
@@ -174,7 +176,7 @@ class MeltPool:
             surface_tension=liquid.surface_tension,
             is_implicit=self.settings.viscosity == "implicit",
         )
-        found |= {} if surface is None else surface.time_step_limits()
+        found |= self.domain.surface.time_step_limits()
         return limits | {name: limit for name, limit in found.items() if limit < np.inf}
 
     def step(self, step: float, unclipped_step: float | None = None) -> float:
@@ -186,16 +188,18 @@ class MeltPool:
             PoolTooDeep: the melt reaches the graded layers. SupercriticalSurface: the surface is
                 above the critical temperature. SurfaceTrouble: it cannot be computed any further.
         """
+        # a pause that is left out is a step by itself
         if (start := self._end_of_pause()) is not None:
             assert self.pauses is not None
             self._update_resting_pairs()
             self.pauses.jump_to(start)
             return step
+        # states that no shorter step mends end the run
         self.heat.refuse_supercritical(lambda: self.backend.to_host(self.position))
-        surface = self.domain.surface
-        if surface is not None and (error := surface.validity_error()):
+        if error := self.domain.surface.validity_error():
             raise SurfaceTrouble(error)
         refuse_unstable(self.flow, self.domain, self.position, self.heat.end_of_pulse)
+        # layers worn by evaporation are laid out anew, then the step, halved until it succeeds
         self.layout_renewal.follow_recession()
         self._keep()
         return retry_step(self._advance, step, unclipped_step, undo=self._return)
@@ -209,16 +213,20 @@ class MeltPool:
             return
         self._has_moved = True
         self.flow.stop(self.kinds)  # what has frozen since the last step
+        # x* and the operators there (67)
         self.advect(step)
+        # v* (68), p (69) and v^(n+1) (70); faces book the forces that these have used
         self.flow.predict(self.particles["temperature"], self.kinds, step)
         self.exchange.book_viscous_forces(self.flow.block, self.flow, step)
         self.flow.project(self.kinds, step)
         self.flow.correct(self.kinds, step)
         self.exchange.book_pressure(self.flow.block, self.flow, step)
+        # x^(n+1) and the enthalpy there (71)
         self.update_positions(step)
         self.illuminate(step)
         self.heat.conduct(step, unclipped_step)
         self.exchange.book_heat(self.flow.block, step)
+        # even density again, (73)-(75)
         self.rearrange(step)
         self._measure()
         self.kinds.remember()
@@ -231,20 +239,18 @@ class MeltPool:
         """
         domain, flow = self.domain, self.flow
         fields = {"x": self.position, "v": flow.velocity}
-        way = 0.5 * step if domain.surface_moves else step
-        self.backend.pointwise(advect, fields, self._advected, step=way)
+        ahead = domain.surface.time_rule.share * step
+        self.backend.pointwise(advect, fields, self._advected, step=ahead)
         block = domain.block_for(self.position, self.kinds)
         if block is not flow.current_block:
             flow.enter(block, domain.periods)
-        if domain.surface is not None:
-            domain.surface.advance_first_half(self._surface_step(self.position, step))
-            domain.surface.find(self._advected)
+        domain.surface.advance_first_half(self._surface_step(self.position, step))
+        domain.surface.find(self._advected)
         block.find_pairs(self._advected, self._rows_to_find(block, self._advected), has_kernel=True)
         self.kinds.find_walls(block)
         flow.update_viscosity(self.particles["temperature"])
-        if domain.surface is not None:
-            now = self._surface_step(self._advected, step)
-            domain.surface.update_stress(now, block, self.kinds.active)
+        now = self._surface_step(self._advected, step)
+        domain.surface.update_stress(now, block, self.kinds.active)
         flow.correct_kernel(self.kinds.active_rows)
 
     def update_positions(self, step: float) -> None:
@@ -252,12 +258,11 @@ class MeltPool:
         block = self.flow.block
         fields = {"x": self.position, "v_old": self.flow.before, "v": self.flow.velocity}
         self.backend.pointwise(move, fields, self.position, step=step)
-        if self.domain.surface is not None:
-            left = self.domain.surface.advance_second_half(self._surface_step(self.position, step))
-            self.state.energy["removed"] += left
+        left = self.domain.surface.advance_second_half(self._surface_step(self.position, step))
+        self.state.energy["removed"] += left
         block.move(self.position)
         self.flow.correct_kernel(self.kinds.fluid_rows)
-        self.pairs.even_out_flux(block)
+        self.pairs.normalize_surface_flux(block)
         self.exchange.find_walls(block)
         self.pairs.renew(block)
 
@@ -271,40 +276,38 @@ class MeltPool:
             light.reset()
             exchange.rest()
             return
+        # the uppermost particle of each column meets light and losses
         self.domain.find_depth(self.position, self._depth)
         mark, columns = backend.zeros(self.body.count), self.surface_columns
         fields = {"depth": self._depth, "V": self.particles["volume"]}
         backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
-        length_ratio = self.domain.surface.length_ratio() if self.domain.surface else None
-        columns.find(self.position, backend.rows_where(mark, 1.0), length_ratio)
+        surface = self.domain.surface
+        columns.find(self.position, backend.rows_where(mark, 1.0), surface.length_ratio())
         exchange.follow(columns)
-        volume = fields["V"] if self.domain.surface_moves else None
+        volume = fields["V"] if surface.moves else None
         light.distribute(self.position, self._depth, columns, volume)
 
     def _surface_step(self, position: Array, step: float) -> SurfaceStep:
-        """What the surface reads of the particles in a step [s]."""
+        """Fields of the particles that the surface reads in a step [s]."""
         names = ("temperature", "volume", "mass", "enthalpy", "evaporated_mass")
-        times = (self.state.time, self.state.time + step)
-        fields = (self.particles[name] for name in names)
-        return SurfaceStep(*fields, position, self.flow.velocity, self.kinds.fluid, times)
+        T, volume, mass, h, evaporated = (self.particles[name] for name in names)
+        time = self.state.time
+        v, flows, interval = self.flow.velocity, self.kinds.fluid, (time, time + step)
+        return SurfaceStep(T, volume, mass, h, evaporated, position, v, flows, interval)
 
     def rearrange(self, step: float) -> None:
         """Displacements that keep the density of particles even (73), and velocity and enthalpy at
         the shifted positions (74), (75)."""
         surface, flow, kinds = self.domain.surface, self.flow, self.kinds
-        at_face = kinds.dummy
-        if surface is not None and not self.domain.surface_moves:
-            at_face = surface.at_surface
+        # particles at a face move along it alone; the shift scales with speed times step
+        at_face = surface.kept_at_face(kinds.dummy)
         speed = max(flow.largest_speed, self.domain.conditions.largest_wall_speed())
-        (added,) = self._rearrange(
-            *(self.shifting, flow, kinds, self.particles, at_face),
-            reads=(flow.ghost_velocity_jump(), flow.correction, at_face, *flow.block.arrays),
-            rows=(kinds.fluid_rows,),
-            scale=self.shifting.factor * speed * step,
-        ) or (0.0,)
+        scale = self.shifting.factor * speed * step
+        found = self.shifting.rearrange(flow, kinds, self.particles, at_face, scale)
+        (added,) = found or (0.0,)
         self.state.energy["shifting"] += added
-        if surface is not None:
-            surface.confine(self.position, kinds.fluid)
+        # no shift leaves the melt, and T follows the adjusted h
+        surface.confine(self.position, kinds.fluid)
         self.body.update_temperature()
 
     def _melt(self) -> bool:
@@ -338,39 +341,35 @@ class MeltPool:
         return now
 
     def _measure(self) -> None:
-        """What observers want to know of the step."""
-        flow, block = self.flow, self.flow.block
-        square, largest, energy, distance = self._find_sizes(
-            self,
-            reads=(flow.ghost_velocity_jump(), flow.correction, *block.arrays),
-            rows=(self.kinds.fluid_rows,),
-        )
+        """Measures of the step, for observers."""
+        flow = self.flow
+        square, largest, energy, distance = self.find_sizes()
         flow.divergence = ((square / max(self.fluid_count, 1.0)) ** 0.5, largest)
         self.spacing_min = distance**0.5
         self.steadiness.look(self.state.time, flow.largest_speed, energy)
         self._find_surface()
 
-    def _run_sizes(self) -> None:
+    @graph
+    def find_sizes(self) -> None:
+        """Reduce what `Flow.measure` does, and the square of the smallest distance [m^2]."""
         self.flow.measure(self.kinds)
         self.flow.block.smallest_distance(self.position, self.kinds.fluid_rows)
 
     def _find_surface(self) -> None:
         """Which particles lie at the surface where they are now."""
-        if self.domain.surface is not None:
-            self.domain.surface.find(self.position)
+        self.domain.surface.find(self.position)
 
     def _keep(self) -> None:
         """Remember the state, for a step that fails."""
         self.particles.save()
-        if self.domain.surface is not None:
-            self.domain.surface.save()
+        self.domain.surface.state.save()
         self._numbers = self.checkpoint_scalars()
 
     def _return(self) -> None:
         """Go back to the state that was kept."""
         self.particles.go_back()
-        if self.domain.surface is not None:
-            self.domain.surface.go_back()
+        self.domain.surface.state.go_back()
+        self.domain.surface.take_state()
         self.body.update_temperature()
         self.state.restore(self._numbers)
         self._restore_numbers(self._numbers)
@@ -386,15 +385,14 @@ class MeltPool:
         self.layout_renewal.restore(numbers)
         self.steadiness.restore(numbers)
         self.exchange.restore(numbers)
-        if self.domain.surface is not None:
-            self.domain.surface.restore(numbers)
+        self.domain.surface.restore(numbers)
         self._find_surface()
         self._find_fluid()
 
     def _find_fluid(self) -> None:
-        """What flows: what is molten, unless it is too thin under a surface that moves."""
+        """Particles that flow: all molten ones but those too thin under a surface that moves."""
         kinds, surface = self.kinds, self.domain.surface
         self.fluid_count = kinds.find_fluid(self.particles["melt_fraction"])
-        if surface is not None and not kinds.is_box:
+        if not kinds.is_box:
             volume = self.particles["volume"]
             self.fluid_count = surface.hold_thin_melt(self.position, volume, kinds.fluid)

@@ -8,21 +8,14 @@ symmetric and positive, since a ghost changes at most the sign of a component.
 
 from __future__ import annotations
 
+from functools import partial
+
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
-from lasersph.compute.launch import Launch
-from lasersph.compute.routine import Step
+from lasersph.compute.graph import graph
+from lasersph.compute.vectors import dot
 from lasersph.linear_solvers.iteration import conjugate_gradients
-from lasersph.physics.viscosity import (
-    advance,
-    forced,
-    momentum,
-    multiply,
-    predict,
-    start,
-    turn,
-    weight_of,
-)
+from lasersph.physics.viscosity import forced, momentum, predict
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 
@@ -32,6 +25,37 @@ is solved to."""
 MOST = 200
 """Iterations of a step at most. Guard: the step limit keeps the matrix near its diagonal, so that
 few are usual."""
+
+
+def first_residual(total, v, V, v_star, g_sum, s):
+    """Residual r = V (v* - v) + s sum g (v_j - v_i), its scaled form z, and r . z, r . r."""
+    # Jacobi: the diagonal of the matrix is V + s sum g
+    r = V * (v_star - v) + s * total
+    z = 1.0 / (V + s * g_sum) * r
+    return r, z, dot(r, z), dot(r, r)
+
+
+def matrix_product(total, d, V, s):
+    """q = A d, and d . q; `total` is the sum of g_ij (d_j - d_i)."""
+    q = V * d - s * total
+    return q, dot(d, q)
+
+
+def next_solution(v, r, d, q, V, g_sum, alpha, s):
+    """v += alpha d, r -= alpha q, z scaled; reduces r . z and r . r."""
+    residual = r - alpha * q
+    z = 1.0 / (V + s * g_sum) * residual
+    return v + alpha * d, residual, z, dot(residual, z), dot(residual, residual)
+
+
+def next_direction(z, d, beta):
+    """New direction z + beta d."""
+    return z + beta * d
+
+
+def weight_of(g_ij):
+    """Weight of a pair, for its sum over the neighbors."""
+    return g_ij
 
 
 class ViscousStep:
@@ -51,8 +75,7 @@ class ViscousStep:
         vectors = 5 if self.is_implicit else 1
         self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
         self._g_sum, self.velocity = backend.zeros(count), backend.zeros((2, count))
-        self._launches: tuple[Launch | None, ...] = (None,) * 4
-        self._begin = backend.phase(ViscousStep._run_begin)
+        self._changes = backend.zeros((2, 0))
 
     def advance(
         self, block: Block, v: Array, b: Array, extended: Array, kinds: ParticleKinds, step: float
@@ -75,64 +98,56 @@ class ViscousStep:
             )
             backend.copy(self._star, v)
             return 0
-        r_z, r_r = self._begin(
-            self,
-            block,
-            v,
-            b,
-            extended,
-            rows,
-            reads=(v, b, extended, block.viscous_weights, *block.arrays),
-            rows=(rows,),
-            s=self.nu * step,
-            step=step,
+        s = self.nu * step
+        r_z, r_r = self.begin(block, v, b, extended, rows, s, step)
+        steps = (
+            partial(self.set_direction, block, rows, s),
+            partial(self.approach, v, rows, s),
+            None,
         )
-        iterations, *_ = backend.routine(
-            conjugate_gradients, self._steps, 0.0, r_z, r_r, TOLERANCE**2 * r_r, MOST
+        iterations, *_ = backend.iterate(
+            conjugate_gradients, steps, 0.0, r_z, r_r, TOLERANCE**2 * r_r, MOST
         )
         backend.copy(v, self.velocity)
         return int(iterations)
 
-    def _run_begin(
+    @graph
+    def begin(
         self, block: Block, v: Array, b: Array, extended: Array, rows: Rows, s: float, step: float
     ) -> None:
-        """Prepare the iteration; reduces r z and r r of the first guess."""
+        """Residual of the first guess, and the diagonal; reduces r z and r r."""
         backend, fields = self.backend, {"g_ij": block.viscous_weights, "V": block.V}
-        r, z, d, q = self._work
+        r, z, d, _ = self._work
         backend.fill(d, 0.0)  # which ghosts read beyond the rows
+        self._changes = backend.zeros((2, block.ghosts.size))
+
+        # sum_j g_ij and v* = v + dt b
         backend.pair_sum(weight_of, block.pairs, fields, self._g_sum, rows=rows)
         backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
+
+        # r = V v* - A v, z = r / diagonal
         given = fields | {"v": extended, "b": b, "v_star": self._star, "g_sum": self._g_sum}
         out, reduce = (r, z, None, None), (None, None, "sum", "sum")
         backend.pair_sum(
-            momentum, block.pairs, given, out, rows=rows, finish=start, reduce=reduce, s=s
+            momentum, block.pairs, given, out, rows=rows, finish=first_residual, reduce=reduce, s=s
         )
-        points = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
-        changes = backend.zeros((2, block.total))
-        turned, ghosts, multiplied, advanced = self._launches
-        turned = backend.prepare(turn, points, d, rows=rows, again=turned, beta=0.0)
-        ghosts = block.prepare_velocity_change(d, changes, again=ghosts)
-        multiplied = backend.prepare(
-            momentum,
-            fields | {"v": changes, "d": d},
-            (q, None),
-            neighbors=block.pairs,
-            rows=rows,
-            finish=multiply,
-            reduce=(None, "sum"),
-            again=multiplied,
-            s=s,
+
+    @graph
+    def set_direction(self, block: Block, rows: Rows, s: float, beta: float) -> None:
+        """Direction d = z + beta d, and q = A d; reduces d q."""
+        _, z, d, q = self._work
+        self.backend.pointwise(next_direction, {"z": z, "d": d}, d, rows=rows, beta=beta)
+        block.ghosts.extend_velocity_change(d, self._changes)
+        fields = {"g_ij": block.viscous_weights, "V": block.V, "v": self._changes, "d": d}
+        how = {"finish": matrix_product, "reduce": (None, "sum")}
+        self.backend.pair_sum(momentum, block.pairs, fields, (q, None), rows=rows, **how, s=s)
+
+    @graph
+    def approach(self, v: Array, rows: Rows, s: float, alpha: float) -> None:
+        """v += alpha d, r -= alpha q, z = r / diagonal; reduces r z and r r."""
+        r, z, d, q = self._work
+        fields = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
+        out, reduce = (v, r, z, None, None), (None, None, None, "sum", "sum")
+        self.backend.pointwise(
+            next_solution, fields, out, rows=rows, reduce=reduce, alpha=alpha, s=s
         )
-        advanced = backend.prepare(
-            advance,
-            points,
-            (v, r, z, None, None),
-            rows=rows,
-            reduce=(None, None, None, "sum", "sum"),
-            again=advanced,
-            alpha=0.0,
-            s=s,
-        )
-        self._launches = turned, ghosts, multiplied, advanced
-        turns = Step([turned, ghosts, multiplied], "beta")
-        self._steps = turns, Step([advanced], "alpha"), Step([])

@@ -49,7 +49,7 @@ class WallPressure:
         Args:
             C: (2, 2, count) corrections of the gradient.
         """
-        p = block.pressure_across(pressure) if block.has_still_walls else None
+        p = block.ghosts.extend_pressure(pressure) if block.ghosts.has_still_walls else None
         if p is None:
             return
         fields = {"p": p, "G_ij": block.gradient, "C": C}
@@ -59,7 +59,7 @@ class WallPressure:
             fields,
             self._a,
             finish=pressure_acceleration,
-            rows=block.ghosts.near,
+            rows=block.ghosts.particles.near,
             density=self.density,
         )
 
@@ -69,6 +69,6 @@ class WallPressure:
         Args:
             step: from v^n to what viscosity sees [s].
         """
-        if block.has_still_walls:
-            block.add_at_walls(v, self._a, self._relative, step, self.viscosity)
+        if block.ghosts.has_still_walls:
+            block.ghosts.add_at_walls(v, self._a, self._relative, step, self.viscosity)
         return v

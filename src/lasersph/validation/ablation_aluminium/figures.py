@@ -10,7 +10,9 @@ from lasersph.validation.study import Study
 
 
 def draw(study: Study, spots: Mapping[str, Run]) -> None:
+    # Cuts at the times of Fig. 19; velocities at those of Fig. 22, which the paper has by its own
     """All of them."""
+    # rule.
     for name, spot in spots.items():
         for time in study.plan.cuts:
             study.save(f"fig-19-{name}-{time:g}ns", crater_cut(spot, 1e-9 * time))

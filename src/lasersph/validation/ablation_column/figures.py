@@ -29,6 +29,8 @@ def draw_intensity(study: Study) -> None:
     given = laser.model_dump(exclude_unset=True)
     radius, duration = given["beam"]["radius"], given["pulse"]["duration"]
     gaussian = {"kind": "gaussian", "radius_1e2": radius}
+
+    # Both beams have the fluence of the case; the Gaussian one as its peak.
     beams = {
         "top hat, square pulse": {"beam": given["beam"]},
         "Gaussian beam, square pulse": {"beam": gaussian, "fluence_kind": "peak"},
@@ -39,6 +41,8 @@ def draw_intensity(study: Study) -> None:
         "absorption": {"kind": "surface"},
     }
     figure, all_axes = style.new_figure(1, 2, height=3.2)
+
+    # Mean intensity of each cell and span of time: energy over their length.
     edges = np.linspace(-1.6 * radius, 1.6 * radius, 161)
     times = np.linspace(0.0, 1.4 * duration, 57)
     for axes, (name, beam) in zip(all_axes, beams.items(), strict=True):
@@ -61,6 +65,7 @@ def draw_intensity(study: Study) -> None:
 
 def draw_pressures(study: Study, column: Run, gas: dict[str, float]) -> None:
     """Vapor pressure over temperature: eq. (5), and what left the column (Fig. 21)."""
+    # Pressures of what has left, over the curve of eq. (5).
     last = column.snapshots[-1]
     left = last["vapor_pressure"] > 0.0
     hottest = max(3820.0, float(np.max(last["temperature"][left], initial=0.0)))

@@ -1,4 +1,4 @@
-"""What a run of a column says of its depth."""
+"""Depth of ablation that a run of a column gives."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ class Column:
     @classmethod
     def of(cls, one: Run) -> Column:
         """Read a run; its volume is per area in 1-D, else divided by the area."""
+        # The volume of a 1-D run is per area already.
         crater, domain = one.summary["crater"], one.case["domain"]
         dimension = one.case["solver"]["dimensions"]
         area = 1.0 if dimension == 1 else domain["width"] ** (dimension - 1)

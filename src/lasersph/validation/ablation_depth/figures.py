@@ -25,6 +25,7 @@ def draw_over_fluence(
     published: ByPreset,
 ) -> None:
     """Depth over fluence: Stefan solution, both rules, values cited in the text (10 ns)."""
+    # The exact depth, whole layers by spacing, and both presets of the published rule.
     fluences = sorted(f for ns, f in solutions if ns == duration)
     depth = [1e6 * solutions[duration, f].depth for f in fluences]
     curves = [exact(fluences, depth, "Stefan solution")]
@@ -36,6 +37,7 @@ def draw_over_fluence(
         values = [found[duration, f, coarse].whole for f in fluences]
         label = f"published rule, {preset}"
         curves.append(line(fluences, values, label, 3 + k, linestyle="--", linewidth=1.0))
+    # The text has depths for 10 ns only.
     if duration == 10:
         hollow = {"mfc": "none", "color": "k", "markersize": 6}
         curves += [marks([f], [d], name, marker=mark, **hollow) for f, d, mark, name in CITED]
@@ -52,7 +54,10 @@ def draw_over_spacing(
 ) -> None:
     """Depth at 10 and 20 J/cm2 in 10 ns over the spacing, (a) enthalpy, (b) published rule."""
     spacings = study.plan.spacings
-    ends, by_enthalpy, by_rule = [0.0, max(spacings)], [], []
+    ends = [0.0, max(spacings)]
+    by_enthalpy = []
+    by_rule = []
+    # Both fluences over the spacing: whole layers, and with what was about to leave.
     for k, fluence in enumerate((10, 20)):
         stefan = 1e6 * solutions[10, fluence].depth
         found = [columns[10, fluence, d] for d in spacings]
@@ -64,6 +69,7 @@ def draw_over_spacing(
             line(spacings, whole, label, k, marker="o", markersize=4),
             line(spacings, smooth, "with what was about to leave", k, **late),
         ]
+    # The published rule by its presets.
     for k, (preset, found) in enumerate(sorted(published.items())):
         values = [found[10, 10, d].whole for d in spacings]
         label = f"10 J/cm$^2$, {preset}"

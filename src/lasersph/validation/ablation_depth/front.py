@@ -75,7 +75,7 @@ class Metal:
 
 @dataclass(frozen=True)
 class Ablation:
-    """What a pulse has done at its end.
+    """State of the metal at the end of a pulse.
 
     Attributes:
         depth: of the ablated layer [m]. melt_depth: of the melting front below the original
@@ -120,13 +120,16 @@ def ablate(flux: float, duration: float, metal: Metal | None = None) -> Ablation
     metal = metal or Metal()
     if not (flux > 0.0 and duration > 0.0 and metal.melting_heat > 0.0):
         raise ValueError("the flux, the duration and the latent heat of melting must be positive")
+    # 1. Warm until the surface reaches T_m.
     melting = onset(metal.melting - metal.initial, flux, metal)
     if melting * (1.0 + FIRST_STEP) >= duration:
         return _only_warm(flux, duration, metal)
+    # 2. Melt until the surface reaches T_v, or the pulse ends.
     problem = _Problem(flux, metal)
     warm = problem.integrate(problem.start(melting), melting * (1.0 + FIRST_STEP), duration)
     boiling = None
     fronts = warm
+    # 3. Recede at T_v until the pulse ends.
     if warm.t_events[0].size:
         boiling = float(warm.t_events[0][0])
         fronts = problem.integrate(warm.y_events[0][0], boiling, duration, ablating=True)
@@ -147,6 +150,7 @@ class _Problem:
 
     def __init__(self, flux: float, metal: Metal) -> None:
         self.flux, self.metal = flux, metal
+        # Nodes and derivatives on both mapped intervals.
         self.xi, self.d_liquid = chebyshev(LIQUID_NODES, 1.0)
         self.y, self.d_solid = chebyshev(SOLID_NODES, DEPTH)
         self.d2_liquid = self.d_liquid @ self.d_liquid
@@ -154,22 +158,27 @@ class _Problem:
 
     def start(self, melting: float) -> Array:
         """The unknowns `FIRST_STEP` after the onset of melting."""
+        # r = q/k sqrt(D/(pi t_m)), the rate at which the surface would go on to warm.
         metal, tau = self.metal, FIRST_STEP * melting
         k, diffusivity = metal.conductivity, metal.diffusivity
         rate = self.flux / k * sqrt(diffusivity / (pi * melting))
+        # m = 2/3 (2 k r sqrt(tau/(pi D))) tau / (rho L_m), which is the m of above.
         lack = 2.0 * k * rate * sqrt(tau / (pi * diffusivity))
         front = 2.0 / 3.0 * lack * tau / (metal.density * metal.melting_heat)
+        # In the solid: the exact rise, less r tau 4 i2erfc(x) of the surface that is held at T_m.
         depths = self.y[1:-1] * sqrt(4.0 * diffusivity * (melting + tau))
         rise = step_rise(
             depths, melting + tau, flux=self.flux, conductivity=k, diffusivity=diffusivity
         )
         x = depths / sqrt(4.0 * diffusivity * tau)
         missing = rate * tau * ((1.0 + 2.0 * x**2) * erfc(x) - 2.0 * x * np.exp(-(x**2)) / sqrt(pi))
+        # In the thin liquid: linear, with the slope q/k.
         liquid = metal.melting + self.flux * front * (1.0 - self.xi[1:-1]) / k
         return np.concatenate([[0.0, front], liquid, metal.initial + rise - missing])
 
     def profiles(self, unknowns: Array, *, ablating: bool) -> tuple[float, float, Array, Array]:
         """a, m and the temperatures of all nodes of the liquid and of the solid."""
+        # Temperatures at the fronts are known, those in between are unknowns.
         metal, inner = self.metal, LIQUID_NODES - 1
         a, m = unknowns[:2]
         liquid = np.concatenate([[metal.vaporization], unknowns[2 : 2 + inner], [metal.melting]])
@@ -185,12 +194,15 @@ class _Problem:
         k, diffusivity = metal.conductivity, metal.diffusivity
         a, m, liquid, solid = self.profiles(unknowns, ablating=ablating)
         thickness, scale = m - a, sqrt(4.0 * diffusivity * time)
+        # Slopes on both sides of the melting front, dT/dxi / (m - a) and dT/dy / sqrt(4 D t).
         liquid_slope = self.d_liquid @ liquid / thickness
         solid_slope = self.d_solid @ solid / scale
+        # Stefan condition at both fronts.
         m_rate = k * (solid_slope[0] - liquid_slope[-1]) / (metal.density * metal.melting_heat)
         a_rate = 0.0
         if ablating:
             a_rate = (self.flux + k * liquid_slope[0]) / (metal.density * metal.vaporization_heat)
+        # Nodes move with the fronts: dT/dt at a node is D d2T/dz2 + (speed of the node) dT/dz.
         node_speed = a_rate + self.xi * (m_rate - a_rate)
         of_liquid = diffusivity * self.d2_liquid @ liquid / thickness**2 + node_speed * liquid_slope
         node_speed = m_rate + self.y * 0.5 * scale / time
@@ -206,6 +218,7 @@ class _Problem:
 
         superheat.terminal = True  # pyright: ignore[reportFunctionMemberAccess]
         superheat.direction = 1.0  # pyright: ignore[reportFunctionMemberAccess]
+        # Absolute tolerances of temperatures and of both depths.
         smallest = np.full(unknowns.size, 1e-3 * TOLERANCE * self.metal.vaporization)
         smallest[:2] = 1e-3 * TOLERANCE * sqrt(self.metal.diffusivity * end)
 
@@ -220,13 +233,15 @@ class _Problem:
         return found
 
     def result(self, found, melting: float, boiling: float | None) -> Ablation:
-        """What stands at the end of a solution."""
+        """Depths, temperatures and energies at the end of a solution."""
         ablating, metal = boiling is not None, self.metal
         a, m, liquid, solid = self.profiles(found.y[:, -1], ablating=ablating)
+        # Profile of both phases, the front once.
         time = float(found.t[-1])
         scale = sqrt(4.0 * metal.diffusivity * time)
         depths = np.concatenate([a + (m - a) * self.xi, m + scale * self.y[1:]])
         temperatures = np.concatenate([liquid, solid[1:]])
+        # Energy: what is stored in both phases, and what the vapor took along.
         absorbed = self.flux * time
         stored = (m - a) * weights(self.xi) @ (liquid - metal.initial)
         stored += scale * weights(self.y) @ (solid - metal.initial)
@@ -250,6 +265,7 @@ def chebyshev(count: int, length: float) -> tuple[Array, Array]:
 
     x_j = length (1 - cos(pi j/count))/2    [Trefethen2000, Chapter 6]
     """
+    # Nodes x_j, weights c_j; the diagonal makes each row sum to 0, as the derivative of 1 is 0.
     j = np.arange(count + 1)
     x = 0.5 * length * (1.0 - np.cos(pi * j / count))
     c = np.where((j == 0) | (j == count), 2.0, 1.0) * (-1.0) ** j
@@ -265,6 +281,7 @@ def weights(nodes: Array) -> Array:
     They solve sum_j w_j T_k(x_j) = integral of T_k for every Chebyshev polynomial T_k.
     """
     count, length = nodes.size - 1, float(nodes[-1])
+    # Chebyshev polynomials at their nodes, and their integrals: 2/(1 - k^2) for even k.
     k = np.arange(count + 1)
     values = np.cos(np.outer(k, pi * k / count))
     integrals = np.where(k % 2 == 0, 2.0 / (1.0 - k.astype(float) ** 2 + (k == 1)), 0.0)

@@ -11,13 +11,16 @@ from lasersph.validation.study import Study
 def compare(study: Study) -> None:
     """All fluences at all spacings, a lattice in 3-D, and the published rule."""
     plan = study.plan
+    # The exact depths, then columns of all spacings beside them.
     pulses = [(int(ns), f) for ns, fluences in plan.fluences.items() for f in fluences]
     exact = {(ns, f): stefan(study, ns, f) for ns, f in pulses}
     columns = {(*p, d): column(study, p, d) for p in pulses for d in plan.spacings}
     add_stefan(study, exact)
     add_depths(study, exact, columns)
+    # A lattice in space must give the depth of the column.
     lattice = column(study, (10, 10), 0.2, "3d", *plan.lattice)
     study.add("lattice", lattice.whole, columns[10, 10, 0.2].whole)
+    # The published rule, at what the paper shows of it.
     published: dict[str, Columns] = {}
     for preset in plan.presets:
         published[preset] = {
@@ -35,6 +38,7 @@ def compare(study: Study) -> None:
 def stefan(study: Study, duration: float, fluence: float) -> Ablation:
     """Stefan solution for a pulse [ns] with the fluence [J/cm2] and the metal of the case."""
     case = study.case()
+    # The metal of the case as the solution takes it: constant properties, melting at the liquidus.
     material, cold = case.material, case.initial_temperature
     melting, boiling = material.melting, material.vaporization
     assert melting is not None and boiling is not None
@@ -85,7 +89,7 @@ def published_choice(study: Study, pulses: list[Pulse]) -> list[tuple[Pulse, flo
 
 
 def published_depth(study: Study, duration: int, fluence: int) -> float | str | None:
-    """What the text prints: 0.6 um at 10 J/cm2, 1.0-1.2 um at 20 J/cm2."""
+    """Depth that the text prints for 10 ns: 0.6 um at 10 J/cm2, 1.0-1.2 um at 20 J/cm2."""
     return study.plan.published.get(str(fluence)) if duration == 10 else None
 
 
@@ -100,18 +104,18 @@ def add_stefan(study: Study, exact: dict[Pulse, Ablation]) -> None:
 
 def add_depths(study: Study, exact: dict[Pulse, Ablation], columns: Columns) -> None:
     """Whole layers at all spacings, what the finest removed, and that errors fall."""
+    # Whole layers can be off by one; the sum of errors falls with the spacing.
     coarse, *_, fine = study.plan.spacings
     errors = dict.fromkeys(study.plan.spacings, 0.0)
     for (ns, f), one in exact.items():
         for d in study.plan.spacings:
-            whole, depth, published = (
-                columns[ns, f, d].whole,
-                1e6 * one.depth,
-                published_depth(study, ns, f),
-            )
+            whole = columns[ns, f, d].whole
+            depth = 1e6 * one.depth
+            published = published_depth(study, ns, f)
             errors[d] += abs(whole - depth)
             names = {"fluence": f, "ns": ns, "spacing": d}
             study.add("layers", whole, depth, published=published, share=d, **names)
+    # With what was about to leave, the finest layers are off by less.
     for (ns, f), one in exact.items():
         names = {"fluence": f, "ns": ns, "spacing": fine}
         study.add("smooth", columns[ns, f, fine].smooth, 1e6 * one.depth, share=fine, **names)

@@ -25,11 +25,13 @@ class Front:
 
 def compare(study: Study) -> None:
     """Judge the front of the finest run; those of coarser ones are shown."""
+    # Runs by number of particles in the width of the column.
     width = study.case().domain.width or 0.0
     fronts = {
         n: front_of(study.run(f"{n}", f"particles.spacing={width / n!r} m"))
         for n in study.plan.particles
     }
+    # The finest one is judged against the measured front.
     table = study.table()
     measured = Front(table["T"], table["Z"])
     *coarse, finest = fronts
@@ -43,12 +45,14 @@ def compare(study: Study) -> None:
 def front_of(one: Run) -> Front:
     """The front over time, from the history; x = 0 is the middle of the column."""
     width, gravity = one.case["domain"]["width"], one.case["solver"]["gravity"]
+    # Scaled as the paper does: T = t sqrt(2 g / a), Z = x / a.
     time = one.history["time_s"] * np.sqrt(2.0 * gravity / width)
     return Front(time, one.history["front_m"] / width + 0.5)
 
 
 def fitted_delay(front: Front, measured: Front) -> float:
     """Delay with the least mean square of the distances' errors."""
+    # The gate of the experiment takes time to open: the delay that fits best.
     tried = np.linspace(0.0, 0.6, 301)
     errors = [np.mean((front.delayed(d, measured.time) - measured.place) ** 2) for d in tried]
     return float(tried[int(np.argmin(errors))])
@@ -56,15 +60,18 @@ def fitted_delay(front: Front, measured: Front) -> float:
 
 def add_rows(study: Study, front: Front, measured: Front) -> None:
     """Numbers of the finest run."""
+    # Distances at the measured times.
     at_once = front.delayed(0.0, measured.time)
     for T, Z, found in zip(measured.time, measured.place, at_once, strict=True):
         study.add("front", found, Z, published=float(Z), T=T)
+    # Slope once the front is fast.
     begin = study.plan.fast_from
     late = measured.time >= begin
     wanted, found = (
         np.polyfit(measured.time[late], place[late], 1)[0] for place in (measured.place, at_once)
     )
     study.add("speed", found, wanted, T=begin)
+    # Distances with the delay of the gate.
     delay = fitted_delay(front, measured)
     study.add("delay", delay)
     deviation = front.delayed(delay, measured.time) / measured.place - 1.0

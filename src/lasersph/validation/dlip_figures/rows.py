@@ -1,4 +1,4 @@
-"""What [Demuth2020] says of its Figs. 3 to 11, held against flowing pools of both metals."""
+"""Statements of [Demuth2020] on its Figs. 3 to 11, held against flowing pools of both metals."""
 
 from __future__ import annotations
 
@@ -55,6 +55,7 @@ def compare(study: Study) -> None:
     """Every fluence of both metals, in both readings of the plateau where they differ."""
     plan = study.plan
     runs: Readings = {}
+    # Both readings of the plateau differ only where heat of vaporization is filled in.
     for label, metal in plan.metals.items():
         runs[label, HOLD] = {f: run_pool(study, metal, f, HOLD) for f in metal["fluences"]}
         runs[label, CLIP] = {
@@ -64,6 +65,7 @@ def compare(study: Study) -> None:
         add_pools(study, label, metal, runs)
     add_speeds(study, runs)
     add_elevated(study, runs)
+    # Details of Figs. 6, 7 and 11 need the finest runs.
     if plan.is_whole:
         heated = add_detail(study, runs["steel", HOLD])
         add_aluminium(study, runs["aluminium", HOLD])
@@ -100,6 +102,7 @@ def at_instant(study: Study, one: Run, column: str) -> float:
 
 def add_pools(study: Study, label: str, metal: dict[str, Any], runs: Readings) -> None:
     """Sizes and their ratio, and where T_v is reached."""
+    # Sizes at one fluence, then depth over width at all.
     if study.plan.is_whole:
         fluence = metal["sized"]
         for plateau in (HOLD, CLIP):
@@ -118,6 +121,7 @@ def add_pools(study: Study, label: str, metal: dict[str, Any], runs: Readings) -
         words = {"low": low, "high": high, "lowest": lowest, "highest": highest}
         holds = lowest <= low and high <= highest
         study.add("aspect", holds, label=label, aspect=metal["aspect"], **words)
+    # T_v is reached from the second fluence on.
     if label == "steel":
         start = "vaporization.start_s"
         reached = {f for f, one in runs[label, HOLD].items() if number(one, start) > 0.0}
@@ -126,15 +130,20 @@ def add_pools(study: Study, label: str, metal: dict[str, Any], runs: Readings) -
 
 def add_speeds(study: Study, runs: Readings) -> None:
     """Speeds over the fluences, and those of aluminium over those of steel."""
+    # Speeds rise more than in proportion to the fluence: their power in a log-log fit.
     distinct = [key for key in runs if key[1] == HOLD or study.plan.metals[key[0]]["filled"]]
     for label, plateau in distinct:
         found = runs[label, plateau]
         power = np.polyfit(np.log(list(found)), np.log(speeds(found)), 1)[0]
         study.add("superlinear", power > 1.0, label=label, plateau=plateau, power=float(power))
+
+    # Aluminum: more than 10 m/s at the middle fluence.
     aluminium = runs["aluminium", HOLD]
     middle = list(aluminium)[len(aluminium) // 2]
     speed = speeds(aluminium)[list(aluminium).index(middle)]
     study.add("beyond", speed > 10.0, speed=speed, fluence=middle)
+
+    # Aluminum over steel at equal fluences, and how far speeds spread.
     for plateau in (HOLD, CLIP):
         steel, metal = runs["steel", plateau], runs["aluminium", plateau]
         ratios = [a / s for a, s in zip(speeds(metal), speeds(steel), strict=True)]
@@ -147,9 +156,12 @@ def add_speeds(study: Study, runs: Readings) -> None:
         spreads = [float(np.ptp(speeds(found))) for found in (metal, steel)]
         words = {"plateau": plateau, "metal": spreads[0], "steel": spreads[1]}
         study.add(row, spreads[0] > spreads[1], **words)
+        # The inner extremum appears late, from the second fluence on.
         inner = [f for f, one in steel.items() if risen(one)]
         holds = inner == list(steel)[1:]
         study.add("late", holds, plateau=plateau, lowest=min(inner, default=float("nan")))
+
+    # Temperatures of aluminum spread more than those of steel.
     warmest = [
         [number(one, "temperature_max_K") for one in runs[label, HOLD].values()]
         for label in ("aluminium", "steel")
@@ -181,6 +193,7 @@ def add_detail(study: Study, steel: Runs) -> Run:
         The run with more heat.
     """
     plan = study.plan
+    # The same pool with a little more heat, for which the bands are given.
     fluence = plan.detail * plan.more_heat
     heated = run_pool(study, plan.metals["steel"], fluence, HOLD)
     for one, found in ((steel[plan.detail], plan.detail), (heated, fluence)):
@@ -221,6 +234,7 @@ def add_elevated(study: Study, runs: Readings) -> None:
         one = runs["steel", plateau][fluence]
         words: Words = {"fluence": fluence, "plateau": plateau}
         time = one.history["time_s"]
+        # When the inner extremum appears, exceeds the outer one, and outlives it.
         inner, outer = (one.history[f"flow_{name}_speed_m_s"] for name in ("inner", "outer"))
         # where an outer one does not count beside it, the inner one exceeds it, too
         exists, exceeds = time[inner > 0.0], time[inner > outer]
@@ -234,6 +248,7 @@ def add_elevated(study: Study, runs: Readings) -> None:
 def add_aluminium(study: Study, runs: Runs) -> None:
     """Fig. 11 and the numbers of Section 6."""
     fluence = study.plan.metals["aluminium"]["sized"]
+    # Extrema, gradient and speed at the instant of Section 6.
     one, instant = runs[fluence], study.plan.instant
     ratio = number(one, INNER) / number(one, OUTER)
     study.add("separate", ratio, fluence=fluence, plateau=HOLD)
@@ -253,6 +268,7 @@ def draw(study: Study, runs: Readings) -> None:
     """Figs. 3-6 of steel and 8-11 of aluminium, by `clip` where the readings differ."""
     for label, metal in study.plan.metals.items():
         temperature, pool, speed, profiles = metal["figures"]
+        # Curves of the reading that differs, profiles of the other.
         found = list(runs[label, CLIP].values())
         study.save(f"{temperature}-temperature", surface_temperatures(found))
         study.save(f"{pool}-melt-pool", melt_pools(found))

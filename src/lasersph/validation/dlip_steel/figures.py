@@ -25,6 +25,7 @@ def draw(study: Study, runs: Runs, still: Run, profile: Callable[[np.ndarray], n
 
     profile: u [m/s] at depths [m] of the detailed run.
     """
+    # Temperature, pool and profiles by one reading.
     plan, metal = study.plan, study.name.removeprefix("dlip-")
     detail, hold = runs[plan.detail, "hold"], of_plateau(runs, "hold")
     times = [1e-9 * t for t in plan.profile_times if 1e-9 * t <= detail.summary["time_s"]]
@@ -35,6 +36,7 @@ def draw(study: Study, runs: Runs, still: Run, profile: Callable[[np.ndarray], n
     draw_profile(study, f"{metal}-below-the-surface", profile)
     both = melt_pools([detail, still], ["flow", "no flow"])
     study.save(f"{metal}-with-and-without-flow", both)
+    # Speeds and extrema by every reading of the plateau.
     for plateau in plan.plateaus:
         below = "flow_below_speed_m_s"
         speeds = surface_speeds(of_plateau(runs, plateau), title=plateau, column=below)
@@ -52,6 +54,7 @@ def of_plateau(runs: Runs, plateau: str) -> list[Run]:
 
 def draw_profile(study: Study, name: str, profile: Callable[[np.ndarray], np.ndarray]) -> None:
     """u below the place of the largest speed at the instant, beside finite volumes."""
+    # Our profile on even depths, finite volumes at theirs.
     known = study.table("profile.csv")
     depths = np.linspace(0.0, np.max(known["depth"], initial=250.0), 200)
     curves = [line(profile(1e-9 * depths), depths, "SPH")]

@@ -46,6 +46,7 @@ def compare(study: Study) -> None:
 
 def add_matrix(study: Study) -> None:
     """Table 1 for a small pool."""
+    # Difference from the printed matrix, sums of rows, signs, asymmetry.
     found, wanted = pressure_matrix.assembled(study.backend), pressure_matrix.printed()
     largest = np.abs(np.diag(wanted)).max()
     study.add("matrix", float(np.abs(found - wanted).max() / largest))
@@ -59,6 +60,7 @@ def add_matrix(study: Study) -> None:
 
 def add_parameters(study: Study) -> None:
     """Table 2 of the shipped cases, the period of eq. (2) and the Fourier number of eq. (22)."""
+    # Parameters by their keys in the shipped cases.
     plan = study.plan
     for label, metal in plan.metals.items():
         case = load_case(metal["case"])
@@ -67,6 +69,7 @@ def add_parameters(study: Study) -> None:
                 given: Words = {"published": entry["value"], "what": what, "unit": entry["unit"]}
                 found = value_at(case, entry["path"])
                 study.add("parameter", found, entry["value"], label=label, **given)
+    # Period of eq. (2), lambda / (2 sin(theta/2)).
     study.add("period", plan.wavelength / (2.0 * sin(0.5 * float(plan.angle))))
     case = load_case(plan.metals["steel"]["case"])
     study.add("fourier", number.fourier_number(case.time.end, PULSE))
@@ -84,6 +87,7 @@ def add_properties(study: Study, label: str, metal: dict[str, Any]) -> None:
     """Table 3 of the shipped metals."""
     case = load_case(metal["case"])
     shipped = properties(case)
+    # Properties as printed; conductivity is D rho c_p.
     for name, printed in metal["table_3"].items():
         value = float(printed)
         study.add("property", shipped[name], value, published=printed, label=label, name=name)
@@ -93,7 +97,7 @@ def add_properties(study: Study, label: str, metal: dict[str, Any]) -> None:
 
 
 def properties(case: Case) -> Numbers:
-    """What Table 3 prints, as a shipped case has it."""
+    """Numbers of Table 3, as a shipped case has them."""
     material, T0 = case.material, case.initial_temperature
     melting, vaporization = material.melting, material.vaporization
     assert melting is not None
@@ -129,7 +133,8 @@ def half_digit(printed: str) -> float:
 
 
 def rounding(metal: Mapping[str, Any], of: Callable[[Numbers], float]) -> float:
-    """What half a unit in the last digit of every entry of Table 3 changes in a number, added."""
+    """Change of a number by half a unit in the last digit of every entry of Table 3, added up."""
+    # Each entry moved by half a unit of its last digit.
     table = printed_values(metal)
     value = of(table)
     return sum(
@@ -147,9 +152,12 @@ def laser_number(table: Numbers, fluence: float) -> float:
 
 def table_4(table: Numbers) -> tuple[float, ...]:
     """The numbers of `NAMES`, eqs. (16)-(25)."""
+    # Eqs. (16)-(25) with the rounded numbers.
     rise = table["vaporization"] - table["initial"]
     hot = table["vaporization"] - table["liquidus"]
-    a, nu, c = table["diffusivity"], table["kinematic_viscosity"], table["heat_capacity"]
+    a = table["diffusivity"]
+    nu = table["kinematic_viscosity"]
+    c = table["heat_capacity"]
     L = number.thermal_diffusion_length(a, PULSE)
     slope = table["surface_tension_slope"]
     return (
@@ -165,9 +173,11 @@ def table_4(table: Numbers) -> tuple[float, ...]:
 
 def add_tables(study: Study, label: str, metal: dict[str, Any]) -> None:
     """Tables 4 and 5 from Table 3 as printed; with fitted values as our own; fine zones shown."""
+    # Values that fit Table 4 beside the rounded ones of Table 3.
     for name, value in metal["unrounded"].items():
         printed = metal["table_3"][name]
         study.add("unrounded", value, float(printed), published=printed, label=label, name=name)
+    # Table 4, then the laser numbers of Table 5.
     for k, (name, printed) in enumerate(zip(NAMES, metal["table_4"], strict=True)):
         words: Words = {"name": f"{name} of Table 4", "table": "Table 4, eqs. (16)-(25)"}
         words["unit"] = "m" if name == "L" else "1"
@@ -179,6 +189,7 @@ def add_tables(study: Study, label: str, metal: dict[str, Any]) -> None:
         )
     if study.quick:
         return
+    # Depths of the fine layers at the published spacing.
     for fluence, printed in zip(metal["fluences"], metal["fine_zones"], strict=True):
         settings = [f"laser.fluence={fluence} J/cm^2", "particles.spacing=3.97 nm"]
         depth = 1e9 * forecast(load_case(metal["case"], settings)).fine_depth
@@ -194,6 +205,7 @@ def add_number(
     words: Words,
 ) -> None:
     """A printed number beside that of Table 3 as printed, and of the fitted values."""
+    # A number of rounded entries may differ by their rounding.
     table, value = printed_values(metal), float(printed)
     given: Words = {"published": printed, "label": label, **words}
     if metal["unrounded"]:
@@ -207,6 +219,7 @@ def add_number(
 
 def add_estimates(study: Study, label: str, metal: dict[str, Any]) -> None:
     """Eqs. (79) and (80) from the printed gradient and layer."""
+    # u = delta/eta |dgamma/dT dT/dx|, and the time over half a period.
     printed = metal["estimate"]
     table = dict(metal["table_3"]) | {name: printed[name] for name in ("gradient", "layer")}
     inputs = {"table_3": table}
@@ -226,6 +239,7 @@ def add_estimates(study: Study, label: str, metal: dict[str, Any]) -> None:
 
 def add_optics(study: Study) -> None:
     """Eq. (78) at both ends, and the viscosity of aluminium over that of steel."""
+    # Reflectivity cold and at the liquidus; viscosities at the liquidus.
     metals = {label: load_case(metal["case"]) for label, metal in study.plan.metals.items()}
     aluminium: Material = metals["aluminium"].material
     melting = aluminium.melting
@@ -238,10 +252,12 @@ def add_optics(study: Study) -> None:
 
 def add_particles(study: Study) -> None:
     """Neighbors on a lattice, the finest spacing and the height of the graded rows."""
+    # Neighbors of the middle particle of a lattice, itself included.
     side, shape = 9, kernel("quintic-spline", 2)
     pairs = all_pairs(study.backend, cubic_lattice(2, side), pressure_matrix.SUPPORT, shape)
     start = study.backend.to_host(pairs.row_start).astype(np.int64)
     study.add("neighbors", float(np.diff(start)[side * side // 2] + 1))
+    # Rows that grow by 9/7: their finest height, and the sum of all but it.
     rows = (7.0 / 9.0) ** np.arange(23)
     study.add("finest", float(1e3 * rows[-1]))
     study.add("graded", float(rows[:-1].sum()))
@@ -249,6 +265,7 @@ def add_particles(study: Study) -> None:
 
 def draw_particles(study: Study) -> None:
     """Fig. 2: full period of steel with the published grading, dummies lighter; 440 nm of it."""
+    # The graded lattice with its dummies.
     spacing = f"particles.spacing={study.plan.spacing} nm"
     case = load_case("dlip-steel", [spacing, "domain.extent=full", f"particles.ratio={7 / 9}"])
     filling = fill(lay_out(case), surface=MIRROR, bottom=MIRROR, sides=MIRROR)

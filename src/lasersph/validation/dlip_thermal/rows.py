@@ -24,6 +24,7 @@ def compare(study: Study) -> None:
     runs: dict[str, Runs] = {}
     for label, metal in study.plan.metals.items():
         judged = metal["reference_fluence"]
+        # A shortened validation has the fluence with a reference alone.
         fluences = metal["fluences"]
         if not study.plan.is_whole:
             fluences = [judged] if label == "steel" else []
@@ -34,10 +35,12 @@ def compare(study: Study) -> None:
         for fluence, one in runs[label].items():
             name = f"{label} {fluence}"
             add_common(study, name, metal, one)
+            # Temperatures, sizes and columns at the fluence with a reference.
             if fluence == judged:
                 add_temperatures(study, name, label, one)
                 add_sizes(study, name, label, metal, one)
                 add_columns(study, name, label, metal)
+        # Claims need all fluences.
         if study.plan.is_whole:
             add_claims_of_metal(study, label, metal, runs[label])
         if runs[label]:
@@ -71,10 +74,11 @@ def at_times(study: Study, one: Run) -> np.ndarray:
 
 
 def add_common(study: Study, label: str, metal: dict[str, Any], one: Run) -> None:
-    """What is shown of every fluence, and the energy balance."""
+    """Add the numbers of every fluence, and the energy balance."""
     study.add("imbalance", abs(one.summary["energy"]["imbalance_relative"]), label=label)
     study.add_group("common", one, label=label)
     keys = ("start_any_s", "end_any_s", "width_half_max_m", "depth_half_max_m")
+    # Begin, end and sizes of the pool.
     begin, end, width, depth = (number_at(one.summary, f"melt.{key}") for key in keys)
     lasts = None if begin is None or end is None else 1e9 * (end - begin)
     study.add("lasts", lasts, label=label)
@@ -85,6 +89,7 @@ def add_common(study: Study, label: str, metal: dict[str, Any], one: Run) -> Non
 def add_temperatures(study: Study, label: str, metal: str, one: Run) -> None:
     """Temperatures and events against finite volumes."""
     events = study.table("events.csv")
+    # Temperatures at the times of the table, events at theirs.
     wanted = study.table("temperature.csv")[metal]
     for at, T, expected in zip(study.plan.times, at_times(study, one), wanted, strict=True):
         study.add("temperature", T, expected, label=label, time=at)
@@ -96,6 +101,7 @@ def add_temperatures(study: Study, label: str, metal: str, one: Run) -> None:
 def add_sizes(study: Study, label: str, name: str, metal: dict[str, Any], one: Run) -> None:
     """Largest widths and depths against finite volumes."""
     sizes = study.table("sizes.csv")
+    # Sizes by level; where columns are too wide, the width of fine ones is the reference.
     for k, level in enumerate(LEVELS):
         suffix, words = sizes["suffix"][k], Words(label=label, level=level)
         width, depth = (
@@ -113,6 +119,7 @@ def add_sizes(study: Study, label: str, name: str, metal: dict[str, Any], one: R
 def add_columns(study: Study, label: str, name: str, metal: dict[str, Any]) -> None:
     """Widths of finite volumes by the width of their columns, beside the reference."""
     case, wanted = load_case(metal["case"]), study.table("sizes.csv")[f"{name}_width"]
+    # The same case by finite volumes with columns of some widths.
     for column in study.plan.columns:
         widths = Columns(case, 1e-9 * column).widest()
         for level, width, reference in zip(LEVELS, widths, wanted, strict=True):
@@ -123,6 +130,7 @@ def add_columns(study: Study, label: str, name: str, metal: dict[str, Any]) -> N
 def add_steps(study: Study) -> None:
     """Steps of 50 ps against 10 ps, steel 0.6 J/cm2, 8 nm."""
     metal = study.plan.metals["steel"]
+    # Long steps beside short ones, all else the same.
     long, short = (run_fluence(study, metal, 0.6, COARSE, step) for step in (50.0, 10.0))
     temperatures = (at_times(study, one) for one in (long, short))
     for at, a, b in zip(study.plan.times, *temperatures, strict=True):

@@ -18,6 +18,7 @@ AT_MAXIMUM = "temperature_at_maximum_K"
 def compare(study: Study) -> None:
     """Judge the particle at the maximum and the surface; show what longer steps do."""
     for label, plan in study.plan.cases.items():
+        # Both the particle at the maximum and the surface above it.
         one = without_phase_change(study, label, study.plan.step)
         place, depth = first_particle(one)
         expected = exact_temperature(study, plan["case"], one, place, depth)
@@ -26,6 +27,7 @@ def compare(study: Study) -> None:
         surface = exact_temperature(study, plan["case"], one, 0.0, 0.0)
         add_rows(study, f"{name} surface", one, one.history["probe_maximum_K"], surface)
         draw(study, label, one, expected)
+        # Steps as long as the paper's, shown only.
         if label == "steel 1-D":
             one = without_phase_change(study, label, study.plan.published_step)
             expected = exact_temperature(study, plan["case"], one, place, depth)
@@ -58,6 +60,7 @@ def add_rows(
     judge: bool = True,
 ) -> None:
     """T [K] at the times of the plan beside the exact one."""
+    # Times of the plan that the run has reached.
     times, initial = one.history["time_s"], one.case["initial_temperature"]
     for at in study.plan.times:
         if at * 1e-9 <= times[-1] * (1.0 + 1e-9):
@@ -67,6 +70,7 @@ def add_rows(
 
 def first_particle(one: Run) -> tuple[float, float]:
     """x and depth of the surface particle at the maximum [m]; x = 0 in 1-D."""
+    # Uppermost particles first, of these the one closest to x = 0.
     position = one.snapshots[0]["position"]
     lateral = position[:-1]
     place = int(np.lexsort((np.sum(lateral**2, axis=0), -position[-1]))[0])
@@ -77,6 +81,7 @@ def exact_temperature(study: Study, name: str, one: Run, place: float, depth: fl
     """Exact T [K] at x = place and a depth [m], at all times of a run."""
     case, times = load_case(name), one.history["time_s"]
     assert case.laser is not None
+    # Constant properties at the start, in the units of the solution.
     material, T0 = case.material, case.initial_temperature
     heat_capacity = material.density_reference * float(material.heat_capacity_at(T0))
     pulse: dict[str, Any] = {
@@ -88,6 +93,7 @@ def exact_temperature(study: Study, name: str, one: Run, place: float, depth: fl
         "absorption_coefficient": case.laser.absorption_coefficient(material),
         "thickness": one.case["domain"]["depth"],
     }
+    # One dimension, or the mean and the first harmonic over x.
     if one.case["solver"]["dimensions"] == 1:
         return T0 + gaussian_pulse_rise(depth, times, **pulse)[:, 0]
     period = one.case["domain"]["width"]
@@ -96,6 +102,7 @@ def exact_temperature(study: Study, name: str, one: Run, place: float, depth: fl
 
 def draw(study: Study, label: str, one: Run, expected: np.ndarray) -> None:
     """(a) temperature at the maximum over time, (b) deviation in parts of the rise."""
+    # Deviations count where the metal is warm.
     times, found = 1e9 * one.history["time_s"], one.history[AT_MAXIMUM]
     rise = expected - expected[0]
     warm = rise > 10.0

@@ -31,9 +31,11 @@ def compare(study: Study) -> None:
     """Judge the worst of all snapshots in every dimension."""
     columns: dict[str, Column] = {}
     for dimension in study.plan.dimensions:
+        # A run in each dimension; the worst snapshot counts.
         name = f"{dimension}-D"
         one = study.run(f"{dimension}d", f"solver.dimensions={dimension}", *study.plan.settings)
         columns[name] = found = fit_lines(one, *weight(study))
+        # Drift: the mean of the second half against that of the first.
         half = one.snapshots.times.size // 2
         drift = abs(float(np.mean(found.bottom[half:]) - np.mean(found.bottom[1:half])))
         study.add("slope", 100.0 * float(np.max(np.abs(found.slope - 1.0))), name=name)
@@ -54,6 +56,7 @@ def weight(study: Study) -> tuple[float, float]:
 def fit_lines(one: Run, gradient: float, depth: float) -> Column:
     """Lines through the pressures of each snapshot; args as of `weight`."""
     found = []
+    # A line through the pressures of all particles, and their distance from rho g depth.
     for snapshot in one.snapshots:
         below, pressure = -snapshot["position"][-1], snapshot["pressure"]
         slope, offset = np.polyfit(below, pressure, 1)
@@ -68,6 +71,7 @@ def draw(study: Study, columns: dict[str, Column]) -> None:
     """(a) pressure over depth at the end, (b) pressure at the bottom over time."""
     gradient, depth = weight(study)
     at_end, at_bottom = [exact([0.0, depth], [0.0, 1e-3 * gradient * depth], "rho g z")], []
+    # At the end over the depth, and over time at the bottom.
     for k, (name, found) in enumerate(columns.items()):
         last, times = found.run.snapshots[-1], found.run.snapshots.times
         at_end.append(marks(-last["position"][-1], 1e-3 * last["pressure"], name, k))

@@ -73,11 +73,13 @@ Errors = dict[str, dict[str, float]]
 
 def compare(study: Study) -> None:
     """Judge operators at single particles and norms, hold the claims against them."""
+    # All functions by all variants, with their norms.
     line = Line(study.backend)
     results = {f.name: line.derivatives(f) for f in FUNCTIONS}
     errors = {f.name: l2_errors(f, results[f.name]) for f in FUNCTIONS}
     add_operators(study, line, results)
     add_norms(study, errors)
+    # By how much errors fall from one variant to another, in percent.
     fall = {
         kind: {name: 100.0 * (1.0 - found[after] / found[before]) for name, found in errors.items()}
         for kind, (before, after) in KINDS.items()
@@ -96,17 +98,20 @@ class Line:
     def __init__(self, backend: Backend) -> None:
         self.backend = backend
         self.count = LINE.size
+        # The neighbor list, and the inverse of the correction matrix at each particle.
         self.neighbors = all_pairs(backend, LINE[None, :], SUPPORT, kernel("cubic-spline", 1))
         one = backend.asarray(np.ones(self.count))
         raw = backend.asarray(np.ones((1, 1, self.count)))
         C = backend.zeros((1, 1, self.count))
         volume = {"V": backend.asarray(np.full(self.count, SPACING))}
         correction.inverse_correction(backend, self.neighbors, volume, C)
+        # Fields without correction, and with it.
         self.raw = volume | {"mu": one, "G": one, "C": raw}
         self.corrected = self.raw | {"C": C}
 
     def moments(self) -> dict[str, Array]:
         """M of the correction and Gamma of Schwaiger's operator, raw kernel, (n,)."""
+        # M = sum V (x_j - x_i) grad W, and Gamma of Schwaiger's operator.
         M = self.backend.zeros((1, 1, self.count))
         Gamma = self.backend.zeros((1, 1, self.count))
         correction.correction_matrix(self.backend, self.neighbors, self.raw, M)
@@ -120,10 +125,12 @@ class Line:
         raw, corrected = self.raw | f, self.corrected | f
         slope, curvature = backend.zeros((1, self.count)), backend.zeros(self.count)
         found = {}
+        # First derivatives: standard, and with the corrected kernel gradient.
         correction.standard_gradient(backend, neighbors, raw, slope)
         found[VARIANTS[0]] = self._host(slope)
         correction.corrected_gradient(backend, neighbors, corrected, slope)
         found[VARIANTS[1]] = self._host(slope)
+        # Second derivatives: standard, then Schwaiger's with and without Gamma and correction.
         backend.pair_sum(diffusion, neighbors, raw, curvature)
         found[VARIANTS[2]] = self._host(curvature)
         for variant, fields, use_gamma in (
@@ -152,6 +159,7 @@ def l2_errors(function: Function, results: dict[str, Array]) -> dict[str, float]
 
 def add_operators(study: Study, line: Line, results: Results) -> None:
     """Operators at single particles."""
+    # Moments, and operators on single functions, at the end of the line and inside it.
     computed = line.moments()
     computed["KGC grad(x^2) - 2x"] = results["x^2"][KGC] - 2.0 * LINE
     computed["standard lap(x^2)"] = results["x^2"][LAP]
@@ -167,6 +175,7 @@ def add_operators(study: Study, line: Line, results: Results) -> None:
 def add_norms(study: Study, errors: Errors) -> None:
     """Error norms; those with a reference are judged."""
     table = study.table("norms.csv")
+    # Norms with a reference are judged, others shown.
     place = {name: k for k, name in enumerate(table["function"])}
     for name, found in errors.items():
         for variant, error in found.items():
@@ -178,12 +187,14 @@ def add_norms(study: Study, errors: Errors) -> None:
 
 def add_claims(study: Study, errors: Errors, fall: Errors) -> None:
     """The paper's statements on the errors, beside ours."""
+    # Reductions as the text gives them.
     for kind, wanted, text in study.plan.published:
         section = "4.1" if kind == "KGC" else "4.2"
         for name in [wanted] if wanted else errors:
             value = fall[kind][name]
             study.add("reduction", value, published=text, kind=kind, function=name, section=section)
     study.add("reduction_x2", fall["KGC"]["x^2"])
+    # Ranges of the text: 10 to 60 % alone.
     for label, kind in (("with", "Schwaiger alone"), ("without", "Schwaiger alone, no Gamma")):
         holds = all(10.0 <= value <= 60.0 for value in fall[kind].values())
         study.add("claim_range", holds, label=f"{label} Gamma")
@@ -191,9 +202,11 @@ def add_claims(study: Study, errors: Errors, fall: Errors) -> None:
     reductions = [round(value, 9) for value in fall["Schwaiger alone, no Gamma"].values()]
     study.add("smallest", floor(min(reductions)))
     study.add("largest", ceil(max(reductions)))
+    # Exact on linear functions, not on quadratic ones.
     study.add("claim_x", errors["x"][KGC] < EXACT)
     study.add("claim_x2", errors["x^2"][KGC] < EXACT)
     study.add("claim_lap_x", errors["x"][BOTH] < EXACT)
+    # Curved functions, and what correction adds.
     curved = [fall["Schwaiger + KGC"][name] for name in ("x^2", "x^3", "erfc(x/2)")]
     study.add("claim_curved", all(69.0 <= value <= 91.0 for value in curved))
     added = fall["KGC added to Schwaiger"]
@@ -216,6 +229,7 @@ def draw_functions(
 ) -> None:
     """One panel per function: the exact curve and one row of marks per variant."""
     panels, axis = [], {"value": "f", "first": "df/dx", "second": "d²f/dx²"}[kind]
+    # The exact curve, and marks of each variant.
     for function, letter in zip(FUNCTIONS, "abcdef", strict=True):
         curves = [exact(FINE, getattr(function, kind)(FINE))]
         for k, variant in enumerate(variants):
@@ -229,6 +243,7 @@ def draw_bars(study: Study, name: str, errors: Errors, variants: tuple[str, ...]
     """Error norms by function, one bar per variant; zeros lie below the axis."""
     figure, (axes,) = style.new_figure(height=3.4)
     place, width = np.arange(len(errors)), 0.8 / len(variants)
+    # A bar of zero has no place on a logarithmic axis.
     for k, variant in enumerate(variants):
         heights = [max(found[variant], 1e-12) for found in errors.values()]
         label, color = variant.split(maxsplit=1)[1], style.COLORS[k]

@@ -41,10 +41,12 @@ def label_of(one: Kernel) -> str:
 
 def add_conditions(study: Study, one: Kernel) -> None:
     """Rows of (32)-(38) for a kernel."""
+    # The shape and its slope, beyond the support as well.
     s = np.linspace(0.0, 1.5, 3001)
     shape = np.array([one.shape(float(v)) for v in s])
     slope = np.array([one.slope(float(v)) for v in s])
     outside, steepest = np.abs(shape[s >= 1.0]), np.max(np.abs(slope))
+    # Conditions (32) to (38), each as a number that is 0 where it holds.
     found = {
         "delta": delta_order(one),
         "positive": abs(min(shape.min(), 0.0)) / shape[0],
@@ -60,6 +62,7 @@ def add_conditions(study: Study, one: Kernel) -> None:
 
 def integral(one: Kernel, function, support: float) -> float:
     """Integral over space of W times a function of r, by Gauss quadrature between the breaks."""
+    # Gauss quadrature between the breaks, where the kernel is a polynomial.
     points, weights = np.polynomial.legendre.leggauss(20)
     total = 0.0
     for low, high in pairwise(BREAKS):
@@ -77,12 +80,14 @@ def delta_order(one: Kernel) -> float:
     def error(support: float) -> float:
         return abs(integral(one, lambda r: np.expm1(-(r**2)), support))
 
+    # Power of 2 by which the error falls when l is halved.
     return float(np.log2(error(0.1) / error(0.05)))
 
 
 def asymmetry(one: Kernel) -> float:
     """Largest |W(x) - W(-x)| / W(0) over random points."""
     points = np.random.default_rng(1).uniform(-1.0, 1.0, (one.dimension, 200))
+    # The kernel depends on r alone: at x and -x it must be the same.
     forth = [one.value(float(r), 1.0) for r in np.sqrt(np.sum(points**2, axis=0))]
     back = [one.value(float(r), 1.0) for r in np.sqrt(np.sum((-points) ** 2, axis=0))]
     return float(np.max(np.abs(np.subtract(forth, back)))) / one.value(0.0, 1.0)
@@ -94,6 +99,7 @@ def curvature_jump(one: Kernel) -> float:
     s = np.linspace(0.0, 1.0, 401)
     second = [(one.slope(float(v) + step) - one.slope(float(v))) / step for v in s]
     jumps = []
+    # One-sided differences of f' on both sides of each break.
     for at in BREAKS[1:]:
         right = (one.slope(at + step) - one.slope(at)) / step
         left = (one.slope(at) - one.slope(at - step)) / step
@@ -106,15 +112,18 @@ def curvature_jump(one: Kernel) -> float:
 def skew_defect(backend: Backend, one: Kernel) -> float:
     """|sum V G+ . v + sum V p D-| over the sum of its terms' sizes."""
     random = np.random.default_rng(one.dimension)
+    # A lattice with particles out of place, so that nothing cancels by symmetry.
     position = cubic_lattice(one.dimension, {1: 200, 2: 20, 3: 9}[one.dimension])
     position += 0.3 * (random.random(position.shape) - 0.5)
     n = position.shape[1]
     neighbors = all_pairs(backend, position, one.support_ratio, one)
+    # Random fields.
     m, rho, p = (random.random(n) + 0.5 for _ in range(3))
     v = random.random((one.dimension, n)) - 0.5
     fields = {"m": m, "rho": rho, "f": p, "v": v}
     arrays = {symbol: backend.asarray(values) for symbol, values in fields.items()}
     gradient, rate = backend.zeros((one.dimension, n)), backend.zeros(n)
+    # sum V G+ . v = -sum V p D-: gradient and divergence are skew-adjoint.
     symmetric_gradient(backend, neighbors, arrays, gradient)
     divergence(backend, neighbors, arrays, rate)
     left = m / rho * np.sum(backend.to_host(gradient) * v, axis=0)

@@ -41,6 +41,7 @@ class CenterLine:
 
 def center_line(component: str, reynolds: int) -> CenterLine:
     """The tables for "u" or "v" at Reynolds number 100, 400 or 1000."""
+    # Finite differences of our own, and the printed table.
     own = read_table(HOME / f"ldc_fd_reference_{component}.csv")
     printed = read_table(HOME / f"ghia1982_{component}.csv")
     value, ghia = own[f"Re{reynolds}"], printed[f"Re{reynolds}"]
@@ -51,6 +52,7 @@ def center_line(component: str, reynolds: int) -> CenterLine:
 
 def misprints(deviation: np.ndarray) -> np.ndarray:
     """Which deviations (m,) of a table stand out from those of the two neighbors on each side."""
+    # Two neighbors on each side, without the number itself.
     size = np.abs(deviation)
     padded = np.concatenate([[0.0, 0.0], size, [0.0, 0.0]])
     around = np.max([padded[k : k + size.size] for k in (0, 1, 3, 4)], axis=0)

@@ -17,15 +17,18 @@ def compare(study: Study) -> None:
     """Judge the finest run of every Reynolds number, and convergence."""
     counts = study.plan.particles
     for reynolds in study.plan.reynolds:
+        # References, runs and their center lines.
         reference = {component: center_line(component, reynolds) for component in "uv"}
         runs = {n: study.run(f"re{reynolds}-{n}", *settings(study, reynolds, n)) for n in counts}
         lines = {n: lines_of(one, reference) for n, one in runs.items()}
+        # Each line has its rows; the vortex is that of the finest run.
         for line in reference.values():
             add_rows(
                 study, reynolds, line, {n: found[line.component] for n, found in lines.items()}
             )
         add_vortex(study, reynolds, runs[counts[-1]])
         draw(study, reynolds, reference, lines)
+        # Misprints of the table are named.
         for line in reference.values():
             if line.is_misprint.any():
                 study.remarks.append(misprint_remark(reynolds, line))
@@ -36,6 +39,7 @@ def settings(study: Study, reynolds: int, count: int) -> list[str]:
     case = study.case()
     assert case.domain.width is not None and case.flow is not None
     speed, width = case.flow.surface.velocity, case.domain.width
+    # The material has the viscosity that the Reynolds number asks for.
     return [
         f"particles.spacing={width / count!r} m",
         f"material.kinematic_viscosity={speed * width / reynolds!r} m^2/s",
@@ -48,6 +52,7 @@ def lines_of(one: Run, reference: dict[str, CenterLine]) -> Lines:
     first, last = one.snapshots[0], one.snapshots[-1]
     box = Box.around(first["position"], first["width"])
     lid = one.case["solver"]["flow"]["surface"]["velocity"]
+    # u on the vertical line, w on the horizontal one, over the speed of the lid.
     found: Lines = {}
     for component, line in reference.items():
         lines = center_lines(last["position"], last["velocity"], box, line.share)
@@ -63,11 +68,13 @@ def deviation(line: CenterLine, values: np.ndarray) -> float:
 def add_rows(study: Study, reynolds: int, line: CenterLine, found: dict[int, np.ndarray]) -> None:
     """Deviations of one component by particles a side, the finest judged, and their ratio."""
     names = {"Re": reynolds, "component": line.component}
+    # Deviations by number of particles; only the finest is judged.
     errors = {n: deviation(line, values) for n, values in found.items()}
     coarse, fine = min(found), max(found)
     for n, error in errors.items():
         study.add(f"deviation_{reynolds}", 100.0 * error, judge=n == fine, count=n, **names)
     study.add("convergence", errors[fine] / errors[coarse], fine=fine, coarse=coarse, **names)
+    # The printed table against finite differences, without its misprints.
     good = line.inner & ~line.is_misprint
     printed = np.sqrt(np.mean((line.ghia - line.value)[good] ** 2))
     study.add("printed", 100.0 * printed, **names)
@@ -110,12 +117,13 @@ def curves(line: CenterLine, lines: dict[int, Lines]) -> list[Curve]:
     def place(values: np.ndarray, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return (values, share) if line.component == "u" else (share, values)
 
+    # Printed numbers, misprints apart, and each run.
     good, wrong = ~line.is_misprint, line.is_misprint
     printed = marks(*place(line.ghia[good], line.share[good]), "Ghia 1982", color="k", marker="+")
     drawn = [exact(*place(line.value, line.share), "finite differences"), printed]
     if wrong.any():
-        look = {"color": "k", "marker": "x", "markersize": 8}
-        drawn.append(marks(*place(line.ghia[wrong], line.share[wrong]), "misprint", **look))
+        options = {"color": "k", "marker": "x", "markersize": 8}
+        drawn.append(marks(*place(line.ghia[wrong], line.share[wrong]), "misprint", **options))
     for k, (count, found) in enumerate(lines.items()):
         values = found[line.component]
         drawn.append(marks(*place(values, line.share), f"SPH, {count} a side", k))

@@ -19,7 +19,7 @@ PLACES = 41
 
 @dataclass(frozen=True)
 class Layer:
-    """What one run says.
+    """Surface speed and profiles of one run.
 
     Attributes:
         surface_speed: sine part of u along the surface [m/s]. height: (m,) z over the depth.
@@ -38,6 +38,7 @@ def compare(study: Study) -> None:
     """Judge surface and profiles from some number of rows on, and convergence."""
     solution = exact_solution(study.case())
     layers = {n: layer(study, n, solution) for n in study.plan.rows}
+    # Runs with few rows are shown, not judged.
     for n, found in layers.items():
         judge, name = n >= study.plan.judged_from, "profiles"
         study.add("speed", found.surface_speed, solution.surface_speed, judge=judge, rows=n)
@@ -45,6 +46,7 @@ def compare(study: Study) -> None:
     fine, coarse = max(layers), min(layers)
     ratio = layers[fine].error / layers[coarse].error
     study.add("convergence", ratio, fine=fine, coarse=coarse)
+    # Wave number and Reynolds number, which the solution takes as small.
     density = study.case().material.density_reference
     reynolds = abs(solution.surface_speed) * solution.depth * density / solution.viscosity
     wave = solution.wave_number * solution.depth
@@ -69,12 +71,14 @@ def exact_solution(case: Case) -> ThermocapillaryLayer:
 def layer(study: Study, count: int, solution: ThermocapillaryLayer, *settings: str) -> Layer:
     """A run with `count` rows, and further settings, measured at the center of each height."""
     spacing = f"particles.spacing={solution.depth / count!r} m"
+    # Velocities at the columns where u and w are largest.
     one = study.run("-".join([f"{count}-rows", *settings]), spacing, *settings)
     last = one.snapshots[-1]
     height = -(np.arange(PLACES) + 0.5) / PLACES
     crest, node = columns(solution, height)
     u = interpolate(last["position"], last["velocity"], crest, degree=2)[0]
     w = interpolate(last["position"], last["velocity"], node, degree=2)[1]
+    # Error of both profiles together, over the speed of the surface.
     errors = np.concatenate([u - solution.velocity(crest)[0], w - solution.velocity(node)[1]])
     scale = abs(solution.surface_speed)
     error = float(np.sqrt(np.mean(errors**2))) / scale
@@ -92,6 +96,7 @@ def sine_part(one: Run, solution: ThermocapillaryLayer) -> float:
     """U_s of u = U_s sin(k x) along the surface of the last snapshot [m/s], by least squares."""
     last = one.snapshots[-1]
     cells = np.flatnonzero(last["surface"])
+    # Least squares of one function: (sine . u) / (sine . sine).
     sine = np.sin(solution.wave_number * last["position"][0, cells])
     return float(sine @ last["surface_velocity"][cells] / (sine @ sine))
 

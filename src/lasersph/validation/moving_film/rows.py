@@ -18,6 +18,7 @@ WORDS = {"a1_nm": "a1", "eta_hot_nm": "the warm end", "eta_cold_nm": "the cold e
 
 def compare(study: Study) -> None:
     """Judge the free wave, then each metal forced a little, forced much and at rest."""
+    # A free wave, then the films of each metal.
     panels = [free_wave(study)] if study.plan.wave["spacing"] else []
     for metal, film in study.plan.films.items():
         panels.append(forced(study, metal, film))
@@ -25,6 +26,7 @@ def compare(study: Study) -> None:
             finite(study, metal, film)
         if film["steady"]:
             steady(study, metal, film)
+    # Order: errors at several spacings, the step with them.
     errors = {n: deviation_of_steel(study, n) for n in study.plan.orders}
     for coarse, fine in zip(study.plan.orders, study.plan.orders[1:], strict=False):
         study.add("order", errors[fine] / errors[coarse], fine=fine, coarse=coarse)
@@ -33,6 +35,7 @@ def compare(study: Study) -> None:
 
 def free_wave(study: Study) -> Panel:
     """A wave that starts at rest."""
+    # Amplitude at some times against that of the linear solution.
     plan, unit = study.plan.wave, 1e-9 * study.plan.wave["period"]
     times = unit * np.array(plan["times"])
     settings = (*plan["settings"], spacing_of(plan["spacing"]), f"time.end={times[-1]:.6g} s")
@@ -48,6 +51,7 @@ def free_wave(study: Study) -> Panel:
 
 def forced(study: Study, metal: str, film: dict) -> Panel:
     """A film under 100 K for 20 ns."""
+    # The first harmonic against the exact one, over its largest value.
     spacing, times = film["small"], np.arange(10, 201, 10) * 1e-9
     one = heated(study, f"{metal}-100K", film, 100.0, spacing)
     wanted, found = exact_heights(study, film, times), harmonic(one, times)
@@ -63,6 +67,7 @@ def finite(study: Study, metal: str, film: dict) -> None:
     """A film under 1000 K for 20 ns, by the table of its metal."""
     table, spacing = study.table(f"{metal}.csv"), film["large"]
     one = heated(study, f"{metal}-1000K", film, 1000.0, spacing)
+    # Heights at the times of the table, of the harmonic and of both ends.
     times = 1e-9 * table["t_ns"]
     relief = [one.surface.nearest(time) for time in times]
     found = {
@@ -80,9 +85,11 @@ def steady(study: Study, metal: str, film: dict) -> None:
     """A film under a lasting 10 K: height and speed of the surface at rest."""
     spacing, end = film["steady"], film["rest"]
     lasting = "boundaries.surface_temperature_wave.end=1 s"
+    # Long enough that the film is at rest.
     one = heated(study, f"{metal}-10K", film, 10.0, spacing, lasting, end=end)
     amplitude = harmonic(one, np.array([1e-9 * end]))[0]
     wanted = film_of(study, *film["settings"]).steady_amplitude(10.0)
+    # Height and speed of the steady flow below it.
     layer = exact_solution(study.case(*film["settings"], f"{AMPLITUDE}=10 K"))
     study.add("steady_height", 1e9 * amplitude, 1e9 * wanted, metal=metal, spacing=spacing)
     speed, exact_speed = sine_part(one, layer), layer.surface_speed
@@ -92,6 +99,7 @@ def steady(study: Study, metal: str, film: dict) -> None:
 def deviation_of_steel(study: Study, spacing: float) -> float:
     """Largest deviation of a1 of the forced steel film [m], the step as the spacing."""
     film, times = study.plan.films["steel"], np.arange(10, 201, 10) * 1e-9
+    # The step falls with the spacing.
     step = study.plan.step * spacing / study.plan.orders[1]
     one = heated(study, f"steel-{spacing:g}nm", film, 100.0, spacing, step=step)
     return float(np.max(np.abs(harmonic(one, times) - exact_heights(study, film, times))))
@@ -123,8 +131,11 @@ def heated(
 
 def film_of(study: Study, *settings: str) -> LiquidFilm:
     """The film of a case."""
+    # The film as the exact solution takes it.
     case = study.case(*settings)
-    wave, metal, cold = case.boundaries.surface_temperature_wave, case.material, 2000.0
+    wave = case.boundaries.surface_temperature_wave
+    metal = case.material
+    cold = 2000.0
     assert wave is not None
     return LiquidFilm(
         case.domain.depth,
@@ -149,6 +160,7 @@ def harmonic(one: Run, times: np.ndarray) -> np.ndarray:
 
 def end_height(surface: dict, end: int) -> float:
     """Height on the plane of symmetry at an end of a line, -1 for the far one [m]; even there."""
+    # Even about the end: a parabola through the nearest two columns.
     near, next_to_it = np.array(surface["position"][1])[[end, 1 if end == 0 else -2]]
     return float(near - (next_to_it - near) / 8.0)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from lasersph.analytic.steady_recession import SteadyRecession
@@ -16,11 +18,13 @@ def compare(study: Study) -> None:
     """Judge each metal under each light."""
     times = np.linspace(0.0, study.plan.end, 23)
     speeds: list[Curve] = [exact(times, np.ones(times.size))]
+    # Every metal under every light.
     for metal, fluxes in study.plan.light.items():
         for flux in fluxes:
             one, steady = lit(study, metal, flux)
             judge(study, one, steady, metal=metal, flux=flux)
             history = one.history
+            # Speed between equal times, over that of the steady state.
             gone = np.interp(times * steady.time, history["time_s"], history["evaporated_max_m"])
             speed = np.diff(gone) / np.diff(times * steady.time)
             k, label = len(speeds) - 1, f"{metal.split('-')[0]} {flux:.0e} W/m²"
@@ -32,6 +36,7 @@ def lit(study: Study, metal: str, flux: float) -> tuple[Run, SteadyRecession]:
     """A run of a metal under light [W/m^2], and its steady state."""
     plan = study.plan
     material = load_material(metal)
+    # A conductivity that makes the thermal length a whole number of rows.
     steady, length = steady_state(material, flux, 1.0), 1e-9 * plan.length
     conductivity = length / steady.thermal_length
     steady, spacing = steady_state(material, flux, conductivity), length / plan.rows
@@ -52,8 +57,11 @@ def lit(study: Study, metal: str, flux: float) -> tuple[Run, SteadyRecession]:
 
 def steady_state(material: Material, flux: float, conductivity: float) -> SteadyRecession:
     """Landau's solution for a metal of constant properties that is cold at first."""
-    melting, vaporization, cold = material.melting, material.vaporization, 298.15
+    melting = material.melting
+    vaporization = material.vaporization
+    cold = 298.15
     assert melting is not None and vaporization is not None
+    # The flux of vapor at a temperature, as the solver has it.
     vapor = evaporation.vapor_constants(vaporization)
     heat = {name: vapor[name] for name in ("T_b", "L_b", "T_c")}
 
@@ -74,10 +82,11 @@ def steady_state(material: Material, flux: float, conductivity: float) -> Steady
     )
 
 
-def judge(study: Study, one: Run, steady: SteadyRecession, **words: object) -> None:
+def judge(study: Study, one: Run, steady: SteadyRecession, **words: Any) -> None:
     """Rows of a run: means over its last part, and the energy."""
     history = one.history
     time, gone, T = (history[name] for name in ("time_s", "evaporated_max_m", "temperature_max_K"))
+    # Means over the last part, when the state is steady.
     first = int(np.searchsorted(time, study.plan.begin * steady.time))
     duration = time[-1] - time[first]
     study.add("speed", (gone[-1] - gone[first]) / duration, steady.speed, **words)

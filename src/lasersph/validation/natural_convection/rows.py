@@ -20,6 +20,7 @@ def compare(study: Study) -> None:
     """Judge the finest run of every Rayleigh number."""
     runs: dict[tuple[float, int], Run] = {}
     plan = study.plan
+    # Some numbers of particles at each Rayleigh number; the finest is judged.
     for rayleigh, counts, end in zip(plan.rayleigh, plan.particles, plan.ends, strict=True):
         for count in counts:
             runs[rayleigh, count] = one = box(study, rayleigh, count, end)
@@ -29,6 +30,7 @@ def compare(study: Study) -> None:
 
 def box(study: Study, rayleigh: float, count: int, end: float) -> Run:
     """Run to a steady state at a Rayleigh number with `count` particles a side; end [s]."""
+    # Viscosity sqrt(Pr/Ra) and diffusivity 1/sqrt(Pr Ra), g beta dT width^3 being 1.
     width, prandtl = study.case().domain.width or 1.0, study.plan.prandtl
     return study.run(
         f"ra{rayleigh:.0e}-{count}",
@@ -47,6 +49,7 @@ def diffusivity(rayleigh: float, prandtl: float) -> float:
 
 def add_rows(study: Study, rayleigh: float, count: int, one: Run, *, judge: bool) -> None:
     """Rows of one run beside the line of the table for its Rayleigh number."""
+    # The line of the table; where it has no largest stream function, that of the middle.
     table = study.table()
     k = int(np.flatnonzero(table["Ra"] == rayleigh)[0])
     published = {name: float(column[k]) for name, column in table.items()}
@@ -54,10 +57,12 @@ def add_rows(study: Study, rayleigh: float, count: int, one: Run, *, judge: bool
     published["psi"] = largest if np.isfinite(largest) else published["psi_mid"]
     found = numbers(one, diffusivity(rayleigh, study.plan.prandtl))
     label = f"Ra {rayleigh:.0e}, {count} a side"
+    # Numbers of the table, judged or shown.
     for name in (*JUDGED, *SHOWN):
         value = published[name]
         reference = value if judge and name in JUDGED else None
         study.add(name, found[name], reference, published=value, judge=judge, label=label)
+    # Heat in and out, and heat that is carried inside.
     if judge:
         study.add("balance", abs(found["Nu_1"] / found["Nu_0"] - 1.0), label=label)
         study.add("carried", abs(found["Nu"] / found["Nu_0"] - 1.0), label=label)
@@ -69,7 +74,10 @@ def numbers(one: Run, a: float) -> dict[str, float]:
     a: thermal diffusivity [m^2/s].
     """
     found, domain = one.summary["box"], one.case["domain"]
-    width, heat, psi = found["width_m"], found["heat"], found["stream_function"]
+    width = found["width_m"]
+    heat = found["heat"]
+    psi = found["stream_function"]
+    # Extrema of the mean center lines, over a / width.
     lines = mean_lines(one)
     z, u_max = extremum(lines.z, lines.u, 1.0)
     x, w_max = extremum(lines.x, lines.w, 1.0)
@@ -87,6 +95,7 @@ def numbers(one: Run, a: float) -> dict[str, float]:
 
 def mean_lines(one: Run) -> CenterLines:
     """Mean of the center lines over the snapshots of the last quarter of the time."""
+    # Mean over the last quarter of the time, in which the flow is steady.
     first, end = one.snapshots[0], one.summary["time_s"]
     box = Box.around(first["position"], first["width"])
     shares = np.linspace(0.0, 1.0, POINTS)
@@ -100,6 +109,7 @@ def draw(study: Study, runs: dict[tuple[float, int], Run]) -> None:
     """(a) u on the vertical, (b) w on the horizontal center line."""
     on_vertical: list[Curve] = []
     on_horizontal: list[Curve] = []
+    # Velocities over a / width, places over the width.
     for k, ((rayleigh, count), one) in enumerate(runs.items()):
         lines, width = mean_lines(one), one.summary["box"]["width_m"]
         unit = diffusivity(rayleigh, study.plan.prandtl) / width
@@ -110,5 +120,6 @@ def draw(study: Study, runs: dict[tuple[float, int], Run]) -> None:
         "natural-convection",
         Panel("u width / a [1]", "z / width [1]", on_vertical, "(a)"),
         Panel("x / width [1]", "w width / a [1]", on_horizontal, "(b)"),
-        height=3.6,
+        height=4.1,
+        legend=3,
     )

@@ -22,6 +22,7 @@ SURFACE = ("time [ns]", "surface temperature [K]")
 
 def over_time(one: Run, label: str, k: int, dash: int) -> Curve:
     """T of particle 1 over time in ns."""
+    # A run that diverges leaves the axes; its numbers must not spoil them.
     T = np.clip(one.history["temperature_at_maximum_K"], -1e4, 1e4)
     return line(1e9 * one.history["time_s"], T, label, k, linestyle=style.LINES[dash])
 
@@ -35,6 +36,7 @@ def exact_surface(light: Light, end: float, reflectivity: float = 0.75) -> Curve
 def draw_spacings(study: Study, light: Light, runs: Mapping[int, Mapping[float, Run]]) -> None:
     """Fig. 10: surface temperature by spacing; Fig. 11: error norm by spacing."""
     panels, errors = [], []
+    # Surface temperature of each spacing, and its error.
     for n, (dimension, found) in enumerate(runs.items()):
         curves, norms = [exact_surface(light, 100e-9)], []
         for k, (spacing, one) in enumerate(found.items()):
@@ -45,6 +47,7 @@ def draw_spacings(study: Study, light: Light, runs: Mapping[int, Mapping[float, 
         panels.append(Panel(*SURFACE, curves, f"{dimension}-D"))
         errors.append(line(list(found), norms, f"{dimension}-D", n, marker="os"[n]))
     study.draw("fig10-spacing", *panels)
+    # A line of first order through the error of the finest spacing.
     ends = np.array([0.25, 1.0])
     errors.append(exact(ends, errors[0].y[0] * ends, "first order"))
     norm = "root mean square error of the surface [K]"
@@ -73,6 +76,7 @@ def draw_trains(study: Study, light: Light, runs: Mapping[tuple[int, float], Run
     panels = []
     for R, letter in ((0.95, "a"), (0.75, "b")):
         curves = [exact_surface(light, 600e-9, R)]
+        # One and three dimensions beside the exact curve, for both reflectivities.
         for k, dimension in enumerate((1, 3)):
             if (dimension, R) in runs:
                 curves.append(over_time(runs[dimension, R], f"SPH {dimension}-D", k, k + 1))
@@ -86,6 +90,7 @@ def draw_depths(study: Study, light: Light, one: Run) -> None:
     """Fig. 15: temperature at depths over time, and over the depth at times."""
     time = one.history["time_s"]
     at_depths, at_times = [], []
+    # Over time at depths, over the depth at times.
     for k, depth in enumerate(DEPTHS):
         T = light.temperature(1e-6 * depth, time, reflectivity=POLISHED)
         at_depths.append(exact(1e9 * time, T, "", color="0.8", linewidth=2.5))
@@ -104,6 +109,7 @@ def draw_depths(study: Study, light: Light, one: Run) -> None:
 
 def draw_rates(study: Study, light: Light, one: Run) -> None:
     """Fig. 16: heating rates at the surface and at depths."""
+    # Rates in the middle between two times.
     time = one.history["time_s"]
     middle = 0.5 * (time[1:] + time[:-1])
     surface: list[Curve] = []

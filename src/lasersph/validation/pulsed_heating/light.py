@@ -17,9 +17,12 @@ class Light:
     """
 
     def __init__(self, intensity: float, duration: float, diffusivity: float | None = None) -> None:
+        # The metal of the case, with constant properties.
         case = load_case("pulsed-heating")
         material = case.material
-        self.intensity, self.duration, self.initial = intensity, duration, case.initial_temperature
+        self.intensity = intensity
+        self.duration = duration
+        self.initial = case.initial_temperature
         self.conductivity = float(material.conductivity_at(self.initial))
         heat_capacity = material.density_reference * float(material.heat_capacity_at(self.initial))
         self.diffusivity = diffusivity or self.conductivity / heat_capacity

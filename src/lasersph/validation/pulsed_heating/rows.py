@@ -21,6 +21,7 @@ def compare(study: Study) -> None:
     """One pulse by spacing and by time step, its cooling, and three pulses."""
     plan = study.plan
     light = Light(plan.intensity, plan.duration)
+    # The exact solution itself, then runs by spacing.
     add_exact(study)
     by_spacing = {}
     for dimension in (1, 3):
@@ -28,18 +29,21 @@ def compare(study: Study) -> None:
         by_spacing[dimension] = {d: one_pulse(study, dimension, d) for d in spacings}
         add_spacings(study, light, dimension, by_spacing[dimension])
     figures.draw_spacings(study, light, by_spacing)
+    # Fixed steps: stable below von Neumann's limit, unbounded above it.
     by_step = {step: with_fixed_step(study, step) for step in plan.steps}
     published = {0.5: "stable", 1.0: "unstable", 5.0: "unstable"}
     for step, one in by_step.items():
         wanted = float(step < STABLE_STEP)
         study.add("bounded", is_bounded(one), wanted, published=published.get(step), step=step)
     figures.draw_time_steps(study, light, by_step)
+    # Cooling after one pulse, and trains of three.
     if plan.cooling:
         add_cooling(study, light)
     reflectivities = (0.75, 0.95)
     trains = {(n, R): pulse_train(study, n, R) for R in reflectivities for n in plan.trains}
     add_trains(study, light, trains)
     figures.draw_trains(study, light, trains)
+    # Statements of the text.
     statements.add_errors(study, light, by_spacing)
     statements.add_rates(study, light, {R: trains[1, R] for R in reflectivities})
     statements.add_peaks(study, light, trains)
@@ -81,6 +85,7 @@ def surface(one: Run) -> np.ndarray:
 
 def add_exact(study: Study) -> None:
     """The exact solution with the printed diffusivity at the times of the table."""
+    # The printed diffusivity, which is not that of the particles.
     plan, table = study.plan, study.table("exact.csv")
     light = Light(plan.intensity, plan.duration, plan.printed_diffusivity)
     for R in (0.75, 0.95):
@@ -91,6 +96,7 @@ def add_exact(study: Study) -> None:
 
 def add_spacings(study: Study, light: Light, dimension: int, runs: dict[float, Run]) -> None:
     """T of particle 1 by spacing, observed order, GCI and error of the finest."""
+    # The last temperature of the first particle, by dimension and spacing.
     table = study.table("particle_1.csv")
     wanted = dict(
         zip(zip(table["dimension"], table["spacing"], strict=True), table["T"], strict=True)
@@ -100,6 +106,7 @@ def add_spacings(study: Study, light: Light, dimension: int, runs: dict[float, R
         study.add("particle_1", value, wanted[dimension, d], dimension=dimension, spacing=d)
     if len(values) < 3:
         return
+    # Order and grid convergence index of three spacings.
     study_of_grids = assess(list(values.values()), list(values))
     exact = float(light.temperature(0.0, 100e-9))
     error = relative_error(values[0.25], exact)
@@ -120,6 +127,7 @@ def add_cooling(study: Study, light: Light) -> None:
     """Time at which the surface is again below the melting point, after one pulse (Fig. 13)."""
     times = ["time.end=8 us", "output.snapshots.interval=1 us"]
     one = study.run("one-pulse", *lattice(1, 0.25), "laser.pulse.count=1", *times)
+    # First time below the melting point, in the run and in the exact solution.
     after = one.history["time_s"] > light.duration
     time, T = one.history["time_s"][after], surface(one)[after]
     exact_time = np.linspace(light.duration, 8e-6, 100_000)
@@ -131,6 +139,7 @@ def add_cooling(study: Study, light: Light) -> None:
 def add_trains(study: Study, light: Light, trains: dict[tuple[int, float], Run]) -> None:
     """Peaks of three pulses, temperatures at depths, heating rate."""
     published = {1: "0.8", 3: "2.5"}
+    # Peaks at the ends of the pulses.
     for (dimension, R), one in trains.items():
         for k in (0, 1, 2):
             at = (2 * k + 1) * light.duration
@@ -138,6 +147,7 @@ def add_trains(study: Study, light: Light, trains: dict[tuple[int, float], Run])
             found = 100.0 * (1.0 - np.interp(at, one.history["time_s"], surface(one)) / exact)
             names = {"dimension": dimension, "R": R, "pulse": k + 1}
             study.add("peak", found, published=published[dimension], **names)
+    # Peaks at depths, and by how much they come later.
     one = trains[1, 0.75]
     time = one.history["time_s"]
     for depth in (2, 5, 7):
@@ -148,4 +158,5 @@ def add_trains(study: Study, light: Light, trains: dict[tuple[int, float], Run])
         if k < time.size - 1:  # at 7 um the peak comes after the end of the run
             delays = (1e9 * float(time[i]) - 500.0 for i in (int(np.argmax(column)), k))
             study.add("delay", *delays, depth=depth)
+    # The steepest rise of the surface.
     study.add("rate", np.max(np.diff(surface(one)) / np.diff(time)))

@@ -16,11 +16,13 @@ Trains = dict[tuple[str, float], Run]
 def compare(study: Study) -> None:
     """One long pulse and three pulses, with walls and without."""
     light = Light(study.plan.intensity, study.plan.duration)
+    # One pulse and trains, with walls and without.
     long = {name: one_pulse(study, name) for name in (WALLED, OPEN)}
     reflectivities = study.plan.reflectivities
     trains = {
         (name, R): pulse_train(study, name, R) for name in (WALLED, OPEN) for R in reflectivities
     }
+    # The lattice must be flat, and walls take a share of the peaks.
     add_lattice(study, trains[OPEN, 0.75])
     largest = max(add_train(study, light, trains, R) for R in reflectivities)
     study.add("largest_share", largest)
@@ -32,6 +34,7 @@ def compare(study: Study) -> None:
 def sides(study: Study, name: str) -> list[str]:
     """Overrides for the rod with walls, or a lattice of a few columns with periodic sides."""
     spacing, depth = study.plan.spacing, study.plan.depth
+    # Walls at the sides of the rod, or a few columns that repeat.
     wanted = ["solver.dimensions=3", f"particles.spacing={spacing} um", f"domain.depth={depth} um"]
     if name == WALLED:
         return [*wanted, "boundaries.sides=wall"]
@@ -82,6 +85,7 @@ def add_train(study: Study, light: Light, trains: Trains, R: float) -> float:
         That part of the first peak on the axis [%].
     """
     shares = []
+    # At the end of each pulse, on the axis.
     for pulse in (1, 2, 3):
         at = (2 * pulse - 1) * light.duration
         expected = float(light.temperature(0.0, at, reflectivity=R))
@@ -91,6 +95,7 @@ def add_train(study: Study, light: Light, trains: Trains, R: float) -> float:
             study.add("peak", below, published=published, R=R, pulse=pulse, name=name)
         shares.append(100.0 * (T[OPEN] - T[WALLED]) / expected)
         study.add("share", shares[-1], R=R, pulse=pulse)
+    # The mean over the surface at the end.
     end = 5.0 * light.duration
     T_open, T_walled = (float(np.mean(at_surface(trains[name, R], end))) for name in (OPEN, WALLED))
     expected = float(light.temperature(0.0, end, reflectivity=R))
@@ -101,11 +106,13 @@ def add_train(study: Study, light: Light, trains: Trains, R: float) -> float:
 def add_cooling(study: Study, light: Light, long: dict[str, Run]) -> None:
     """Cooling after one pulse: with walls, without, exact."""
     end = float(long[OPEN].history["time_s"][-1])
+    # Times that the run has reached.
     for time in (t for t in (0.5e-6, 1e-6, 2e-6, 4e-6, 8e-6) if t <= end * (1.0 + 1e-9)):
         T = float(light.temperature(0.0, time, count=1))
         rise, at = T - light.initial, 1e6 * time
         study.add("open", on_axis(long[OPEN], time), T, share=rise, time=at)
         study.add("walled", on_axis(long[WALLED], time), T, time=at)
+    # First time below the melting point.
     for name, one in long.items():
         after = one.history["time_s"] > light.duration
         below = one.history["time_s"][after][one.history["temperature_at_maximum_K"][after] < 933.0]
@@ -128,6 +135,7 @@ def draw_long(study: Study, light: Light, long: dict[str, Run]) -> None:
 def draw_trains(study: Study, light: Light, trains: Trains) -> None:
     """Fig. 14: three pulses."""
     panels, time = [], np.linspace(0.0, 600e-9, 601)
+    # Each reflectivity, with walls and without.
     for R in study.plan.reflectivities:
         curves = [exact(1e9 * time, light.temperature(0.0, time, reflectivity=R))]
         for k, name in enumerate((WALLED, OPEN)):

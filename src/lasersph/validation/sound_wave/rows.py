@@ -18,7 +18,7 @@ COARSEST = 50
 
 @dataclass(frozen=True)
 class Wave:
-    """What one run says: times [s], phase [rad] and amplitude [m/s] at them, speed [m/s], and the
+    """Wave of one run: times [s], phase [rad] and amplitude [m/s] at them, speed [m/s], and the
     second moment of its lattice."""
 
     run: Run
@@ -32,11 +32,13 @@ class Wave:
 def compare(study: Study) -> None:
     """Judge speed and amplitude of every run."""
     waves = {name: wave(study, name) for name in study.plan.names}
+    # The speed is that of the state equation times the second moment of the lattice.
     for name, found in waves.items():
         case = found.run.case
         share = (COARSEST * case["particles"]["spacing"] / case["domain"]["depth"]) ** 2
         wanted = case["solver"]["sound_speed"] * found.moment
         study.add("speed", found.speed, wanted, share=share, name=name)
+        # Damping: the largest change of the amplitude.
         start = case["solver"]["motion"]["amplitude"]
         change = 100.0 * float(np.max(np.abs(found.amplitude / start - 1.0)))
         study.add("amplitude", change, share=share, name=name)
@@ -47,7 +49,10 @@ def compare(study: Study) -> None:
 def wave(study: Study, name: str) -> Wave:
     """One run, measured."""
     plan = study.plan.runs[name]
-    shape, ratio, dimension = plan["kernel"], plan["support_ratio"], plan["dimension"]
+    # A column in which one wave fits.
+    shape = plan["kernel"]
+    ratio = plan["support_ratio"]
+    dimension = plan["dimension"]
     one = study.run(
         name.replace(", ", "-").replace(" ", "-"),
         f"solver.dimensions={dimension}",
@@ -55,6 +60,7 @@ def wave(study: Study, name: str) -> Wave:
         f"particles.support_ratio={ratio}",
         *plan["settings"],
     )
+    # Mode of the wave, 2 <v exp(i k x)>: its phase runs, its amplitude should stay.
     k = 2.0 * np.pi / one.case["domain"]["depth"]
     velocity_mode = [
         2.0 * np.mean(s["velocity"][-1] * np.exp(1j * k * s["position"][-1])) for s in one.snapshots
@@ -70,6 +76,7 @@ def draw(study: Study, waves: dict[str, Wave]) -> None:
     found = list(waves.values())
     sound_speed = found[0].run.case["solver"]["sound_speed"]
     time = np.array([0.0, max(one.times[-1] for one in found)])
+    # Distance that the phase has run.
     distances, amplitudes = [exact(1e9 * time, 1e6 * sound_speed * time, "c_0 t")], []
     for k, (name, one) in enumerate(waves.items()):
         distance = one.phase * one.speed / np.polyfit(one.times, one.phase, 1)[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lasersph.analytic.stefan import Melting, Phase
+from lasersph.analytic.stefan import Melting, PhaseProperties
 from lasersph.case import Case
 from lasersph.output import Run
 from lasersph.validation.drawing import Panel, exact, marks
@@ -14,11 +14,13 @@ from lasersph.validation.study import Study
 def compare(study: Study) -> None:
     """Judge the front at every spacing, its convergence, and the temperature of the finest run."""
     settings, spacings = study.plan.settings, study.plan.spacings
+    # The exact solution, and runs by spacing.
     case = study.case(*settings)
     solution, end = exact_solution(case), case.time.end
     runs = {
         d: study.run(f"{d}nm", f"particles.spacing={d} nm", *settings) for d in study.plan.spacings
     }
+    # Front at the end, its mean error, and the molten volume.
     for d, one in runs.items():
         front = 1e6 * float(solution.front(end))
         study.add("front", 1e6 * fronts(one)[-1], front, share=1e-3 * d, end=1e9 * end, spacing=d)
@@ -29,6 +31,7 @@ def compare(study: Study) -> None:
         volume = 1e6 * one.summary["melt"]["volume_max_m3"]
         front = 1e6 * float(solution.front(end))
         study.add("melt_volume", volume, front, share=1e-3 * d, spacing=d)
+    # Convergence, and the temperature of the finest run.
     coarse, fine = spacings[0], spacings[-1]
     study.add("convergence", errors[fine] / errors[coarse], fine=fine, coarse=coarse)
     error = temperature_error(runs[fine], solution)
@@ -42,10 +45,11 @@ def compare(study: Study) -> None:
 def exact_solution(case: Case) -> Melting:
     """Neumann's solution with the case's material and temperatures."""
     material = case.material
+    # Both phases have the properties of the start.
     melting, hot = material.melting, case.boundaries.surface_temperature
     assert melting is not None and hot is not None
     temperature = case.initial_temperature
-    phase = Phase(
+    phase = PhaseProperties(
         float(material.conductivity_at(temperature)), float(material.heat_capacity_at(temperature))
     )
     return Melting(
@@ -71,6 +75,7 @@ def mean_front_error(one: Run, solution: Melting) -> float:
 def temperature_error(one: Run, solution: Melting) -> float:
     """Mean |T - exact| over the liquid particles at the end, over the superheat."""
     last = one.snapshots[-1]
+    # Fully molten particles at their depths.
     is_liquid = last["melt_fraction"] >= 1.0
     expected = solution.temperature(-last["position"][-1][is_liquid], last["time"])
     superheat = solution.surface_temperature - solution.melting_temperature
@@ -79,6 +84,7 @@ def temperature_error(one: Run, solution: Melting) -> float:
 
 def draw(study: Study, runs: dict[int, Run], solution: Melting) -> None:
     """(a) front over time, (b) temperature over depth at the end."""
+    # Fronts over time, temperatures over the depth at the end.
     end = list(runs.values())[-1].snapshots.times[-1]
     time = np.linspace(0.0, end, 200)
     depth = np.linspace(1e-9, 2.0 * float(solution.front(end)), 300)

@@ -17,7 +17,7 @@ from lasersph.validation.study import Study
 
 @dataclass(frozen=True)
 class Decay:
-    """What one run says.
+    """Decay of the vortices in one run.
 
     Attributes:
         run: the run. failure: why it ended early, or "".
@@ -34,18 +34,22 @@ class Decay:
 
 def compare(study: Study) -> None:
     """Judge the finest run with shifting, and convergence; show those without."""
+    # Runs with shifting and without, by number of particles.
     vortices, counts = vortices_of(study.case()), study.plan.particles
     shifted = {n: decay(study, vortices, n) for n in counts}
     plain = {n: decay(study, vortices, n, "solver.shifting=0") for n in counts}
+    # Rate and error of those with shifting; the finest is judged.
     coarse, fine = counts[0], counts[-1]
     for n, found in shifted.items():
         study.add("rate", found.rate, judge=n == fine, count=n)
         study.add("velocity", 100.0 * found.errors[-1], judge=n == fine, count=n)
+    # Convergence and order over all numbers of particles.
     ratio = shifted[fine].errors[-1] / shifted[coarse].errors[-1]
     study.add("convergence", ratio, fine=fine, coarse=coarse)
     study.add("order", order(counts, [found.errors[-1] for found in shifted.values()]))
     time = 1.0 / vortices.decay_rate
     study.remarks.append(f"Re = {vortices.reynolds_number:.4g}, speeds fall by 1/e in {time:.4g} s")
+    # Without shifting: how far they come, and how close particles get.
     for n, found in plain.items():
         history, case = found.run.history, found.run.case
         least = float(np.min(history["flow_spacing_min_m"])) * n / case["domain"]["width"]
@@ -79,6 +83,7 @@ def decay(study: Study, vortices: TaylorGreen, count: int, *settings: str) -> De
     if study.quick:
         wanted.append(f"time.end={case.time.end / study.plan.shortened!r} s")
     label, failure = f"{count}{'-without-shifting' if settings else ''}", ""
+    # A run without shifting may fail: what it has computed is compared.
     try:
         one = study.run(label, *wanted)
     except StepFailed as error:
@@ -91,6 +96,7 @@ def decay(study: Study, vortices: TaylorGreen, count: int, *settings: str) -> De
 
 def velocity_error(step: dict[str, Any], vortices: TaylorGreen) -> float:
     """Root of the mean square of |v - exact| over the largest exact speed of that time."""
+    # v = v(0) exp(-2 nu k^2 t): errors count over the speed of their time.
     time = float(step["time"])
     expected = vortices.velocity(step["position"], time)
     square = np.mean(np.sum((step["velocity"] - expected) ** 2, axis=0))
@@ -99,6 +105,7 @@ def velocity_error(step: dict[str, Any], vortices: TaylorGreen) -> float:
 
 def energy_rate(one: Run, vortices: TaylorGreen) -> float:
     """Slope of the logarithm of the kinetic energy over time, over the exact -4 nu k^2 [1]."""
+    # Slope of ln E over time, as E falls with exp(-4 nu k^2 t).
     time, energy = one.history["time_s"], one.history["flow_kinetic_energy_J"]
     is_moving = energy > 0.0
     if np.count_nonzero(is_moving) < 3:
@@ -116,7 +123,10 @@ def draw(
     study: Study, vortices: TaylorGreen, shifted: dict[int, Decay], plain: dict[int, Decay]
 ) -> None:
     """(a) kinetic energy, (b) error of the velocities over time."""
-    energies, errors, longest = [], [], 0.0
+    # Energies and errors, dotted without shifting.
+    energies = []
+    errors = []
+    longest = 0.0
     for found, style, word in ((shifted, "-", ""), (plain, ":", ", no shifting")):
         for k, (n, one) in enumerate(found.items()):
             time, energy = one.run.history["time_s"], one.run.history["flow_kinetic_energy_J"]

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.irradiation.first_hit import FirstHitLight
 from lasersph.lasers import Laser
 from lasersph.materials import load_material
@@ -18,6 +17,7 @@ from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.ablation.enthalpy_ejection import EnthalpyEjection
 from lasersph.solvers.ablation.published.ejection import PublishedEjection
 from lasersph.sph.kernels import kernel
+from lasersph.surface.free_surface import FreeSurface
 
 DX = 2e-7
 SIDE, LAYERS = 11, 4

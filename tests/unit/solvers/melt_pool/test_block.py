@@ -16,7 +16,6 @@ from lasersph import compute, load_case
 from lasersph.compute.search import EscapedParticle
 from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.block_terms import inner_weight, wall_terms
-from lasersph.solvers.melt_pool.ghost_fields import ghost_tensor, ghost_velocity
 
 CHANNEL = {"left": "periodic", "right": "periodic", "bottom": "no-slip",
            "surface": {"kind": "moving-wall", "velocity": 1.0}}  # fmt: skip
@@ -30,10 +29,10 @@ BOXES = {
 
 def ghosts_of(block):
     """Positions, sources, signs and offsets of the ghosts on the host."""
-    host, ghosts = block.backend.to_host, block.ghosts
+    host, ghosts = block.backend.to_host, block.ghosts.particles
     types, of_type = ghosts.ghost_types, host(ghosts.ghost_type).astype(int)
     signs = types.sign[:, of_type], types.offset[:, of_type]
-    parts = host(block.pairs.position), host(block.source), *signs
+    parts = host(block.pairs.position), host(block.ghosts.source), *signs
     return tuple(part[..., block.count : ghosts.total] for part in parts)
 
 
@@ -107,8 +106,8 @@ def test_velocities_of_ghosts():
     block = block_of(solver)
     host, backend = solver.backend.to_host, solver.backend
     v = np.random.default_rng(2).normal(size=(2, solver.body.count))
-    found = host(block.extend_velocity(backend.asarray(v), backend.zeros(solver.body.count)))
-    found = found[:, : block.ghosts.total]
+    found = host(block.ghosts.extend_velocity(backend.asarray(v), backend.zeros(solver.body.count)))
+    found = found[:, : block.ghosts.particles.total]
     place, source, *_ = ghosts_of(block)
     assert np.array_equal(found[:, : block.count], v)
     above = (place[1] > 0.0) & (np.abs(place[0]) < 0.5)
@@ -132,22 +131,6 @@ def test_smallest_distance():
     wall[1, 4] = -0.01
     block = block_of(solver, wall)
     assert smallest(solver, block) == pytest.approx(0.02)
-
-
-def test_ghost_tensor():
-    """S M S: off-diagonal entries change their sign beyond one face, none beyond a corner."""
-    M = np.array([[1.0, 2.0], [3.0, 4.0]])
-    found = ghost_tensor(M, np.array([-1.0, 1.0]))
-    assert found.tolist() == [[1.0, -2.0], [-3.0, 4.0]]
-    assert ghost_tensor(M, np.array([-1.0, -1.0])).tolist() == M.tolist()
-
-
-def test_ghost_velocity():
-    """S v + c + slope * jump * t."""
-    v, S, c = np.array([2.0, 3.0]), np.array([1.0, -1.0]), np.array([0.5, 0.0])
-    along = np.array([1.0, 0.0])
-    assert ghost_velocity(v, S, c, 1.0, 0.25, along).tolist() == [2.75, -3.0]
-    assert ghost_velocity(v, S, c, -1.0, 0.25, along).tolist() == [2.25, -3.0]
 
 
 def test_terms_of_a_dirichlet_face():
@@ -188,8 +171,10 @@ def test_power_of_a_neumann_face(share):
     solver = box(flow={}, heat=heat)
     block = block_of(solver, jittered(solver, share))
     out = [solver.backend.zeros(block.count) for _ in range(4)]
-    fields = {"g_ij": block.weights} | block.rules
-    solver.backend.pair_sum(wall_terms, block.pairs, fields, tuple(out), closest=block.closest)
+    fields = {"g_ij": block.weights} | block.walls.rules
+    solver.backend.pair_sum(
+        wall_terms, block.pairs, fields, tuple(out), closest=block.walls.closest
+    )
     total = solver.backend.to_host(out[3]).sum()
     assert total == pytest.approx(10.0, rel=1e-9 if share == 0.0 else 0.05)
 
@@ -220,7 +205,7 @@ def test_no_ghost_of_what_lies_deep_below_a_flank():
     host = block.backend.to_host
     start, neighbor = host(block.pairs.row_start).astype(int), host(block.pairs.neighbor)
     neighbor = neighbor[: start[-1]]
-    near = host(solver.domain.surface.ghosts.distance)[: block.count] < block.moving_support
+    near = host(solver.domain.surface.ghosts.distance)[: block.count] < block.layers.moving_support
     volume, seen = host(block.V), np.repeat(near, np.diff(start))
     assert volume.max() > 5.0 * volume[: block.count][near].max()
     assert volume[neighbor[seen]].max() < 1.5 * volume[: block.count][near].max()

@@ -14,7 +14,7 @@ from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 BOX = ((0.0, 1.0), (-1.0, 0.0))
 V = np.array([2.0, 3.0])
 """Velocity of the source in all tests [m/s]."""
-FLAT = SimpleNamespace(normal_velocity=0.0, heat_flux=0.0, ghosts=None)
+FLAT = SimpleNamespace(normal_velocity=0.0, heat_flux=0.0, ghosts=None, moves=False)
 NEAR = {"left": [(1, 0)], "right": [(2, 0)], "bottom": [(0, 1)], "surface": [(0, 2)]}
 """Types of the ghosts of a particle near one face: faces crossed of either axis."""
 
@@ -33,7 +33,7 @@ def corner_of(across, along):
 
 def rules_at(conditions, chosen):
     """Rules of ghosts of the chosen types, and the faces that each of them crossed."""
-    ghost_types = ghost_types_of(conditions.ghost_faces(None, has_bottom=True))
+    ghost_types = ghost_types_of(conditions.ghost_faces(FLAT, has_bottom=True))
     columns = [ghost_types.crossed.T.tolist().index(list(ghost_type)) for ghost_type in chosen]
     few = replace(
         ghost_types, sign=ghost_types.sign[:, columns], offset=ghost_types.offset[:, columns],
@@ -98,12 +98,12 @@ def test_corner_of_two_walls_at_rest():
     assert velocity_beyond(conditions_of(), corner_of(1, 1)) == pytest.approx(V)
 
 
-def test_slope_of_a_stressed_surface():
-    """Added beyond the surface, with the other sign beyond a side as well, nowhere else."""
+def test_stress_beyond_a_surface():
+    """Beyond the surface a ghost has more of the tangential velocity, which a side turns around."""
     conditions = conditions_of(left="symmetry", surface="free-surface")
     rules, crossed = rules_at(conditions, corner_of(1, 2))
-    slopes = {tuple(c): s for c, s in zip(crossed.T.tolist(), rules.slope, strict=True)}
-    assert slopes == {(1, 0): 0.0, (0, 2): 1.0, (1, 2): -1.0}
+    more = zip(crossed.T.tolist(), rules.factor[0] * rules.stressed, strict=True)
+    assert {tuple(c): s for c, s in more} == {(1, 0): 0.0, (0, 2): 1.0, (1, 2): -1.0}
 
 
 def test_pool_in_a_block():
@@ -112,8 +112,8 @@ def test_pool_in_a_block():
     assert [conditions.flow_kind(s) for s in ("left", "bottom", "surface")] == [
         "symmetry", "no-slip", "free-surface",
     ]  # fmt: skip
-    x, z = conditions.ghost_faces(None, has_bottom=False)
-    _, deep = conditions.ghost_faces(None, has_bottom=True)
+    x, z = conditions.ghost_faces(FLAT, has_bottom=False)
+    _, deep = conditions.ghost_faces(FLAT, has_bottom=True)
     assert (x.lower_kind, z.lower_kind, z.upper_kind) == (MIRROR, OPEN, MIRROR)
     assert deep.lower_kind == MIRROR
     assert conditions.largest_wall_speed() == 0.0
@@ -122,7 +122,7 @@ def test_pool_in_a_block():
 def test_periodic_pool():
     """A block that repeats for heat repeats for the flow."""
     conditions = FaceConditions(BOX, Boundaries(sides="periodic"), None, 300.0)
-    assert conditions.ghost_faces(None, has_bottom=False)[0].lower_kind == PERIODIC
+    assert conditions.ghost_faces(FLAT, has_bottom=False)[0].lower_kind == PERIODIC
 
 
 def test_largest_wall_speed():
@@ -173,3 +173,55 @@ def test_corner_of_a_dirichlet_and_an_insulated_face():
         (corner,) = np.flatnonzero((crossed != 0).all(axis=0))
         assert (rules.dirichlet[corner], rules.wall_temperature[corner]) == (1.0, at)
         assert rules.normal[:, corner].tolist() == normal
+
+
+SPACE = ((0.0, 1.0), (0.0, 1.0), (-1.0, 0.0))
+
+
+def rules_in_space(heat, kinds):
+    """Rules by type in a box of three axes whose faces are of some kinds for the flow, and others
+    symmetric; a moving surface of such a box has the velocity 5 along x."""
+    conditions = FaceConditions(SPACE, Boundaries(**heat), None, 300.0)
+    conditions.flow_kind = lambda face: kinds.get(face, "symmetry")
+    conditions.wall_velocity = lambda face: 5.0 if kinds.get(face) == "moving-wall" else 0.0
+    types = ghost_types_of(conditions.ghost_faces(FLAT, has_bottom=True))
+    number = {tuple(crossed): k for k, crossed in enumerate(types.crossed.T.tolist())}
+    return conditions.rules(types, FLAT), number
+
+
+@pytest.mark.parametrize(
+    ("crossed", "factor"),
+    [
+        # a wall turns all around, a plane of symmetry its normal component; products of both
+        ((1, 0, 0), (-1, -1, -1)),
+        ((0, 1, 0), (1, -1, 1)),
+        ((1, 1, 0), (-1, 1, -1)),
+        ((1, 0, 1), (1, 1, 1)),
+        ((1, 1, 1), (1, -1, 1)),
+    ],
+)
+def test_edges_and_corners_in_space(crossed, factor):
+    """Walls at left and bottom, symmetry at the front."""
+    rules, number = rules_in_space({}, {"left": "no-slip", "bottom": "no-slip"})
+    assert rules.factor[:, number[crossed]].tolist() == list(factor)
+    assert not rules.added.any()
+
+
+def test_wall_that_moves_in_space():
+    """Along x, on beyond a plane of symmetry at the front; it ends at a side that it meets, and at
+    a wall beside it."""
+    rules, number = rules_in_space({}, {"surface": "moving-wall", "back": "no-slip"})
+    added = {crossed: rules.added[:, k].tolist() for crossed, k in number.items()}
+    assert added[0, 0, 2] == added[0, 1, 2] == [10.0, 0.0, 0.0]
+    assert added[1, 0, 2] == added[1, 1, 2] == added[0, 2, 2] == added[0, 2, 0] == [0.0] * 3
+
+
+def test_heat_in_space():
+    """The left face holds 310 K, with its normal along -x, in edges and corners as well."""
+    rules, number = rules_in_space({"left": "fixed-temperature", "left_temperature": 310.0}, {})
+    for crossed in ((1, 0, 0), (1, 1, 0), (1, 1, 2)):
+        k = number[crossed]
+        assert (rules.dirichlet[k], rules.wall_temperature[k]) == (1.0, 310.0)
+        assert rules.normal[:, k].tolist() == [-1.0, 0.0, 0.0] and rules.heat_face[k] == 1.0
+    assert rules.walls[:, number[1, 1, 2]].tolist() == [1.0, 3.0, 6.0]
+    assert not rules.dirichlet[number[0, 1, 2]]

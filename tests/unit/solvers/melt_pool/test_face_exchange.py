@@ -62,14 +62,14 @@ def test_viscous_force_by_hand():
         ((2.0, 3.0), (0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 3.0, 0.0)),
         ((0.0, 0.0), (0.0,) * 8),
     ):
-        assert viscous_terms(**v, wall_x_j=walls[0], wall_z_j=walls[1]) == expected
+        assert viscous_terms(**v, wall_j=walls) == expected
 
 
 def test_pressure_by_hand():
     """V (p_i + p_j) G_ij across the face of a ghost with C = 1; out of the box it presses."""
     one, G = np.eye(2), np.array([-0.5, 7.0])  # of a particle before its ghost on the left
     pair = {"p_i": 3.0, "p_j": 3.0, "C_i": one, "C_j": one, "G_ij": G}
-    shares = pressure_terms(**pair, wall_x_j=1.0, wall_z_j=0.0)
+    shares = pressure_terms(**pair, wall_j=(1.0, 0.0))
     assert shares == (42.0, 0.0, 0.0, 0.0, -3.0, 0.0, 0.0, 0.0)
     assert outward(force_across(*shares, V=2.0)) == (6.0, 0.0, 0.0, 0.0)
     assert outward((-1.0, 1.0, -2.0, 2.0)) == (1.0, 1.0, 2.0, 2.0)
@@ -177,8 +177,8 @@ def test_an_even_pressure_presses_evenly():
     """p times the length of each wall on a lattice; nothing once p_0 is taken off."""
     solver = box(flow={})
     block, exchange = block_of(solver), exchange_of(solver)
-    p = solver.backend.asarray(np.full(block.total, 7.0))
-    C = block.extend_tensor(solver.flow.correction)
+    p = solver.backend.asarray(np.full(block.ghosts.size, 7.0))
+    C = block.ghosts.extend_tensor(solver.flow.correction)
     for lowest, expected in ((0.0, 14.0), (-7.0, 0.0)):
         exchange.pressing = dict.fromkeys(exchange.pressing, 0.0)
         solver.flow.pressure_seen = {"p": p, "G_ij": block.gradient, "C": C}, lowest

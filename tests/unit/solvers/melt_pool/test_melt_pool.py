@@ -17,13 +17,13 @@ from flow_boxes import (
 )
 
 from lasersph import compute
-from lasersph.boundaries.flat_surface import ImposedTemperature
 from lasersph.case import load_case
 from lasersph.compute.search import EscapedParticle
 from lasersph.simulation.recipes import recipe_of
-from lasersph.solvers.melt_pool.flow_terms import settle
 from lasersph.solvers.melt_pool.solver import lies_at_surface
 from lasersph.solvers.step_control import RETRIES, NotConverged
+from lasersph.surface.flat_surface import ImposedTemperature
+from lasersph.surface.still_surface import settle
 
 LIFE = 45
 """Steps after which the small pool is solid."""

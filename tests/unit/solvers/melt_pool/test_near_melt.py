@@ -12,7 +12,7 @@ RADIUS = 0.3
 
 def found(backend, position, fluid, **settings):
     """Host array of who is near."""
-    options = {"repeats": False} | settings
+    options = {"repeats": (False, False)} | settings
     cells = NearMelt(backend, position.shape[1], BOUNDS, RADIUS, **options)
     place, flows = backend.asarray(position), backend.asarray(np.array(fluid, float))
     return backend.to_host(cells.find(place, flows)) > 0.0
@@ -30,21 +30,24 @@ def cloud():
 def test_radius(backend, cloud, repeats):
     """Whoever is closer than the radius to a fluid one is found, none beyond two cells."""
     position, fluid = cloud
-    near = found(backend, position, fluid, repeats=repeats)
+    near = found(backend, position, fluid, repeats=(repeats, False))
     apart = np.abs(position[:, :, None] - position[:, None, fluid])
     if repeats:
         apart[0] = np.minimum(apart[0], 9.0 - apart[0])
     assert near[(np.hypot(*apart) < RADIUS).any(axis=1)].all()
-    # columns near the ends of a period share what is marked in any of them
-    farther = RADIUS * (9.0 if repeats else 2.0)
-    assert not near[(apart.max(axis=0) > farther).all(axis=1)].any()
+    # cells are up to a third wider than the radius along an axis of four of them
+    assert not near[(apart.max(axis=0) > 2.0 * 4.0 / 3.0 * RADIUS).all(axis=1)].any()
     assert near[fluid].all() and not near.all()
 
 
 def test_across_the_period(backend):
     """A fluid particle at the right end reaches those at the left where the box repeats."""
     position = np.array([[8.95, 0.05, 4.5], [-0.5, -0.5, -0.5]])
-    assert found(backend, position, [1, 0, 0], repeats=True).tolist() == [True, True, False]
+    assert found(backend, position, [1, 0, 0], repeats=(True, False)).tolist() == [
+        True,
+        True,
+        False,
+    ]
     assert found(backend, position, [1, 0, 0]).tolist() == [True, False, False]
 
 
@@ -59,3 +62,20 @@ def test_escaped(backend, wrong):
     position = np.array([[1.0, wrong], [-0.5, -0.5]])
     with pytest.raises(EscapedParticle, match="particle 1 escaped"):
         found(backend, position, [1, 1])
+
+
+@pytest.mark.parametrize("dimension", [1, 3])
+@pytest.mark.parametrize("is_periodic", [False, True])
+def test_radius_on_a_line_and_in_space(backend, dimension, is_periodic):
+    """Whoever is closer than the radius is found, around the ends of every axis that repeats."""
+    random, repeats = np.random.default_rng(8), (is_periodic,) * dimension
+    position, fluid = random.uniform(0.0, 3.0, (dimension, 60)), np.arange(60) < 2
+    cells = NearMelt(backend, 60, ((0.0, 3.0),) * dimension, RADIUS, repeats=repeats)
+    given = (position, np.array(fluid, float))
+    near = backend.to_host(cells.find(*map(backend.asarray, given))) > 0.0
+    apart = np.abs(position[:, :, None] - position[:, None, fluid])
+    if is_periodic:
+        apart = np.minimum(apart, 3.0 - apart)
+    assert near[(np.linalg.norm(apart, axis=0) < RADIUS).any(axis=1)].all()
+    assert not near[(apart.max(axis=0) > 2.5 * RADIUS).all(axis=1)].any()
+    assert near[fluid].all() and not near.all()

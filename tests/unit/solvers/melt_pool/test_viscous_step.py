@@ -4,11 +4,19 @@ import numpy as np
 import pytest
 from flow_boxes import PERIODIC, PERIODIC_HEAT, block_of, box, jittered, matrix_of, place_of, pool
 
+from lasersph.physics.viscosity import momentum
 from lasersph.solvers.melt_pool import block as block_module
-from lasersph.solvers.melt_pool.ghost_fields import velocity_change
-from lasersph.solvers.melt_pool.viscous_step import ViscousStep
+from lasersph.solvers.melt_pool.viscous_step import (
+    ViscousStep,
+    first_residual,
+    matrix_product,
+    next_direction,
+    next_solution,
+    weight_of,
+)
 
 NU = 0.01
+FIRST, SECOND = np.array([1.0, 0.0]), np.array([3.0, -2.0])
 COUETTE = {
     "left": "periodic", "right": "periodic", "bottom": "no-slip",
     "surface": {"kind": "moving-wall", "velocity": 1.0},
@@ -23,7 +31,7 @@ def advanced(solver, block, v, step, kind, steps=1):
     velocity = backend.asarray(v)
     nothing, force = backend.zeros(count), backend.zeros((2, count))
     for _ in range(steps):
-        extended = block.extend_velocity(velocity, nothing)
+        extended = block.ghosts.extend_velocity(velocity, nothing)
         iterations = viscous.advance(block, velocity, force, extended, solver.kinds, step)
     return backend.to_host(velocity), iterations
 
@@ -129,7 +137,7 @@ def test_turning_melt_feels_no_viscosity():
     v = np.array([-z - 0.5, x])
     pairs = advanced(solver, block, v, 1e-4, "explicit")[0] - v
     flow._viscosity_varies = True
-    extended = block.extend_velocity(backend.asarray(v), backend.zeros(solver.body.count))
+    extended = block.ghosts.extend_velocity(backend.asarray(v), backend.zeros(solver.body.count))
     flow._add_transposed_stress(extended, solver.kinds)
     rest = pairs + 1e-4 * backend.to_host(flow.body_force)
     assert np.abs(pairs[:, inner]).max() > 0.3e-4 * NU
@@ -160,7 +168,7 @@ def test_solid_drags():
     viscous = ViscousStep(backend, solver.flow.viscous.volume, 1e-6, "implicit")
     velocity, force = backend.asarray(v), backend.zeros((2, count))
     block = solver.flow.block
-    extended = block.extend_velocity(velocity, backend.zeros(count))
+    extended = block.ghosts.extend_velocity(velocity, backend.zeros(count))
     viscous.advance(block, velocity, force, extended, solver.kinds, 1e-8)
     found = backend.to_host(velocity)
     fluid = v[0] > 0.0
@@ -180,8 +188,25 @@ def test_nothing_flows():
     assert np.array_equal(found, v)
 
 
-def test_velocity_change_of_a_ghost():
-    """S d of its source."""
-    d = np.array([1.0, 2.0]), np.array([-1.0, 3.0])
-    found = velocity_change(1, 2, *d, np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, -1.0]))
-    assert found.tolist() == [2.0, -3.0]
+def test_implicit_between_two_particles():
+    """V = 1, s g = 0.5: the difference shrinks to 1 / (1 + 2 s g) = 1/2 in one step of the method.
+
+    With equal diagonals the first direction is an eigenvector.
+    """
+    g, s = 0.5, 1.0
+    v = [FIRST, SECOND]
+    begun = [first_residual(momentum(g, v[i], v[1 - i]), v[i], 1.0, v[i], g, s) for i in range(2)]
+    r, z = [b[0] for b in begun], [b[1] for b in begun]
+    q_and_dq = [matrix_product(momentum(g, z[i], z[1 - i]), z[i], 1.0, s) for i in range(2)]
+    alpha = sum(b[2] for b in begun) / sum(pair[1] for pair in q_and_dq)
+    ended = [next_solution(v[i], r[i], z[i], q_and_dq[i][0], 1.0, g, alpha, s) for i in range(2)]
+    mean, half = 0.5 * (FIRST + SECOND), 0.25 * (FIRST - SECOND)
+    assert ended[0][0] == pytest.approx(mean + half)
+    assert ended[1][0] == pytest.approx(mean - half)
+    assert sum(e[4] for e in ended) == pytest.approx(0.0, abs=1e-30)
+
+
+def test_directions():
+    """z + beta d; a weight is summed as it is."""
+    assert weight_of(0.5) == 0.5
+    assert next_direction(FIRST, SECOND, 2.0).tolist() == [7.0, -4.0]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from lasersph.boundaries.free_surface import FreeSurface
 from lasersph.boundaries.initial_motion import Rest
 from lasersph.boundaries.vessel import Vessel
 from lasersph.case import Case
@@ -30,6 +29,7 @@ from lasersph.solvers.ablation.solver import Ablation
 from lasersph.solvers.conduction.walls import wall_enthalpy
 from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.lattice_sums import diffusive_rate, second_moment, surface_threshold, viscous_rate
+from lasersph.surface.free_surface import FreeSurface
 
 NEVER = 1e9
 """Temperature that nothing reaches [K]. Format: higher than any table."""
@@ -77,6 +77,9 @@ def solver_of(
     )
     shape = kernel(case.particles.kernel, geometry.dimension)
     ratio = case.particles.support_over_spacing
+
+    # A metal of the published rule melts without latent heat: its curve has no liquidus then, but
+    # its particles still become liquid there.
     melts_without_heat = curve.liquidus is None and material.liquidus is not None
     particles = ParticleState(
         backend,
@@ -95,6 +98,8 @@ def solver_of(
         light = _first_hit(case, case.laser, backend, particles)
         ejection = _ejection(case, backend, particles, curve, light)
     region = _region(case, backend, particles, settings)
+
+    # Pairs within the support plus a skin, so that the list lasts for several steps.
     low, high = (tuple(corner) for corner in zip(*geometry.box, strict=True))
     pairs = VerletList(
         backend,
@@ -131,6 +136,7 @@ def parameters_of(
     ratio = case.particles.support_over_spacing
     spacing = geometry.spacing
     solid, liquid = viscosities(case, settings)
+    # The box is high enough for ejecta to fly in, and no higher than they are followed.
     height = settings.ejecta_height or case.domain.depth
     low, high = (tuple(ends) for ends in zip(*geometry.box, strict=True))
     viscous, diffusive = decay_rates(case, settings, spacing)
@@ -160,8 +166,10 @@ def decay_rates(case: Case, settings: AblationSettings, spacing: float) -> tuple
     """Rates at which alternating layers of given spacing [m] stop and cool [1/s]."""
     shape = kernel(case.particles.kernel, settings.dimensions)
     ratio = case.particles.support_over_spacing
+    # The stiffest pair of particles sets the rate: alpha c / dx.
     stiffest = max(viscosities(case, settings)) * settings.sound_speed / spacing
     diffusive = diffusive_rate(shape, ratio) * _diffusivity(case) / spacing**2
+    # The weights of second moments scale every sum of heat.
     if settings.weights == "second-moment":
         diffusive /= second_moment(shape, ratio)
     return viscous_rate(shape, ratio, SOFTENING) * stiffest, diffusive
@@ -172,6 +180,7 @@ def _diffusivity(case: Case) -> float:
     curve = case.material.caloric_curve(
         case.initial_temperature, "hold", phase_change=has_latent_heats(case)
     )
+    # Slope of the heat-flux potential, dPhi/dh = k/c_p, at its steepest.
     slopes = np.diff(curve.potential) / np.diff(curve.enthalpy)
     return float(np.max(slopes)) / case.material.density_reference
 
@@ -198,10 +207,11 @@ def _first_hit(
 def _region(
     case: Case, backend: Backend, particles: ParticleState, settings: AblationSettings
 ) -> ActiveRegion | None:
-    """What is computed: where light falls on matter at rest only what heat reaches."""
+    """Active region: where light falls on matter at rest, only what heat reaches is computed."""
     if not has_active_region(case):
         return None
     geometry = particles.geometry
+    # Heat reaches one support and the skin further in the life of a pair list.
     support = float(backend.look(particles.now["support"])[0]) + settings.skin * geometry.spacing
     lit = backend.asarray(np.arange(geometry.surface_count), "index")
     return ActiveRegion(backend, particles.now["position"], support, geometry.period, lit)
@@ -226,6 +236,7 @@ def _ejection(
     spacing = particles.geometry.spacing
     if not is_published:
         return EnthalpyEjection(backend, vapor, curve, light, particles.now.capacity, spacing)
+    # The published rule removes what lies above a depth of its own.
     support = float(backend.to_host(particles.now["support"])[0])
     particles.now.add("lift")
     return PublishedEjection(

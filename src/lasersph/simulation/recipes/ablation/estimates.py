@@ -20,13 +20,13 @@ from lasersph.physics.ablation_estimates import (
     depth_of_light,
     evaporating_temperature,
     light_left,
-    recoil_moves_melt_at,
 )
 from lasersph.physics.evaporation import (
     effusion_velocity,
     mean_normal_velocity,
     vapor_constants,
 )
+from lasersph.physics.recoil import recoil_moves_melt_at
 from lasersph.simulation.heating import reflectivity_at
 
 NEARLY_ALL = 0.05
@@ -50,6 +50,7 @@ def ablation_estimates(case: Case) -> dict[str, Any]:
 def absorption(case: Case, laser: Laser) -> dict[str, float]:
     """How deep the light goes, and what is left below the first layer of particles."""
     alpha = laser.absorption_coefficient(case.material)
+    # Light that is absorbed at the surface may still have a depth in the optics of the metal.
     if alpha == float("inf") and case.material.optics is not None:
         alpha = case.material.optics.absorption_coefficient or alpha
     if alpha == float("inf"):
@@ -65,6 +66,8 @@ def conduction(case: Case, laser: Laser, reflectivity: float) -> dict[str, float
     """Penetration of heat in a pulse, temperatures without phase change, loss to the sides."""
     duration, material = on_time(laser), case.material
     diffusivity = material.diffusivity_reference
+
+    # Half-space under the flux at the center of the beam.
     given: dict[str, Any] = {
         "flux": (1.0 - reflectivity) * laser.peak_fluence / duration,
         "pulse_duration": duration,
@@ -79,12 +82,16 @@ def conduction(case: Case, laser: Laser, reflectivity: float) -> dict[str, float
         "surface_temperature_K": cold + rise,
     }
     radius, pulse = radius_of(laser), laser.pulse
+
+    # A train: the temperature at the end of the last pulse, with heat that leaves sideways.
     if isinstance(pulse, SquarePulse) and pulse.count > 1 and pulse.period is not None:
         train = {"count": pulse.count, "off_time": pulse.period - duration, "disc_radius": radius}
         last = (pulse.count - 1) * pulse.period + duration
         found["surface_temperature_last_K"] = cold + float(
             pulse_train_temperature(0.0, last, **train, **given)
         )
+
+    # One pulse on a disc: how much less than the half-space it gets.
     if radius is not None:
         disc = float(pulse_train_temperature(0.0, duration, disc_radius=radius, **given))
         found["surface_temperature_disc_K"] = cold + disc
@@ -118,12 +125,14 @@ def left_out(case: Case, laser: Laser, reflectivity: float) -> dict[str, float |
     found: dict[str, float | None] = dict.fromkeys(names)
     if boiling is None:
         return found
+    # Above these temperatures the model leaves out what matters.
     if boiling.critical_temperature is not None:
         found["phase_explosion_from_K"] = PHASE_EXPLOSION * boiling.critical_temperature
         found["shielding_from_K"] = boiling.critical_temperature
     if boiling.molar_mass is None:
         return found
     constants = vapor_constants(boiling)
+    # Landau's balance: the temperature at which vapor carries all of the absorbed flux away.
     found["evaporating_K"] = evaporating_temperature(
         (1.0 - reflectivity) * laser.peak_fluence / on_time(laser),
         T_0=case.initial_temperature,
@@ -131,6 +140,7 @@ def left_out(case: Case, laser: Laser, reflectivity: float) -> dict[str, float |
         L_m=material.melting.latent_heat if material.melting is not None else 0.0,
         **constants,
     )
+    # Recoil moves the melt above the capillary pressure of the spot, 2 gamma / r.
     if material.surface_tension is not None and (radius := radius_of(laser)) is not None:
         tension = float(material.surface_tension_at(boiling.temperature))
         moves = recoil_moves_melt_at(radius, tension, constants)

@@ -53,6 +53,7 @@ class AblationRecipe(Recipe[AblationSettings, Ablation]):
 
         Matter that light falls on while it rests is limited by heat alone, as long as it rests.
         """
+        # A fixed step needs no limits.
         if fixed := self.fixed_steps("motion", PRODUCTS):
             return fixed
         limits = {"end": self.case.time.end} | self.motion_limits(is_still=self.is_at_rest)
@@ -83,6 +84,7 @@ class AblationRecipe(Recipe[AblationSettings, Ablation]):
         """How short steps become once matter moves."""
         if not self.is_at_rest:
             return []
+        # At rest only heat limits the steps; with the first motion sound does.
         moving = self.motion_limits(is_still=False)
         name = min(moving, key=lambda key: moving[key])
         limit = format_quantity(moving[name], "s")

@@ -1,4 +1,4 @@
-"""What observers see of matter that moves and ablates: arrays where they lie, not copied.
+"""The view of matter that moves and ablates: arrays where they lie, not copied.
 
 After the first view particles that follow the last active one are left out: cold, at rest and the
 deepest, since particles are numbered from the surface down.
@@ -42,6 +42,7 @@ def _shown_count(solver: Ablation) -> int:
     count = solver.body.count
     if solver.rows is None:
         return count
+    # Indices of active particles come sorted; walls have the numbers from `count` on.
     rows = solver.backend.look(solver.rows)
     return int(rows[np.searchsorted(rows, count) - 1]) + 1
 
@@ -49,6 +50,7 @@ def _shown_count(solver: Ablation) -> int:
 def _surface(solver: Ablation, count: int) -> np.ndarray:
     """Particles that the light meets; without light those of the free surface, or the first."""
     backend = solver.backend
+    # The light knows which particles it meets; without light those of the free surface count.
     if solver.light is not None:
         found = backend.look(solver.light.hit).astype(np.int64)
         found = found[found < count]
@@ -59,26 +61,31 @@ def _surface(solver: Ablation, count: int) -> np.ndarray:
 
 def _ablation_view(case: Case, solver: Ablation, count: int) -> AblationView:
     """Crater, ejecta and flow."""
-    particles, backend, state = solver.particles, solver.backend, solver.state
+    particles = solver.particles
+    backend = solver.backend
+    state = solver.state
     geometry = solver.body.geometry
     flying = np.zeros(0, np.int64)
     if state.ejecta.number:
         flying = backend.look(backend.rows_where(particles["kind"], EJECTED)).astype(np.int64)
-    look = {"stage": particles["kind"], "normal": solver.surface.normal}
+
+    # Fields of the particles of the body.
+    fields = {"stage": particles["kind"], "normal": solver.surface.normal}
     names = ("velocity", "density", "pressure", "vapor_pressure")
-    look |= {name: particles[name] for name in names}
-    look = {name: backend.look(array)[..., :count] for name, array in look.items()}
+    fields |= {name: particles[name] for name in names}
+    fields = {name: backend.look(array)[..., :count] for name, array in fields.items()}
     columns = solver.light
     dimension = geometry.dimension
     pressure, speed = solver.extremes()
     vapor = case.material.vaporization
     return AblationView(
-        **look,
+        **fields,
         column_center=np.zeros((dimension - 1, 0)) if columns is None else columns.center,
         column_width=float(geometry.cell[0]),
         column_top=np.zeros(0) if columns is None else columns.column_tops(),
+        # Fields of the flying ones, and the sums over all that has left.
         ejecta_position=backend.look(particles["position"])[:, flying],
-        ejecta_velocity=look["velocity"][:, flying],
+        ejecta_velocity=fields["velocity"][:, flying],
         ejecta_temperature=backend.look(particles["temperature"])[flying],
         ejecta_mass=backend.look(particles["mass"])[flying],
         ejecta_time=backend.look(particles["leaving_time"])[flying],

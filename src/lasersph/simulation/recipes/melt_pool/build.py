@@ -8,36 +8,31 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.boundaries.flat_surface import FlatSurface, ImposedTemperature
 from lasersph.boundaries.flow_conditions import FREE
-from lasersph.boundaries.moving_surface import MovingSurface
 from lasersph.boundaries.settings import DIRICHLET
-from lasersph.boundaries.surface import Surface
-from lasersph.boundaries.surface_conditions import SurfaceLiquid
-from lasersph.boundaries.surface_drives import SurfaceForcing
-from lasersph.boundaries.surface_line import End, SurfaceLine, cutoff_of
 from lasersph.case import Case
 from lasersph.materials.viscosity import relative_viscosity_table
 from lasersph.particles.fields import FIELDS
 from lasersph.particles.layers import Layers
-from lasersph.physics.evaporation import saturation_pressure, vapor_constants
-from lasersph.physics.knudsen_layer import gauge_recoil_pressure, outflow_tables
+from lasersph.physics.recoil import tabulated_recoil
 from lasersph.solvers.conduction.body import Body, weighing_of
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.walls import wall_enthalpy, wall_potential
-from lasersph.solvers.melt_pool.block import StaticParticleData
+from lasersph.solvers.melt_pool.block_layers import StaticParticleData
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.liquid import Liquid
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
-
-TABLE_START = 300.0
-"""Lowest temperature of the table of recoil [K]. Format: no metal evaporates there."""
-TABLE_NODES = 4097
-"""Nodes of that table. Accuracy: 2 K from node to node; the recoil, which doubles in 200 K, is
-within 1e-5."""
+from lasersph.surface.flat_surface import FlatSurface, ImposedTemperature
+from lasersph.surface.forcing import SurfaceForcing
+from lasersph.surface.height_field import HeightField, cutoff_of
+from lasersph.surface.moving_surface import MovingSurface
+from lasersph.surface.pressure_condition import SurfaceLiquid
+from lasersph.surface.smoothing import End
+from lasersph.surface.still_surface import NoSurface
+from lasersph.surface.surface import Surface
 
 
 def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Conduction) -> MeltPool:
@@ -45,6 +40,8 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     body = heat.body
     backend, count = body.backend, body.count
     filling, curve = body.filling, body.curve
+
+    # What flow needs of each particle and does not change: support, volume, layer, weights.
     weighing = weighing_of(
         case.particles, layers, use_second_moment=settings.weights == "second-moment"
     )
@@ -58,8 +55,10 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     (x,) = case.domain.lateral(2)
     box = (x, (-float(layers.thickness.sum()), 0.0))
     conditions = FaceConditions(box, case.boundaries, case.flow, case.initial_temperature)
+
+    # The surface: a line that moves, a flat free one, or none below a lid.
     liquid = liquid_of(case, settings)
-    surface: Surface | None = None
+    surface: Surface
     support = float(static.support.min())
     if case.surface_moves:
         line = _surface_line(case, conditions, filling.surface.size)
@@ -98,6 +97,10 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             has_stress=settings.marangoni,
             given=_given_temperature(case),
         )
+    else:
+        surface = NoSurface(backend, count, 0.0)
+
+    # Volumes belong into checkpoints where particles are laid out anew or lose mass.
     volume = FIELDS["volume"]
     loses_mass = case.boundaries.surface_mass_flux_wave is not None or settings.evaporates
     is_rearranged = case.flow is None and (case.initial_surface or case.pause != "compute")
@@ -107,6 +110,8 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         body.particles.keep("mass")
     body.particles.add(volume)
     body.particles.set("volume", static.volume)
+
+    # Domain, flow, and the solver of both.
     domain = PoolDomain(
         backend,
         layers,
@@ -118,6 +123,8 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         body.particles["volume"],
     )
     flow = Flow(body.particles, liquid, surface, settings, layers.spacing)
+
+    # A box starts with the velocity of its case; a block is laid out below its first surface.
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.begin(start)
@@ -127,7 +134,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     return solver
 
 
-def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> SurfaceLine:
+def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> HeightField:
     """The line of a surface that moves, at its heights at the start.
 
     It goes on as the flow does beyond its ends; at walls it is pinned at its height there.
@@ -137,31 +144,35 @@ def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> Surfa
     kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}
     left, right = (conditions.flow_kind(side) for side in ("left", "right"))
     ends = kinds.get(left, "pinned"), kinds.get(right, "pinned")
-    line = SurfaceLine(x[0], width, columns, ends, cutoff_of(width))
+    line = HeightField((x[0],), (width,), (columns,), (ends,), cutoff_of(width))
     start = case.initial_surface
+    # Heights at the start; at walls the ends of the line stay where they are.
     if start is not None:
-        line.height = start.at(line.x, width)
-        line.pins = (float(start.at(np.array(x[0]))), float(start.at(np.array(x[1]))))
+        line.height = start.at(line.centers(), width)
+        low, high = (float(start.at(np.array(end))) for end in x)
+        line.pins = ((low, high),)
     return line
 
 
-def _raise_particles(case: Case, body: Body, static: StaticParticleData, line: SurfaceLine) -> None:
+def _raise_particles(case: Case, body: Body, static: StaticParticleData, line: HeightField) -> None:
     """Stretch the columns of particles of a box to the surface at the start."""
     start = case.initial_surface
     if start is None or case.flow is None:
         return
     count, depth = body.count, case.domain.depth
+    # Columns become longer in proportion, so that volume and mass do with them.
     x, z = body.filling.position[:, :count]
-    stretch = 1.0 + start.at(x, line.width) / depth
-    z[:] = stretch * (z + depth) - depth
-    static.volume[:] *= stretch
-    body.particles.set("mass", body.backend.to_host(body.particles["mass"]) * stretch)
+    length_ratio = 1.0 + start.at(x, line.widths[0]) / depth
+    z[:] = length_ratio * (z + depth) - depth
+    static.volume[:] *= length_ratio
+    body.particles.set("mass", body.backend.to_host(body.particles["mass"]) * length_ratio)
 
 
 def liquid_of(case: Case, settings: MeltPoolSettings) -> Liquid:
     """Numbers of the melt at its liquidus, and how viscous it is elsewhere."""
     material = case.material
     T = material.flow_temperature
+    # Curves of a free surface need gamma; without it they have none.
     gamma = 0.0
     if material.surface_tension is not None:
         gamma = float(material.surface_tension_at(T))
@@ -182,12 +193,7 @@ def recoil_of(case: Case) -> Callable[[NDArray[np.float64]], NDArray[np.float64]
     vapor = case.material.vaporization
     if vapor is None or not case.solver.has_vapor_flux:
         return None
-    constants, (ratio, _, mach) = vapor_constants(vapor), outflow_tables()
-    ambient = case.boundaries.pressure_of_surroundings
-    T = np.linspace(TABLE_START, constants["T_c"], TABLE_NODES)
-    pressure = (saturation_pressure(float(one), **constants) for one in T)
-    recoil = [gauge_recoil_pressure(p, ambient, ratio, mach) for p in pressure]
-    return lambda found: np.interp(found, T, recoil)
+    return tabulated_recoil(vapor, case.boundaries.pressure_of_surroundings)
 
 
 def _given_temperature(case: Case) -> ImposedTemperature | None:

@@ -50,10 +50,17 @@ def driven_speed(
         density: [kg/m^3]. viscosity: kinematic [m^2/s], slope: dgamma/dT [N/(m K)], pressure: of
             the recoil [Pa], all at temperatures [K]. confinement: c.
     """
-    T, depth, width = surface.temperature, surface.depth, surface.column_width
+    T = surface.temperature
+    depth = surface.depth
+    width = surface.column_width
+    # A single column: the liquid next to it is as cold as its melting point.
     if T.shape[1] == 1 or width is None:
         beside = np.minimum(T, cold)
-        T, depth, width = np.hstack([T, beside]), np.hstack([depth, depth]), length
+        T = np.hstack([T, beside])
+        depth = np.hstack([depth, depth])
+        width = length
+    # Stress and push between two columns, where both are molten: tau = dgamma/dT dT/dx, -dp/dx /
+    # rho.
     middle = 0.5 * (T[:, 1:] + T[:, :-1])
     molten = np.minimum(depth[:, 1:], depth[:, :-1])
     stress = np.where(molten > 0.0, slope(middle) * np.diff(T, axis=1) / width, 0.0)
@@ -67,10 +74,12 @@ def _drawn(time: Array, stress: Array, nu: Array, depth: Array, confinement: flo
     """(n, places) speed under a stress over density [m^2/s^2], by the integral of above."""
     from scipy.special import erf  # loads as long as all else that reads a case
 
+    # Stress is constant from one time of the estimate to the next.
     speed = np.zeros_like(stress)
     start = np.concatenate([time[:1], time[:-1]])
     for step in np.flatnonzero((depth > 0.0).any(axis=1)):
         decay = confinement * nu[step] / np.where(depth[step] > 0.0, depth[step], np.inf) ** 2
+        # The integral needs a decay above zero; deep melt has none of its own.
         decay = np.maximum(decay, 1e-12 / time[step])
         # the integral of exp(-decay s)/sqrt(s) over each earlier step, in closed form
         near, far = (
@@ -87,6 +96,7 @@ def _pushed(time: Array, push: Array, nu: Array, depth: Array) -> Array:
     speed = np.zeros_like(push)
     for step in range(1, time.size):
         dt = time[step] - time[step - 1]
+        # Implicit Euler: u_n = (u_(n-1) + dt a_n) / (1 + dt pi^2 nu / (4 d^2)).
         is_liquid = depth[step] > 0.0
         decay = 0.25 * np.pi**2 * nu[step] / np.where(is_liquid, depth[step], np.inf) ** 2
         changed = (speed[step - 1] + dt * push[step]) / (1.0 + dt * decay)

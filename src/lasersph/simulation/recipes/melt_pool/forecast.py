@@ -1,4 +1,4 @@
-"""What flow adds to the forecast of a case: expected speed, step limits, and how well it resolves.
+"""Flow in the forecast of a case: expected speed, step limits, and how well it is resolved.
 
 Speeds are estimates: a wall's or a start's own; below a surface of imposed temperature that of
 slow flow (`analytic.thermocapillary_layer`), or of the layer that a moving surface drags along; in
@@ -21,8 +21,6 @@ from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.boundaries.flow_conditions import FREE
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET
-from lasersph.boundaries.surface_line import cutoff_of
-from lasersph.boundaries.surface_waves import surface_limits
 from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
@@ -36,6 +34,8 @@ from lasersph.simulation.recipes.melt_pool.driven_speed import (
 from lasersph.simulation.recipes.recipe import FlowForecast
 from lasersph.solvers.melt_pool.layout_renewal import EVEN
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
+from lasersph.surface.capillary_waves import surface_limits
+from lasersph.surface.height_field import cutoff_of
 
 BUOYANT_SHARE = 0.2
 """Share of the speed of free fall that buoyant flow has. Forecast: a guess, on which only the
@@ -47,7 +47,7 @@ MIN_LAYERS = 8
 """Rows of melt below which there is hardly a flow. Forecast: `lasersph check` says so."""
 SPEED_NODES = 65
 """Nodes of the means of viscosity and surface tension. Forecast: over the melt's temperatures."""
-ROOM = 1.2
+DEPTH_MARGIN = 1.2
 """Depth of fine layers that is asked for over the least one. Forecast: for what the estimate
 misses."""
 
@@ -60,16 +60,24 @@ def flow_forecast(
     T = material.flow_temperature
     nu, density = float(material.kinematic_viscosity_at(T)), material.density_liquid
     slope = abs(_slope(case, T)) if solver.marangoni else 0.0
+
+    # A pool: its layer delta = sqrt(nu t) under the gradient of surface tension; light gives
+    # better.
     if case.flow is None:
         layer, gradient, duration = _pool(case, nu)
         speed = layer / (nu * density) * slope * gradient
         if heating is not None and heating.surface is not None:
             speed = _pool_speed(case, solver, heating.surface)
     else:
-        layer, gradient, duration = None, _imposed_gradient(case), case.time.end
+        # A box: the largest of its own speeds; only a free surface has a gradient.
+        layer = None
+        gradient = _imposed_gradient(case)
+        duration = case.time.end
         speed = _box_speed(case, solver.gravity, nu, density, slope)
         if case.flow.surface.kind not in FREE:
             gradient = 0.0
+
+    # Acceleration by surface stress on one layer of particles, or by buoyancy.
     lift = solver.gravity * float(material.expansion_at(T)) * _temperature_range(case)
     acceleration = max(slope * gradient / (density * spacing), lift)
     has_gamma = material.surface_tension is not None
@@ -84,6 +92,8 @@ def flow_forecast(
         surface_tension=float(material.surface_tension_at(T)) if has_gamma else 0.0,
         is_implicit=solver.viscosity == "implicit",
     )
+
+    # Capillary waves limit steps where the surface moves.
     if case.surface_moves and has_gamma:
         gamma = float(material.surface_tension_at(T))
         limits |= surface_limits(gamma, density, nu, cutoff_of(spacing))
@@ -97,6 +107,7 @@ def _pool_speed(case: Case, solver: MeltPoolSettings, surface: SurfaceHistory) -
     if metal is not None and metal.critical_temperature is not None:  # there is no surface above
         cooler = np.minimum(surface.temperature, metal.critical_temperature)
         surface = replace(surface, temperature=cooler)
+    # Tables over the temperatures of the melt.
     T = np.linspace(cold, max(cold + 1.0, float(surface.temperature.max())), SPEED_NODES)
     nu = np.array([float(material.kinematic_viscosity_at(t)) for t in T])
     slope = np.array([_slope(case, t) if solver.marangoni else 0.0 for t in T])
@@ -130,6 +141,7 @@ def _pool(case: Case, viscosity: float) -> tuple[float, float, float]:
     """Layer [m], gradient of temperature [K/m] and duration [s] of a pool."""
     pulse_time, first = case.time.end, 0.0
     if case.laser is not None:
+        # The pool begins with the first light and lasts some durations of the pulse.
         pulse = case.laser.pulse
         pulse_time = pulse.on_time or 100.0 * pulse.resolution
         marks = pulse.breakpoints(0.0, case.time.end)
@@ -142,9 +154,11 @@ def _pool(case: Case, viscosity: float) -> tuple[float, float, float]:
 def _temperature_range(case: Case) -> float:
     """How much temperatures of the liquid may differ [K]."""
     material, faces = case.material, case.boundaries
+    # From melting to boiling; a metal without a boiling point may get half as hot again.
     if case.flow is None:
         boiling = material.vaporization.temperature if material.vaporization else None
         return (boiling or 1.5 * material.flow_temperature) - material.flow_temperature
+    # Of a box, the range of what its faces and its start have.
     given = [
         faces.temperature_of(face, case.initial_temperature)
         for face in ("surface", "bottom", "left", "right")
@@ -165,13 +179,16 @@ def _imposed_gradient(case: Case) -> float:
 def _box_speed(case: Case, gravity: float, viscosity: float, density: float, slope: float) -> float:
     """Largest speed to expect in a box [m/s]."""
     assert case.flow is not None
+    # Walls and the initial flow.
     speeds = [abs(side.velocity) for side in case.flow.faces.values()]
     if isinstance(case.flow.initial, TaylorGreenFlow):
         speeds.append(case.flow.initial.speed)
+    # Buoyancy: a share of the speed of free fall, sqrt(g beta dT L).
     difference = _temperature_range(case)
     T = case.material.flow_temperature
     lift = gravity * float(case.material.expansion_at(T)) * difference
     speeds.append(BUOYANT_SHARE * sqrt(lift * case.domain.depth))
+    # Surface stress: by an open layer, a wave of temperature, or steady shear above a bottom.
     wave = case.boundaries.surface_temperature_wave
     if case.flow.surface.kind in FREE and slope:
         eta = viscosity * density
@@ -191,12 +208,13 @@ def _open_layer_speed(case: Case, stress: float, viscosity: float, eta: float) -
     """Largest speed of a layer whose surface moves under a stress [Pa]: that of a half space at
     rest, Stokes' first problem, and no more than steady shear over the bottom [m/s]."""
     wave, end = case.boundaries.surface_temperature_wave, case.time.end
+    # Stokes' first problem, u = (tau/eta) 2 sqrt(nu t/pi); steady shear has u = tau d/eta.
     lasting = end if wave is None else min(wave.end or end, end) - wave.start
     return stress / eta * min(2.0 * sqrt(viscosity * max(lasting, 0.0) / pi), case.domain.depth)
 
 
 def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
-    """What is said where the finest layers are too shallow for what light evaporates; else nothing.
+    """Warning where the finest layers are too shallow for what light evaporates; empty elsewhere.
 
     All of their particles become lower where the surface recedes, which the run bears down to
     `layout_renewal.EVEN[0]` of a spacing.
@@ -206,6 +224,7 @@ def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
     """
     if not case.surface_moves or not case.solver.has_vapor_flux or case.laser is None:
         return ""
+    # A layer that loses `gone` must keep the least share of its thickness.
     pulses = case.laser.pulse.count if case.pause != "compute" else 1
     gone, times = pulses * evaporated, 1.0 / (1.0 - EVEN[0])
     if times * gone <= layers.fine_depth:
@@ -214,7 +233,7 @@ def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
     return (
         f"about {format_quantity(gone, 'm', 2)} will evaporate; the finest layers must be "
         f"{times:.2g} times as deep, and reach {format_quantity(layers.fine_depth, 'm', 3)}: the "
-        f'run would stop; write {key} = "{format_quantity(ROOM * times * gone, "m", 2)}"'
+        f'run would stop; write {key} = "{format_quantity(DEPTH_MARGIN * times * gone, "m", 2)}"'
     )
 
 

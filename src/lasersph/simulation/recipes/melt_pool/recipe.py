@@ -7,7 +7,6 @@ from functools import cached_property
 
 import numpy as np
 
-from lasersph.boundaries.moving_surface import MovingSurface
 from lasersph.compute.backend import Backend
 from lasersph.observers import Observers, flow_observers
 from lasersph.observers.relief import WHOLE, Relief
@@ -23,6 +22,7 @@ from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.heat_settings import HeatSettings
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
+from lasersph.surface.moving_surface import MovingSurface
 
 FLOW_PRODUCTS = {"pool": 25.0, "box": 70.0}
 """Cost of a step in which something flows, a part of the block or all of a box, in sums over all
@@ -43,6 +43,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
 
     def build(self, backend: Backend) -> MeltPool:
         """The solver with its particles, at the start of the run; heat is implicit."""
+        # The melt pool's settings of heat are those of conduction with the same names.
         shared = set(HeatSettings.model_fields) - {"kind"}
         settings = ConductionSettings(**{name: getattr(self.settings, name) for name in shared})
         heat = self.build_heat(backend, settings)
@@ -52,25 +53,27 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         """The state for observers: arrays where they lie, those of a closed box as copies, whose
         observer looks at some states later than the step after which it is shown them."""
         backend = solver.backend
-        take = backend.look if self.case.flow is None else backend.snapshot
-        flow = flow_view(self.case, solver, take)
-        fields = self.heat_view(solver, step, limit, take)
-        fields |= {"position": take(solver.position), "flow": flow}
+        fetch = backend.look if self.case.flow is None else backend.snapshot
+        flow = flow_view(self.case, solver, fetch)
+        fields = self.heat_view(solver, step, limit, fetch)
+        fields |= {"position": fetch(solver.position), "flow": flow}
+        # Where the surface is: of the flow, else the top row of a box.
         if flow.surface.size:
             fields["surface"] = flow.surface
         elif flow.box:
             top = fields["position"][1] > -solver.domain.spacing
             fields["surface"] = np.flatnonzero(top)
+        # A box is all fluid; a moving line adds its heights and the volumes it changes.
         if flow.box:
             fields["melt_fraction"] = np.ones(solver.particle_count)
         if isinstance(surface := solver.domain.surface, MovingSurface):
             line = surface.line
-            fields["relief"] = Relief(line.x, line.height.copy(), line.ends[0])
-            fields["volume"] = take(solver.particles["volume"])
+            fields["relief"] = Relief(line.centers(), line.height.copy(), line.ends[0][0])
+            fields["volume"] = fetch(solver.particles["volume"])
         return View(**fields, evaporated=self.evaporated(solver))
 
     def observers(self, iterations: Sequence[str]) -> Observers:
-        """What observes a flow; a box has no pool, but center lines and heat through its walls."""
+        """Observers of a flow; a box has no pool, but center lines and heat through its walls."""
         return flow_observers(
             self.settings.dimensions,
             box=self.case.flow is not None,
@@ -81,7 +84,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         )
 
     def _topography(self) -> Topography | None:
-        """What observes a surface that moves; its first harmonic where whole half periods fit."""
+        """Observer of a surface that moves; its first harmonic where whole half periods fit."""
         if not self.case.surface_moves:
             return None
         faces = self.case.boundaries
@@ -91,16 +94,17 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             faces.surface_mass_flux_wave,
             self.case.initial_surface,
         )
+        # The first period that anything imposes on the surface.
         period = next((wave.period for wave in waves if wave is not None and wave.period), None)
         (x,) = self.case.domain.lateral(2)
         halves = 0.0 if period is None else 2.0 * (x[1] - x[0]) / period
         is_whole = halves > 0.5 and abs(halves - round(halves)) <= WHOLE * halves
         return Topography(period if is_whole else None)
 
-    def products_of(self, phase: str) -> float:
-        """Cost of a step, see `Phase`."""
-        if phase != "flow":
-            return super().products_of(phase)
+    def products_of(self, stage: str) -> float:
+        """Cost of a step, see `RunStage`."""
+        if stage != "flow":
+            return super().products_of(stage)
         return FLOW_PRODUCTS["pool" if self.case.flow is None else "box"]
 
     def step_forecast(self) -> StepForecast:
@@ -114,7 +118,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         return self.even_steps(limits, "flow", products)
 
     def warnings(self) -> list[str]:
-        """What a user should think about before the run."""
+        """Warnings for a user before the run: recession, resolution of the layer that moves."""
         gone = 0.0 if self.heating is None else self.heating.evaporated
         recession = recession_warning(self.case, self.layers, gone)
         return [*([recession] if recession else []), *self.flow.warnings]

@@ -1,4 +1,4 @@
-"""What observers see of a flow: arrays where they lie, those of a closed box as copies.
+"""The view of a flow: arrays where they lie, those of a closed box as copies.
 
 The observer of a box looks at some states later than the step after which it is shown them.
 """
@@ -13,41 +13,47 @@ from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case import Case
 from lasersph.compute.array_types import Array
 from lasersph.observers.flow_view import FlowView
-from lasersph.physics.evaporation import recoil_pressure, saturation_pressure, vapor_constants
-from lasersph.physics.knudsen_layer import gauge_recoil_pressure, outflow_tables
+from lasersph.physics.recoil import recoil_at
 from lasersph.solvers.melt_pool.solver import MeltPool
 
 SIDES = ("left", "right", "bottom", "surface")
 
 
-def flow_view(case: Case, solver: MeltPool, take: Callable[[Array], np.ndarray]) -> FlowView:
-    """The flow for observers; `take` fetches an array of the solver."""
-    flow, free, backend = solver.flow, solver.domain.surface, solver.backend
+def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]) -> FlowView:
+    """The flow for observers; `fetch` gets an array of the solver."""
+    flow = solver.flow
+    free = solver.domain.surface
+    backend = solver.backend
     liquid, material = flow.liquid, case.material
-    position, velocity = take(solver.position), take(flow.velocity)
-    pressure = take(flow.pressure)
-    surface = np.zeros(0, np.int64)
+    position, velocity = fetch(solver.position), fetch(flow.velocity)
+    pressure = fetch(flow.pressure)
     temperature = gradient = speed = np.zeros(0)
-    if free is not None:
-        found = np.asarray(backend.look(backend.rows_where(free.at_surface, 1.0)), np.int64)
-        surface = found[np.argsort(position[0, found], kind="stable")]
+
+    # Surface particles from left to right, with the temperature of their centers.
+    found = np.asarray(backend.look(backend.rows_where(free.at_surface, 1.0)), np.int64)
+    surface = found[np.argsort(position[0, found], kind="stable")]
+    if surface.size:
         temperature = backend.look(solver.particles["temperature"])[surface]
         gradient = np.gradient(temperature, position[0, surface])
+        # Where the surface is computed, temperature and gradient of the surface itself.
         if solver.fluid_count > 0.0 and flow.current_block is not None:
             of_surface = backend.look(free.temperature)[surface]
             known = backend.look(solver.kinds.active)[surface] > 0.0
-            if flow.has_tangents:  # a surface that moves is known where it flows only
+            if free.moves:  # a surface that moves is known where it flows only
                 known = backend.look(solver.kinds.fluid)[surface] > 0.0
                 of_surface = np.where(known, of_surface, temperature)
             temperature = of_surface
             gradient = np.gradient(temperature, position[0, surface])
             gradient = np.where(known, backend.look(free.gradient)[surface], gradient)
+        # Velocity of the surface: that of the particle and half the jump to its ghost.
         flows = backend.look(solver.kinds.fluid)[surface]
         jump = backend.look(free.ghost_velocity_jump)[surface]
         speed = velocity[0, surface] + flows * (0.5 * jump)
     T = material.flow_temperature
     has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
     is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in SIDES}
+
+    # Sides of a box with a given temperature, which walls of a block do not show.
     wall_temperature = {
         side: case.boundaries.temperature_of(side, case.initial_temperature)
         for side, kind in kinds.items()
@@ -77,7 +83,7 @@ def flow_view(case: Case, solver: MeltPool, take: Callable[[Array], np.ndarray])
         ),
         wall_heat=dict(solver.exchange.heat),
         wall_impulse=dict(solver.exchange.impulse),
-        wall_pressing={} if flow.has_tangents else dict(solver.exchange.pressing),
+        wall_pressing={} if free.moves else dict(solver.exchange.pressing),
         full_step=solver.state.unclipped_step,
     )
 
@@ -87,9 +93,7 @@ def _recoil(case: Case, temperature: np.ndarray) -> np.ndarray | None:
     vapor = case.material.vaporization
     if vapor is None or vapor.molar_mass is None or temperature.size == 0:
         return None
-    constants = vapor_constants(vapor)
-    pressure = [saturation_pressure(float(T), **constants) for T in temperature]
-    if not case.solver.has_vapor_flux:
-        return np.array([recoil_pressure(p) for p in pressure])
-    ambient, (ratio, _, mach) = case.boundaries.pressure_of_surroundings, outflow_tables()
-    return np.array([gauge_recoil_pressure(p, ambient, ratio, mach) for p in pressure])
+    # Against a vacuum the recoil is 0.54 p_sat; against surroundings what exceeds their pressure.
+    has_flux = case.solver.has_vapor_flux
+    ambient = case.boundaries.pressure_of_surroundings if has_flux else None
+    return recoil_at(temperature, vapor, ambient)

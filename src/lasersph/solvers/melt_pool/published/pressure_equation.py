@@ -123,6 +123,7 @@ class PublishedPressure:
     ) -> None:
         self.backend, self.tolerance, self.max_iterations = backend, tolerance, max_iterations
         self._number = backend.asarray(np.arange(count), "index")
+        # column in which the pressure of each particle stands: its own, or that of its edge
         self._column, self._nearest = backend.zeros(count, "index"), backend.zeros(count)
         self._known, self._b, self._d = (backend.zeros(count) for _ in range(3))
 
@@ -137,10 +138,12 @@ class PublishedPressure:
             weights: (pairs,) g_ij of all pairs. kind: (n,) kind "flag". volume: (n,) V_i [m^2].
         """
         backend, total = self.backend, source.shape[0]
+        # ghosts mirror the pressure: each counts as its source
         inner = neighbors.without_ghosts(backend, source)
         kind_all = backend.zeros(total, "flag")
         backend.gather(kind, source, kind_all)
         near = {"kind": kind_all, "source": source, "nearest": self._nearest}
+        # each dummy takes the column of the nearest edge particle, the lowest number of several
         dummies = backend.rows_where(kind, DUMMY)
         backend.pair_sum(edge_distance, neighbors, near, self._nearest, rows=dummies, combine="min")
         backend.copy(self._number, self._column)
@@ -148,13 +151,17 @@ class PublishedPressure:
         backend.pair_sum(
             edge_number, neighbors, near, column, rows=dummies, combine="min", finish=assigned
         )
+        # particles with an unknown of their own or that of an edge; all else is left out
         fields = {"kind": kind, "column": self._column, "k": self._number}
         backend.pointwise(is_known, fields, self._known)
+        # e_ij = 2 V_j W' / r (77) beside the diagonal, by the weights g_ij over V_i
         entries = backend.zeros(weights.shape[0])
         fields |= {"g_ij": weights, "V": volume, "known": self._known}
         backend.pair_values(entry, inner, fields, entries)
+        # diagonal: rows sum to zero, reinforced by r so that the matrix is not singular
         values, r = {"a_ij": entries}, REINFORCEMENT
         backend.pair_sum(opposite, inner, values, self._d, finish=diagonal, reinforcement=r)
+        # entries of dummies move to the columns of their edge particles
         columns = inner.without_ghosts(backend, self._column)
         self._kind, self._volume = kind, volume
         self.matrix = PairMatrix(columns, entries, self._d)
@@ -170,16 +177,19 @@ class PublishedPressure:
                 constant, which a later first guess then lacks.
         """
         backend, solver = self.backend, self._solver
+        # -b / V, without its mean over all rows: what a singular matrix can answer
         fields = {"b": b, "V": self._volume, "kind": self._kind}
         total, rows = backend.pointwise(right_side, fields, (self._b, None), reduce=("sum", "sum"))
         mean = total / rows if rows else 0.0
         scale = self._less(self._b, mean) ** 0.5
+        # BiCGStab from the last pressure, 0 where there is no unknown
         self._less(pressure, 0.0)
         backend.copy(pressure, solver.solution)
         outcome = solver.solve(
             self._b, residual=self.tolerance * scale, max_iterations=self.max_iterations
         )
         backend.copy(solver.solution, pressure)
+        # the constant that the reinforced matrix answers with is taken off
         (total,) = backend.pointwise(same, {"value": pressure}, None, reduce="sum")
         self._less(pressure, total / rows if rows else 0.0)
         return Outcome(outcome.iterations, outcome.residual / scale if scale > 0.0 else 0.0)

@@ -1,0 +1,1 @@
+"""Free surfaces: flat ones, ones that move, and what leaves through them."""

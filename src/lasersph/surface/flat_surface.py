@@ -1,0 +1,225 @@
+"""`FlatSurface`: a free surface that stays flat, as what it gives a step of the flow.
+
+    normal velocity       v . n = 0, which also the ghosts beyond it show
+    tangential stress     eta d(v . t)/dn = t . grad_s gamma(T)         [Demuth2020, eq. (15)]
+                          with the mean eta of the pairs across, which pass on all of it
+    pressure              dp/dn = 0
+    heat                  none crosses, unless the case holds the face's temperature or its flux
+
+The pressure under a flat surface replaces the curvature of one that is free to move; so it has
+neither capillary waves nor recoil that moves it, and no limits of the step. Particles within one
+spacing lie at the surface; those deeper take the stress of the surface particles within their
+support.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.boundaries.settings import TemperatureWave
+from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import dot, interpolate
+from lasersph.materials import Material
+from lasersph.sph.tangential import (
+    extend_from_surface,
+    extension_terms,
+    tangential_gradient,
+    tangential_terms,
+)
+from lasersph.surface.still_surface import StillSurface
+from lasersph.surface.surface import SurfaceNeighbors, SurfaceStep
+
+LOWEST, HIGHEST = 1.0, 2.0e4
+"""Range of temperatures of the table of surface tension [K]. Format: it ends far above any metal.
+"""
+NODES = 257
+"""Nodes of that table. Accuracy: 78 K from node to node; a surface tension that is linear is exact.
+"""
+
+
+@dataclass(frozen=True)
+class ImposedTemperature:
+    """Temperature that a case gives a surface: mean [K] and what varies along x."""
+
+    mean: float
+    wave: TemperatureWave | None = None
+
+
+def mark_surface(x, n, plane, near, far):
+    """1 for a particle at the surface, 1 for one within its support of it, and its depth [m]."""
+    depth = plane - dot(x, n)
+    return (1.0 if depth < near else 0.0), (1.0 if depth < far else 0.0), depth
+
+
+def both(mark, active):
+    """1 where both are."""
+    return mark * active
+
+
+def surface_tension(T, T_nodes, gamma_nodes):
+    """Surface tension [N/m] up to a constant."""
+    return interpolate(T, T_nodes, gamma_nodes)
+
+
+def imposed_temperature(x, along, mean, amplitude, wave_number):
+    """Given temperature of the surface above a particle [K]."""
+    return mean + amplitude * cos(wave_number * dot(x, along))
+
+
+def component(g, along):
+    """Part of a vector along the surface."""
+    return dot(g, along)
+
+
+def velocity_jump(tau, depth, fluidity, eta):
+    """2 d tau fluidity / eta [m/s]: by how much a ghost beyond is faster than its source.
+
+    Args:
+        fluidity: eta, the viscosity at the liquidus [Pa s], over that of the pairs across.
+    """
+    return 2.0 * depth * tau / eta * fluidity
+
+
+def across_terms(g_ij, w_ij, x_j, n, plane):
+    """Weight g of a pair with a ghost beyond the surface, and w, with which viscosity counts."""
+    across = 1.0 if dot(x_j, n) > plane else 0.0
+    return across * g_ij, across * w_ij
+
+
+def fluidity_across(total_0, total_1):
+    """Viscosity at the liquidus over the mean of a particle's pairs across the surface."""
+    return total_0 / total_1 if total_1 > 0.0 else 1.0 + total_1
+
+
+class FlatSurface(StillSurface):
+    """The surface z = `plane`, see `Surface`.
+
+    Args:
+        count: particles of the whole body. spacing, support: of the particles at it [m].
+        material: gamma(T) or its slope. viscosity: eta at the liquidus [Pa s]. has_stress: whether
+            gamma drives the flow. given: the surface's own temperature, where the case gives it.
+    """
+
+    tangent = (1.0, 0.0)
+
+    def __init__(
+        self,
+        backend: Backend,
+        count: int,
+        *,
+        plane: float,
+        spacing: float,
+        support: float,
+        material: Material,
+        viscosity: float,
+        has_stress: bool,
+        given: ImposedTemperature | None,
+    ) -> None:
+        super().__init__(backend, count, plane)
+        self.viscosity = viscosity
+        self.given = given
+        self.has_stress = has_stress
+        self._place = {"n": self.normal, "plane": plane, "near": spacing, "far": support}
+        self._gamma = backend.zeros(count)
+        self._slope = backend.zeros((2, count))
+        self._fluidity = backend.asarray(np.ones(count))
+        if has_stress:
+            T, gamma = surface_tension_table(material)
+            self.table = {"T_nodes": backend.asarray(T), "gamma_nodes": backend.asarray(gamma)}
+
+    def kept_at_face(self, dummy: Array) -> Array:
+        """Particles at the surface are shifted along it only."""
+        return self.at_surface
+
+    def find(self, position: Array) -> None:
+        """Set marks and depths of the particles at `position`, shape (2, n) [m]."""
+        out = (self.at_surface, self.near_surface, self.depth)
+        self.backend.pointwise(mark_surface, {"x": position}, out, **self._place)
+
+    def update_stress(self, now: SurfaceStep, neighbors: SurfaceNeighbors, active: Array) -> None:
+        """Set temperature, gradient, stress and jump from temperatures (n,) [K]; see `Surface`."""
+        backend = self.backend
+        rows = self._rows(self.at_surface, active)
+        # temperature of the surface: that of the particles at it, or a given one
+        backend.copy(now.T, self.temperature)
+        if self.given is not None:
+            wave = self.given.wave
+            amplitude = wave.share_of(*now.interval) * wave.amplitude if wave else 0.0
+            backend.pointwise(
+                imposed_temperature,
+                {"x": now.position},
+                self.temperature,
+                along=self.tangent,
+                mean=self.given.mean,
+                amplitude=amplitude,
+                wave_number=2.0 * np.pi / wave.period if wave else 0.0,
+            )
+        mark = neighbors.gather(self.at_surface)
+        self._find_slope(self.temperature, self.gradient, rows, neighbors, mark)
+        if not self.has_stress:
+            return
+        # stress tau = d gamma/dx at the surface, extended to the particles near it
+        backend.pointwise(surface_tension, {"T": self.temperature}, self._gamma, **self.table)
+        self._find_slope(self._gamma, self.stress, rows, neighbors, mark)
+        near = self._rows(self.near_surface, active)
+        found = backend.zeros(self.stress.shape[0])
+        fields = {"f": neighbors.gather(self.stress), "s": mark}
+        terms, finish = extension_terms, extend_from_surface
+        # particles near the surface take the mean stress of those at it
+        backend.pair_sum(terms, neighbors.pairs, fields, found, rows=near, finish=finish)
+        backend.copy(found, self.stress)
+
+        # where viscosity varies, the pairs across pass on the whole stress with their mean eta
+        if neighbors.viscous_weights is not neighbors.weights:
+            fields = {"g_ij": neighbors.weights, "w_ij": neighbors.viscous_weights}
+            place, finish = {name: self._place[name] for name in ("n", "plane")}, fluidity_across
+            backend.pair_sum(
+                across_terms,
+                neighbors.pairs,
+                fields,
+                self._fluidity,
+                rows=near,
+                finish=finish,
+                **place,
+            )
+
+        # v beyond the surface, which shows its pairs the stress
+        fields = {"tau": self.stress, "depth": self.depth, "fluidity": self._fluidity}
+        backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
+
+    def _rows(self, mark: Array, active: Array) -> Rows:
+        """Index array of marked particles that are active."""
+        found = self.backend.zeros(self.stress.shape[0])
+        self.backend.pointwise(both, {"mark": mark, "active": active}, found)
+        return self.backend.rows_where(found, 1.0)
+
+    def _find_slope(
+        self, f: Array, out: Array, rows: Rows, neighbors: SurfaceNeighbors, mark: Array
+    ) -> None:
+        """Derivative of f along the surface, 0 elsewhere; mark: `at_surface` with ghosts."""
+        backend, finish = self.backend, tangential_gradient
+        # corrected gradient from the particles at the surface alone, then its part along it
+        backend.fill(self._slope, 0.0)
+        fields, n = {"V": neighbors.V, "s": mark, "f": neighbors.gather(f)}, self.normal
+        backend.pair_sum(
+            tangential_terms, neighbors.pairs, fields, self._slope, rows=rows, finish=finish, n=n
+        )
+        backend.pointwise(component, {"g": self._slope}, out, along=self.tangent)
+
+
+def surface_tension_table(material: Material) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Temperatures [K] and surface tension [N/m] up to a constant, from gamma(T) or its slope."""
+    # gamma(T), or the integral of its slope by the trapezoidal rule
+    if material.surface_tension_slope is None:
+        return material.table("surface_tension", LOWEST, HIGHEST, NODES)
+    T, _ = material.table("surface_tension_slope", LOWEST, HIGHEST, NODES)
+    if T.size > 2:  # the integral of a slope that varies is curved between its nodes
+        T = np.union1d(T, np.linspace(LOWEST, HIGHEST, NODES))
+    slope = material.surface_tension_slope_at(T)
+    steps = np.diff(T) * 0.5 * (slope[1:] + slope[:-1])
+    return T, np.concatenate([[0.0], np.cumsum(steps)])

@@ -1,0 +1,113 @@
+"""Stress and pressure along a surface that moves, from velocity and temperature there.
+
+    tangential stress     tau = t . (2 mu D) . n = d gamma/ds             [Demuth2020, eq. (15)]
+    shear rate            du_t/dn = tau/mu - n . dv/ds
+    pressure              p_b = p_e + gamma kappa - 2 mu t . dv/ds
+
+with the recoil of the vapor in p_e, and mu that at the temperature of the surface. What enters is
+smoothed as slope and curvature are.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.surface.flat_surface import surface_tension_table
+from lasersph.surface.forcing import SurfaceForcing
+from lasersph.surface.height_field import HeightField, length_ratio
+from lasersph.surface.pressure_condition import SurfaceLiquid
+from lasersph.surface.smoothing import EVEN, ODD
+
+HostArray = NDArray[np.float64]
+
+
+def shear_rate(tau: HostArray | float, viscosity: HostArray, across: HostArray) -> HostArray:
+    """du_t/dn [1/s] under a stress tau [Pa], where v changes along the surface by n . dv/ds."""
+    return tau / viscosity - across
+
+
+def normal_stress(viscosity: HostArray, along: HostArray) -> HostArray:
+    """2 mu n . D . n [Pa], from t . dv/ds [1/s]."""
+    return -2.0 * viscosity * along
+
+
+class StressAlong(NamedTuple):
+    """Values along a line (m,): temperature [K] and its slope along the surface [K/m], du_t/dn and
+    du_t/ds [1/s], p_b [Pa]; and the largest surface tension [N/m]."""
+
+    temperature: HostArray
+    temperature_slope: HostArray
+    shear_rate: HostArray
+    strain_rate: HostArray
+    pressure: HostArray
+    largest_tension: float
+
+
+class SurfaceStress:
+    """Stress of a liquid under what a case imposes.
+
+    Args:
+        has_stress: whether gamma(T) drives the flow.
+    """
+
+    def __init__(self, liquid: SurfaceLiquid, forcing: SurfaceForcing, *, has_stress: bool) -> None:
+        self.liquid = liquid
+        self.forcing = forcing
+        self.has_stress = has_stress
+        if has_stress:
+            self._gamma_table = surface_tension_table(liquid.material)
+
+    def along(
+        self,
+        line: HeightField,
+        x: HostArray,
+        interval: tuple[float, float],
+        velocity: tuple[HostArray, HostArray],
+        T: HostArray,
+    ) -> StressAlong:
+        """Stress along a part that moves.
+
+        Args:
+            x: (m,) places of its columns [m]. interval: begin and end of the step [s].
+            velocity: (m,) of the melt at the surface, along x and z [m/s]. T: (m,) there [K].
+        """
+        liquid, forcing = self.liquid, self.forcing
+
+        # t . dv/ds and n . dv/ds of the smoothed velocity
+        u, w = line.smooth(velocity[0], ODD, 0.0), line.smooth(velocity[1], EVEN, 0.0)
+        (slope,) = slopes = line.slopes
+        S = length_ratio(slopes)
+        u_x, w_x = line.derivative(u, ODD), line.derivative(w)
+        along = (u_x + slope * w_x) / S**2
+        across = (-slope * u_x + w_x) / S**2
+
+        # temperature of the surface: that of the melt, or a given one
+        T = line.smooth(T)
+        if (given := forcing.temperature) is not None:
+            T = np.full(x.size, given.mean)
+            T = T if given.wave is None else T + given.wave.mean_over(x, *interval)
+
+        # tau = d gamma/ds
+        tau: HostArray | float = 0.0
+        if self.has_stress:
+            tau = line.derivative(np.interp(T, *self._gamma_table)) / S
+
+        # p_b = gamma kappa - 2 mu t . dv/ds + p_e, with recoil in p_e
+        tension = liquid.material.surface_tension_at(T)
+        viscosity = liquid.viscosity * liquid.relative_viscosity_at(T)
+        pressure = tension * line.curvature + normal_stress(viscosity, along)
+        if (wave := forcing.pressure) is not None:
+            pressure = pressure + wave.mean_over(x, *interval)
+        if forcing.recoil is not None:
+            pressure = pressure + forcing.recoil(T)
+        return StressAlong(
+            temperature=T,
+            temperature_slope=line.derivative(T) / S,
+            shear_rate=shear_rate(tau, viscosity, across),
+            strain_rate=along,
+            pressure=pressure,
+            largest_tension=float(np.max(tension)),
+        )
