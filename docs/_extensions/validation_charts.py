@@ -4,6 +4,7 @@ A point is one judged number: how far it lies from what it is judged by, in unit
 Left of 1 it is met. Points at the left border agree to 1e-4 of the tolerance or better.
 """
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,8 @@ from lasersph.validation.records import State
 LEAST, MOST = 1e-4, 30.0
 """Borders of the axis: what agrees better, or worse, stands at the border."""
 MET, MISSED = style.COLORS[0], style.COLORS[1]
+LABEL_WIDTH = 52
+"""Characters of a line of a label; longer ones take two."""
 MOST_ROWS = 40
 """Of a chart of one validation; of more numbers the worst are drawn."""
 
@@ -34,9 +37,11 @@ def draw_charts(states: Sequence[State], folder: Path) -> None:
     figure.savefig(folder / "validation-overview.svg")
     for name, rows in found.items():
         worst = dict(sorted(rows.items(), key=lambda row: row[1])[-MOST_ROWS:])
-        figure, (axes,) = style.new_figure(height=1.0 + 0.2 * len(worst))
+        labels = [textwrap.fill(text, LABEL_WIDTH) for text in worst]
+        row = 0.2 if all("\n" not in text for text in labels) else 0.3
+        figure, (axes,) = style.new_figure(height=1.0 + row * len(worst))
         _draw(axes, list(worst.values()), np.arange(len(worst)))
-        _finish(axes, [text if len(text) < 62 else f"{text[:60]}…" for text in worst])
+        _finish(axes, labels)
         figure.savefig(folder / f"validation-{name}.svg")
 
 

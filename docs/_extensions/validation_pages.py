@@ -21,7 +21,7 @@ def validation_page(state: State, readme: str) -> str:
     """State and figure first, then the README, the judged numbers, the folded ones and figures."""
     record = state.record
     title, text = readme_text(readme)
-    said = ": ".join(words for words in (label(state), plain(state.text)) if words)
+    said = ": ".join(words for words in (label(state), plain(_said(state))) if words)
     parts = [f"({anchor(state)})=\n# {state.name}", f"{title} ({said}.)"]
     figures = [_figure(state, file) for file in record["figures"]] if record else []
     parts += figures[:1]
@@ -37,6 +37,15 @@ def validation_page(state: State, readme: str) -> str:
     return _joined(parts)
 
 
+def _said(state: State) -> str:
+    """When it was computed, what failed, and which cases and how many modules changed since."""
+    cases = [change for change in state.changes if not change.startswith("lasersph")]
+    modules = len(state.changes) - len(cases)
+    counted = [f"{modules} module{'s' * (modules > 1)} of the program"] if modules else []
+    changed = ["changed since: " + ", ".join(cases + counted)] if state.changes else []
+    return "; ".join([*state.outcome, *changed])
+
+
 def _joined(parts: list[str]) -> str:
     return "\n\n".join(part for part in parts if part) + "\n"
 
@@ -44,6 +53,7 @@ def _joined(parts: list[str]) -> str:
 def readme_text(readme: str) -> tuple[str, str]:
     """Title of a README, and its text with its heads as first words."""
     title, _, text = readme.partition("\n")
+    text = re.sub(r"^## (.+)\n(?=[|-])", r"**\1.**\n\n", text, flags=re.M)  # tables and lists
     return title.removeprefix("# "), re.sub(r"^## (.+)\n", r"**\1.** ", text, flags=re.M).strip()
 
 
@@ -54,11 +64,10 @@ def _figure(state: State, file: str) -> str:
 def _origin(record: dict[str, Any]) -> str:
     """How long it took, where and with what."""
     made = record["computed"]
-    version = f"lasersph {made['lasersph']}" + (f", {made['commit']}" if made["commit"] else "")
     threads = f"threads: {made['threads'] or 'all'}"
     return (
-        f"*{_duration(record['seconds'])} on {made['machine']}, {threads}; {version}, "
-        f"{made['date']}.*"
+        f"*{_duration(record['seconds'])} on {made['machine']}, {threads}; "
+        f"lasersph {made['lasersph']}, {made['date']}.*"
     )
 
 
@@ -106,8 +115,8 @@ def _duration(seconds: float | None) -> str:
 
 def _note(row: dict[str, Any]) -> str:
     """Why the band of a row is so wide, and what it was before."""
-    changed = f"Changed: {row['changed']}" if row["changed"] else ""
-    return " ".join(text for text in (row["reason"], changed) if text)
+    changed = f"changed: {row['changed']}" if row["changed"] else ""
+    return "; ".join(text for text in (row["reason"].removesuffix("."), changed) if text)
 
 
 def _notes(rows: list[dict[str, Any]]) -> dict[str, int]:

@@ -7,17 +7,17 @@ import numpy as np
 
 from figures.stored import StoredFigure, store_figure
 from lasersph.analytic.half_space import pulse_train_temperature
-from lasersph.analytic.stefan import Melting, Phase
+from lasersph.analytic.stefan import Melting, PhaseProperties
 from lasersph.lasers import Laser
 from lasersph.materials import Material, load_material
 from lasersph.physics.dimensionless import thermal_diffusion_length
 from lasersph.physics.evaporation import (
     latent_heat,
     mass_flux,
-    recoil_pressure,
     saturation_pressure,
     vapor_constants,
 )
+from lasersph.physics.recoil import recoil_pressure
 from lasersph.validation.drawing import Panel, draw, line
 
 METALS = ("aluminium", "copper", "steel-304", "titanium", "tungsten")
@@ -138,7 +138,7 @@ def draw_exact(target: Path) -> None:
     metal: Material = load_material("aluminium-aa6014")
     T_m = metal.solidus
     assert T_m is not None
-    phase = Phase(float(metal.conductivity_at(T_m)), float(metal.heat_capacity_at(T_m)))
+    phase = PhaseProperties(float(metal.conductivity_at(T_m)), float(metal.heat_capacity_at(T_m)))
     melting = Melting(T_m + 400.0, T_m, 300.0, 397e3, metal.density_reference, phase)
     z = np.linspace(0.0, 20e-6, 300)
     fronts = [
