@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lasersph import compute
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.particles.filling import MIRROR, Filling, fill
 from lasersph.particles.layers import Layers, stack
 from lasersph.particles.neighbor_lists import find_neighbors
@@ -53,7 +53,7 @@ def pairs_of(dimension, name="quintic-spline", *, ratio=3.75, corrected=True, is
     domain = Domain(depth=depth, width=8e-7 if dimension > 1 else None)
     arrangement = "graded" if is_graded else "uniform"
     lattice = Lattice(spacing=spacing, arrangement=arrangement, coarsest=4e-7)
-    layers = stack(domain, lattice, dimension, fine_layers * spacing)
+    layers = stack(domain, lattice, Geometry(dimension), fine_layers * spacing)
     filling = fill(layers, surface=MIRROR, bottom=MIRROR, sides=MIRROR)
     backend = compute.cpu(threads=2)
     shape, mean = kernel(name, dimension), graded if is_graded else arithmetic

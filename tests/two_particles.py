@@ -5,7 +5,7 @@ import numpy as np
 from lasersph import compute
 from lasersph.boundaries import Boundaries
 from lasersph.materials import load_material
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.particles.layers import stack
 from lasersph.solvers.conduction.body import assemble
 from lasersph.solvers.conduction.settings import ConductionSettings
@@ -32,7 +32,7 @@ def solver_of(
     body = assemble(
         backend or compute.cpu(threads=2),
         lattice=lattice,
-        layers=stack(domain, lattice, 1, 0.0),
+        layers=stack(domain, lattice, Geometry(1), 0.0),
         boundaries=boundaries,
         material=material,
         laser=laser,

@@ -60,7 +60,7 @@ BAD_CASES = {
     "future format": ("title", "schema_version = 3\ntitle", ":1: schema_version: must be 2, got 3"),
     "text for a table": ("[boundaries]\n" + BOTTOM, "boundaries = 3", ":20: particles.boundaries: unknown key; known here: spacing, arrangement, fine_depth, coarsest, ratio, kernel, support_ratio"),
     # choices
-    "unknown beam": ('kind = "interference"', 'kind = "interferance"', ':8: laser.beam.kind: must be "uniform" or "top-hat" or "gaussian" or "interference", got "interferance"; do you mean "interference"?'),
+    "unknown beam": ('kind = "interference"', 'kind = "interferance"', ':8: laser.beam.kind: must be "uniform" or "top-hat" or "gaussian" or "super-gaussian" or "ring" or "interference", got "interferance"; do you mean "interference"?'),
     "beam without kind": (BEAM, "beam = {}", ':8: laser.beam.kind: missing; write kind = "uniform"'),
     "unknown solver": ('kind = "conduction"', 'kind = "meltpool"', ':24: solver.kind: must be "conduction" or "melt-pool" or "ablation", got "meltpool"; do you mean "melt-pool"?'),
     "four dimensions": ("dimensions = 2", "dimensions = 4", ":25: solver.dimensions: must be 1 or 2 or 3, got 4"),

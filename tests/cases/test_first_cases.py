@@ -77,7 +77,7 @@ NO_SUCH_METAL_WRONG_KINDS_SAYS = """\
 :2: material: no material "zinc"; known: KNOWN; or describe it in the case: write [material] with density, heat_capacity and conductivity
 :3: temperature: unknown key; do you mean "initial_temperature"?
 :5: laser.absorption: missing; write absorption = { kind = "surface" }
-:5: laser: fluence of a gaussian beam may be its mean or its peak (twice the mean); write fluence_kind = "peak" or "mean"
+:5: laser: fluence of a gaussian beam may be its mean or its peak (2 times the mean); write fluence_kind = "peak" or "mean"
 :6: laser.fluence: 2.0 has no unit; write e.g. "0.6 J/cm^2"
 :8: laser.beam.radius: unknown key; do you mean "radius_1e2"?
 :9: laser.pulse.duration: unknown key; do you mean "fwhm"?
@@ -204,7 +204,7 @@ end = "100 ns"
 model = "enthalpy"
 """
 A_MELT_POOL_SAYS = """\
-:3: laser: fluence of a gaussian beam may be its mean or its peak (twice the mean); write fluence_kind = "peak" or "mean"
+:3: laser: fluence of a gaussian beam may be its mean or its peak (2 times the mean); write fluence_kind = "peak" or "mean"
 :5: laser.wavelength: material 'steel-304' has optics at "1064 nm", "532 nm", "355 nm", not at "800 nm"; write e.g. wavelength = "1064 nm" in [laser], or reflectivity in [laser] and absorption_coefficient in [laser.absorption]
 :6: laser.beam.wavelength: unknown key; leave it out: laser.wavelength is given
 :7: laser.pulse.center: missing; write center = "30 ns"

@@ -14,9 +14,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.boundaries.dirichlet_faces import Extents, plane_of
+from lasersph.boundaries.dirichlet_faces import plane_of
 from lasersph.particles.faces import ENDS
 from lasersph.particles.filling import Filling
+from lasersph.particles.layers import Layers
 
 Array = NDArray[np.float64]
 
@@ -28,15 +29,15 @@ def face_power(
     weights: Array,
     row: NDArray[np.int64],
     neighbor: NDArray[np.uint32],
-    extents: Extents,
+    layers: Layers,
 ) -> Array:
     """(count,) power that enters each particle through a face [W per (3 - d) lengths].
 
     Args:
         flux: into the body [W/m^2]. weights: (pairs,) g_ij, 0 where j is beyond a Dirichlet face.
-        row, neighbor: (pairs,) i and j. extents: bounds of the block along each axis [m].
+        row, neighbor: (pairs,) i and j. layers: of the block.
     """
-    axis, plane = plane_of(face, extents)
+    axis, plane = plane_of(face, layers.extents)
     # n_j of the dummies beyond the face
     outward = 1.0 if ENDS[face][1] else -1.0
     distance = outward * (filling.position[axis, neighbor] - plane)
@@ -44,7 +45,5 @@ def face_power(
 
     # b_i, scaled to q times the area of the face
     share = np.bincount(row[beyond], weights[beyond] * distance[beyond], minlength=filling.count)
-    area = float(np.prod([upper - lower for lower, upper in extents])) / (
-        extents[axis][1] - extents[axis][0]
-    )
+    area = layers.geometry.face_area(axis, plane, layers.extents)
     return flux * area * share / share.sum()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.flow_checks import flow_problems
+from lasersph.case.geometry_checks import geometry_problems
 from lasersph.case.light_checks import light_problems, pulse_problems
 from lasersph.case.motion_checks import motion_problems, no_axis
 from lasersph.case.size import (
@@ -45,6 +46,7 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         return found
     return [
         *_material(case),
+        *geometry_problems(case),
         *light_problems(case),
         *_unread_keys(case),
         *_idle_keys(case),
@@ -247,7 +249,7 @@ def _size(case: CaseContents) -> Iterator[tuple[str, str]]:
 def _points(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Probes and traces: each of one name, inside the domain."""
     dimensions = case.solver.dimensions
-    bounds = dict(zip("xy", case.domain.lateral(dimensions), strict=False))
+    bounds = dict(zip("xy", case.domain.lateral(case.geometry), strict=False))
     # Names become columns of the history and must differ.
     for key, points in (("probes", case.probes), ("traces", case.traces)):
         what = key.removesuffix("s")

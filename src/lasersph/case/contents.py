@@ -18,7 +18,7 @@ from lasersph.case.solver_choice import (
 from lasersph.input import Model, Temperature
 from lasersph.lasers import Laser
 from lasersph.output.settings import OutputSettings, Probe, Trace
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.solvers.ablation.ejection_settings import EjectionSettings
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.solver_settings import SolverSettings
@@ -69,6 +69,16 @@ class CaseContents(Model):
         """Fill the default in that depends on the metal, where that could be read."""
         material = info.data.get("material")
         return solver if material is None else with_vaporization(solver, material)
+
+    @property
+    def geometry(self) -> Geometry:
+        """The space that the block stands for."""
+        return Geometry(self.solver.dimensions, self.solver.geometry == "axisymmetric")
+
+    @property
+    def symmetry_factor(self) -> int:
+        """How many times the section that is computed fits into the whole: 2 of half of it."""
+        return 2 if self.geometry.is_axisymmetric else self.domain.symmetry_factor
 
     @property
     def flow(self) -> FlowConditions | None:

@@ -147,7 +147,7 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
 def _vortices(case: CaseContents, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]:
     """Vortices must fill the box: the walls lie between them."""
     # Walls lie between vortices, half a period apart.
-    (x,) = case.domain.lateral(2)
+    (x,) = case.domain.lateral(case.geometry)
     period = initial.period or x[1] - x[0]
     for key, length in (("width", x[1] - x[0]), ("depth", case.domain.depth)):
         count = length / (0.5 * period)

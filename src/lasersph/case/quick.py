@@ -36,7 +36,7 @@ def quick_settings(case: Case) -> list[str]:
 def largest_spacing(case: Case) -> float:
     """Coarsest spacing that still shows what the case is about [m]."""
     # The narrowest side holds a few cells; an expected crater is deeper than one.
-    sides = [high - low for low, high in case.domain.lateral(case.solver.dimensions)]
+    sides = [high - low for low, high in case.domain.lateral(case.geometry)]
     largest = min([case.domain.depth, *sides]) / FEWEST_CELLS
     crater = expected_crater(case)
     return min(largest, crater / LAYERS_OF_CRATER) if crater else largest

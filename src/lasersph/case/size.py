@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_motion import Rest
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 
 if TYPE_CHECKING:
     from lasersph.case.contents import CaseContents
@@ -49,7 +49,7 @@ class Size:
 def size_of(case: CaseContents) -> Size:
     """Estimated size of a case; where cold matter is inactive, only the rest has neighbors."""
     lattice, dimensions = case.particles, case.solver.dimensions
-    count = estimate_count(case.domain, lattice, dimensions)
+    count = estimate_count(case.domain, lattice, case.geometry)
     share = active_share(case, lattice.support_over_spacing * lattice.spacing)
     pairs = count * share * neighbor_count(lattice, dimensions)
     return Size(count, memory_of(case.solver, count, pairs))
@@ -71,9 +71,9 @@ def neighbor_count(lattice: Lattice, dimensions: int) -> float:
     return {1: 2.0 * ratio, 2: math.pi * ratio**2, 3: 4.0 / 3.0 * math.pi * ratio**3}[dimensions]
 
 
-def estimate_count(domain: Domain, lattice: Lattice, dimensions: int) -> float:
+def estimate_count(domain: Domain, lattice: Lattice, geometry: Geometry) -> float:
     """Estimated number of particles of a block in 1, 2 or 3 dimensions."""
-    sides = [high - low for low, high in domain.lateral(dimensions)]
+    sides = [high - low for low, high in domain.lateral(geometry)]
 
     def per_layer(thickness: float) -> float:
         return math.prod(max(1.0, side / thickness) for side in sides)

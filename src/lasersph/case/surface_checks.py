@@ -58,7 +58,7 @@ def _tension(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 def _shape(case: CaseContents) -> Iterator[tuple[str, str]]:
     spacing = case.particles.spacing
-    (x,) = case.domain.lateral(2)
+    (x,) = case.domain.lateral(case.geometry)
     # Differences of fifth order need their columns.
     if x[1] - x[0] < FEWEST_COLUMNS * spacing:
         yield (

@@ -34,6 +34,7 @@ from lasersph.irradiation.absorbing_cells import (
 )
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.lasers import Laser
+from lasersph.lasers.rings import ring_means
 from lasersph.materials import Material
 from lasersph.particles.filling import Filling
 from lasersph.particles.neighbor_lists import members_of
@@ -100,7 +101,7 @@ class LayeredLight:
         share = laser.absorption.deposited(
             np.maximum(depth - half, 0.0), depth + half, alpha if np.isfinite(alpha) else None
         )
-        area = np.prod(width[:-1], axis=0)
+        area = filling.cross_section
         share = np.where(share > SMALLEST_SHARE, area * share, 0.0)
         self._lattice = {
             "column": backend.asarray(filling.above, "index"),
@@ -110,7 +111,10 @@ class LayeredLight:
         position, size = filling.position[:-1, surface], width[:-1, surface]
         self.lower, self.upper = position - 0.5 * size, position + 0.5 * size
         self.surface_area = area[surface]
-        self._means = laser.resting_means(self.lower, self.upper)
+        if filling.is_axisymmetric:
+            self._means = ring_means(laser, self.lower[0], self.upper[0])
+        else:
+            self._means = laser.resting_means(self.lower, self.upper)
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._varies = bool(np.ptp(table[1]) > 0.0)
         R_T, R_R = map(backend.asarray, table)

@@ -34,6 +34,11 @@ LARGEST_SIDE = 8192
 """Pixels along a side up to which an image is read."""
 SATURATED = 0.01
 """Share of a beam's square, in whole numbers, that has the highest value where a camera ends."""
+RING_STEP = 0.25
+"""Pixels from one circle to the next in means over the angle. Accuracy: g is linear over a pixel;
+of a Gaussian beam 20 pixels wide the light within a circle errs by 1e-4."""
+ANGLES = 720
+"""Places on a circle for its mean. Accuracy: closer than a pixel up to 115 pixels from the center."""
 PICTURES = (".png", ".tif", ".tiff")
 TABLES = (".csv", ".txt", ".dat")
 
@@ -129,6 +134,29 @@ class MeasuredEnvelope:
         if lower.shape[0] == 2:
             means = means + self._value(low, is_summed)
         return means / np.prod((high - low)[: lower.shape[0]], axis=0)
+
+    @property
+    def ellipticity(self) -> float:
+        """Smaller width over larger one [ISO11146-1], 1 of a round beam."""
+        return min(self.measured.widths) / max(self.measured.widths)
+
+    def enclosed(self, r: Array) -> Array:
+        """Integral of g, averaged over the angle, over the circle of radius r [m] (n,) [m^2]."""
+        radii, sums = self._rings
+        return np.interp(r, radii, sums)
+
+    @cached_property
+    def _rings(self) -> tuple[Array, Array]:
+        """Radii out to the farthest corner [m], and the light within each [m^2]; all of it is the
+        area to rounding."""
+        reach = self.pixel * float(np.hypot(*self.pixels.shape))
+        radii = np.arange(0.0, reach, RING_STEP * self.pixel)
+        angle = np.arange(ANGLES) * (2.0 * np.pi / ANGLES)
+        mean = self.at(np.outer(radii, np.cos(angle)), np.outer(radii, np.sin(angle))).mean(axis=1)
+        # trapezoids of 2 pi r g over r
+        ring = 2.0 * np.pi * radii * mean
+        sums = np.concatenate([[0.0], np.cumsum(0.5 * (ring[1:] + ring[:-1]) * np.diff(radii))])
+        return radii, sums * (self.area / sums[-1])
 
     def _value(self, positions: Array, is_summed: tuple[bool, bool]) -> Array:
         """The bilinear function, or its integral from below along the summed directions."""

@@ -41,8 +41,8 @@ def plane_cells(lower: Array, upper: Array, axis: Array) -> tuple[Array, Array]:
 class BeamProfile(Model):
     """Members of every beam, as they are of one that rests and makes no pattern.
 
-    A beam adds `kind`, `peak`, `area`, `scale` (length over which f changes [m]), `cell_means`, and
-    `at`, `radius` and `shape` where it is bounded.
+    A beam adds `kind`, `peak`, `area`, `scale` (length over which f changes [m]), `cell_means`,
+    `enclosed` where it is round, and `at`, `radius` and `shape` where it is bounded.
 
     Attributes:
         mean: of f. names_fluence: whether "fluence" alone says which one. is_uniform: whether f is
@@ -102,6 +102,10 @@ class UniformBeam(BeamProfile):
         """Mean of f over each cell, shape (n,): 1."""
         return np.ones(lower.shape[1])
 
+    def enclosed(self, r: Array) -> Array:
+        """Integral of f over the circle of radius r [m], any shape [m^2]."""
+        return np.pi * np.square(r)
+
 
 class TopHatBeam(BeamProfile):
     """Constant fluence inside a circle."""
@@ -130,6 +134,10 @@ class TopHatBeam(BeamProfile):
     def at(self, x: ArrayLike, y: ArrayLike) -> Array:
         """f at places relative to the axis [m], any shape."""
         return np.asarray(np.hypot(x, y) <= self.radius, float)
+
+    def enclosed(self, r: Array) -> Array:
+        """Integral of f over the circle of radius r [m], any shape [m^2]."""
+        return np.pi * np.square(np.minimum(r, self.radius))
 
     def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
         """Share of each cell inside the circle, shape (n,), exact in every dimension."""
@@ -229,6 +237,10 @@ class GaussianBeam(BeamProfile):
         """f at places relative to the axis [m], any shape."""
         square = np.square(np.asarray(x, float)) + np.square(np.asarray(y, float))
         return np.exp(-2.0 * square / self.radius**2)
+
+    def enclosed(self, r: Array) -> Array:
+        """Integral of f over the circle of radius r [m], any shape [m^2]."""
+        return -self.area * np.expm1(-2.0 * np.square(r) / self.radius**2)
 
     def cell_means(self, lower: Array, upper: Array, axis: Array) -> Array:
         """Mean of f over each cell, shape (n,): a product of differences of erf."""

@@ -37,7 +37,8 @@ from lasersph.input import (
     refusal,
 )
 from lasersph.lasers.absorption import Absorption
-from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
+from lasersph.lasers.beam_choice import Beam
+from lasersph.lasers.beams import UniformBeam
 from lasersph.lasers.interference import InterferenceBeam
 from lasersph.lasers.path import LinearPath, Path, path_quadrature
 from lasersph.lasers.pulses import Pulse
@@ -46,9 +47,6 @@ from lasersph.lasers.spot import Spot, SpotFluence
 from lasersph.materials import Material
 
 Array = NDArray[np.float64]
-Beam = Annotated[
-    UniformBeam | TopHatBeam | GaussianBeam | InterferenceBeam, Field(discriminator="kind")
-]
 AMOUNTS = ("fluence", "intensity", "pulse_energy", "power")
 
 
@@ -120,8 +118,9 @@ class Laser(Model):
                 raise refusal(("fluence_kind", f"says nothing beside {name}; leave it out"))
         elif self.fluence_kind is None and not self.beam.names_fluence:
             raise ValueError(
-                f"{name} of a gaussian beam may be its mean or its peak (twice the mean); write "
-                'fluence_kind = "peak" or "mean"'
+                f"{name} of a {self.beam.kind} beam may be its mean or its peak "
+                f"({1.0 / self.beam.mean:.3g} times the mean); write fluence_kind = "
+                '"peak" or "mean"'
             )
         if self.fluence_kind == "peak" and self.beam.peak is None:
             raise ValueError(

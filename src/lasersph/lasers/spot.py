@@ -52,6 +52,10 @@ class Envelope(Protocol):
         """Mean of g over each cell, shape (n,); see `beams`."""
         ...
 
+    def enclosed(self, r: Array) -> Array:
+        """Integral of g over the circle of radius r [m], any shape [m^2]."""
+        ...
+
 
 class Spot(Model):
     """The spot under which an interference pattern or a uniform beam lies.

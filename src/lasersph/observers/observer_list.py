@@ -126,6 +126,7 @@ class Observers:
 def heat_observers(
     dimension: int,
     *,
+    amount_dimension: int | None = None,
     pulses: Pulses | None = None,
     probes: Sequence[Probe] = (),
     iterations: Sequence[str] = (),
@@ -133,7 +134,8 @@ def heat_observers(
     """Observers of every run with heat and melting.
 
     Args:
-        dimension: 1, 2 or 3.
+        dimension: 1, 2 or 3. amount_dimension: dimensions that energies cover, 3 of a section
+            (r, z); the same where it is not given.
         pulses: of a train; None of a single one or without light.
         probes: points whose temperature is recorded.
         iterations: names of the solver parts that count iterations.
@@ -144,7 +146,7 @@ def heat_observers(
             SurfaceTemperature(),
             MeltPool(dimension),
             Vaporization(),
-            EnergyBudget(dimension),
+            EnergyBudget(amount_dimension or dimension),
             Probes(tuple(probes)),
             *(() if pulses is None else (pulses,)),
         ]

@@ -23,6 +23,7 @@ from lasersph.output.errors import read_json
 from lasersph.output.generation import read_unchanged
 from lasersph.output.particle_file import open_for_reading, value_range
 from lasersph.output.pulse_starts import starts_of_pulses
+from lasersph.output.symmetry import is_mirrored
 
 NAME = re.compile(r"(particles|surface)\.([a-z_]+)\.([0-9]{1,15})\.([0-9]{1,12})\.([0-9a-z-]+)")
 GEOMETRY = ("width",)
@@ -54,7 +55,7 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
         "case": str(case.get("title") or path.name),
         "stamp": stamp,
         "is_complete": (path / "summary.json").exists(),
-        "mirrored": case.get("domain", {}).get("extent") == "half",
+        "mirrored": is_mirrored(case),
         "levels": levels_of(case.get("material") or {}),
         "pulses": starts_of_pulses(case),
     }

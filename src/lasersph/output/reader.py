@@ -19,6 +19,7 @@ from lasersph.output.errors import OutputError, clear_errors, install_hint, read
 from lasersph.output.generation import Result, read_unchanged
 from lasersph.output.history import read_events, read_history
 from lasersph.output.particle_file import AXES, open_for_reading
+from lasersph.output.symmetry import is_axisymmetric, is_mirrored
 
 if TYPE_CHECKING:
     import anywidget  # pyright: ignore[reportMissingImports]
@@ -74,8 +75,9 @@ class Run:
 
     @property
     def symmetry_factor(self) -> int:
-        """2 where half a period was computed, mirrored about x = 0 by the other half; else 1."""
-        return 2 if self.case["domain"].get("extent") == "half" else 1
+        """2 where half a period or a section (r, z) was computed, mirrored about x = 0 by the other
+        half; else 1."""
+        return 2 if is_mirrored(self.case) else 1
 
     @cached_property
     def case_text(self) -> str:
@@ -98,9 +100,11 @@ class Run:
     def units(self) -> dict[str, str]:
         """SI unit of each column of the history, empty of numbers and texts.
 
-        Amounts of a 1-D run are per area, those of a 2-D run per length: J/m^2, J/m.
+        Amounts of a 1-D run are per area, those of a 2-D run per length: J/m^2, J/m; of a section
+        (r, z) of the whole revolution.
         """
-        return {name: unit_in(unit_of(name), self.dimensions) for name in self.history}
+        covered = 3 if is_axisymmetric(self.case) else self.dimensions
+        return {name: unit_in(unit_of(name), covered) for name in self.history}
 
     @cached_property
     def events(self) -> list[dict[str, Any]]:

@@ -7,17 +7,20 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from lasersph.input import Length, Model
+from lasersph.particles.geometry import Geometry
 
 Size = Annotated[Length, Field(gt=0)]
 
 
 class Domain(Model):
-    """Size of the block. x runs from -width/2 to width/2, or from 0 where half is computed."""
+    """Size of the block. x runs from -width/2 to width/2, or from 0 where half is computed; in a
+    section (r, z) r runs from the axis, r = 0, to the width."""
 
     depth: Size = Field(description="from the surface to the bottom", examples=["10 um"])
     width: Size | None = Field(
         default=None,
-        description="along x; 2-D and 3-D; the period of a pattern",
+        description="along x; 2-D and 3-D; the period of a pattern; the radius of an axisymmetric "
+        "block",
         examples=["20 um"],
     )
     breadth: Size | None = Field(default=None, description="along y; 3-D; default: the width")
@@ -25,19 +28,21 @@ class Domain(Model):
         default="full", description="half: only x > 0 is computed, symmetric about x = 0"
     )
 
-    def lateral(self, dimensions: int) -> tuple[tuple[float, float], ...]:
-        """Lower and upper bound along x (and y) [m], empty in 1-D.
+    def lateral(self, geometry: Geometry) -> tuple[tuple[float, float], ...]:
+        """Lower and upper bound along x (and y) or r [m], empty in 1-D.
 
         Raises:
             ValueError: no width although the run has more than one dimension.
         """
-        if dimensions == 1:
+        if geometry.dimensions == 1:
             return ()
         if self.width is None:
-            raise ValueError(f"a {dimensions}-D domain needs a width")
+            raise ValueError(f"a {geometry.dimensions}-D domain needs a width")
+        if geometry.is_axisymmetric:
+            return ((0.0, self.width),)
         half = 0.5 * self.width
         x = (0.0 if self.extent == "half" else -half, half)
-        if dimensions == 2:
+        if geometry.dimensions == 2:
             return (x,)
         other = 0.5 * (self.breadth or self.width)
         return (x, (-other, other))

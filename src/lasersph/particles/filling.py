@@ -37,6 +37,9 @@ class Filling:
         source: (N,) the inner particle that a dummy stands for; the particle itself where real.
         dirichlet: (N,) index in FACES of the Dirichlet face that a dummy lies beyond, 0 if none.
         surface: the particles of the first layer. above: (count,) the surface particle over each.
+        measure: (N,) what a cell stands for, the length of its ring [m] or 1 [1]; of a dummy that
+            of its source, so that mirrored pairs weigh the same, but beyond a Dirichlet face.
+        is_axisymmetric: whether the particles are rings.
     """
 
     count: int
@@ -47,6 +50,8 @@ class Filling:
     dirichlet: NDArray[np.uint8]
     surface: NDArray[np.int64]
     above: NDArray[np.int64]
+    measure: Array
+    is_axisymmetric: bool
 
     @property
     def depth(self) -> Array:
@@ -55,8 +60,18 @@ class Filling:
 
     @cached_property
     def volume(self) -> Array:
-        """(N,) cell volumes [m^dim]."""
+        """(N,) cell volumes [m^dim], with which pairs are weighed."""
         return np.prod(self.width, axis=0)
+
+    @cached_property
+    def body_volume(self) -> Array:
+        """(count,) volumes of the body that the particles stand for, rings [m^3] or cells."""
+        return self.volume[: self.count] * self.measure[: self.count]
+
+    @cached_property
+    def cross_section(self) -> Array:
+        """(count,) areas of the particles seen from above, rings [m^2] or cells [m^(dim - 1)]."""
+        return np.prod(self.width[:-1, : self.count], axis=0) * self.measure[: self.count]
 
 
 def fill(
@@ -70,9 +85,12 @@ def fill(
 ) -> Filling:
     """Particles of the layers with dummies as the faces ask: FREE, MIRROR, PERIODIC or DIRICHLET.
 
-    Left and right are as the sides where not given; opposite faces are periodic in pairs.
+    Left and right are as the sides where not given; opposite faces are periodic in pairs. Nothing
+    lies beyond an axis of revolution.
     """
     kinds = {LEFT: left or sides, RIGHT: right or sides, FRONT: sides, BACK: sides}
+    if layers.geometry.is_axisymmetric:
+        kinds[LEFT] = FREE
     kinds[SURFACE] = surface
     total = layers.thickness.size
     starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
@@ -99,6 +117,8 @@ def fill(
     count = layers.particle_count
     source = merged["source"].astype(np.uint32)
     surface_count = int(starts[1])
+    measure = layers.geometry.measure(merged["position"])
+    measure = np.where(merged["dirichlet"] > 0, measure, measure[source])
     return Filling(
         count=count,
         position=np.ascontiguousarray(merged["position"]),
@@ -108,6 +128,8 @@ def fill(
         dirichlet=merged["dirichlet"].astype(np.uint8),
         surface=np.arange(surface_count),
         above=_above(layers, merged["position"][:-1, :count]),
+        measure=measure,
+        is_axisymmetric=layers.geometry.is_axisymmetric,
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.particles.domain import Domain
+from lasersph.particles.geometry import Geometry
 from lasersph.particles.lattice import Lattice
 
 Array = NDArray[np.float64]
@@ -24,17 +25,18 @@ class Layers:
 
     Attributes:
         thickness: (layers,) [m]. columns: (dim - 1, layers) cells along x (and y).
-        bounds: lower and upper bound along x (and y) [m].
+        bounds: lower and upper bound along x (and y) or r [m]. geometry: that the layers lie in.
     """
 
     thickness: Array
     columns: NDArray[np.int64]
     bounds: tuple[tuple[float, float], ...]
+    geometry: Geometry
 
     @property
     def dimension(self) -> int:
         """Number of space dimensions."""
-        return len(self.bounds) + 1
+        return self.geometry.dimensions
 
     @property
     def particle_count(self) -> int:
@@ -67,7 +69,7 @@ class Layers:
         return extent / self.columns
 
 
-def stack(domain: Domain, lattice: Lattice, dimensions: int, fine_depth: float) -> Layers:
+def stack(domain: Domain, lattice: Lattice, geometry: Geometry, fine_depth: float) -> Layers:
     """Layers that fill the domain.
 
     Args:
@@ -76,7 +78,7 @@ def stack(domain: Domain, lattice: Lattice, dimensions: int, fine_depth: float) 
     The spacing is rounded so that whole numbers of cells fill the width and, where uniform, the
     depth.
     """
-    bounds = domain.lateral(dimensions)
+    bounds = domain.lateral(geometry)
     spacing = lattice.spacing
     if bounds:
         # whole numbers of columns across, so that a period closes
@@ -93,9 +95,8 @@ def stack(domain: Domain, lattice: Lattice, dimensions: int, fine_depth: float) 
         np.maximum(1, np.rint((upper - lower) / thickness)).astype(np.int64)
         for lower, upper in bounds
     ]
-    return Layers(
-        thickness, np.array(columns, np.int64).reshape(len(bounds), thickness.size), bounds
-    )
+    counts = np.array(columns, np.int64).reshape(len(bounds), thickness.size)
+    return Layers(thickness, counts, bounds, geometry)
 
 
 def _graded(spacing: float, lattice: Lattice, depth: float, fine_depth: float) -> Array:

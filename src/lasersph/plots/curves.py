@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lasersph.input.key_units import unit_in
+from lasersph.input.key_units import amount_dimension, unit_in
 from lasersph.observers import COLUMNS
 from lasersph.output import Run
 from lasersph.plots import style
@@ -42,7 +42,7 @@ def draw_columns(
     first = COLUMNS[next(iter(texts))]
     time, time_label = time_axis(run.history)
     largest = max(float(np.max(np.abs(run.history[column]))) for column in texts)
-    dimension = int(summary_of(run).get("dimensions", 3))
+    dimension = amount_dimension(summary_of(run))
     unit = style.fitting_unit(unit_in(first.unit, dimension), largest)
     # Gaps where nothing is, and middles in place of stairs.
     for k, (column, text) in enumerate(texts.items()):

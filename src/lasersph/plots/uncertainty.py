@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from lasersph.input import format_with_error
-from lasersph.input.key_units import unit_in
+from lasersph.input.key_units import amount_dimension, unit_in
 from lasersph.observers.observer_list import OBSERVERS
 from lasersph.output import RunOrFolder, open_run
 from lasersph.plots import style
@@ -34,7 +34,7 @@ def tornado_chart(run: RunOrFolder) -> Figure | None:
         entry = found["numbers"].get(one.key)
         bars = parts_of(entry, found["coverage"]) if entry else []
         if bars:
-            unit = unit_in(one.unit, int(run.summary["dimensions"]))
+            unit = unit_in(one.unit, amount_dimension(run.summary))
             text = format_with_error(entry["value"], entry["error"], unit, typographic=True)
             panels.append((f"{one.words}: {text}", bars))
     if not panels:

@@ -6,7 +6,7 @@ import re
 from html import escape
 from typing import Any
 
-from lasersph.input.key_units import unit_in
+from lasersph.input.key_units import amount_dimension, unit_in
 from lasersph.observers.quantity import Quantity
 from lasersph.output import Run
 from lasersph.report.page import paragraph
@@ -182,7 +182,7 @@ def large_numbers(run: Run) -> str:
         text = text_of(one, value, summary)
         error = error_of(summary, found, key)
         if error:
-            unit = unit_in(one.unit, int(summary.get("dimensions", 3)))
+            unit = unit_in(one.unit, amount_dimension(summary))
             text = with_error(value, error, unit)
             are_known = True
         when = place_text(summary, one.at[0]) if one.at else ""

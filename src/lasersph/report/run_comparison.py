@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lasersph.input.document import split_settings
-from lasersph.input.key_units import unit_in
+from lasersph.input.key_units import amount_dimension, unit_in
 from lasersph.input.shown_unit import in_unit_of
 from lasersph.input.text_table import text_table
 from lasersph.observers.quantity import Quantity
@@ -134,7 +134,7 @@ def compare_runs(first: RunOrFolder, second: RunOrFolder) -> RunComparison:
     for key, values in numbers.items():
         quantity = (found[0].get(key) or found[1][key])[0]
         texts = (text_of(quantity, v, run.summary) for v, run in zip(values, runs, strict=True))
-        unit = unit_in(quantity.unit, int(runs[0].summary.get("dimensions", 3)))
+        unit = unit_in(quantity.unit, amount_dimension(runs[0].summary))
         rows.append((quantity.words, *texts, _difference(*values, unit)))
     return RunComparison(runs, names, tuple(_different_settings(*runs)), numbers, tuple(rows))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from lasersph.input.key_units import is_section
 from lasersph.observers.run_warnings import (
     allowed_imbalance,
     event_warnings,
@@ -142,8 +143,13 @@ def note_texts(summary: dict[str, Any]) -> list[str]:
             f"The spacing of {quantity(requested, 'm')} was rounded to {quantity(used, 'm', 6)} so"
             " that whole cells fill the block."
         )
-    # Half of a symmetric body was computed.
-    if summary.get("surface", {}).get("symmetry_factor") == 2:
+    # Half of a symmetric body was computed, or a section of a body of revolution.
+    if is_section(summary):
+        found.append(
+            "A section through the axis r = 0 was computed: widths are diameters, volumes and"
+            " energies are those of the whole revolution."
+        )
+    elif summary.get("surface", {}).get("symmetry_factor") == 2:
         found.append(
             "Only x > 0 was computed, half of what is symmetric about x = 0: volumes and energies"
             " are those of this half, all else is of the whole."

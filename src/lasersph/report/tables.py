@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any
 
 from lasersph.input import format_duration, format_number, format_quantity, format_with_error
-from lasersph.input.key_units import unit_in, unit_of
+from lasersph.input.key_units import amount_dimension, is_section, unit_in, unit_of
 from lasersph.observers import EnergyBudget, Quantity
 from lasersph.observers.declared import KEY as OWN_OBSERVERS
 from lasersph.observers.declared import AnyObserver, kinds_of
@@ -96,7 +96,7 @@ def text_of(one: Quantity, value: Any, summary: dict[str, Any], *, typographic: 
     if MOMENT.fullmatch(one.key):
         times = value if isinstance(value, list) else [value]
         return ", ".join(moment(summary, time, typographic=typographic) for time in times)
-    return in_words(value, unit_in(one.unit, int(summary.get("dimensions", 3))), typographic)
+    return in_words(value, unit_in(one.unit, amount_dimension(summary)), typographic)
 
 
 def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -> str:
@@ -149,7 +149,7 @@ def main_rows(
         text = text_of(one, value, summary, typographic=typographic)
         error = errors.get(one.key, {}).get("error")
         if error is not None:
-            unit = unit_in(one.unit, summary["dimensions"])
+            unit = unit_in(one.unit, amount_dimension(summary))
             text = with_error(value, error, unit, typographic=typographic)
         at = place_text(summary, one.at[0], typographic=typographic) if one.at else ""
         rows.append((one.words, text, at))
@@ -182,7 +182,9 @@ def summary_rows(
 
 
 def half_text(summary: dict[str, Any]) -> str:
-    """Words behind the number of particles of a run of one half; empty of a whole one."""
+    """Words behind the number of particles of a run of one half or a section; else empty."""
+    if is_section(summary):
+        return " in a section (r, z)"
     if summary.get("surface", {}).get("symmetry_factor") != 2:
         return ""
     return " at x > 0, as are volumes and energies"
@@ -194,7 +196,7 @@ def computation(summary: dict[str, Any]) -> Rows:
     steps, count = summary.get("time_step", {}), max(summary["steps"], 1)
     rows: Rows = [
         ("solver", str(summary["solver"])),
-        ("dimensions", str(summary.get("dimensions", "–"))),
+        ("dimensions", "2, (r, z)" if is_section(summary) else str(summary.get("dimensions", "–"))),
         ("particles", shown(summary["particles"], 9)),
         ("finest spacing", quantity(summary.get("spacing_m"), "m")),
         ("simulated time", quantity(summary["time_s"], "s")),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lasersph.input.key_units import unit_in, unit_of
+from lasersph.input.key_units import amount_dimension, unit_in, unit_of
 from lasersph.observers.observer_list import OBSERVERS
 from lasersph.report.page import details, paragraph, table
 from lasersph.report.tables import (
@@ -64,7 +64,7 @@ def main_rows(summary: dict[str, Any], found: dict[str, Any]) -> Rows:
         entry = found["numbers"].get(one.key)
         if entry is None:
             continue
-        unit = unit_in(one.unit, int(summary["dimensions"]))
+        unit = unit_in(one.unit, amount_dimension(summary))
         twice = found["coverage"]
         # Twice the standard deviation of each input holds about 95 %.
         parts = [entry["inputs"].get(key) for key in found["inputs"]]
@@ -104,7 +104,7 @@ def all_rows(summary: dict[str, Any], found: dict[str, Any]) -> Rows:
     # A number that an observer declares has its unit there, any other in its key.
     declared = {one.key: one.unit for kind in OBSERVERS for one in kind.all_results()}
     for key, entry in found["numbers"].items():
-        unit = unit_in(declared.get(key, unit_of(key)), int(summary["dimensions"]))
+        unit = unit_in(declared.get(key, unit_of(key)), amount_dimension(summary))
         parts = (two_digits(entry[name], unit) for name in ("numerical", "from_inputs"))
         behavior = entry.get("behavior", "–")
         if entry.get("order") is not None:

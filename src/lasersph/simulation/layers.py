@@ -38,7 +38,7 @@ def lay_out(case: Case, melt: Callable[[], MeltEstimate | None] | None = None) -
     fine = case.particles.fine_depth or 0.0
     if case.particles.arrangement == "graded" and not fine:
         fine = fine_depth(case, melt() if melt is not None else expected_melt(case))
-    return stack(case.domain, case.particles, case.solver.dimensions, fine)
+    return stack(case.domain, case.particles, case.geometry, fine)
 
 
 def fine_depth(case: Case, melt: MeltEstimate | None) -> float:

@@ -17,7 +17,7 @@ def halves_spot(case: Case) -> tuple[bool, bool]:
         return False, False
 
     # The resting axis against both ends of x, up to rounding.
-    (low, high), *_ = case.domain.lateral(dimensions)
+    (low, high), *_ = case.domain.lateral(case.geometry)
     near = EDGE_TOLERANCE * (high - low)
     x = laser.position[0]
     return isclose(x, low, abs_tol=near), isclose(x, high, abs_tol=near)

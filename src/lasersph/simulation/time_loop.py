@@ -327,6 +327,7 @@ class _Loop:
             "title": self.case.title,
             "solver": self.case.solver.kind,
             "dimensions": self.case.solver.dimensions,
+            "amount_dimensions": self.case.geometry.amount_dimension,
             "particles": self.solver.particle_count,
             "spacing_m": self.recipe.layers.spacing,
             "spacing_requested_m": self.case.particles.spacing,

@@ -5,7 +5,9 @@ They ask for what a solver does, never for its kind.
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import ClassVar, Literal
+
+from pydantic import Field
 
 from lasersph.input import Model
 
@@ -20,6 +22,13 @@ class SolverSettings(Model):
     step. Forecast: as measured; nothing computed depends on it."""
     bytes_per_neighbor: ClassVar[int]
     """Most memory that a particle takes for each neighbor with which it is computed [B]."""
+
+    geometry: Literal["planar", "axisymmetric"] = Field(
+        default="planar",
+        exclude_if=lambda given: given == "planar",
+        description="of the block: a line, a plane section or a body; or the section (r, z) of a "
+        "body of revolution about the axis of the beam, with dimensions = 2",
+    )
 
     @property
     def scheme_text(self) -> str:

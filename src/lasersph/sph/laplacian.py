@@ -76,6 +76,15 @@ def layered_weight(
     return -2.0 * V_i * V_j * dW_ij / r_ij * factor
 
 
+def ring_weight(g_ij, measure_i, measure_j):
+    """Weight of two rings, g_ij times their mean length [m^(d-1)], symmetric and not negative.
+
+    (1/r) d(r dT/dr)/dr takes 2 pi r to the middle between both particles; that half way in r makes
+    the sum exact for T = r^2 far from the axis, up to the second order of the lattice.
+    """
+    return 0.5 * (measure_i + measure_j) * g_ij
+
+
 def flow(g_ij, P_i, P_j):
     """Heat flowing from j into i [W]: g_ij (P_j - P_i)."""
     return g_ij * (P_j - P_i)

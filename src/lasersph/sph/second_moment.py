@@ -101,7 +101,7 @@ def _shortened(layers: Layers) -> tuple[Layers, NDArray[np.int64]]:
         index[start:end] = base + np.where(
             position < KEPT, position, np.maximum(position - (length - 2 * KEPT), KEPT)
         )
-    return Layers(d[kept], layers.columns[:, kept], layers.bounds), index
+    return Layers(d[kept], layers.columns[:, kept], layers.bounds, layers.geometry), index
 
 
 class _Lattice:

@@ -85,8 +85,8 @@ def process_map(
     if target is not None:
         lines["target"] = layout.contour(field, target)
     # unit by the dimension of the runs; what is missing in words
-    known, dimensions = RESULTS.get(show), int(np.nanmax(table.values("dimensions")))
-    unit = unit_in(known.unit, dimensions) if known else unit_of(show)
+    known = RESULTS.get(show)
+    unit = unit_in(known.unit, table.amount_dimension) if known else unit_of(show)
     notes, units = one_sided_notes(table, keys), table.shown_units()
     if (lost := int((~good).sum())) > 0:
         has = "has" if lost == 1 else "have"

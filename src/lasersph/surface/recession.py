@@ -285,7 +285,7 @@ class Recession:
             "below": backend.asarray(below, "index"),
             "column": backend.asarray(number % columns, "index"),
         }
-        area = np.prod(filling.width[:-1, : number.size], axis=0)
+        area = filling.cross_section[: number.size]
         self._fields = {
             "m": backend.head(particles["mass"], number.size),
             "area": backend.asarray(area),

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
-from lasersph.input.key_units import suffix, unit_in, unit_of
+from lasersph.input.key_units import amount_dimension, suffix, unit_in, unit_of
 from lasersph.input.model import did_you_mean
 from lasersph.input.shown_unit import ShownUnit, units_written
 from lasersph.output.atomic import replace_text
@@ -149,11 +149,16 @@ class Table:
             text = plan.read_text(encoding="utf-8") if plan.exists() else ""
         return units_written(text, self.units)
 
+    @property
+    def amount_dimension(self) -> int:
+        """Dimensions that the amounts of the runs cover; 3 before any has ended."""
+        found = (amount_dimension(row.numbers) for row in self.rows if "dimensions" in row.numbers)
+        return next(found, 3)
+
     def number_unit(self, column: str) -> str:
         """SI unit of a number of the summaries in runs of this dimension: of an energy J/m in 2-D;
         empty for a pure number."""
-        found = (row.numbers["dimensions"] for row in self.rows if "dimensions" in row.numbers)
-        return unit_in(unit_of(column), int(next(found, 3)))
+        return unit_in(unit_of(column), self.amount_dimension)
 
     def write(self) -> Path:
         """Write table.csv into the folder, whole or not at all: varied keys in the units of the

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from lasersph.input import format_duration
-from lasersph.input.key_units import unit_in
+from lasersph.input.key_units import amount_dimension, unit_in
 from lasersph.output import OutputError, Run, open_run
 from lasersph.output.folder_lock import is_computing
 from lasersph.output.growing_table import last_row, some_values
@@ -167,7 +167,7 @@ def results(summary: dict[str, Any]) -> list[dict[str, Any]]:
     """The main results with their words, for a table: `value` and `unit` of those that are numbers
     that can be taken from one another, `text` of all."""
     # Numbers with units can be subtracted on the page, texts cannot.
-    dimensions = int(summary.get("dimensions", 3))
+    dimensions = amount_dimension(summary)
     return [
         {
             "key": one.key,

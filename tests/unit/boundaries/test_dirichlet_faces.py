@@ -5,7 +5,7 @@ import pytest
 
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.dirichlet_faces import DirichletFace, boundary_coefficients
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.particles.filling import DIRICHLET, FREE, fill
 from lasersph.particles.layers import stack
 
@@ -14,7 +14,7 @@ SPACING = 1.0
 
 def column():
     """Four cells of 1 m under a free surface, dummies below."""
-    layers = stack(Domain(depth=4.0), Lattice(spacing=SPACING), 1, 0.0)
+    layers = stack(Domain(depth=4.0), Lattice(spacing=SPACING), Geometry(1), 0.0)
     return fill(layers, surface=FREE, bottom=DIRICHLET, sides=FREE)
 
 
@@ -46,7 +46,7 @@ def test_dirichlet_face():
 
 def test_dirichlet_sides_and_corner():
     """Beyond a side the distances along x count: n_ij = 1 m, n_i = 0.5 m."""
-    layers = stack(Domain(depth=4.0, width=4.0, extent="full"), Lattice(spacing=1.0), 2, 0.0)
+    layers = stack(Domain(depth=4.0, width=4.0, extent="full"), Lattice(spacing=1.0), Geometry(2), 0.0)
     filling = fill(layers, surface=FREE, bottom=FREE, sides=DIRICHLET)
     x, z = filling.position
     i = int(np.flatnonzero((x[:16] == -1.5) & (z[:16] == -0.5))[0])

@@ -5,21 +5,21 @@ import pytest
 
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.neumann_faces import face_power
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.particles.filling import MIRROR, fill
 from lasersph.particles.layers import stack
 
 
 def test_shares_by_hand():
     """Weights times depth of the dummies: 4 * 0.5 and 1 * 1.5 on particle 0, 1 * 0.5 on 1."""
-    layers = stack(Domain(depth=4.0), Lattice(spacing=1.0), 1, 0.0)
+    layers = stack(Domain(depth=4.0), Lattice(spacing=1.0), Geometry(1), 0.0)
     filling = fill(layers, surface=MIRROR, bottom=MIRROR, sides=MIRROR)
     z = filling.position[-1]
     first, second = (int(np.argmin(np.abs(z - place))) for place in (0.5, 1.5))
     row = np.array([0, 0, 1, 0])
     neighbor = np.array([first, second, first, 1], np.uint32)
     weights = np.array([4.0, 1.0, 1.0, 9.0])
-    power = face_power("surface", 8.0, filling, weights, row, neighbor, layers.extents)
+    power = face_power("surface", 8.0, filling, weights, row, neighbor, layers)
     assert power == pytest.approx([8.0 * 3.5 / 4.0, 8.0 * 0.5 / 4.0, 0.0, 0.0])
 
 

@@ -255,7 +255,7 @@ def test_quick_is_four_times_coarser(name):
     """Spacing times 4 but 10 cells at least and finer than a crater, steps times 2 (implicit),
     unless an override says otherwise."""
     usual, quick = load_case(name), load_case(name, quick=True)
-    sides = [high - low for low, high in usual.domain.lateral(usual.solver.dimensions)]
+    sides = [high - low for low, high in usual.domain.lateral(usual.geometry)]
     coarser = min(4 * usual.particles.spacing, min([usual.domain.depth, *sides]) / 10)
     crater = expected_crater(usual)
     assert math.isclose(quick.particles.spacing, min(coarser, crater / 1.25) if crater else coarser)
@@ -299,11 +299,11 @@ def test_quick_keeps_ten_cells():
 def test_size_by_hand():
     """1-D: depth / spacing; 2-D uniform: times width / spacing; graded less than uniform."""
     case = load_case("stefan")
-    assert math.isclose(estimate_count(case.domain, case.particles, 1), 200)
+    assert math.isclose(estimate_count(case.domain, case.particles, case.geometry), 200)
     graded = load_case("dlip-steel")
     uniform = load_case("dlip-steel", ["particles.arrangement=uniform", "particles.ratio="])
-    few = estimate_count(graded.domain, graded.particles, 2)
-    many = estimate_count(uniform.domain, uniform.particles, 2)
+    few = estimate_count(graded.domain, graded.particles, graded.geometry)
+    many = estimate_count(uniform.domain, uniform.particles, uniform.geometry)
     assert math.isclose(many, 4.6e-6 / 8e-9 * 2.5e-6 / 8e-9)
     assert few < 0.2 * many
     assert in_words(1536 * 2**20) == "1.5 GiB"

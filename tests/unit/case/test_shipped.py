@@ -44,7 +44,7 @@ def test_dlip(name, fluence, depth):
     assert isinstance(laser.pulse, GaussianPulse)
     assert (laser.pulse.fwhm, laser.pulse.center) == (1e-8, 5e-8)
     assert (case.domain.depth, case.domain.width, case.domain.extent) == (depth, 5e-6, "half")
-    assert case.domain.lateral(2) == ((0.0, 2.5e-6),)
+    assert case.domain.lateral(case.geometry) == ((0.0, 2.5e-6),)
     assert (case.particles.spacing, case.time.end) == (8e-9, 2e-7)
     assert case.initial_temperature == 298.15
     assert abs(depth / (10 * 2 * (case.material.diffusivity_reference * 1e-8) ** 0.5) - 1) < 0.25
@@ -56,7 +56,7 @@ def test_dots():
     beam = case.laser.beam if case.laser else None
     assert isinstance(beam, InterferenceBeam) and beam.count == 4
     assert (beam.lateral_period, beam.lateral_period_y) == pytest.approx((5e-6, 5e-6))
-    assert case.domain.lateral(3) == ((0.0, 2.5e-6), (-2.5e-6, 2.5e-6))
+    assert case.domain.lateral(case.geometry) == ((0.0, 2.5e-6), (-2.5e-6, 2.5e-6))
     assert case.solver.dimensions == 3
 
 
@@ -66,9 +66,9 @@ def test_pulsed_heating():
     assert case.laser is not None and isinstance(case.laser.pulse, SquarePulse)
     assert case.laser.mean_fluence / case.laser.pulse.duration == 9.6e11
     assert (case.laser.reflectivity, case.laser.pulse.count) == (0.75, 3)
-    assert round(estimate_count(case.domain, case.particles, 1)) == 800
+    assert round(estimate_count(case.domain, case.particles, case.geometry)) == 800
     solid = load_case("pulsed-heating", ["solver.dimensions=3", "domain.width=2um"])
-    assert round(estimate_count(solid.domain, solid.particles, 3)) == 800 * 8 * 8
+    assert round(estimate_count(solid.domain, solid.particles, solid.geometry)) == 800 * 8 * 8
 
 
 def test_boxes_of_one():
@@ -78,7 +78,7 @@ def test_boxes_of_one():
         assert case.material.is_liquid and case.material.density_liquid == 1.0
         assert float(case.material.kinematic_viscosity_at(300.0)) == 0.01
         assert case.domain.width == case.domain.depth == 1.0
-        assert round(estimate_count(case.domain, case.particles, 2)) == 2500
+        assert round(estimate_count(case.domain, case.particles, case.geometry)) == 2500
     assert cavity.flow is not None and cavity.flow.surface.velocity == 1.0
     assert vortices.flow is not None
     assert {side.kind for side in vortices.flow.faces.values()} == {"periodic"}

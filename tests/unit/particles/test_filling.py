@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.particles.filling import DIRICHLET, FACES, FREE, GHOSTS, MIRROR, PERIODIC, fill
 from lasersph.particles.layers import Layers, stack
 
@@ -11,7 +11,7 @@ from lasersph.particles.layers import Layers, stack
 def block(dimensions=2, depth=8e-7, width=6e-7):
     """Uniform block of 0.1 um cells."""
     domain = Domain(depth=depth, width=width if dimensions > 1 else None, breadth=None)
-    return stack(domain, Lattice(spacing=1e-7), dimensions, 0.0)
+    return stack(domain, Lattice(spacing=1e-7), Geometry(dimensions), 0.0)
 
 
 @pytest.mark.parametrize("dimensions", [1, 2, 3])
@@ -119,7 +119,7 @@ def test_periodic_in_depth():
 
 def test_above_is_the_surface_cell_over_a_particle():
     """Layers of fewer columns lie under the surface cell that holds their center."""
-    layers = Layers(np.array([1e-7, 2e-7, 3e-7]), np.array([[6, 3, 2]]), ((-3e-7, 3e-7),))
+    layers = Layers(np.array([1e-7, 2e-7, 3e-7]), np.array([[6, 3, 2]]), ((-3e-7, 3e-7),), Geometry(2))
     filling = fill(layers, surface=FREE, bottom=FREE, sides=FREE)
     assert filling.above[:6].tolist() == [0, 1, 2, 3, 4, 5]
     assert filling.above[6:9].tolist() == [1, 3, 5]

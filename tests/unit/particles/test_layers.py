@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.particles.layers import stack
 
 FINE = 1e-8
@@ -12,12 +12,12 @@ FINE = 1e-8
 def graded(depth, fine_depth, coarsest=1e-7):
     """Layers of a graded 2-D block 1 um wide."""
     lattice = Lattice(spacing=FINE, arrangement="graded", coarsest=coarsest)
-    return stack(Domain(depth=depth, width=1e-6), lattice, 2, fine_depth)
+    return stack(Domain(depth=depth, width=1e-6), lattice, Geometry(2), fine_depth)
 
 
 def test_uniform_box():
     """1 um x 2 um in cells of 0.1 um: 20 layers of 10 columns, centers at -0.05, -0.15, ... um."""
-    layers = stack(Domain(depth=2e-6, width=1e-6), Lattice(spacing=1e-7), 2, 0.0)
+    layers = stack(Domain(depth=2e-6, width=1e-6), Lattice(spacing=1e-7), Geometry(2), 0.0)
     assert layers.thickness.size == 20
     assert layers.particle_count == 200
     assert np.all(layers.columns == 10)
@@ -28,7 +28,7 @@ def test_uniform_box():
 
 def test_spacing_is_rounded_to_fill_width_and_depth():
     """0.3 um into 1 um wide: 3 columns of 1/3 um; 2 um deep: 6 layers of 1/3 um."""
-    layers = stack(Domain(depth=2e-6, width=1e-6), Lattice(spacing=0.3e-6), 2, 0.0)
+    layers = stack(Domain(depth=2e-6, width=1e-6), Lattice(spacing=0.3e-6), Geometry(2), 0.0)
     assert np.all(layers.columns == 3)
     assert layers.thickness == pytest.approx(np.full(6, 1e-6 / 3))
     assert layers.column_width() == pytest.approx(np.full((1, 6), 1e-6 / 3))
@@ -37,16 +37,16 @@ def test_spacing_is_rounded_to_fill_width_and_depth():
 def test_one_and_three_dimensions():
     """1-D has no columns; 3-D multiplies those of x and y."""
     lattice = Lattice(spacing=1e-7)
-    line = stack(Domain(depth=1e-6), lattice, 1, 0.0)
+    line = stack(Domain(depth=1e-6), lattice, Geometry(1), 0.0)
     assert (line.dimension, line.particle_count, line.columns.shape) == (1, 10, (0, 10))
-    block = stack(Domain(depth=1e-6, width=5e-7, breadth=3e-7), lattice, 3, 0.0)
+    block = stack(Domain(depth=1e-6, width=5e-7, breadth=3e-7), lattice, Geometry(3), 0.0)
     assert block.particle_count == 10 * 5 * 3
 
 
 def test_half_extent_starts_at_the_symmetry_plane():
     """Half of 1 um: x from 0 to 0.5 um, half the columns."""
     domain = Domain(depth=1e-6, width=1e-6, extent="half")
-    layers = stack(domain, Lattice(spacing=1e-7), 2, 0.0)
+    layers = stack(domain, Lattice(spacing=1e-7), Geometry(2), 0.0)
     assert layers.bounds == ((0.0, 5e-7),)
     assert np.all(layers.columns == 5)
     assert domain.symmetry_factor == 2
@@ -72,7 +72,7 @@ def test_published_stack():
     lattice = Lattice(spacing=spacing, arrangement="graded", coarsest=1e-6)
     coarse = 1e-6 * np.sum((7.0 / 9.0) ** np.arange(22))
     domain = Domain(depth=10 * spacing + coarse, width=5e-6)
-    layers = stack(domain, lattice, 2, 10 * spacing)
+    layers = stack(domain, lattice, Geometry(2), 10 * spacing)
     spacing_used = 5e-6 / 1259
     assert layers.columns[0, 0] == 1259
     assert layers.thickness[:10] == pytest.approx(np.full(10, spacing_used))
@@ -103,4 +103,4 @@ def test_fine_depth_beyond_the_domain_is_uniform():
 def test_domain_without_width():
     """2-D without a width is refused."""
     with pytest.raises(ValueError, match="needs a width"):
-        stack(Domain(depth=1e-6), Lattice(spacing=1e-7), 2, 0.0)
+        stack(Domain(depth=1e-6), Lattice(spacing=1e-7), Geometry(2), 0.0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lasersph.particles import Domain, Lattice
+from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.particles.filling import fill
 from lasersph.particles.layers import stack
 from lasersph.particles.relief_layout import carry_over, lay_below, resample
@@ -14,7 +14,7 @@ def layers():
     """Ten fine layers of 20 columns of 100 nm over coarser ones."""
     domain = Domain.model_validate({"width": 2e-6, "depth": 4e-6})
     lattice = Lattice.model_validate({"spacing": 1e-7, "arrangement": "graded"})
-    return stack(domain, lattice, 2, 1e-6)
+    return stack(domain, lattice, Geometry(2), 1e-6)
 
 
 def test_flat_surface_gives_the_lattice(layers):

@@ -75,7 +75,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         return self.common_view(solver, step, limit) | {
             "position": shown(body.filling.position[:, :count]),
             "width": shown(body.filling.width[:, :count]),
-            "volume": shown(body.filling.volume[:count]),
+            "volume": shown(body.filling.body_volume),
             "mass": body.backend.look(particles["mass"]),
             "latent_heats": body.curve.latent_heats,
             "temperature": fetch(particles["temperature"]),
@@ -107,6 +107,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         """Observers of every run with heat and melting."""
         return heat_observers(
             self.settings.dimensions,
+            amount_dimension=self.case.geometry.amount_dimension,
             pulses=self.pulse_observer(),
             probes=self.case.probes,
             iterations=iterations,

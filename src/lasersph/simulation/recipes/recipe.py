@@ -178,7 +178,7 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
             "time": state.time,
             "step": step,
             "time_step": state.time_step,
-            "symmetry_factor": self.case.domain.symmetry_factor,
+            "symmetry_factor": self.case.symmetry_factor,
             "halves_spot": halves_spot(self.case),
             "energy": dict(state.energy),
             "iterations": solver.iterations,

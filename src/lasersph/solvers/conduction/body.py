@@ -27,7 +27,7 @@ from lasersph.particles.support import arithmetic, graded
 from lasersph.physics.phase_change import state
 from lasersph.solvers.conduction.walls import walls_of
 from lasersph.sph.kernels import Kernel, kernel
-from lasersph.sph.laplacian import layered_weight, weight
+from lasersph.sph.laplacian import layered_weight, ring_weight, weight
 from lasersph.sph.second_moment import layer_factors
 from lasersph.surface.surface import upward
 
@@ -93,7 +93,10 @@ def assemble(
     ends = {face: KINDS[boundaries.kind_of(face)] for face in PLANE}
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
     weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
-    neighbors, row, weights = _weights(backend, weighing, filling)
+    is_axisymmetric = layers.geometry.is_axisymmetric
+    neighbors, row, weights = _weights(
+        backend, weighing, filling, is_axisymmetric=is_axisymmetric
+    )
     walls = walls_of(
         boundaries, curve, layers, filling, weights, row, backend.to_host(neighbors.neighbor)
     )
@@ -105,10 +108,10 @@ def assemble(
         total=backend.asarray(np.bincount(row, weights, minlength=count)),
     )
     area = np.zeros(count)
-    area[filling.surface] = np.prod(filling.width[:-1, filling.surface], axis=0)
+    area[filling.surface] = filling.cross_section[filling.surface]
     fields = ("mass", *HISTORY, "evaporated_mass", *DERIVED)
     particles = Particles(backend, count, layers.dimension, fields)
-    particles.set("mass", material.density_reference * filling.volume[:count])
+    particles.set("mass", material.density_reference * filling.body_volume)
     body = Body(
         backend=backend,
         filling=filling,
@@ -169,7 +172,7 @@ def _equal_factors(layer: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArr
 
 
 def _weights(
-    backend: Backend, weighing: Weighing, filling: Filling
+    backend: Backend, weighing: Weighing, filling: Filling, *, is_axisymmetric: bool
 ) -> tuple[NeighborList, NDArray[np.int64], NDArray[np.float64]]:
     """All pairs with dummies, and on the host the row and the weight of each pair."""
     normal, lateral = weighing.factors(filling.layer)
@@ -189,6 +192,10 @@ def _weights(
     )
     weights = backend.zeros(backend.to_host(neighbors.neighbor).size)
     backend.pair_values(weighing.function, neighbors, fields, weights, **weighing.constants)
+    # pairs of rings pass on heat through the mean ring
+    if is_axisymmetric:
+        rings = {"g_ij": weights, "measure": backend.asarray(filling.measure)}
+        backend.pair_values(ring_weight, neighbors, rings, weights)
     row_start = backend.to_host(neighbors.row_start).astype(np.int64)
     row = np.repeat(np.arange(filling.count), np.diff(row_start))
     return neighbors, row, np.array(backend.to_host(weights))

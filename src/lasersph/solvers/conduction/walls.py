@@ -18,7 +18,6 @@ from lasersph.boundaries.dirichlet_faces import DirichletFace, boundary_coeffici
 from lasersph.boundaries.neumann_faces import face_power
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.materials.caloric_curve import CaloricCurve
-from lasersph.particles.faces import faces_of
 from lasersph.particles.filling import Filling
 from lasersph.particles.layers import Layers
 
@@ -54,7 +53,7 @@ def walls_of(
     Args:
         weights: (pairs,) g_ij, changed in place. row, neighbor: (pairs,) i and j.
     """
-    kinds = {face: boundaries.kind_of(face) for face in faces_of(layers.dimension)}
+    kinds = {face: boundaries.kind_of(face) for face in layers.geometry.faces}
     faces = [
         DirichletFace(face, kind == "wall") for face, kind in kinds.items() if kind in DIRICHLET
     ]
@@ -68,7 +67,7 @@ def walls_of(
         flow += pairs.total(count, wall_potential(curve, T))
     for face in (face for face, kind in kinds.items() if kind == NEUMANN):
         flux = boundaries.flux_of(face)
-        power += face_power(face, flux, filling, weights, row, neighbor, layers.extents)
+        power += face_power(face, flux, filling, weights, row, neighbor, layers)
     return Walls(coefficient, flow + power, heat, power)
 
 

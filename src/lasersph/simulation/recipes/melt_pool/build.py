@@ -52,7 +52,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         layers=layers.thickness.size,
         weighing=weighing,
     )
-    (x,) = case.domain.lateral(2)
+    (x,) = case.domain.lateral(case.geometry)
     box = (x, (-float(layers.thickness.sum()), 0.0))
     conditions = FaceConditions(box, case.boundaries, case.flow, case.initial_temperature)
 

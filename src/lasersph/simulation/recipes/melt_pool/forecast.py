@@ -172,7 +172,7 @@ def _imposed_gradient(case: Case) -> float:
     wave = case.boundaries.surface_temperature_wave
     if wave is not None:
         return 2.0 * pi * abs(wave.amplitude) / wave.period
-    (x,) = case.domain.lateral(2)
+    (x,) = case.domain.lateral(case.geometry)
     return _temperature_range(case) / (x[1] - x[0])
 
 

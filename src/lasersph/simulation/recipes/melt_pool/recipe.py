@@ -96,7 +96,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         )
         # The first period that anything imposes on the surface.
         period = next((wave.period for wave in waves if wave is not None and wave.period), None)
-        (x,) = self.case.domain.lateral(2)
+        (x,) = self.case.domain.lateral(self.case.geometry)
         halves = 0.0 if period is None else 2.0 * (x[1] - x[0]) / period
         is_whole = halves > 0.5 and abs(halves - round(halves)) <= WHOLE * halves
         return Topography(period if is_whole else None)

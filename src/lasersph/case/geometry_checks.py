@@ -1,0 +1,103 @@
+"""Checks of a section (r, z): what has an axis of revolution, and what has none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lasersph.case.solver_choice import computes_flow, moves_matter
+from lasersph.input import format_quantity
+from lasersph.lasers import Laser
+from lasersph.lasers.rings import ellipticity, round_light
+
+if TYPE_CHECKING:
+    from lasersph.case.contents import CaseContents
+
+ROUND = 0.87
+"""Smaller over larger width of a beam that counts as round. Source: [ISO11146-1]."""
+
+
+def geometry_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """(key, "what is wrong; what would be right") of a section (r, z); none of a planar block."""
+    if not case.geometry.is_axisymmetric:
+        return
+    if case.solver.dimensions != 2:
+        yield (
+            "solver.geometry",
+            f'"axisymmetric" is a section (r, z), not {case.solver.dimensions}-D; write dimensions '
+            "= 2",
+        )
+    if computes_flow(case.solver) or moves_matter(case.solver):
+        what = "melt that flows" if computes_flow(case.solver) else "matter that moves"
+        yield (
+            "solver.geometry",
+            f'{what} is computed in "planar" blocks so far; leave it out, or write kind = '
+            '"conduction" for heat and melting alone',
+        )
+    yield from _block(case)
+    if case.laser is not None:
+        yield from _light(case, case.laser)
+
+
+def _block(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Keys of the block that a section from the axis outward does not have."""
+    domain, boundaries = case.domain, case.boundaries
+    if domain.extent != "full":
+        yield (
+            "domain.extent",
+            "a section (r, z) begins at its axis, and its width is the radius of the block; leave "
+            "it out",
+        )
+    if boundaries.left is not None:
+        yield "boundaries.left", "the left side of a section (r, z) is its axis; leave it out"
+    for key in ("right", "sides"):
+        if getattr(boundaries, key) == "periodic":
+            yield f"boundaries.{key}", f'nothing repeats along r; write {key} = "adiabatic"'
+    if boundaries.surface_temperature_wave is not None:
+        yield (
+            "boundaries.surface_temperature_wave",
+            "has a period along x, and nothing repeats along r; leave it out",
+        )
+
+
+def _light(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
+    """Light that is not the same all around the axis."""
+    if round_light(laser) is None:
+        yield (
+            "laser.beam.kind",
+            "waves that interfere make no light that is the same around an axis; write geometry = "
+            '"planar" in [solver]',
+        )
+        return
+    if laser.position != (0.0, 0.0):
+        x, y = (format_quantity(one, "m") for one in laser.position)
+        yield (
+            "laser.position",
+            f"({x}, {y}) is beside the axis of a section (r, z), on which its beam lies; leave it "
+            "out",
+        )
+    if laser.path is not None:
+        yield (
+            "laser.path",
+            'takes the beam off the axis of a section (r, z); write geometry = "planar" and '
+            "dimensions = 3 in [solver]",
+        )
+    if not laser.is_bounded:
+        return
+
+    # A spot has to be round, and to lie in the block.
+    if (roundness := ellipticity(laser)) < ROUND:
+        yield (
+            "laser.spot.image",
+            f"shows a beam whose smaller width is {roundness:.2f} of the larger one, and round is "
+            f'{ROUND} or more [ISO 11146-1]; write geometry = "planar" and dimensions = 3 in '
+            "[solver]",
+        )
+    radius, width = 0.5 * laser.spot_fluence.diameter, case.domain.width
+    if width is not None and radius > width:
+        yield (
+            "domain.width",
+            f"{format_quantity(width, 'm')} is the radius of the block, less than that of the spot,"
+            f' {format_quantity(radius, "m")}; write e.g. width = "'
+            f'{format_quantity(2.0 * radius, "m")}"',
+        )

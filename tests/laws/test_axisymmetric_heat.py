@@ -1,0 +1,129 @@
+"""Heat in a section (r, z): the closed form of a Gaussian source, a strip far out, and 3-D."""
+
+import numpy as np
+import pytest
+
+from lasersph import open_run, run
+from lasersph.analytic.pulsed_source import impulse_density
+from lasersph.case import load_case
+from lasersph.materials import load_material
+
+CASE = """
+material = "aluminium-aa6014"
+initial_temperature = "300 K"
+[laser]
+intensity = "1.0e10 W/m^2"
+fluence_kind = "peak"
+beam = { kind = "gaussian", radius_1e2 = "20 um" }
+pulse = { kind = "square", duration = "2 us" }
+absorption = { kind = "beer-lambert", absorption_coefficient = "1e5 1/m" }
+reflectivity = 0
+[domain]
+width = "80 um"
+depth = "100 um"
+[particles]
+spacing = "4 um"
+[boundaries]
+emissivity = 0
+[solver]
+dimensions = 2
+geometry = "axisymmetric"
+phase_change = false
+[time]
+end = "2 us"
+step = "25.6 ns"
+"""
+RING = "laser.beam={ kind = 'ring', radius = '420 um', inner_radius = '380 um' }"
+STRIP = "laser.beam={ kind = 'top-hat', radius = '20 um' }"
+
+
+def computed(folder, *settings):
+    """Summary and last snapshot of the case with settings."""
+    folder.mkdir()
+    file = folder / "spot.toml"
+    file.write_text(CASE)
+    run(load_case(file, settings), folder / "run", threads=1)
+    found = open_run(folder / "run")
+    return found.summary, found.snapshots[-1]
+
+
+def gaussian_source(r, z, time):
+    """Exact temperatures [K]: each joule spreads as alpha exp(-alpha z) along z, and from w^2 to
+    w^2 + 8 D s along r."""
+    metal = load_material("aluminium-aa6014")
+    c = metal.density_reference * metal.heat_capacity.value
+    D, w = metal.conductivity.value / c, 2e-5
+    # quadrature in the root of the time since a joule came
+    root, weight = np.polynomial.legendre.leggauss(200)
+    s = 0.25 * time * (root + 1.0) ** 2
+    along_z = impulse_density(-z[:, None], s, 1e5, D)
+    size = w * w + 8.0 * D * s
+    spread = w * w / size * np.exp(-2.0 * r[:, None] ** 2 / size)
+    return 300.0 + 1e10 / c * (along_z * spread * 0.5 * (root + 1.0)) @ weight * time
+
+
+@pytest.fixture(scope="module")
+def coarse(tmp_path_factory):
+    """The case at 4 um."""
+    return computed(tmp_path_factory.mktemp("rz") / "coarse")
+
+
+def error_of(step):
+    """Root mean square error over the body [K], and the largest temperature's."""
+    (r, z), T = step["position"], step["temperature"]
+    error = T - gaussian_source(r, z, 2e-6)
+    hottest = np.argmax(T)
+    return np.sqrt(np.average(error**2, weights=r)), error[hottest] / (T[hottest] - 300.0)
+
+
+def test_energy_of_a_pulse(coarse):
+    """The whole revolution takes up I t pi w^2/2 but for what passes the bottom, and keeps it."""
+    energy, taken = coarse[0]["energy"], 2e4 * 0.5 * np.pi * 4e-10 * (1.0 - np.exp(-10.0))
+    assert energy["absorbed_J"] == pytest.approx(taken, rel=1e-9)
+    assert energy["imbalance_relative"] < 1e-12
+    assert energy["unit"] == "J"
+
+
+def test_converges_to_the_closed_form(coarse, tmp_path):
+    """Of second order, with steps as the square of the spacing; 0.5 % of the rise at 10 spacings in w."""
+    fine = computed(tmp_path / "fine", "particles.spacing=2 um", "time.step=6.4 ns")
+    (first, _), (second, hottest) = error_of(coarse[1]), error_of(fine[1])
+    assert np.log(first / second) / np.log(2.0) > 1.8
+    assert abs(hottest) < 5e-3
+
+
+def test_the_axis_makes_no_flaw(coarse):
+    """Temperatures fall from the axis outward, in every row."""
+    (r, z), T = coarse[1]["position"], coarse[1]["temperature"]
+    top = z > -2.1e-6
+    assert np.all(np.diff(T[top][np.argsort(r[top])]) < 0.0)
+
+
+def test_far_from_the_axis_a_ring_is_a_strip(tmp_path):
+    """40 um wide, 400 um out: the mean of what lies inward and outward is the plane's."""
+    wide = ("domain.width=500 um", "particles.spacing=5 um")
+    _, ring = computed(tmp_path / "ring", *wide, RING, "laser.fluence_kind=")
+    _, strip = computed(
+        *(tmp_path / "strip", STRIP, "laser.fluence_kind=", "particles.spacing=5 um"),
+        *("domain.width=200 um", "solver.geometry=planar"),
+    )
+    (r, z), T = ring["position"], ring["temperature"]
+    near = np.abs(r - 4e-4) < 1e-4
+    mirrored = 0.5 * (T[near].reshape(-1, 40) + T[near].reshape(-1, 40)[:, ::-1])
+    plane = strip["temperature"].reshape(-1, 40)
+    assert np.abs(mirrored - plane).max() < 1e-3 * (plane.max() - 300.0)
+
+
+def test_agrees_with_space(coarse, tmp_path):
+    """The same spot in 3-D at the same spacing."""
+    cube = ("solver.dimensions=3", "solver.geometry=planar", "domain.width=120 um")
+    summary, _ = computed(
+        *(tmp_path / "cube", *cube, "particles.spacing=5 um", "domain.extent=half"),
+        *("domain.depth=45 um", "time.step=80 ns", "time.end=1 us"),
+    )
+    section, _ = computed(
+        *(tmp_path / "section", "particles.spacing=5 um", "domain.width=60 um"),
+        *("domain.depth=45 um", "time.step=80 ns", "time.end=1 us"),
+    )
+    rise = [one["temperature_max_K"] - 300.0 for one in (summary, section)]
+    assert rise[0] == pytest.approx(rise[1], rel=1e-2)
