@@ -63,6 +63,8 @@ SHORT = "laser.pulse={ kind = 'gaussian', fwhm = '0.02 ns', center = '0.05 ns' }
 TABLE = "laser.pulse={ kind = 'tabulated', table = [['0 ns', 1.0], ['0.1 ns', 2.0]] }"
 DEEP = ("laser.absorption={ kind = 'beer-lambert' }",)
 SPOT = "laser.beam={ kind = 'top-hat', radius = '1 um' }"
+RING = "laser.beam={ kind = 'ring', radius = '1 um', inner_radius = '0.5 um' }"
+SOFT = "laser.beam={ kind = 'super-gaussian', radius_1e2 = '1 um' }"
 PATH = ("laser.path={ kind = 'linear', speed = '2e4 m/s' }",)
 LIGHT = ("laser.beam={ kind = 'interference', period = '2.4 um', wavelength = '532 nm' }",)
 ENERGY = ("laser.fluence=", "laser.pulse_energy=0.5 uJ")
@@ -147,6 +149,8 @@ LASER = {
     "laser.absorption.absorption_coefficient": alone("1e6 1/m") + alone("1e6 1/m", beside=DEEP),
     "laser.beam": alone("{ kind = 'interference', period = '1.2 um' }"),
     "laser.beam.radius": alone("0.7 um", beside=(SPOT,)),
+    "laser.beam.inner_radius": alone("0.7 um", beside=(RING,)),
+    "laser.beam.order": alone("8", beside=(SOFT, *ROUND)),
     **{
         f"laser.beam.{key}": alone(
             "0.7 um", beside=(f"laser.beam={{ kind = 'gaussian', {key} = '1 um' }}", *ROUND)

@@ -7,6 +7,7 @@ from bad_ablation_cases import BAD_ABLATION_CASES
 from bad_cases import BAD_CASES
 from bad_ejection_cases import BAD_EJECTION_CASES
 from bad_flow_cases import BAD_FLOW_CASES
+from bad_geometry_cases import BAD_GEOMETRY_CASES
 
 from lasersph.case import load_case
 from lasersph.input import CaseError
@@ -14,9 +15,10 @@ from lasersph.input import CaseError
 FOLDER = Path(__file__).parent
 GOOD = (FOLDER / "good.toml").read_text(encoding="utf-8")
 GOOD_FLOW = (FOLDER / "good-flow.toml").read_text(encoding="utf-8")
+GOOD_SPOT = (FOLDER / "good-spot.toml").read_text(encoding="utf-8")
 GOOD_ABLATION = (FOLDER / "good-ablation.toml").read_text(encoding="utf-8")
 MATTER = BAD_ABLATION_CASES | BAD_EJECTION_CASES
-ALL = BAD_CASES | BAD_FLOW_CASES | MATTER
+ALL = BAD_CASES | BAD_FLOW_CASES | BAD_GEOMETRY_CASES | MATTER
 
 
 def spoiled(name: str) -> bytes:
@@ -24,6 +26,7 @@ def spoiled(name: str) -> bytes:
     old, new, _ = ALL[name]
     good = GOOD_FLOW if name in BAD_FLOW_CASES else GOOD
     good = GOOD_ABLATION if name in MATTER else good
+    good = GOOD_SPOT if name in BAD_GEOMETRY_CASES else good
     if isinstance(new, bytes):
         return new
     if not old:
@@ -35,7 +38,11 @@ def spoiled(name: str) -> bytes:
 def test_there_are_enough_and_the_good_one_is_good(tmp_path):
     """The table is as long as promised, and its starting point is accepted."""
     assert len(BAD_CASES) >= 40 and len(ALL) == sum(
-        len(table) for table in (BAD_CASES, BAD_FLOW_CASES, BAD_ABLATION_CASES, BAD_EJECTION_CASES)
+        len(table)
+        for table in (
+            *(BAD_CASES, BAD_FLOW_CASES, BAD_GEOMETRY_CASES),
+            *(BAD_ABLATION_CASES, BAD_EJECTION_CASES),
+        )
     )
     file = tmp_path / "case.toml"
     file.write_text(GOOD, encoding="utf-8")

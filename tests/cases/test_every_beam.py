@@ -13,6 +13,11 @@ BEAMS = {
         "laser.beam={ kind = 'gaussian', radius_1e2 = '1 um' }",
         "laser.fluence_kind=peak",
     ),
+    "super-gaussian": (
+        "laser.beam={ kind = 'super-gaussian', radius_1e2 = '1 um' }",
+        "laser.fluence_kind=peak",
+    ),
+    "ring": ("laser.beam={ kind = 'ring', radius = '1 um', inner_radius = '0.5 um' }",),
     "two beams": ("laser.beam={ kind = 'interference', period = '2 um' }",),
     "whole spot": (
         "laser.spot={ diameter = '1 um', definition = '1/e^2', extent = 'whole' }",

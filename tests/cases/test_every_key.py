@@ -113,7 +113,7 @@ SAME_NUMBERS = {
 ALLOWS = {("melt-pool", "solver.phase_change"), ("ablation", "solver.phase_change")}
 """Keys that make a case right which would be refused: a box of a metal that melts, matter that
 leaves by the published rule. What melts is refused with another value."""
-CHOSEN = ("kind", "dimensions")
+CHOSEN = ("kind", "dimensions", "geometry")
 """Keys that make another solver or another domain of a case."""
 END = 1.0 - 1e-9
 """Share of the time to compute at which all is done, for the rounding of the last step."""

@@ -248,7 +248,6 @@ def _size(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 def _points(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Probes and traces: each of one name, inside the domain."""
-    dimensions = case.solver.dimensions
     bounds = dict(zip("xy", case.domain.lateral(case.geometry), strict=False))
     # Names become columns of the history and must differ.
     for key, points in (("probes", case.probes), ("traces", case.traces)):

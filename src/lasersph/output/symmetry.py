@@ -12,5 +12,5 @@ def is_axisymmetric(case: Mapping[str, Any]) -> bool:
 
 
 def is_mirrored(case: Mapping[str, Any]) -> bool:
-    """Whether x < 0 is the mirror image of what was computed: half a period, or a section (r, z)."""
+    """Whether x < 0 mirrors what was computed, half a period or a section (r, z)."""
     return case.get("domain", {}).get("extent") == "half" or is_axisymmetric(case)

@@ -79,8 +79,10 @@ def heating_rows(case: Case, heating: HeatingForecast) -> list[tuple[str, str]]:
 
     cold, hot, (R, hot_R) = heating.cold, heating.temperature, heating.reflectivity
     rows = []
-    # A plane section of a spot is that of a line.
-    if heating.sideways and case.solver.dimensions == 2:
+    # A plane section of a spot is that of a line; a section (r, z) is that of a body.
+    if case.geometry.is_axisymmetric:
+        rows.append(("section", "(r, z) through the axis; amounts are of the whole revolution"))
+    elif heating.sideways and case.solver.dimensions == 2:
         rows.append(
             ("section", "through the axis of the spot, its light the same at all y: a line focus")
         )

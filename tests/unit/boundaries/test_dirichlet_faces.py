@@ -46,7 +46,9 @@ def test_dirichlet_face():
 
 def test_dirichlet_sides_and_corner():
     """Beyond a side the distances along x count: n_ij = 1 m, n_i = 0.5 m."""
-    layers = stack(Domain(depth=4.0, width=4.0, extent="full"), Lattice(spacing=1.0), Geometry(2), 0.0)
+    layers = stack(
+        Domain(depth=4.0, width=4.0, extent="full"), Lattice(spacing=1.0), Geometry(2), 0.0
+    )
     filling = fill(layers, surface=FREE, bottom=FREE, sides=DIRICHLET)
     x, z = filling.position
     i = int(np.flatnonzero((x[:16] == -1.5) & (z[:16] == -0.5))[0])

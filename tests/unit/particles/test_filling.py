@@ -119,7 +119,9 @@ def test_periodic_in_depth():
 
 def test_above_is_the_surface_cell_over_a_particle():
     """Layers of fewer columns lie under the surface cell that holds their center."""
-    layers = Layers(np.array([1e-7, 2e-7, 3e-7]), np.array([[6, 3, 2]]), ((-3e-7, 3e-7),), Geometry(2))
+    layers = Layers(
+        np.array([1e-7, 2e-7, 3e-7]), np.array([[6, 3, 2]]), ((-3e-7, 3e-7),), Geometry(2)
+    )
     filling = fill(layers, surface=FREE, bottom=FREE, sides=FREE)
     assert filling.above[:6].tolist() == [0, 1, 2, 3, 4, 5]
     assert filling.above[6:9].tolist() == [1, 3, 5]

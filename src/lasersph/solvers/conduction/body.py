@@ -94,9 +94,7 @@ def assemble(
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
     weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
     is_axisymmetric = layers.geometry.is_axisymmetric
-    neighbors, row, weights = _weights(
-        backend, weighing, filling, is_axisymmetric=is_axisymmetric
-    )
+    neighbors, row, weights = _weights(backend, weighing, filling, is_axisymmetric=is_axisymmetric)
     walls = walls_of(
         boundaries, curve, layers, filling, weights, row, backend.to_host(neighbors.neighbor)
     )

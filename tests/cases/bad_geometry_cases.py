@@ -1,0 +1,90 @@
+# ruff: noqa: E501
+"""Bad sections (r, z): what is replaced in good-spot.toml, by what, and the message that must come."""
+
+BEAM = 'beam = { kind = "gaussian", radius_1e2 = "2 um" }'
+ENERGY = 'pulse_energy = "100 nJ"'
+BOTTOM = 'bottom = "adiabatic"'
+WIDTH = 'width = "6 um"'
+
+BAD_GEOMETRY_CASES = {
+    "unknown geometry": (
+        '"axisymmetric"',
+        '"cylindrical"',
+        ':23: solver.geometry: must be "planar" or "axisymmetric", got "cylindrical"',
+    ),
+    "section in 1-D": (
+        "dimensions = 2",
+        "dimensions = 1",
+        ':23: solver.geometry: "axisymmetric" is a section (r, z), not 1-D; write dimensions = 2',
+    ),
+    "section in 3-D": (
+        "dimensions = 2",
+        "dimensions = 3",
+        ':23: solver.geometry: "axisymmetric" is a section (r, z), not 3-D; write dimensions = 2',
+    ),
+    "section of a pool": (
+        'kind = "conduction"',
+        'kind = "melt-pool"',
+        ':23: solver.geometry: melt that flows is computed in "planar" blocks so far; leave it out, or write kind = "conduction" for heat and melting alone',
+    ),
+    "section of ablation": (
+        'kind = "conduction"\ndimensions = 2',
+        'kind = "ablation"\nsound_speed = "1 km/s"\ndimensions = 2',
+        ':24: solver.geometry: matter that moves is computed in "planar" blocks so far; leave it out, or write kind = "conduction" for heat and melting alone',
+    ),
+    "half a section": (
+        WIDTH,
+        WIDTH + '\nextent = "half"',
+        ":13: domain.extent: a section (r, z) begins at its axis, and its width is the radius of the block; leave it out",
+    ),
+    "face on the axis": (
+        BOTTOM,
+        BOTTOM + '\nleft = "wall"',
+        ":19: boundaries.left: the left side of a section (r, z) is its axis; leave it out",
+    ),
+    "period in r": (
+        BOTTOM,
+        BOTTOM + '\nsides = "periodic"',
+        ':19: boundaries.sides: nothing repeats along r; write sides = "adiabatic"',
+    ),
+    "period on the right": (
+        BOTTOM,
+        BOTTOM + '\nright = "periodic"',
+        ':19: boundaries.right: nothing repeats along r; write right = "adiabatic"',
+    ),
+    "beam off the axis": (
+        BEAM,
+        BEAM + '\nposition = ["1 um", "0 um"]',
+        ":7: laser.position: (1 um, 0 m) is beside the axis of a section (r, z), on which its beam lies; leave it out",
+    ),
+    "beam on a path": (
+        BEAM,
+        BEAM + '\npath = { kind = "linear", speed = "1 m/s" }',
+        ':7: laser.path: takes the beam off the axis of a section (r, z); write geometry = "planar" and dimensions = 3 in [solver]',
+    ),
+    "pattern around an axis": (
+        BEAM,
+        'beam = { kind = "interference", period = "2 um" }\nspot = { diameter = "10 um", definition = "1/e^2" }',
+        ':6: laser.beam.kind: waves that interfere make no light that is the same around an axis; write geometry = "planar" in [solver]',
+    ),
+    "spot wider than the block": (
+        WIDTH,
+        'width = "1.5 um"',
+        ':12: domain.width: 1.5 um is the radius of the block, less than that of the spot, 2 um; write e.g. width = "4 um"',
+    ),
+    "negative r": (
+        'depth = "0 nm"',
+        'depth = "0 nm"\nx = "-1 um"',
+        ":31: probes[1].x: -1 um lies outside the domain, which runs from 0 m to 6 um; place the probe inside",
+    ),
+    "ring inside out": (
+        BEAM,
+        'beam = { kind = "ring", radius = "2 um", inner_radius = "3 um" }',
+        ":6: laser.beam.inner_radius: lies outside of radius, 2 um; give a smaller one",
+    ),
+    "order below one": (
+        BEAM,
+        'beam = { kind = "super-gaussian", radius_1e2 = "2 um", order = 0.5 }',
+        ":6: laser.beam.order: must be at least 1, got 0.5",
+    ),
+}
