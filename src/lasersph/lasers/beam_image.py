@@ -38,7 +38,7 @@ RING_STEP = 0.25
 """Pixels from one circle to the next in means over the angle. Accuracy: g is linear over a pixel;
 of a Gaussian beam 20 pixels wide the light within a circle errs by 1e-4."""
 ANGLES = 720
-"""Places on a circle for its mean. Accuracy: closer than a pixel within 115 pixels of the center."""
+"""Places on a circle for its mean. Accuracy: closer than a pixel up to 114 pixels outward."""
 PICTURES = (".png", ".tif", ".tiff")
 TABLES = (".csv", ".txt", ".dat")
 
