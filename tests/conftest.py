@@ -5,6 +5,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
+import process_watch
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -28,9 +29,16 @@ settings.load_profile("any-machine")
 
 def pytest_configure(config):
     """Agree on a folder for what runs beside the tests, in whatever processes these run."""
-    shared = getattr(config, "workerinput", {}).get("folder")  # of a process of pytest-xdist
-    config.stash[FOLDER] = Path(shared or tempfile.mkdtemp(prefix="lasersph-tests-"))
     config.stash[STARTED] = []
+    shared = getattr(config, "workerinput", {}).get("folder")  # of a process of pytest-xdist
+    if shared:
+        config.stash[FOLDER] = Path(shared)
+        return
+    # tests that tests start have their folder inside, and end with them
+    outer = os.environ.get(process_watch.MARK)
+    folder = config.stash[FOLDER] = Path(tempfile.mkdtemp(prefix="lasersph-tests-", dir=outer))
+    if not outer:
+        process_watch.watch(folder)
 
 
 @pytest.hookimpl(optionalhook=True)
