@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import synthetic_run
-from browser_window import LOST
+from browser_window import LOST, wait_until_drawn
 from PIL import Image
 from playwright.sync_api import expect
 
@@ -124,7 +124,7 @@ def wait_for_frame(page, frame, field="temperature"):
 
 def picture(page, keep_as=None):
     """The canvas as it is on the screen, (rows, columns, 3)."""
-    page.evaluate(f"() => {'new Promise(requestAnimationFrame).then(() => ' * 3}0{')' * 3}")
+    wait_until_drawn(page)
     data = page.locator("canvas").screenshot()
     if keep_as is not None:
         keep_as.write_bytes(data)
