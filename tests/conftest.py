@@ -3,12 +3,14 @@
 import os
 import shutil
 import tempfile
+from contextlib import ExitStack
 from pathlib import Path
 
+import process_watch
 import pytest
 from hypothesis import HealthCheck, settings
 
-FOLDER, STARTED = pytest.StashKey(), pytest.StashKey()
+FOLDER, STARTED, HELD = pytest.StashKey(), pytest.StashKey(), pytest.StashKey()
 SIMULATED = "tests/unit/compute/test_cuda_simulated.py::"
 SHORT_FORM = "tests/validation/test_runs.py::test_short_form["
 """Tests that wait for a side process."""
@@ -28,9 +30,27 @@ settings.load_profile("any-machine")
 
 def pytest_configure(config):
     """Agree on a folder for what runs beside the tests, in whatever processes these run."""
+    config.stash[STARTED], config.stash[HELD] = [], ExitStack()
     shared = getattr(config, "workerinput", {}).get("folder")  # of a process of pytest-xdist
-    config.stash[FOLDER] = Path(shared or tempfile.mkdtemp(prefix="lasersph-tests-"))
-    config.stash[STARTED] = []
+    if shared:
+        config.stash[FOLDER] = Path(shared)
+        return
+    # tests that tests start have their folder inside, and end with them
+    outer = os.environ.get(process_watch.MARK)
+    folder = config.stash[FOLDER] = Path(tempfile.mkdtemp(prefix="lasersph-tests-", dir=outer))
+    if not outer:
+        process_watch.watch(folder)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_setupnodes(config):
+    """Let no run of a test start processes that compile ahead: tests take all processors already,
+    and each such process imports everything anew and is ended with its run."""
+    from lasersph.compute import ahead, cache
+    from lasersph.compute.compile_lock import compiling_alone
+
+    lock = compiling_alone(cache.location(), ahead._ONE_STARTER, waits=False)
+    config.stash[HELD].enter_context(lock)
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -81,6 +101,7 @@ def pytest_unconfigure(config):
     """Leave no process and no file behind."""
     for process in config.stash[STARTED]:
         process.end()
+    config.stash[HELD].close()
     if not hasattr(config, "workerinput"):
         shutil.rmtree(config.stash[FOLDER], ignore_errors=True)
 

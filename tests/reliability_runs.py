@@ -88,6 +88,15 @@ def wait_until(process: subprocess.Popen, ready) -> None:
     raise TimeoutError("the process does not get on")
 
 
+def wait_for(ready):
+    """What `ready()` gives once it is true. Raises TimeoutError where it never is."""
+    for _ in range(round(LONGEST_WAIT / POLL)):
+        if found := ready():
+            return found
+        time.sleep(POLL)
+    raise TimeoutError("what was waited for did not come")
+
+
 def results(folder: Path, but: tuple[str, ...] = ()):
     """Summary without times of the clock, history as bytes, the last snapshot, and all lines of a
     surface that moves."""

@@ -9,12 +9,13 @@ OTHERS = "uplot.js"
 """Packed into one line, of a library."""
 
 
-def test_no_source_file_is_longer_than_400_lines(capsys):
-    """Every source file has at most 400 lines; the median is printed."""
+def test_no_file_is_longer_than_400_lines(capsys):
+    """Every file of sources, tests and benchmarks has at most 400 lines; the median is printed."""
     scripts = [file for file in (ROOT / "src").rglob("*.js") if file.name != OTHERS]
-    files = sorted([*(ROOT / "src").rglob("*.py"), *scripts])
+    folders = (ROOT / name for name in ("src", "tests", "benchmarks"))
+    files = [*(file for folder in folders for file in sorted(folder.rglob("*.py"))), *scripts]
     lengths = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in files}
     with capsys.disabled():
-        print(f"\n{len(files)} source files, median {median(lengths.values()):.0f} lines")
+        print(f"\n{len(files)} files, median {median(lengths.values()):.0f} lines")
     too_long = {str(path): length for path, length in lengths.items() if length > LONGEST}
     assert not too_long

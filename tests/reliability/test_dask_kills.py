@@ -6,10 +6,9 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
-from reliability_runs import LONGEST_WAIT, POLL, wait_until
+from reliability_runs import LONGEST_WAIT, wait_for, wait_until
 from sweep_runs import SETTINGS, children, contents, is_alive, parent, plan_text
 
 from lasersph.output import OutputError
@@ -155,15 +154,6 @@ def start_sweep(folder, cluster, *options):
     return subprocess.Popen(
         [*command, "--threads", "1", *options], env=environment, stderr=subprocess.PIPE, text=True
     )
-
-
-def wait_for(ready):
-    """What `ready()` gives once it is true. Raises TimeoutError where it never is."""
-    for _ in range(round(LONGEST_WAIT / POLL)):
-        if found := ready():
-            return found
-        time.sleep(POLL)
-    raise TimeoutError("what was waited for did not come")
 
 
 def owner(folder, but=0):

@@ -1,11 +1,25 @@
 """The window of a browser, and what its console says."""
 
+import re
+
 import pytest
+from playwright.sync_api import expect
 
 PATIENCE = 60_000
 """For the window to follow [ms], on a busy machine."""
 LOST = "Failed to load resource|ERR_CONNECTION|ERR_FAILED|ERR_EMPTY"
 """What the console says of requests that a test lets fail."""
+
+
+def wait_until_drawn(page):
+    """Until what was asked for is on the screen: two frames of the window later."""
+    page.evaluate(f"() => {'new Promise(requestAnimationFrame).then(() => ' * 3}0{')' * 3}")
+
+
+def wait_for_particles(page):
+    """Until the first picture of the particles was drawn."""
+    expect(page.locator(".stage").first).to_have_attribute("data-shown", re.compile("."))
+    wait_until_drawn(page)
 
 
 def width_of(page):

@@ -141,8 +141,9 @@ class Watched:
 
 
 @pytest.fixture
-def open_page(browser):
-    """Opens pages of their own, each with its cookies; all must end without a complaint."""
+def open_page(browser, serve):
+    """Opens pages of their own, each with its cookies; all must end without a complaint, and before
+    the servers that `serve` has started for them."""
     opened = []
 
     def open_one(address, *, width=1280, height=860, dark=False, expected=()):

@@ -7,6 +7,7 @@ from accessibility import serious
 from browser_window import LOST, width_of
 from own_case import OWN_CASE
 from playwright.sync_api import expect
+from reliability_runs import wait_for
 
 pytestmark = pytest.mark.web
 
@@ -132,6 +133,7 @@ def test_own_case_is_read_and_run_again_with_changes(open_page, serve, tmp_path)
     expect(page.locator(".result")).to_contain_text("this machine has")
     start.click()
     state = page.locator(".state")
+    wait_for((root / "mine-1" / "summary.json").exists)  # its loops may have to be compiled
     expect(state).to_contain_text("complete")
     page.get_by_role("link", name="Run again with changes").click()
     expect(page.get_by_label("name of its folder")).to_have_value("mine-2")
@@ -143,6 +145,7 @@ def test_own_case_is_read_and_run_again_with_changes(open_page, serve, tmp_path)
     expect(start).to_be_enabled()
     assert serious(page) == []
     start.click()
+    wait_for((root / "mine-2" / "summary.json").exists)
     expect(state).to_contain_text("complete")
     expect(page.get_by_role("row", name="laser.fluence 0.3 J/cm^2 0.4 J/cm^2")).to_be_visible()
     page.get_by_role("link", name="Run again with changes").click()

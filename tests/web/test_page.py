@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from accessibility import serious
-from browser_window import LOST, narrow, width_of
+from browser_window import LOST, narrow, wait_for_particles, wait_until_drawn, width_of
 from playwright.sync_api import expect
 from prefix_proxy import PrefixProxy
 from synthetic_run import make_run
@@ -17,15 +17,10 @@ pytestmark = pytest.mark.web
 LIVE_RUN = Path(__file__).resolve().parents[1] / "live_run.py"
 
 
-def names(page):
-    """Names on the cards, in their order."""
-    return page.locator(".card h2").all_text_contents()
-
-
 def pixels_are_drawn(page):
     """Whether the picture of the particles holds several colors."""
     canvas = page.locator("canvas[aria-label]").first
-    expect(canvas).to_be_visible()
+    wait_for_particles(page)
     return len(set(canvas.screenshot())) > 100
 
 
@@ -38,7 +33,8 @@ def test_list_is_sorted_and_filtered_and_opens_a_run(open_page, address):
     page.get_by_label("Order").select_option("highest temperature")
     expect(page.locator(".card h2").first).to_have_text("hot")
     page.get_by_label("Order").select_option("name")
-    assert names(page) == ["cool", "damaged", "hot", "map", "stopped"]
+    cards = page.locator(".card h2")
+    expect(cards).to_have_text(["cool", "damaged", "hot", "map", "stopped"])
     page.get_by_label("State").select_option("stopped")
     expect(page.locator(".card h2")).to_have_text(["map", "stopped"])
     page.get_by_label("State").select_option("all states")
@@ -59,7 +55,7 @@ def test_list_is_sorted_and_filtered_and_opens_a_run(open_page, address):
     expect(page.locator(".figures figure")).not_to_have_count(0)
     page.get_by_text("Every value, SI").click()
     expect(page.get_by_role("row", name="laser.fluence 6000")).to_be_visible()
-    page.wait_for_timeout(300)
+    wait_until_drawn(page)
     watched.keep("run")
     page.go_back()
     expect(page.get_by_label("Order")).to_have_value("name")
@@ -118,6 +114,24 @@ def test_live_run_is_watched_to_its_end(open_page, serve, tmp_path):
     assert {"history", "particles"} <= set(lost)
 
 
+def test_an_answer_that_breaks_off_is_asked_for_again(open_page, address):
+    """As of a server that ends while it answers."""
+    page = open_page(address).page
+    found = page.evaluate("""async () => {
+      const { getJson } = await import("./static/net.js"), whole = window.fetch;
+      let tries = 0;
+      window.fetch = async (path, options) => {
+        if (!path.endsWith("?cut") || ++tries > 1) return whole(path, options);
+        const cut = (stream) => stream.error(new TypeError("cut"));
+        return new Response(new ReadableStream({ start: cut }));
+      };
+      const answer = await getJson("api/runs?cut");
+      window.fetch = whole;
+      return [tries, answer.runs.length];
+    }""")
+    assert found == [2, 4]
+
+
 def test_behind_a_proxy_that_strips_a_prefix(open_page, shown):
     """As of JupyterHub: all addresses are relative, events come through."""
     with PrefixProxy("/user/x/proxy/8157", shown.port) as proxy:
@@ -163,7 +177,7 @@ def test_two_runs_are_compared(open_page, address):
     expect(temperature).to_be_visible()
     row = page.get_by_role("row", name="largest temperature 3 273 K 2 462 K")
     expect(row).to_contain_text("−811 K, −25 %")
-    page.wait_for_timeout(300)
+    wait_until_drawn(page)
     assert serious(page) == []
     watched.keep("compare")
     narrow(page)

@@ -6,6 +6,7 @@ import re
 import pytest
 from browser_window import LOST
 from playwright.sync_api import expect
+from reliability_runs import wait_for
 from synthetic_run import make_run
 
 pytestmark = pytest.mark.web
@@ -19,7 +20,9 @@ AXIS = """([times, pauses, pulses]) => import("./static/time_axis.js").then(({ T
 
 GROWN = """() => import("./static/charts.js").then(async ({ lineChart }) => {
   const over = { unit: "s", words: "time", ends: () => [0, 9] };
-  const drawn = () => new Promise((done) => setTimeout(done, 200));
+  const drawn = async () => {
+    for (let frame = 0; frame < 3; frame++) await new Promise(requestAnimationFrame);
+  };
   const pictures = [];
   for (const first of [1, 3]) {
     const rows = [[1, 2, 4], [5, 7, 3]];
@@ -44,7 +47,7 @@ BESIDE = """() => import("./static/charts.js").then(async ({ lineChart }) => {
   const lines = [0, 1].map((ink) => ({ words: "a", ink, dash: 0 }));
   const { element } = lineChart({ title: "two", unit: "K", tables, over, lines });
   document.querySelector("main").replaceChildren(element);
-  await new Promise((done) => setTimeout(done, 200));
+  for (let frame = 0; frame < 3; frame++) await new Promise(requestAnimationFrame);
   return joined[0].map((column) => column.map((one) => (one === undefined ? "bridged" : one)));
 })"""
 
@@ -85,8 +88,7 @@ def test_times_follow_their_pulse(open_page, serve, train):
     page.mouse.up()
     page.mouse.move(0, 0)
     page.wait_for_function("() => !document.querySelector('.chart .u-select').offsetWidth")
-    page.wait_for_timeout(300)  # until it is drawn
-    assert curve.screenshot() != whole
+    wait_for(lambda: curve.screenshot() != whole)
 
 
 def test_pauses_are_cut_out(open_page, address):

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import synthetic_run
+from browser_window import LOST, wait_until_drawn
 from PIL import Image
 from playwright.sync_api import expect
 
@@ -123,7 +124,7 @@ def wait_for_frame(page, frame, field="temperature"):
 
 def picture(page, keep_as=None):
     """The canvas as it is on the screen, (rows, columns, 3)."""
-    page.evaluate(f"() => {'new Promise(requestAnimationFrame).then(() => ' * 3}0{')' * 3}")
+    wait_until_drawn(page)
     data = page.locator("canvas").screenshot()
     if keep_as is not None:
         keep_as.write_bytes(data)
@@ -271,6 +272,40 @@ def test_live_is_a_state_of_its_own(page, server):
     expect(page.locator("output")).to_have_text("40 ns")
     server.frames = None
     expect(live).to_be_hidden()
+
+
+def lose_a_block_at_the_end(page, server):
+    """Let the run end as the next block is asked for, which is lost."""
+
+    def lose(route):
+        server.frames = None
+        route.abort()
+
+    page.route(re.compile("/api/block/"), lose, times=1)
+
+
+def test_a_frame_is_lost_while_the_run_ends(page, server):
+    """The index that is fetched again is the last one: all frames can be chosen."""
+    server.frames = 6
+    lose_a_block_at_the_end(page, server)
+    open_viewer(page, server)
+    expect(page.get_by_label("Time")).to_have_attribute("max", "20")
+    expect(page.get_by_role("button", name="Live")).to_be_hidden()
+    assert all(re.search(LOST, text) for text in page.complaints)
+    page.complaints.clear()
+
+
+def test_live_frame_is_lost_while_the_run_ends(page, server):
+    """What comes instead of it is the last frame."""
+    server.frames = 6
+    open_viewer(page, server)
+    page.get_by_role("button", name="Live").click()
+    lose_a_block_at_the_end(page, server)
+    server.frames = 7
+    wait_for_frame(page, 20)
+    expect(page.get_by_label("Time")).to_have_attribute("max", "20")
+    assert all(re.search(LOST, text) for text in page.complaints)
+    page.complaints.clear()
 
 
 def test_live_run_shows_its_temperature_from_the_first_frame(page, server, tmp_path):

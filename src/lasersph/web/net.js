@@ -26,12 +26,12 @@ export function pause(time, signal) {
   });
 }
 
-/** The answer to a request, which is tried again until there is one. Throws Refused, or what the signal says. */
+/** The whole answer to a request, which is tried again until there is one. Throws Refused, or what the signal says. */
 export async function ask(path, { signal, ...options } = {}) {
   for (let attempt = 0; ; attempt += 1) {
     let answer = null;
     try {
-      answer = await fetch(path, { signal, ...options });
+      answer = await wholeAnswer(await fetch(path, { signal, ...options }));
     } catch (error) {
       if (signal?.aborted) throw error;
     }
@@ -44,6 +44,12 @@ export async function ask(path, { signal, ...options } = {}) {
     sayConnection("The server does not answer; trying again.");
     await pause(PAUSES[Math.min(attempt, PAUSES.length - 1)], signal);
   }
+}
+
+/** The same answer once all of it has come: one that breaks off is none. */
+async function wholeAnswer(answer) {
+  const body = await answer.blob();
+  return new Response(body.size ? body : null, answer);
 }
 
 async function wordsOf(answer) {

@@ -113,7 +113,9 @@ export function mount(element, source, options = {}) {
         say("The frame did not come; trying again");
         await sleep(pause);
         if (mine !== generation || gone) return;
-        index = (await source.index().catch(() => null)) ?? index;  // the run may be a new one
+        const found = await source.index().catch(() => null);  // the run may be a new one, or at its end
+        if (mine !== generation || gone) return;
+        if (found && takeNewer(found).follows) number = index.times.length - 1;
       }
     }
   }
@@ -126,11 +128,9 @@ export function mount(element, source, options = {}) {
       try {
         const found = await source.index();
         if (gone) return;
-        const grown = found.times.length > (index?.times.length ?? 0) || found.stamp !== index?.stamp;
-        const following = live;  // the last index of a run ends the live state
-        takeIndex(found);
+        const { grown, follows } = takeNewer(found);
         if (message.textContent === SILENT) say("");
-        if (grown && following) show(index.times.length - 1);
+        if (follows) show(index.times.length - 1);
         else if (grown && !loaded) show(options.frame);
         pause = LOOK;
       } catch (error) {
@@ -138,6 +138,14 @@ export function mount(element, source, options = {}) {
         pause = Math.min(2 * pause, LONGEST_PAUSE);
       }
     }
+  }
+
+  // Whether there are more frames than before, and whether the newest of them is to be shown.
+  function takeNewer(found) {
+    const grown = found.times.length > (index?.times.length ?? 0) || found.stamp !== index?.stamp;
+    const follows = grown && live;  // asked first: the last index of a run ends the live state
+    takeIndex(found);
+    return { grown, follows };
   }
 
   function takeIndex(found) {

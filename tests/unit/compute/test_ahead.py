@@ -5,10 +5,10 @@ import os
 import subprocess
 import sys
 import textwrap
-import time
 from pathlib import Path
 
 import pytest
+from reliability_runs import wait_for
 
 from lasersph.compute import ahead, cache
 from lasersph.compute.compile_lock import compiling_alone
@@ -165,9 +165,12 @@ def test_helpers_end_with_who_asked(tmp_path):
     asking.kill()
     asking.wait()
     state = Path("/proc", str(helper), "stat")
-    for _ in range(1200):
-        if not state.exists() or state.read_text().rpartition(")")[2].split()[0] == "Z":
-            return
-        time.sleep(0.1)
-    os.kill(helper, 9)
-    raise AssertionError("a helper goes on after the run that started it was killed")
+
+    def is_gone():
+        return not state.exists() or state.read_text().rpartition(")")[2].split()[0] == "Z"
+
+    try:
+        wait_for(is_gone)
+    except TimeoutError:
+        os.kill(helper, 9)
+        raise

@@ -357,15 +357,6 @@ def test_same_as_plain_python(backend, dimension):
             np.testing.assert_allclose(backend.to_host(got)[..., i], value, rtol=1e-12)
 
 
-def test_components(backend):
-    """Of vectors, and of tensors row by row."""
-    for shape in ((2, 5), (2, 2, 5)):
-        values = np.arange(float(np.prod(shape))).reshape(shape)
-        for k, row in enumerate(values.reshape(-1, 5)):
-            found = backend.component(backend.asarray(values), k)
-            assert backend.to_host(found).tolist() == row.tolist()
-
-
 class Stepping:
     """A step of three particles as a graph."""
 
@@ -391,16 +382,6 @@ def test_recorded_pair_sum(backend):
     assert backend.to_host(stepping.out).tolist() == [1.0, 2.0, 3.0]
     stepping.step(dt=1.0)
     assert backend.to_host(stepping.out).tolist() == [2.0, 2.0, 2.0]
-
-
-def test_single_precision_copies(backend):
-    """A copy is written anew where it has as many elements."""
-    first = backend.single(backend.asarray([0.1, 0.2]))
-    again = backend.single(backend.asarray([0.3, 0.4]), first)
-    assert again is first and first.dtype == np.float32
-    assert backend.to_host(first).tolist() == np.float32([0.3, 0.4]).tolist()
-    other = backend.single(backend.asarray([0.5]), first)
-    assert other is not first and backend.single(other) is other
 
 
 def test_no_particles(backend):

@@ -90,3 +90,22 @@ def test_scan_and_sort(backend):
         backend.sort_by_key(keys, 1)
     with pytest.raises(ValueError, match="key 1 is not below 1"):
         backend.count_by_key(keys, 1)
+
+
+def test_components(backend):
+    """Of vectors, and of tensors row by row."""
+    for shape in ((2, 5), (2, 2, 5)):
+        values = np.arange(float(np.prod(shape))).reshape(shape)
+        for k, row in enumerate(values.reshape(-1, 5)):
+            found = backend.component(backend.asarray(values), k)
+            assert backend.to_host(found).tolist() == row.tolist()
+
+
+def test_single_precision_copies(backend):
+    """A copy is written anew where it has as many elements."""
+    first = backend.single(backend.asarray([0.1, 0.2]))
+    again = backend.single(backend.asarray([0.3, 0.4]), first)
+    assert again is first and first.dtype == np.float32
+    assert backend.to_host(first).tolist() == np.float32([0.3, 0.4]).tolist()
+    other = backend.single(backend.asarray([0.5]), first)
+    assert other is not first and backend.single(other) is other

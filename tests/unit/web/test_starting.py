@@ -2,11 +2,11 @@
 
 import os
 import re
-from time import sleep
 
 import pytest
 from own_case import OWN_CASE
-from starlette.testclient import TestClient
+from page_client import browser_of
+from reliability_runs import wait_for
 from synthetic_run import CASE_TEXT, make_run
 
 from lasersph.case import Case, available_cases
@@ -15,29 +15,13 @@ from lasersph.output.folder_lock import FolderLock
 from lasersph.web.case_source import CaseSource
 from lasersph.web.folder_list import id_of
 from lasersph.web.form import form_of
-from lasersph.web.server import Pages, make_app
+from lasersph.web.server import Pages
 from lasersph.web.starting import StartingPages
-
-TOKEN = "a token of some length"
-
-
-def browser_of(root, pages):
-    """A browser that has the token."""
-    return TestClient(
-        make_app(root, token=TOKEN, pages=pages),
-        base_url="http://127.0.0.1",
-        headers={"authorization": f"Bearer {TOKEN}"},
-        raise_server_exceptions=False,
-    )
 
 
 def wait_for_the_end(folder):
     """Until a run that was started is complete."""
-    for _ in range(1200):
-        if (folder / "report.html").exists():
-            return
-        sleep(0.1)
-    pytest.fail(f"{folder} does not become complete")
+    wait_for((folder / "report.html").exists)
 
 
 @pytest.fixture
