@@ -19,6 +19,11 @@ MOST = 1500
 """Words of a page: seven minutes of reading."""
 MOST_IN_A_PARAGRAPH = 100
 """Words of a paragraph: half a minute of reading."""
+MOST_IN_A_LINE = 102
+"""Characters of a line of code: as many as fit a page that is 1 400 pixels wide."""
+BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+CODE = ("", "sh", "toml", "python", "{code-cell} ipython3", "{code-block} python")
+"""What begins a block of code."""
 NO_WORDS = re.compile(r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|\]\([^)]*\)", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]+\)|\{code-cell\}")
 """A picture, or a cell of a notebook, which draws some when the pages are built."""
@@ -94,6 +99,13 @@ def test_paragraphs_are_short(text):
     plain = "\n".join(line for line in plain.splitlines() if not line.startswith(("|", "<!--")))
     for paragraph in re.split(r"\n\s*\n|\n *- |\n *\d+\. ", plain):
         assert words_of(paragraph) <= MOST_IN_A_PARAGRAPH, paragraph
+
+
+@pytest.mark.parametrize("page", READ)
+def test_code_is_as_wide_as_the_page(page):
+    """A longer line is read by moving it, half of it at a time."""
+    for begins, block in BLOCK.findall(READ[page]):
+        assert begins not in CODE or max(map(len, block.splitlines())) <= MOST_IN_A_LINE, block
 
 
 def test_listed_pages_exist():
