@@ -80,12 +80,12 @@ def trace_figure(run: RunOrFolder) -> Figure | None:
     if not names:
         return None
     figure, (above, below) = style.new_figure(2, height=5.2, share_x=True)
-    # One color a particle in both panels.
+    # One color a particle in both panels; dashes show those that lie over each other.
     time, label = time_axis(history)
     for k, name in enumerate(names):
-        color = style.COLORS[k % len(style.COLORS)]
-        above.plot(time, history[f"trace_{name}_temperature_K"], color=color, label=name)
-        below.plot(time, history[f"trace_{name}_speed_m_s"], color=color, label=name)
+        look = {"color": style.COLORS[k % len(style.COLORS)], "linestyle": style.LINES[k % 4]}
+        above.plot(time, history[f"trace_{name}_temperature_K"], label=name, **look)
+        below.plot(time, history[f"trace_{name}_speed_m_s"], label=name, **look)
     draw_corner_temperatures(above, material_of(run))
     style.label(above, "", "temperature [K]")
     style.label(below, label, "speed [m/s]")

@@ -136,7 +136,7 @@ def time_step_history(run: RunOrFolder) -> Figure:
     if np.max(step[taken]) > 20.0 * np.min(step[taken]):
         all_axes[0].set_yscale("log")
     else:
-        all_axes[0].set_ylim(bottom=0.0)
+        all_axes[0].set_ylim(0.0, 1.1 * float(np.max(step)) * unit.factor)
     style.label(all_axes[0], "", f"time step [{unit.name}]")
     style.legend_above(figure, all_axes[0], columns=4)
 

@@ -102,6 +102,9 @@ def test_trace_with_regions(runs):
     texts = [[t.get_text() for t in axes.texts] for axes in figure.axes]
     assert {"I", "II", "III"} <= set(texts[0])
     assert {"I", "II", "IV"} <= set(texts[1])
+    # particles that lie over each other are told apart by their dashes
+    curves = [line for line in figure.axes[0].lines if not line.get_label().startswith("_")]
+    assert len({line.get_linestyle() for line in curves}) == len(curves) == 2
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
