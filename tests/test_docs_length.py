@@ -1,8 +1,9 @@
 """Pages that people finish: 1 500 words at most, with a picture and without commits; those that
 cannot be short or show a picture say why here.
 
-Paragraphs of the texts of validations have 100 words at most. Counted are words outside of code,
-formulas and addresses of links. All pages with their counts: `python tests/test_docs_length.py`.
+Paragraphs have 100 words at most, those of the texts of validations too. Counted are words outside
+of code, formulas and addresses of links. All pages with their counts: `python
+tests/test_docs_length.py`.
 """
 
 import re
@@ -18,6 +19,11 @@ MOST = 1500
 """Words of a page: seven minutes of reading."""
 MOST_IN_A_PARAGRAPH = 100
 """Words of a paragraph: half a minute of reading."""
+MOST_IN_A_LINE = 102
+"""Characters of a line of code: as many as fit a page that is 1 400 pixels wide."""
+BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+CODE = ("", "sh", "toml", "python", "{code-cell} ipython3", "{code-block} python")
+"""What begins a block of code."""
 NO_WORDS = re.compile(r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|\]\([^)]*\)", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]+\)|\{code-cell\}")
 """A picture, or a cell of a notebook, which draws some when the pages are built."""
@@ -57,6 +63,8 @@ PAGES = {
 }
 PAGES = {page: text for page, text in PAGES.items() if not MADE.search(text)}
 
+READ = {page: text for page, text in PAGES.items() if not page.startswith(NOTES)}
+"""Pages that are read from top to bottom."""
 VALIDATIONS = {name: (home_of(name) / "README.md").read_text(encoding="utf-8") for name in names()}
 
 
@@ -72,7 +80,7 @@ def test_page_is_short_enough(page):
     assert (words > MOST) == (page in LONG), f"{words} words"
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if not page.startswith(NOTES)])
+@pytest.mark.parametrize("page", READ)
 def test_page_has_a_picture(page):
     """One without is listed with its reason, and one that has got a picture no more."""
     assert bool(PICTURE.search(PAGES[page])) == (page not in PLAIN)
@@ -84,12 +92,20 @@ def test_page_names_no_commit(page):
     assert COMMIT.findall(PAGES[page]) == []
 
 
-@pytest.mark.parametrize("text", VALIDATIONS.values(), ids=VALIDATIONS)
-def test_paragraphs_of_a_validation_are_short(text):
+@pytest.mark.parametrize("text", [*READ.values(), *VALIDATIONS.values()], ids=[*READ, *VALIDATIONS])
+def test_paragraphs_are_short(text):
     """One thought each; lists and tables are no paragraphs."""
-    for paragraph in re.split(r"\n\s*\n|\n- |\n\d+\. ", NO_WORDS.sub(" ", text)):
-        if not paragraph.startswith("|"):
-            assert words_of(paragraph) <= MOST_IN_A_PARAGRAPH, paragraph
+    plain = NO_WORDS.sub(" ", text)
+    plain = "\n".join(line for line in plain.splitlines() if not line.startswith(("|", "<!--")))
+    for paragraph in re.split(r"\n\s*\n|\n *- |\n *\d+\. ", plain):
+        assert words_of(paragraph) <= MOST_IN_A_PARAGRAPH, paragraph
+
+
+@pytest.mark.parametrize("page", READ)
+def test_code_is_as_wide_as_the_page(page):
+    """A longer line is read by moving it, half of it at a time."""
+    for begins, block in BLOCK.findall(READ[page]):
+        assert begins not in CODE or max(map(len, block.splitlines())) <= MOST_IN_A_LINE, block
 
 
 def test_listed_pages_exist():

@@ -84,13 +84,19 @@ def _numbers(state: State, record: dict[str, Any]) -> list[str]:
         parts.append(f"![{state.name}: difference over tolerance](../validation-{state.name}.svg)")
     open_rows = [row for row in judged_rows if row not in equal]
     if open_rows:
-        parts.append(table(HEAD, [_cells(row, notes) for row in open_rows]))
+        parts.append(_table(open_rows, notes))
     for group, words in ((equal, "judged and equal in every digit shown"), (shown, "not judged")):
         if group:
-            inner = table(HEAD, [_cells(row, notes) for row in group])
-            parts.append(_folded(f"{len(group)} more numbers, {words}", inner))
+            parts.append(_folded(f"{len(group)} more numbers, {words}", _table(group, notes)))
     parts.append("\n".join(f"- ({k}) {plain(text)}" for text, k in notes.items()))
     return parts
+
+
+def _table(rows: list[dict[str, Any]], notes: dict[str, int]) -> str:
+    """The numbers, without columns in which none of them has anything."""
+    columns = list(zip(HEAD, *(_cells(row, notes) for row in rows), strict=True))
+    head, *cells = zip(*(column for column in columns if any(column[1:])), strict=True)
+    return table(head, cells)
 
 
 def _is_equal(row: dict[str, Any]) -> bool:

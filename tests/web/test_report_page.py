@@ -10,6 +10,8 @@ from playwright.sync_api import expect
 from lasersph.output import open_run
 from lasersph.plots import style
 from lasersph.plots.particle_map import particle_map
+from lasersph.report.page import page as report_document
+from lasersph.report.page import table
 from lasersph.report.scene import scene
 from lasersph.report.write import report_page
 
@@ -63,6 +65,22 @@ def test_viewer_inside_a_file(page, report, tmp_path, keep):
     assert wide <= 390
     assert page.evaluate(BROKEN_NUMBERS) == []
     keep(page, "narrow-report")
+
+
+def test_times_of_a_train_fit_a_telephone(page, tmp_path):
+    """A table of them is as wide as the page at most; on a wide one they stay on one line."""
+    rows = [
+        ("first completely fluid metal (f_m = 1)", "pulse 1 + 26.6 ns", ""),
+        ("largest width of completely fluid metal (f_m = 1)", "4.812 µm", "pulse 10 + 37.25 ns"),
+    ]
+    path = tmp_path / "train.html"
+    path.write_text(report_document("A train", [table(rows, ("result", "value", "at"))]), "utf-8")
+    page.set_viewport_size({"width": 390, "height": 800})
+    page.goto(path.as_uri())
+    inside = "(table => table.scrollWidth - table.clientWidth)(document.querySelector('table'))"
+    assert page.evaluate(inside) <= 0
+    page.set_viewport_size({"width": 1400, "height": 800})
+    assert page.evaluate(BROKEN_NUMBERS) == []
 
 
 def test_without_webgl_the_picture_leads(page_without_webgl, report, keep):

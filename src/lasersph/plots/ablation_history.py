@@ -12,6 +12,7 @@ import numpy as np
 from lasersph.output import Run, RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.curves import (
+    are_same,
     draw_columns,
     draw_corner_temperatures,
     draw_pulse,
@@ -38,11 +39,12 @@ def crater_history(run: RunOrFolder) -> Figure | None:
 
     # Above: depths of the crater, with the pulse.
     figure, (above, below) = style.new_figure(2, height=4.8, share_x=True)
-    lines = {
-        "crater_depth_m": "at the axis",
-        "crater_depth_mean_m": "mean",
-        "crater_depth_max_m": "largest",
-    }
+    lines = {"crater_depth_m": "at the axis", "crater_depth_mean_m": "mean"}
+    # the largest has a line of its own where it would not hide that of the axis
+    if are_same(history["crater_depth_max_m"], history["crater_depth_m"]):
+        lines["crater_depth_m"] = "at the axis, largest"
+    else:
+        lines["crater_depth_max_m"] = "largest"
     draw_pulse(above, history)
     if "crater_vaporized_volume_m" in history:  # 1-D: the volume over the area is a depth
         lines = {"crater_depth_m": "whole layers"}
@@ -78,12 +80,12 @@ def trace_figure(run: RunOrFolder) -> Figure | None:
     if not names:
         return None
     figure, (above, below) = style.new_figure(2, height=5.2, share_x=True)
-    # One color a particle in both panels.
+    # One color a particle in both panels; dashes show those that lie over each other.
     time, label = time_axis(history)
     for k, name in enumerate(names):
-        color = style.COLORS[k % len(style.COLORS)]
-        above.plot(time, history[f"trace_{name}_temperature_K"], color=color, label=name)
-        below.plot(time, history[f"trace_{name}_speed_m_s"], color=color, label=name)
+        look = {"color": style.COLORS[k % len(style.COLORS)], "linestyle": style.LINES[k % 4]}
+        above.plot(time, history[f"trace_{name}_temperature_K"], label=name, **look)
+        below.plot(time, history[f"trace_{name}_speed_m_s"], label=name, **look)
     draw_corner_temperatures(above, material_of(run))
     style.label(above, "", "temperature [K]")
     style.label(below, label, "speed [m/s]")

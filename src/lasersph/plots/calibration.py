@@ -8,6 +8,7 @@ import numpy as np
 
 from lasersph.input.key_units import suffix
 from lasersph.input.shown_unit import ShownUnit
+from lasersph.observers.observer_list import RESULTS
 from lasersph.plots import style
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 BINS = 40
 """Of the histograms of the posterior."""
+PANEL_WORDS = 36
+"""Characters in a line beside a panel that is two inches high."""
 
 
 def calibration_figure(
@@ -76,23 +79,27 @@ def _draw_data(axes: Axes, data: list[dict[str, Any]], content: dict[str, Any]) 
     number = data[0]["number"]
     unit = style.fitting_unit(data[0]["unit"], float(np.max(np.abs(value))))
     f, band = unit.factor, np.hypot(emulated, numerical)
-    words = "model and its error"
+    legend = "model and its error"
 
     # A band over several settings, a mark beside a single one.
     if len(x) == 1:  # a mark beside the measured one
         axes.errorbar(x + 0.2, f * mean, f * band, fmt="s", color=style.COLORS[0], markersize=4,
-                      capsize=3, label=words)  # fmt: skip
+                      capsize=3, label=legend)  # fmt: skip
         axes.set(xlim=(x[0] - 0.5, x[0] + 0.7), xticks=x)
     else:
         axes.fill_between(x, f * (mean - band), f * (mean + band), color=style.COLORS[0],
-                          alpha=0.25, linewidth=0.0, label=words)  # fmt: skip
+                          alpha=0.25, linewidth=0.0, label=legend)  # fmt: skip
         axes.plot(x, f * mean, color=style.COLORS[0], linewidth=1.2)
     axes.errorbar(x, f * value, f * error, fmt="o", color=style.COLORS[1], markersize=4,
                   capsize=3, label="measured")  # fmt: skip
+    # Names in words where there are some, in lines that a panel holds.
     name = "measurement"
     if len(varied) == 1:
-        name = f"{varied[0]} [{setting.name or '1'}]"
-    style.label(axes, name, f"{number.removesuffix(suffix(data[0]['unit']))} [{unit.name}]")
+        words = varied[0].replace(".", " ").replace("_", " ")
+        name = f"{words} [{setting.name or '1'}]"
+    known = RESULTS.get(number)
+    words = known.words if known else number.removesuffix(suffix(data[0]["unit"]))
+    style.label(axes, name, style.wrapped(f"{words} [{unit.name}]", PANEL_WORDS))
     axes.yaxis.label.set_fontsize(8.5)
 
 

@@ -86,6 +86,12 @@ def any_above_zero(run: Run, column: str) -> bool:
     return column in run.history and bool(np.any(run.history[column] > 0.0))
 
 
+def are_same(first: np.ndarray, second: np.ndarray) -> bool:
+    """Whether two curves would hide each other: apart by less than a hundredth of their height on
+    average, which is as wide as a line."""
+    return bool(np.mean(np.abs(first - second)) <= 0.01 * np.max(first))
+
+
 def where_above_zero(values: np.ndarray) -> np.ndarray:
     """Values, NaN where there is nothing (0): lines break there."""
     return np.where(values > 0.0, values, np.nan)

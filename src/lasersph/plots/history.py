@@ -11,6 +11,7 @@ from lasersph.output import RunOrFolder, open_run
 from lasersph.plots import style
 from lasersph.plots.curves import (
     any_above_zero,
+    are_same,
     draw_columns,
     draw_corner_temperatures,
     draw_pulse,
@@ -52,12 +53,6 @@ def temperature_history(run: RunOrFolder) -> Figure:
     draw_corner_temperatures(axes, material_of(run))
     style.legend_above(figure, axes, columns=3)
     return figure
-
-
-def are_same(first: np.ndarray, second: np.ndarray) -> bool:
-    """Whether two curves would hide each other: apart by less than a hundredth of their height on
-    average, which is as wide as a line."""
-    return bool(np.mean(np.abs(first - second)) <= 0.01 * np.max(first))
 
 
 def melt_pool_history(run: RunOrFolder) -> Figure | None:
@@ -141,7 +136,7 @@ def time_step_history(run: RunOrFolder) -> Figure:
     if np.max(step[taken]) > 20.0 * np.min(step[taken]):
         all_axes[0].set_yscale("log")
     else:
-        all_axes[0].set_ylim(bottom=0.0)
+        all_axes[0].set_ylim(0.0, 1.1 * float(np.max(step)) * unit.factor)
     style.label(all_axes[0], "", f"time step [{unit.name}]")
     style.legend_above(figure, all_axes[0], columns=4)
 

@@ -4,7 +4,6 @@ boils or is ablated."""
 from __future__ import annotations
 
 import dataclasses
-import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
@@ -34,7 +33,6 @@ BAND = 0.35
 BAND_HATCHES = {"melts": "////", "boils": "\\\\\\\\", "ablates": "||||"}
 """Of such an area over the colors of two keys: crossed where two of them lie over each other."""
 TARGET_COLOR = "white"
-NO_BREAK = "\u00a0=\u00a0"
 LEVELS = 9
 """About as many steps of color as a reader can tell apart."""
 
@@ -207,8 +205,7 @@ def draw_process_map(shown: ProcessMap, levels: tuple[float, ...] = ()) -> Figur
 
 def _value_words(shown: ProcessMap, unit: style.Unit) -> str:
     """The number with its unit, in lines that an axis holds."""
-    whole = f"{shown.words} [{unit.name}]".replace(" = ", NO_BREAK)  # f_m = 0.5 stays together
-    return textwrap.fill(whole, 40).replace(NO_BREAK, " = ")
+    return style.wrapped(f"{shown.words} [{unit.name}]", 40)
 
 
 def _draw_line(

@@ -6,6 +6,7 @@ in threads. Colors: Okabe and Ito (2008), https://jfly.uni-koeln.de/color/.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -27,6 +28,7 @@ TEMPERATURE_COLORS = "inferno"
 FRACTION_COLORS = "cividis"
 SPEED_COLORS = "viridis"
 GRAY = "0.45"
+NO_BREAK = "\u00a0=\u00a0"
 WIDTH = 7.4
 DPI = 150
 
@@ -111,6 +113,11 @@ def label(axes: Axes, x: str, y: str, *, title: str = "") -> None:
     axes.set_ylabel(y, fontsize=10)
     if title:
         axes.set_title(title, fontsize=10, loc="left")
+
+
+def wrapped(text: str, characters: int) -> str:
+    """A text in lines of so many characters; f_m = 0.5 stays together."""
+    return textwrap.fill(text.replace(" = ", NO_BREAK), characters).replace(NO_BREAK, " = ")
 
 
 def legend(axes: Axes) -> None:

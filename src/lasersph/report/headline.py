@@ -132,7 +132,8 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
 
     # The shape of the beam last: spot, pattern, widths.
     if spot.get("diameter"):
-        text += f" in a spot of {quantity(spot['diameter'], 'm', 3)} ({spot['definition']})"
+        definition = spot["definition"].replace("e^2", "e²")
+        text += f" in a spot of {quantity(spot['diameter'], 'm', 3)} ({definition})"
     if beam.get("kind") in (None, "uniform"):
         return text
     if beam["kind"] == "interference":

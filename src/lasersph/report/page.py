@@ -70,11 +70,14 @@ details.subject > summary { font-weight: 600; }
   details.subject::details-content { content-visibility: visible; height: auto; } }
 @media screen and (max-width: 40rem) { main { padding: 1.2rem; overflow-wrap: anywhere; }
   table { display: block; overflow-x: auto; }
-  th, td { overflow-wrap: break-word; padding-right: .7rem; }
+  th, td { overflow-wrap: break-word; padding-right: .6rem; }
+  td.moment { white-space: normal; min-width: 4.8em; }
   td.number + td.number { white-space: normal; min-width: 4.4em; } }
 """
 LONGEST_NUMBER = 30
 """Letters of a cell that stays on one line: a number with its unit, error and place."""
+AFTER_A_PULSE = "pulse "
+"""Begins a time of a train, pulse 10 + 74.64 ns, which a telephone shows in two lines."""
 
 
 def page(title: str, body: Iterable[str]) -> str:
@@ -97,8 +100,12 @@ def table(rows: Sequence[Sequence[str]], head: Sequence[str] = ()) -> str:
         # A short cell is a number and stays on one line.
         cells = f"<td>{escape(row[0])}</td>"
         for cell in row[1:]:
-            kind = ' class="number"' if len(cell) <= LONGEST_NUMBER else ""
-            cells += f"<td{kind}>{escape(cell)}</td>"
+            kind = "number" if len(cell) <= LONGEST_NUMBER else ""
+            if cell.startswith(AFTER_A_PULSE):
+                kind += " moment"
+            cells += (
+                f'<td class="{kind}">{escape(cell)}</td>' if kind else f"<td>{escape(cell)}</td>"
+            )
         lines.append(f"<tr>{cells}</tr>")
     return "\n".join([*lines, "</table>"])
 

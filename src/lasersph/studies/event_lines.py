@@ -249,9 +249,11 @@ def _heating_end(table: Table, keys: list[str], *, colder: bool) -> str:
     points = np.stack([table.values(key) for key in keys], axis=1)
     hottest = numbers_of(table, "temperature_max_K")
     known = np.isfinite(hottest)
-    low, high = points.min(axis=0), points.max(axis=0)
+    # ends of what was computed: runs to come, or that failed, tell nothing
+    low, high = points[known].min(axis=0), points[known].max(axis=0)
     # plane through the highest temperatures: its steepest key heats most
-    plane = np.hstack([np.ones((known.sum(), 1)), (points[known] - low) / (high - low)])
+    share = (points[known] - low) / np.where(high > low, high - low, 1.0)
+    plane = np.hstack([np.ones((known.sum(), 1)), share])
     slopes = np.linalg.lstsq(plane, hottest[known], rcond=None)[0][1:]
     k = int(np.argmax(np.abs(slopes)))
     if np.ptp(hottest[known]) <= HELD * hottest[known].max():

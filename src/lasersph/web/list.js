@@ -158,7 +158,7 @@ function pictureOf(run) {
 function pointsOf(points) {
   if (!points.length) return null;
   return svg("svg", { viewBox: "0 0 160 90", class: "points", "aria-hidden": "true" }, points.filter(([, y]) => y !== null).map(([x, y, share]) =>
-    svg("circle", { cx: 12 + 136 * x, cy: 78 - 62 * y, r: points.length > 60 ? 2.2 : 3.4, fill: share === null ? "none" : `rgb(${colorAt(share).join()})`, class: "point" })));
+    svg("circle", { cx: 12 + 136 * x, cy: 80 - 54 * y, r: points.length > 60 ? 2.2 : 3.4, fill: share === null ? "none" : `rgb(${colorAt(share).join()})`, class: "point" })));
 }
 
 /** A key that varies and its values: "fluence 0.15 J/cm² to 0.6 J/cm²". */

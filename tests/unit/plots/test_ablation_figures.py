@@ -83,12 +83,28 @@ def test_telling_snapshot(runs):
     assert crater_snapshot(runs[1])["time"] == pytest.approx(9 * NS)
 
 
+def test_largest_depth_at_the_axis_shares_its_line(runs, monkeypatch):
+    """A line of its own would hide the other one; where they differ, both are drawn."""
+
+    def legend():
+        return crater_history(runs[2]).axes[0].get_legend_handles_labels()[1]
+
+    assert "at the axis, largest" in legend() and "largest" not in legend()
+    history = dict(runs[2].history)
+    history["crater_depth_m"] = 0.5 * history["crater_depth_max_m"]
+    monkeypatch.setitem(vars(runs[2]), "history", history)
+    assert {"at the axis", "largest"} <= {*legend()}
+
+
 def test_trace_with_regions(runs):
     """The Roman numbers of the regions stand above both panels."""
     figure = trace_figure(runs[1])
     texts = [[t.get_text() for t in axes.texts] for axes in figure.axes]
     assert {"I", "II", "III"} <= set(texts[0])
     assert {"I", "II", "IV"} <= set(texts[1])
+    # particles that lie over each other are told apart by their dashes
+    curves = [line for line in figure.axes[0].lines if not line.get_label().startswith("_")]
+    assert len({line.get_linestyle() for line in curves}) == len(curves) == 2
 
 
 @pytest.mark.parametrize("dimension", [2, 3])

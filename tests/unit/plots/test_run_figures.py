@@ -113,6 +113,15 @@ def test_every_axis_names_its_unit(run):
             assert all(re.search(r"\[.+\]$", text) for text in labels), labels
 
 
+def test_equal_time_steps_lie_below_the_edge(run, monkeypatch):
+    """Dots at the upper edge of the axes would be halves, or nothing."""
+    history = dict(run.history)
+    history["time_step_s"] = np.where(history["time_step_s"] > 0.0, 5e-11, 0.0)
+    monkeypatch.setitem(vars(run), "history", history)
+    axes = over_time.time_step_history(run).axes[0]
+    assert axes.get_ylim() == pytest.approx((0.0, 55.0))
+
+
 def test_temperature_curve_is_the_history(run):
     """The curve holds the numbers of history.csv, time in ns; a probe there shares its line."""
     figure = over_time.temperature_history(run)

@@ -158,7 +158,7 @@ def decode(frames, field, number):
         (
             {"pulse_energy": 6e-6, "spot": {"diameter": 5e-5, "definition": "1/e^2"}}
             | {"pulse": {"fwhm": 1e-8}, "beam": {"kind": "interference", "period": 5e-6}},
-            " under one pulse of 10 ns with 6 µJ in a spot of 50 µm (1/e^2) of interfering"
+            " under one pulse of 10 ns with 6 µJ in a spot of 50 µm (1/e²) of interfering"
             " beams (period 5 µm)",
         ),
         (
@@ -175,7 +175,7 @@ def decode(frames, field, number):
         (
             {"pulse_energy": 2e-5, "spot": {"diameter": 6e-5, "definition": "1/e^2"}}
             | {"pulse": {"count": 5, "fwhm": 6e-9}, "beam": {"kind": "uniform"}},
-            " under 5 pulses of 6 ns with 20 µJ each, 100 µJ in all, in a spot of 60 µm (1/e^2)",
+            " under 5 pulses of 6 ns with 20 µJ each, 100 µJ in all, in a spot of 60 µm (1/e²)",
         ),
     ],
 )
@@ -190,7 +190,7 @@ def test_fluence_that_follows_from_an_energy():
     laser |= {"pulse": {"count": 10, "fwhm": 1e-8}, "beam": {"kind": "interference"}}
     assert light_text(laser, {"mean_fluence_J_m2": 14300.0}) == (
         " under 10 pulses of 10 ns with 9 µJ each, 90 µJ in all, 1.43 J/cm² in the mean over a"
-        " period where it is computed, in a spot of 40 µm (1/e^2) of interfering beams"
+        " period where it is computed, in a spot of 40 µm (1/e²) of interfering beams"
     )
 
 

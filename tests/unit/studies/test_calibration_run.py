@@ -10,6 +10,7 @@ import lasersph
 from lasersph.case import load_case
 from lasersph.cli import main
 from lasersph.output import FolderRefused
+from lasersph.plots.calibration import calibration_figure
 from lasersph.simulation.time_loop import Stopped
 from lasersph.studies import calibration_run, read_calibration_plan
 from lasersph.studies.calibration_answer import answer_lines
@@ -140,6 +141,10 @@ def test_command(plan, tmp_path, capsys, monkeypatch):
     number = r"[0-9.]+ [nu]m"
     assert re.fullmatch(rf"check: \S+ {number}, emulated {number}; .* \({number} measured\)", check)
     assert (out / "calibration.png").stat().st_size > 10_000
+    content, points = calibration_run.read_answer(out)
+    panel = calibration_figure(content, points).axes[0]
+    assert panel.get_xlabel() == "laser fluence [J/cm^2]"
+    assert panel.get_ylabel().startswith("largest ") and "melt." not in panel.get_ylabel()
     plan.write_text(PLAN.replace("between = [0.7, 1.6]", "betwen = [0.7, 1.6]"))
     assert main(["calibrate", str(plan), "--out", str(tmp_path / "new")]) == 2
     assert "plan.toml:6" in capsys.readouterr().err

@@ -122,6 +122,13 @@ def test_an_event_of_no_run_has_no_line(tmp_path):
     )
 
 
+def test_ends_are_those_of_complete_runs(tmp_path):
+    """Of a sweep that is half done: runs above 0.6 J/cm2 are still to come, or have failed."""
+    points = [(fluence, t) for fluence in (5e3, 6e3, 7e3, 8e3) for t in (10e-9, 10.5e-9)]
+    found = process_map(made_up_sweep(tmp_path, points, failed={4, 5, 6, 7}), show=DEPTH)
+    assert any("hotter runs (laser.fluence above 0.6 J/cm²)" in text for text in found.notes)
+
+
 @pytest.mark.parametrize("count", [3, 4, 6, 11])
 def test_bands_hold_the_true_lines(tmp_path, count):
     """On grids of any fineness the exact melting and boiling fluences lie within their bands, and

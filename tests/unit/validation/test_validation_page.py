@@ -75,6 +75,13 @@ def page(name, *rows):
     return validation_page(state, readmes()[name])
 
 
+def test_empty_columns_are_left_out():
+    """A telephone has no room for one in which no number is published."""
+    assert "| quantity | reference | computed |" in page("good", GOOD)
+    published = Comparison("T", "K", published=300.0, band=0.5, name="T").row(300.1, 300.0)
+    assert "| quantity | published | reference |" in page("good", GOOD, published)
+
+
 def test_every_state_is_shown():
     """The overview has a line of each, and what is not as it should be stands out."""
     for name, word in (("good", "current"), ("old", "**stale**"),
@@ -127,8 +134,8 @@ def test_figure_comes_first_then_rows_and_origin():
     """Reason and former band as notes, our own reference as such, time, machine and date."""
     text = page("good")
     assert text.index("![good](../../validation/good/f.png)") < text.index("**Source.**")
-    assert "| T \\[K\\] |  | 300 | 300.1 | 0.5 (1) | ok |" in text
-    assert "| T\\|2 \\[K\\] |  | 1 | 9 | 0.5 (2) | own |" in text
+    assert "| T \\[K\\] | 300 | 300.1 | 0.5 (1) | ok |" in text
+    assert "| T\\|2 \\[K\\] | 1 | 9 | 0.5 (2) | own |" in text
     assert "- (1) read from a figure" in text and "- (2) changed: was 1 K until May" in text
     assert "2 min on a machine, threads: 1; lasersph 0.1.0, 2026-11-20" in text
 

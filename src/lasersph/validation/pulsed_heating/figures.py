@@ -119,14 +119,14 @@ def draw_rates(study: Study, light: Light, one: Run) -> None:
         expected = pulse_train_rate(1e-6 * depth, middle, **light.pulses(POLISHED, 3))
         (surface if depth == 0 else depths).extend(
             (
-                exact(1e9 * middle, expected, "", color="0.8", linewidth=2.5),
-                line(1e9 * middle, rate, f"{depth} µm" if depth else "", k),
+                exact(1e9 * middle, 1e-9 * expected, "", color="0.8", linewidth=2.5),
+                line(1e9 * middle, 1e-9 * rate, f"{depth} µm" if depth else "", k),
             )
         )
-    rates = ("time [ns]", "dT/dt [K/s]")
+    rates = ("time [ns]", "dT/dt [K/ns]")
     study.draw(
         "fig16-rates",
-        Panel(*rates, surface, "(a) surface", low=-1e11, high=1e11),
+        Panel(*rates, surface, "(a) surface", low=-100.0, high=100.0),
         Panel(*rates, depths, "(b) depths"),
     )
 

@@ -81,9 +81,10 @@ def draw(study: Study, waves: dict[str, Wave]) -> None:
     for k, (name, one) in enumerate(waves.items()):
         distance = one.phase * one.speed / np.polyfit(one.times, one.phase, 1)[0]
         distances.append(marks(1e9 * one.times, 1e6 * distance, name, k))
-        amplitudes.append(marks(1e9 * one.times, one.amplitude / one.amplitude[0], k=k))
+        gain = 1e6 * (one.amplitude / one.amplitude[0] - 1.0)
+        amplitudes.append(marks(1e9 * one.times, gain, k=k))
     study.draw(
         "sound-wave",
         Panel("time [ns]", "distance of the wave [µm]", distances, "(a)"),
-        Panel("time [ns]", "amplitude / initial [1]", amplitudes, "(b)"),
+        Panel("time [ns]", "amplitude beyond the initial [ppm]", amplitudes, "(b)"),
     )
