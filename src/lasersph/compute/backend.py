@@ -89,7 +89,7 @@ class Backend:
         self._refuse_in_graph("to_host")
         return np.array(self.unwrap(array))
 
-    def look(self, array: Array) -> np.ndarray:
+    def host_view(self, array: Array) -> np.ndarray:
         """The array for reading, until the next loop; not copied where it lies in this memory.
 
         Elsewhere it is copied only as far as it is looked at; to NumPy it is an array.
@@ -99,13 +99,13 @@ class Backend:
         return host
 
     def snapshot(self, array: Array) -> np.ndarray:
-        """Copy for reading, as of `look`, that later loops do not change."""
+        """Copy for reading, as of `host_view`, that later loops do not change."""
         copy = self.wrap(np.empty(array.shape, array.dtype))
         self.copy(array, copy)
-        return self.look(copy)
+        return self.host_view(copy)
 
     def shown(self, host: np.ndarray) -> np.ndarray:
-        """Host array that never changes, for reading beside what `look` gives."""
+        """Host array that never changes, for reading beside what `host_view` gives."""
         return host
 
     def wait(self) -> None:

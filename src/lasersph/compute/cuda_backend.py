@@ -79,7 +79,7 @@ class CudaBackend(Backend):
         """Copy as a NumPy array."""
         return self.unwrap(array).to_host()
 
-    def look(self, array: Array) -> np.ndarray:
+    def host_view(self, array: Array) -> np.ndarray:
         """The array for reading, until the next loop; copied as far as it is looked at."""
         return cast(np.ndarray, DeviceArray(self, self.unwrap(array)))  # to NumPy it is one
 
@@ -100,11 +100,11 @@ class CudaBackend(Backend):
         return least, most
 
     def snapshot(self, array: Array) -> np.ndarray:
-        """Copy for reading, as of `look`, that later loops do not change."""
+        """Copy for reading, as of `host_view`, that later loops do not change."""
         source = self.unwrap(array)
         copy = self.empty(source.shape, source.dtype)
         self.copy(source, copy)
-        return self.look(copy)
+        return self.host_view(copy)
 
     def wait(self) -> None:
         """Return when the card has done everything that was started."""

@@ -159,11 +159,11 @@ class LoopText:
         stores = [line.partition(" = ") for line in outputs("p")]
         names = [target.removesuffix("[p]") for target, _, _ in stores]
         values = [value for _, _, value in stores]
-        rooms = [kinds.get(name.partition("__")[0], self.loop.precision) for name in names]
-        lines = [f"b_{name} = room_{kind}()" for name, kind in zip(names, rooms, strict=True)]
+        types = [kinds.get(name.partition("__")[0], self.loop.precision) for name in names]
+        lines = [f"b_{name} = scratch_{kind}()" for name, kind in zip(names, types, strict=True)]
         lines += [
-            "for first_pair in range(row_start[i], row_start[i + ONE], np.uint64(ROOM)):",
-            "    length = min(row_start[i + ONE] - first_pair, np.uint64(ROOM))",
+            "for first_pair in range(row_start[i], row_start[i + ONE], np.uint64(CAPACITY)):",
+            "    length = min(row_start[i + ONE] - first_pair, np.uint64(CAPACITY))",
             "    for m in range(length):",
             "        p = first_pair + m",
             *("        " + line for line in inner),

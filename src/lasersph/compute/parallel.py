@@ -61,14 +61,14 @@ def invoke(address, begin, end, threads, count, frame):
 _IMPORT = "from lasersph.compute.parallel import dispatch_blocks\n"
 _PUBLIC_IMPORT = "from numba import prange\nfrom lasersph.compute.parallel import invoke\n"
 _SHARED = """
-def {name}(begin, end, threads, {rest}):
+def {name}(begin, end, threads, {names}):
     one = np.uint64(1)
     for k in prange(np.int64(threads)):
         share = np.uint64(k)
         first = begin + (end - begin) * share // threads
         last = begin + (end - begin) * (share + one) // threads
         for block in range(first, last):
-            {name}_block(block, block + one, one, {rest})
+            {name}_block(block, block + one, one, {names})
 """
 
 
@@ -91,8 +91,8 @@ def shared_text(text: str) -> str:
             continue
         part.body = body
         if part.decorator_list:
-            rest = ", ".join(one.arg for one in part.args.args[3:])
-            (shared,) = ast.parse(_SHARED.format(name=part.name, rest=rest)).body
+            names = ", ".join(one.arg for one in part.args.args[3:])
+            (shared,) = ast.parse(_SHARED.format(name=part.name, names=names)).body
             assert isinstance(shared, ast.FunctionDef)
             shared.decorator_list = [_parallel(part.decorator_list[0])]
             part.name, part.decorator_list = f"{part.name}_block", [_serial(part.decorator_list[0])]

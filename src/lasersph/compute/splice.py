@@ -78,23 +78,23 @@ def _module() -> ModuleType:
     return cache.load(_TEXT)
 
 
-def splice(backend: Backend, first: PairRows, chosen: Array, rest: PairRows) -> PairRows:
-    """Rows of `first` where `chosen`, those of `rest` elsewhere.
+def splice(backend: Backend, first: PairRows, chosen: Array, others: PairRows) -> PairRows:
+    """Rows of `first` where `chosen`, those of `others` elsewhere.
 
     Args:
-        chosen: (n,) of kind flag, n the rows of `rest`; 0 beyond the rows of `first`.
+        chosen: (n,) of kind flag, n the rows of `others`; 0 beyond the rows of `first`.
 
     Raises:
         ValueError: `chosen` is not of that kind and length, or the lists hold different reals.
     """
     start, neighbor, values = (backend.unwrap(part) for part in first)
-    kept, kept_neighbor, kept_values = (backend.unwrap(part) for part in rest)
+    kept, kept_neighbor, kept_values = (backend.unwrap(part) for part in others)
     mark = backend.unwrap(chosen)
     count = kept.size - 1
     if mark.dtype != np.uint8 or mark.size != count or values.dtype != kept_values.dtype:
         raise ValueError(f"{mark.size} {mark.dtype} marks for {count} rows of {kept_values.dtype}")
     if backend.search is not None:
-        return backend.search.splice(first, mark, rest)
+        return backend.search.splice(first, mark, others)
     if start.size - 1 < count and mark[start.size - 1 :].any():
         raise ValueError(f"a row is chosen beyond the {start.size - 1} of the first list")
     module = _module()

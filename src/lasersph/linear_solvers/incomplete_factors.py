@@ -56,8 +56,8 @@ def forward(total, p, t, middle, inverse, s):
 
 def advance(x, r, t, w, K, F, s, alpha):
     """x += alpha t, r' -= alpha (t + w); reduces r' K r' and the bound of the residual."""
-    rest = r - alpha * (t + w)
-    return x + alpha * t, rest, K * rest * rest, (K + s * F) * abs(rest)
+    new_r = r - alpha * (t + w)
+    return x + alpha * t, new_r, K * new_r * new_r, (K + s * F) * abs(new_r)
 
 
 class IncompleteFactors:

@@ -35,8 +35,8 @@ def stiffness(backend, level, x):
     set_values(backend, level, "x", x)
     set_values(backend, level, "y", x * backend.to_host(level.at["s"]))
     set_values(backend, level, "r", np.zeros(level.count))
-    level.smooth(grid_nodes.rest, level.at["rest"])
-    return -backend.to_host(level.at["rest"])
+    level.smooth(grid_nodes.residual, level.at["residual"])
+    return -backend.to_host(level.at["residual"])
 
 
 def test_couplings_by_hand():
