@@ -21,8 +21,6 @@ POINTS = 4096
 OPTIONS = 'fastmath={"reassoc", "contract", "arcp", "nsz"}, error_model="numpy"'
 INNER = f"@njit({OPTIONS}, no_cpython_wrapper=True, no_cfunc_wrapper=True)"
 """Decorator of functions that only compiled ones call: what Python would call is not compiled."""
-OUTER = f"@njit({OPTIONS}, no_cfunc_wrapper=True, cache=True)"
-"""Decorator of functions that Python calls with arrays."""
 DISPATCH = ("if end - begin > ONE:", "    dispatch_blocks()", "    return")
 """First lines of a function (begin, end, threads, ...) that does the block `begin`."""
 

@@ -14,11 +14,11 @@ from lasersph.compute.source import SourceUnit
 ROWS = 4
 """Rows of a tile: of a chunk that shares its columns."""
 
-_HEAD = f'''
+_HEAD = f"""
 ZERO = np.uint64(0)
 ONE = np.uint64(1)
 ROWS = np.uint64({ROWS})
-'''
+"""
 TILES = f'''{_HEAD}
 
 {INNER}

@@ -21,8 +21,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lasersph.compute.array_function import array_function
 from lasersph.compute.arguments import parameter_names
+from lasersph.compute.array_function import array_function
 from lasersph.compute.array_types import Array, PairList
 from lasersph.compute.backend import Backend
 from lasersph.compute.sweep_text import ROWS, TILES, sweep_text
@@ -195,9 +195,7 @@ def ordered_pairs(backend: Backend, neighbors: PairList, weights: Array) -> Orde
         sides.append(tiles)
     # numbers of the blocks of each color
     colors = [np.flatnonzero(color == k) for k in range(int(color.max()) + 1)]
-    return OrderedPairs(
-        backend, colors, sides, inner, backend.wrap(total), backend.wrap(after)
-    )
+    return OrderedPairs(backend, colors, sides, inner, backend.wrap(total), backend.wrap(after))
 
 
 def _roles(function: Callable, fields: Mapping, constants: Mapping) -> dict[str, str]:
