@@ -19,24 +19,6 @@ from lasersph.compute.generate import DISPATCH, NATIVE
 from lasersph.compute.launch import HEAD_WORDS, start_function
 
 
-class BoundFunction:
-    """A function with its arguments; called, it runs all blocks."""
-
-    def __init__(self, function: ArrayFunction, head: list[int], given: tuple) -> None:
-        # the head of a launch that reduces nothing, then addresses with shapes, and numbers
-        words = [*head, *[0] * (HEAD_WORDS - len(head))]
-        for one in given:
-            if isinstance(one, np.ndarray):
-                words += (address(one), *one.shape)
-            else:
-                words.append(int(one))
-        self._frame, self._given, self._start = array("Q", words), given, function.start
-
-    def __call__(self) -> None:
-        """Run it."""
-        self._start(self._frame.buffer_info()[0])
-
-
 class ArrayFunction:
     """A function of a text.
 
@@ -47,55 +29,59 @@ class ArrayFunction:
     """
 
     def __init__(self, text: str, name: str, precision: str) -> None:
-        self.start = start_function(precision)
         self._text, self._name = NATIVE.format(precision=precision) + text, name
+        self._start = start_function(precision)
         self._entries: dict[tuple, int] = {}
 
-    def bind(self, *given: Any, blocks: int = 1, threads: int = 1) -> BoundFunction:
-        """The function with arguments, for so many blocks on so many threads.
+    def __call__(self, *given: Any, blocks: int = 1, threads: int = 1) -> None:
+        """Run it for so many blocks on so many threads; see `frame`."""
+        self.run(self.frame(*given, blocks=blocks, threads=threads))
+
+    def run(self, frame: array) -> None:
+        """Run it with the arguments in a frame, whose arrays the caller holds."""
+        self._start(frame.buffer_info()[0])
+
+    def frame(self, *given: Any, blocks: int = 1, threads: int = 1) -> array:
+        """Arguments of a call: addresses and shapes of arrays, and whole numbers.
 
         Raises:
             ValueError: an array is not contiguous.
         """
+        # the head of a launch that reduces nothing
+        kinds: list[tuple[int, int] | None] = []
+        words = [0, blocks, threads, *[0] * (HEAD_WORDS - 3)]
+        for one in given:
+            if not isinstance(one, np.ndarray):
+                kinds.append(None)
+                words.append(one)
+                continue
+            if not one.flags.c_contiguous:
+                raise ValueError(f"an array of shape {one.shape} is not contiguous")
+            kinds.append((one.dtype.num, one.ndim))
+            words.append(address(one))
+            words += one.shape
         # compiled for the types and axes of its arrays
-        kinds = tuple([(one.dtype, one.ndim) if _is_array(one) else None for one in given])
-        entry = self._entries.get(kinds)
+        key = tuple(kinds)
+        entry = self._entries.get(key)
         if entry is None:
-            entry = self._entries[kinds] = cache.entry(self._text + self._loop(kinds))
-        return BoundFunction(self, [entry, blocks, threads], given)
+            entry = self._entries[key] = cache.entry(self._text + self._loop(given))
+        words[0] = entry
+        return array("Q", words)
 
-    def __call__(self, *given: Any, blocks: int = 1, threads: int = 1) -> None:
-        """Run it once."""
-        self.bind(*given, blocks=blocks, threads=threads)()
-
-    def _loop(self, kinds: tuple) -> str:
-        """Text of the loop that takes the arguments from a frame."""
+    def _loop(self, given: tuple) -> str:
+        """Text of the loop that takes such arguments from a frame."""
         arguments, place = ["begin"], 0
-        for kind in kinds:
-            if kind is None:
+        for one in given:
+            if not isinstance(one, np.ndarray):
                 arguments.append(f"words[{place}]")
                 place += 1
                 continue
-            dtype, axes = kind
-            shape = "".join(f"np.int64(words[{place + k + 1}]), " for k in range(axes))
-            arguments.append(f"carray(at_{dtype.name}(words[{place}]), ({shape}))")
-            place += axes + 1
+            shape = "".join(f"np.int64(words[{place + k + 1}]), " for k in range(one.ndim))
+            arguments.append(f"carray(at_{one.dtype.name}(words[{place}]), ({shape}))")
+            place += one.ndim + 1
         lines = [*DISPATCH, "words = at_uint64(frame)", f"{self._name}({', '.join(arguments)})"]
         head = "\n\nONE = np.uint64(1)\n\n\ndef loop(begin, end, threads, count, frame):"
         return "\n    ".join([head, *lines]) + "\n"
-
-
-def _is_array(one: Any) -> bool:
-    """Whether an argument is an array, whose elements lie side by side.
-
-    Raises:
-        ValueError: they do not.
-    """
-    if not isinstance(one, np.ndarray):
-        return False
-    if not one.flags.c_contiguous:
-        raise ValueError(f"an array of shape {one.shape} is not contiguous")
-    return True
 
 
 @lru_cache(maxsize=64)

@@ -80,6 +80,10 @@ class Backend:
         self.fill(array, 0)
         return array
 
+    def empty(self, shape: int | tuple[int, ...], dtype: Any) -> Array:
+        """Array with undefined elements."""
+        return self.wrap(np.empty(shape, dtype))
+
     def asarray(self, array: ArrayLike, kind: str = "real") -> Array:
         """Copy of host data as an array of this backend."""
         return self.wrap(np.array(array, dtype=self.kind(kind), order="C"))
@@ -100,7 +104,7 @@ class Backend:
 
     def snapshot(self, array: Array) -> np.ndarray:
         """Copy for reading, as of `host_view`, that later loops do not change."""
-        copy = self.wrap(np.empty(array.shape, array.dtype))
+        copy = self.empty(array.shape, array.dtype)
         self.copy(array, copy)
         return self.host_view(copy)
 
@@ -117,12 +121,11 @@ class Backend:
         Args:
             into: an earlier copy, which is written where it has the same shape.
         """
-        host = self.unwrap(array)
-        if host.dtype == np.float32:
+        if array.dtype == np.float32:
             return array
         if into is None or into.shape != array.shape:
-            return self.wrap(host.astype(np.float32))
-        self.unwrap(into)[...] = host
+            into = self.empty(array.shape, np.float32)
+        self.copy(array, into)
         return into
 
     def copy(self, source: Array, destination: Array) -> None:

@@ -10,6 +10,7 @@ user below the system's temporary folder.
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
 import importlib.util
 import os
@@ -150,6 +151,11 @@ def entry(text: str, *, is_fast: bool = True) -> int:
         found = _read_entry(folder, name, text, is_fast)
         _entries[key] = found or _missing_entry(folder, name, text, is_fast)
     return _entries[key].address
+
+
+def function(text: str, arguments: int, *, is_fast: bool = False) -> Callable[..., None]:
+    """Foreign function `loop` of a text, of so many unsigned integers; see `entry`."""
+    return ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * arguments)(entry(text, is_fast=is_fast))
 
 
 def at_first_miss(begin: Callable[[], None]) -> Callable[[], None]:

@@ -136,11 +136,12 @@ class Sweep:
         # a row of sums for each block, added up when all colors are done
         blocks = sum(blocks.size for blocks in colors)
         self._partial = np.zeros((blocks, reduces), backend.real)
-        given = (BLOCK, count, self._partial, *self.tiles, self.inner, *arrays, self._numbers)
+        self._given = (BLOCK, count, self._partial, *self.tiles, self.inner, *arrays, self._numbers)
         self._parts = [
-            sweep.bind(numbers, *given, blocks=numbers.size, threads=backend.threads)
-            for numbers in colors
+            (sweep.frame(one, *self._given, blocks=one.size, threads=backend.threads), one)
+            for one in colors
         ]
+        self._run = sweep.run
 
     def set(self, constants: Mapping[str, float]) -> None:
         """Take constants by name."""
@@ -151,8 +152,8 @@ class Sweep:
         """Run; returns the sums over the rows."""
         self.set(constants)
         # a color waits for the one before; its blocks go side by side
-        for run in self._parts:
-            run()
+        for frame, _ in self._parts:
+            self._run(frame)
         return tuple(np.add.reduce(self._partial, dtype=np.float64).tolist())
 
 
