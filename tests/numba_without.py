@@ -78,7 +78,7 @@ def _loops(total):
     pairs = sweeps.ordered_pairs(backend, SimpleNamespace(row_start=found[0], neighbor=found[1]),
                                  np.ones(found[1].size))  # fmt: skip
     value = backend.zeros(count)
-    sweep = pairs.prepare(_relaxed, {"b": T}, [value], reduces=1, scale=0.3)
+    sweep = sweeps.Sweep(pairs, _relaxed, {"b": T}, [value], reduces=1, scale=0.3)
     total += [sweep(), value]
 
 

@@ -70,6 +70,7 @@ class ArrayFunction:
 
     def _loop(self, given: tuple) -> str:
         """Text of the loop that takes such arguments from a frame."""
+        # words in the order of `frame`
         arguments, place = ["begin"], 0
         for one in given:
             if not isinstance(one, np.ndarray):
@@ -79,6 +80,7 @@ class ArrayFunction:
             shape = "".join(f"np.int64(words[{place + k + 1}]), " for k in range(one.ndim))
             arguments.append(f"carray(at_{one.dtype.name}(words[{place}]), ({shape}))")
             place += one.ndim + 1
+        # several blocks are handed to threads, one is done here
         lines = [*DISPATCH, "words = at_uint64(frame)", f"{self._name}({', '.join(arguments)})"]
         head = "\n\nONE = np.uint64(1)\n\n\ndef loop(begin, end, threads, count, frame):"
         return "\n    ".join([head, *lines]) + "\n"

@@ -86,6 +86,7 @@ class LoopStep:
 
     def run(self, number: float) -> None:
         """Run all with a number."""
+        # numbers first, then all launches by one foreign call where they have frames
         for launch, names in self.named:
             launch.set(dict.fromkeys(names, number))
         if self.launches and self.is_compiled:

@@ -118,12 +118,14 @@ class LoopText:
         loop = self.loop
         pairs = loop.shape != "pointwise"
         rows, inner, after, store = [], [], [], []
+        # call of the function, with what it reads loaded once for a row or for each pair
         call, result = self._call(loop.function, loop.arguments, rows, inner)
         items = list(result[1]) if result[0] == "group" else [result]
         values = [f"y{k}" for k in range(len(items))]
         flat = [n for v, kind in zip(values, items, strict=True) for n in _names(kind, v)]
         target = inner if pairs else after
         target.append(f"{', '.join(flat)} = {call}")
+        # one value of the pairs of a row, and the function of these
         if loop.shape == "pair_sum":
             sums = [f"s{k}" for k in range(len(items))]
             items = [("real", kind[1]) for kind in items]
@@ -131,6 +133,7 @@ class LoopText:
             values = sums
             if loop.finish is not None:
                 values, items = self._finish(values, items, after)
+        # stores and reductions of a row, then the loops over rows and pairs
         outputs = self._outputs(values, items)
         if loop.shape != "pair_values":
             store += outputs("i")

@@ -150,6 +150,7 @@ class Recorder:
     def add(self, launch: Any, call: Call) -> tuple[float, ...]:
         """Take a launch, and run it where it is to be; returns its results."""
         assert self.recording is not None
+        # a step of an iteration is bound without being run
         results = launch() if self.recording.is_run else None
         self.recording.launches.append(Recorded(launch, call, results))
         return results or ()

@@ -73,34 +73,19 @@ class OrderedPairs:
         sides = sum(tiles.column.nbytes + tiles.value.nbytes for tiles in self.sides)
         return sides + 2 * self.inner.nbytes
 
-    def prepare(
-        self,
-        function: Callable,
-        fields: Mapping[str, Array],
-        out: Sequence[Array],
-        *,
-        backward: bool = False,
-        reduces: int = 0,
-        **constants: float,
-    ) -> Sweep:
-        """A sweep bound to its arrays; calling it with some constants runs it.
-
-        Args:
-            function: plain function of `total`, the sum, of fields at i and of constants, by name.
-                Its first result is what neighbors read; it may also be a field, read before that.
-            out: array of each result but of those that are summed over the rows, the last ones.
-            reduces: how many are.
-        """
-        return Sweep(self, function, fields, out, constants, backward=backward, reduces=reduces)
-
 
 class Sweep:
     """A sweep with its arrays; called with the numbers that have changed, it runs.
 
+    Args:
+        function: plain function of `total`, the sum, of fields at i and of constants, by name.
+            Its first result is what neighbors read; it may also be a field, read before that.
+        out: array of each result but of those that are summed over the rows, the last ones.
+        reduces: how many are.
+
     Attributes:
         function: of a row, with so many `arguments`. places: of the constants by name. read, out:
-            host arrays, (n,). tiles, inner:
-            weights that it reads.
+            host arrays, (n,). tiles, inner: weights that it reads.
     """
 
     def __init__(
@@ -109,10 +94,10 @@ class Sweep:
         function: Callable,
         fields: Mapping[str, Array],
         out: Sequence[Array],
-        constants: Mapping[str, float],
         *,
-        backward: bool,
-        reduces: int,
+        backward: bool = False,
+        reduces: int = 0,
+        **constants: float,
     ) -> None:
         # loop of this function, forward or backward
         backend, count = pairs.backend, pairs.total.shape[0]

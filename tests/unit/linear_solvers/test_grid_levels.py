@@ -106,8 +106,8 @@ def test_transfers_are_transposed(backend, axes):
         for one in (level, above):
             backend.fill(one.all["s"], 1.0)
         e, r = random.normal(size=above.count), random.normal(size=level.count)
-        set_values(backend, level, "rest", r)
-        level.collect(above, "rest", above.outputs("r", "x", "y"))
+        set_values(backend, level, "residual", r)
+        level.collect(above, "residual", above.outputs("r", "x", "y"))
         collected = backend.to_host(above.at["r"])
 
         def prolonged(values, level=level, above=above):
