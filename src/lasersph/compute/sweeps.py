@@ -17,6 +17,7 @@ sweeps.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -46,6 +47,7 @@ class Tiles(NamedTuple):
     value: np.ndarray
 
 
+@dataclass(eq=False)
 class OrderedPairs:
     """Weights of pairs, arranged for sweeps.
 
@@ -55,17 +57,12 @@ class OrderedPairs:
         total, after: (n,) sums of all weights of a row but g_ii, and of those after it.
     """
 
-    def __init__(
-        self,
-        backend: Backend,
-        colors: list[np.ndarray],
-        sides: list[Tiles],
-        inner: np.ndarray,
-        total: Array,
-        after: Array,
-    ) -> None:
-        self.backend, self.colors, self.sides, self.inner = backend, colors, sides, inner
-        self.total, self.after = total, after
+    backend: Backend
+    colors: list[np.ndarray]
+    sides: list[Tiles]
+    inner: np.ndarray
+    total: Array
+    after: Array
 
     @property
     def stored(self) -> int:
