@@ -34,18 +34,6 @@ def _without_wrappers():
     del DefaultOptions.no_cpython_wrapper, DefaultOptions.no_cfunc_wrapper
 
 
-def _without_events():
-    import numba.core.event  # noqa: F401
-
-    sys.modules["numba.core.event"] = None  # Numba itself has it
-
-
-def _without_statistics():
-    from numba.core.dispatcher import Dispatcher
-
-    del Dispatcher.stats
-
-
 def _without_blas():
     from numba.np import arraymath, linalg  # noqa: F401
 
@@ -57,8 +45,6 @@ BREAKS = {
     "THREADS": _without_threads,
     "MACHINE_CODE": _without_machine_code,
     "WRAPPERS": _without_wrappers,
-    "EVENTS": _without_events,
-    "STATISTICS": _without_statistics,
     "BLAS": _without_blas,
 }
 
@@ -92,7 +78,7 @@ def _loops(total):
     pairs = sweeps.ordered_pairs(backend, SimpleNamespace(row_start=found[0], neighbor=found[1]),
                                  np.ones(found[1].size))  # fmt: skip
     value = backend.zeros(count)
-    sweep = pairs.prepare(_relaxed, {"b": T}, [value], reduces=1, scale=0.3)
+    sweep = sweeps.Sweep(pairs, _relaxed, {"b": T}, [value], reduces=1, scale=0.3)
     total += [sweep(), value]
 
 

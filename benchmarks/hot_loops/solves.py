@@ -101,7 +101,7 @@ def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
     """Preconditioner of the pressure equation, in 2-D."""
     _, count = shape_of(neighbors)
     assert neighbors.position is not None and neighbors.support is not None
-    correction = GridCorrection(backend, count, float(backend.look(neighbors.support)[0]))
+    correction = GridCorrection(backend, count, float(backend.host_view(neighbors.support)[0]))
     ones, none = backend.asarray(np.ones(count)), backend.zeros(count)
     correction.prepare(neighbors.position, ones, ones, none)
     r, z = _noise(backend, count), backend.zeros(count)

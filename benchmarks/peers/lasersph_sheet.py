@@ -82,7 +82,7 @@ class Sheet:
         place = on.asarray(particles.displaced_lattice(edge, 2))
         support = on.asarray(np.full(count, shape.support_ratio))
         neighbors = find_neighbors(on, place, support, count, kernel=shape, mean=arithmetic)
-        weights, total = on.zeros(on.look(neighbors.neighbor).shape[0]), on.zeros(count)
+        weights, total = on.zeros(on.host_view(neighbors.neighbor).shape[0]), on.zeros(count)
         ones = on.asarray(np.ones(count))
         factor = 1.0 / second_moment(shape, shape.support_ratio)
         on.pair_values(pair_weight, neighbors, {"V": ones}, weights, factor=factor)

@@ -132,7 +132,9 @@ def first_steps(name: str, settings: tuple[str, ...]) -> str:
         solver.step(choose_step(limits)[1])
         found.update(repr((sorted(limits.items()), solver.state.time)).encode())
     for field in solver.particles:
-        found.update(np.ascontiguousarray(solver.backend.look(solver.particles[field])).tobytes())
+        found.update(
+            np.ascontiguousarray(solver.backend.host_view(solver.particles[field])).tobytes()
+        )
     return found.hexdigest()
 
 

@@ -120,7 +120,9 @@ def computed(case: Case, steps: int) -> str:
         state = solver.state
         found.update(repr((sorted(limits.items()), state.time, state.energy)).encode())
     for field in solver.particles:
-        found.update(np.ascontiguousarray(solver.backend.look(solver.particles[field])).tobytes())
+        found.update(
+            np.ascontiguousarray(solver.backend.host_view(solver.particles[field])).tobytes()
+        )
     return found.hexdigest()
 
 

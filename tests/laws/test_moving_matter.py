@@ -91,7 +91,7 @@ def test_heated_slab_in_all_dimensions():
             "domain.width=1.75 um", "particles.spacing=0.25 um", "boundaries.sides=periodic",
         )  # fmt: skip
         go(solver, end=1e-7)
-        found.append(float(solver.backend.look(solver.particles["temperature"]).max()))
+        found.append(float(solver.backend.host_view(solver.particles["temperature"]).max()))
     assert 1900.0 < found[0] < 2700.0
     rise = np.array(found) - 300.0
     assert np.ptp(rise) < 5e-3 * rise.min()

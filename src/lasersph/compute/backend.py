@@ -80,6 +80,10 @@ class Backend:
         self.fill(array, 0)
         return array
 
+    def empty(self, shape: int | tuple[int, ...], dtype: Any) -> Array:
+        """Array with undefined elements."""
+        return self.wrap(np.empty(shape, dtype))
+
     def asarray(self, array: ArrayLike, kind: str = "real") -> Array:
         """Copy of host data as an array of this backend."""
         return self.wrap(np.array(array, dtype=self.kind(kind), order="C"))
@@ -89,7 +93,7 @@ class Backend:
         self._refuse_in_graph("to_host")
         return np.array(self.unwrap(array))
 
-    def look(self, array: Array) -> np.ndarray:
+    def host_view(self, array: Array) -> np.ndarray:
         """The array for reading, until the next loop; not copied where it lies in this memory.
 
         Elsewhere it is copied only as far as it is looked at; to NumPy it is an array.
@@ -99,13 +103,13 @@ class Backend:
         return host
 
     def snapshot(self, array: Array) -> np.ndarray:
-        """Copy for reading, as of `look`, that later loops do not change."""
-        copy = self.wrap(np.empty(array.shape, array.dtype))
+        """Copy for reading, as of `host_view`, that later loops do not change."""
+        copy = self.empty(array.shape, array.dtype)
         self.copy(array, copy)
-        return self.look(copy)
+        return self.host_view(copy)
 
     def shown(self, host: np.ndarray) -> np.ndarray:
-        """Host array that never changes, for reading beside what `look` gives."""
+        """Host array that never changes, for reading beside what `host_view` gives."""
         return host
 
     def wait(self) -> None:
@@ -117,12 +121,11 @@ class Backend:
         Args:
             into: an earlier copy, which is written where it has the same shape.
         """
-        host = self.unwrap(array)
-        if host.dtype == np.float32:
+        if array.dtype == np.float32:
             return array
         if into is None or into.shape != array.shape:
-            return self.wrap(host.astype(np.float32))
-        self.unwrap(into)[...] = host
+            into = self.empty(array.shape, np.float32)
+        self.copy(array, into)
         return into
 
     def copy(self, source: Array, destination: Array) -> None:

@@ -2,14 +2,15 @@
 
 The text holds every function, constant and option that the loop's result depends on but what the
 files `SHARED` give it, whose text enters the hash, so a file never goes stale: an edit gives
-another name. The machine code of a loop lies beside it; where a text has several functions, Numba
-keeps theirs in `__pycache__`. The folder is $LASERSPH_CACHE, else $XDG_CACHE_HOME/lasersph, else
+another name. The machine code of a loop lies beside it; that of kernels of a graphics card is kept
+by Numba in `__pycache__`. The folder is $LASERSPH_CACHE, else $XDG_CACHE_HOME/lasersph, else
 ~/.cache/lasersph, else, where that is not writable, a folder of this
 user below the system's temporary folder.
 """
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
 import importlib.util
 import os
@@ -26,11 +27,19 @@ from typing import Any, NamedTuple
 from lasersph.compute import machine_code, numba_internals, trial
 from lasersph.compute.compile_lock import compiling_alone
 from lasersph.compute.compiling import reported
+from lasersph.compute.generate import DISPATCH
 from lasersph.compute.numba_internals import Part
 
 _PREFIX = "loop_"
 SHARED = ("parallel.py", "native.py", "machine_code.py", "numba_internals.py")
 _UNSTORED = re.compile(r"(, )?cache=True")
+_SHARES = {
+    "from lasersph.compute.parallel import dispatch_blocks\n": (
+        "from lasersph.compute.parallel import invoke\n"
+    ),
+    "    " + "\n    ".join(DISPATCH) + "\n": "",
+}
+"""Lines by which a loop hands its blocks to Numba's threads, and those of who calls it instead."""
 _SPARE = 1 << 20
 """Bytes that the folder must take before Numba stores machine code there by itself."""
 _loaded: dict[str, ModuleType] = {}
@@ -83,13 +92,12 @@ def location() -> Path:
 
 
 def load(text: str) -> ModuleType:
-    """Module with this text from the cache folder; the file is written where it is missing.
+    """Module with this text of a graphics card's kernels, from the folder or written to it.
 
-    Where the disk is full, the loop is compiled without being stored.
+    Where the disk is full, its functions are compiled without being stored.
     """
     # the hash of the text is the file's name, so that an edited text is another file
     folder = location()
-    text = _known(text, folder)
     path = folder / f"{_PREFIX}{_digest(text)}.py"
     name = f"lasersph_{folder_key(folder)}_{path.stem}"
     if name in _loaded:
@@ -117,9 +125,14 @@ def _known(text: str, folder: Path) -> str:
     if not numba_internals.has(Part.WRAPPERS):
         text = numba_internals.with_public_options(text)
     if not numba_internals.has(Part.THREADS):
-        from lasersph.compute.parallel import shared_text
-
         text = shared_text(text)
+    return text
+
+
+def shared_text(text: str) -> str:
+    """The text of a loop that does one block, whose blocks `parallel.invoke` shares."""
+    for old, new in _SHARES.items():
+        text = text.replace(old, new)
     return text
 
 
@@ -138,6 +151,11 @@ def entry(text: str, *, is_fast: bool = True) -> int:
         found = _read_entry(folder, name, text, is_fast)
         _entries[key] = found or _missing_entry(folder, name, text, is_fast)
     return _entries[key].address
+
+
+def function(text: str, arguments: int, *, is_fast: bool = False) -> Callable[..., None]:
+    """Foreign function `loop` of a text, of so many unsigned integers; see `entry`."""
+    return ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * arguments)(entry(text, is_fast=is_fast))
 
 
 def at_first_miss(begin: Callable[[], None]) -> Callable[[], None]:
@@ -283,27 +301,14 @@ def _refuse_full(folder: Path) -> None:
         file.write(bytes(_SPARE))
 
 
-def _dispatchers(module: ModuleType) -> list[Any]:
-    """Compiled functions of a module's own."""
-    values = [value for value in vars(module).values() if hasattr(value, "py_func")]
-    return [value for value in values if value.py_func.__module__ == module.__name__]
-
-
 def _warn(error: OSError) -> None:
     warnings.warn(f"compiled loops are not stored: {error}", RuntimeWarning, stacklevel=2)
 
 
 def statistics() -> tuple[int, int]:
     """(loops found in the folder, loops compiled) by this process so far."""
-    # loops that are loaded as machine code
     found = sum(one.is_found for one in _entries.values())
-    compiled = len(_entries) - found
-    # functions in modules, as Numba's own cache counts them
-    for module in _loaded.values():
-        for dispatcher in _dispatchers(module):
-            hits, misses = numba_internals.found_and_compiled(dispatcher)
-            found, compiled = found + hits, compiled + misses
-    return found, compiled
+    return found, len(_entries) - found
 
 
 def folder_key(folder: Path) -> str:

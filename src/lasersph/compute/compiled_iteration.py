@@ -8,7 +8,6 @@ function.
 
 from __future__ import annotations
 
-import ctypes
 import inspect
 from array import array
 from collections.abc import Callable, Sequence
@@ -87,6 +86,7 @@ class LoopStep:
 
     def run(self, number: float) -> None:
         """Run all with a number."""
+        # numbers first, then all launches by one foreign call where they have frames
         for launch, names in self.named:
             launch.set(dict.fromkeys(names, number))
         if self.launches and self.is_compiled:
@@ -162,4 +162,4 @@ def _compiled(function: Any, steps: int, precision: str) -> Callable[[int], None
         name=function.__name__,
         arguments=", ".join(given),
     )
-    return ctypes.PYFUNCTYPE(None, ctypes.c_uint64)(folder.entry(text, is_fast=False))
+    return folder.function(text, 1)

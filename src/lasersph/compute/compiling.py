@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
-
-from lasersph.compute.numba_internals import compile_events
 
 _listening: list[Compiling] = []
 
@@ -27,13 +25,11 @@ class Compiling:
         self, begun: Callable[[], None], done: Callable[[Compiling], None] = lambda _: None
     ) -> None:
         self.loops, self.seconds = 0, 0.0
-        self._begun, self._done, self._depth, self._start = begun, done, 0, 0.0
-        self._held = ExitStack()
+        self._begun, self._done, self._start = begun, done, 0.0
 
     def __enter__(self) -> Self:
         """Listen."""
         _listening.append(self)
-        self._held.enter_context(compile_events(self.count_begin, self.count_end))
         return self
 
     def __exit__(
@@ -43,24 +39,19 @@ class Compiling:
         traceback: TracebackType | None,
     ) -> None:
         """Listen no more."""
-        self._held.close()
         _listening.remove(self)
 
     def count_begin(self) -> None:
-        """Count a loop, or a function that one calls, that is about to be compiled."""
-        if self._depth == 0:
-            if self.loops == 0:
-                self._begun()
-            self._start = time.perf_counter()
-        self._depth += 1
+        """Count a loop that is about to be compiled."""
+        if self.loops == 0:
+            self._begun()
+        self._start = time.perf_counter()
 
     def count_end(self) -> None:
         """Time it once it has been."""
-        self._depth -= 1
-        if self._depth == 0:
-            self.loops += 1
-            self.seconds += time.perf_counter() - self._start
-            self._done(self)
+        self.loops += 1
+        self.seconds += time.perf_counter() - self._start
+        self._done(self)
 
 
 @contextmanager

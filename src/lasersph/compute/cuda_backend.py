@@ -79,7 +79,7 @@ class CudaBackend(Backend):
         """Copy as a NumPy array."""
         return self.unwrap(array).to_host()
 
-    def look(self, array: Array) -> np.ndarray:
+    def host_view(self, array: Array) -> np.ndarray:
         """The array for reading, until the next loop; copied as far as it is looked at."""
         return cast(np.ndarray, DeviceArray(self, self.unwrap(array)))  # to NumPy it is one
 
@@ -99,30 +99,9 @@ class CudaBackend(Backend):
         )
         return least, most
 
-    def snapshot(self, array: Array) -> np.ndarray:
-        """Copy for reading, as of `look`, that later loops do not change."""
-        source = self.unwrap(array)
-        copy = self.empty(source.shape, source.dtype)
-        self.copy(source, copy)
-        return self.look(copy)
-
     def wait(self) -> None:
         """Return when the card has done everything that was started."""
         cuda.synchronize()
-
-    def single(self, array: Array, into: Array | None = None) -> Array:
-        """Copy in float32, which loops of any precision may read per pair; itself if it is.
-
-        Args:
-            into: an earlier copy, which is written where it has the same shape.
-        """
-        source = self.unwrap(array)
-        if source.dtype == np.float32:
-            return array
-        if into is None or into.shape != source.shape:
-            into = self.empty(source.shape, np.float32)
-        self.copy(array, into)
-        return into
 
     def copy(self, source: Array, destination: Array) -> None:
         """Copy all elements of `source` into `destination` of the same shape."""

@@ -159,11 +159,11 @@ class CudaSearch:
         text = cuda_scan_text(backend.precision, dimension, mean, periodic)
         return self._scanned(cache.load(text).scan, count, arguments)
 
-    def splice(self, first: PairRows, chosen: CudaArray, rest: PairRows) -> PairRows:
-        """Rows of `first` where `chosen`, those of `rest` elsewhere; see `splice.splice`."""
+    def splice(self, first: PairRows, chosen: CudaArray, others: PairRows) -> PairRows:
+        """Rows of `first` where `chosen`, those of `others` elsewhere; see `splice.splice`."""
         backend = self.backend
         begin, neighbor, values = map(backend.unwrap, first)
-        kept, kept_neighbor, kept_values = map(backend.unwrap, rest)
+        kept, kept_neighbor, kept_values = map(backend.unwrap, others)
         size = kept.size - 1
         count, rows = np.uint64(size), np.uint64(begin.size - 1)
         # length of each row in the joined list

@@ -140,8 +140,8 @@ class DeviceArray(NDArrayOperatorsMixin):
             names = function.__code__.co_varnames[: len(operands)]
             values = {name: one[k] for name, one in zip(names, operands, strict=True)}
             fields = {name: one for name, one in values.items() if isinstance(one, CudaArray)}
-            rest = {name: one for name, one in values.items() if name not in fields}
-            backend.pointwise(function, fields, out.component(k), **rest)
+            constants = {name: one for name, one in values.items() if name not in fields}
+            backend.pointwise(function, fields, out.component(k), **constants)
         return DeviceArray(backend, out, is_truth=is_truth)
 
     def _computed(self, ufunc: Any, inputs: Any) -> Any:

@@ -18,10 +18,10 @@ def _is_number(a: Any) -> bool:
 
 def _extreme(how: str, of_all: Callable, a: Any, axis: Any, options: dict[str, Any]) -> Any:
     if "where" in options and "initial" in options:
-        rest = options.pop("initial")
-        a = np.where(options.pop("where"), a, rest)
+        initial = options.pop("initial")
+        a = np.where(options.pop("where"), a, initial)
         found = _extreme(how, of_all, a, axis, options) if _is_on_device(a) else NotImplemented
-        return found if found is NotImplemented else of_all(found, rest)
+        return found if found is NotImplemented else of_all(found, initial)
     if options or not _is_on_device(a) or not _is_number(a):
         return NotImplemented
     if axis is None:

@@ -173,15 +173,15 @@ class ExpressionWriter:
         result = f"t__{self.count + 1}"
         self.count += 1
         self.indent += 1
-        rest = boolean_text(self.joined(word, stop, nodes[1:]))
+        others = boolean_text(self.joined(word, stop, nodes[1:]))
         self.indent -= 1
         # none needed: an expression; else they are run only where the first does not decide
         if len(self.lines) == start:
-            return scalar(f"({boolean_text(first)} {word} {rest})", "bool")
+            return scalar(f"({boolean_text(first)} {word} {others})", "bool")
         test = f"not {boolean_text(first)}" if stop else boolean_text(first)
         self.lines.insert(start, (self.indent, f"if {test}:"))
         self.lines.insert(start, (self.indent, f"{result} = {stop}"))
-        self.lines.append((self.indent + 1, f"{result} = {rest}"))
+        self.lines.append((self.indent + 1, f"{result} = {others}"))
         return scalar(result, "bool")
 
     def conditional(self, node: ast.IfExp) -> Term:

@@ -21,8 +21,6 @@ POINTS = 4096
 OPTIONS = 'fastmath={"reassoc", "contract", "arcp", "nsz"}, error_model="numpy"'
 INNER = f"@njit({OPTIONS}, no_cpython_wrapper=True, no_cfunc_wrapper=True)"
 """Decorator of functions that only compiled ones call: what Python would call is not compiled."""
-OUTER = f"@njit({OPTIONS}, no_cfunc_wrapper=True, cache=True)"
-"""Decorator of functions that Python calls with arrays."""
 DISPATCH = ("if end - begin > ONE:", "    dispatch_blocks()", "    return")
 """First lines of a function (begin, end, threads, ...) that does the block `begin`."""
 
@@ -120,12 +118,14 @@ class LoopText:
         loop = self.loop
         pairs = loop.shape != "pointwise"
         rows, inner, after, store = [], [], [], []
+        # call of the function, with what it reads loaded once for a row or for each pair
         call, result = self._call(loop.function, loop.arguments, rows, inner)
         items = list(result[1]) if result[0] == "group" else [result]
         values = [f"y{k}" for k in range(len(items))]
         flat = [n for v, kind in zip(values, items, strict=True) for n in _names(kind, v)]
         target = inner if pairs else after
         target.append(f"{', '.join(flat)} = {call}")
+        # one value of the pairs of a row, and the function of these
         if loop.shape == "pair_sum":
             sums = [f"s{k}" for k in range(len(items))]
             items = [("real", kind[1]) for kind in items]
@@ -133,6 +133,7 @@ class LoopText:
             values = sums
             if loop.finish is not None:
                 values, items = self._finish(values, items, after)
+        # stores and reductions of a row, then the loops over rows and pairs
         outputs = self._outputs(values, items)
         if loop.shape != "pair_values":
             store += outputs("i")
@@ -159,11 +160,11 @@ class LoopText:
         stores = [line.partition(" = ") for line in outputs("p")]
         names = [target.removesuffix("[p]") for target, _, _ in stores]
         values = [value for _, _, value in stores]
-        rooms = [kinds.get(name.partition("__")[0], self.loop.precision) for name in names]
-        lines = [f"b_{name} = room_{kind}()" for name, kind in zip(names, rooms, strict=True)]
+        types = [kinds.get(name.partition("__")[0], self.loop.precision) for name in names]
+        lines = [f"b_{name} = scratch_{kind}()" for name, kind in zip(names, types, strict=True)]
         lines += [
-            "for first_pair in range(row_start[i], row_start[i + ONE], np.uint64(ROOM)):",
-            "    length = min(row_start[i + ONE] - first_pair, np.uint64(ROOM))",
+            "for first_pair in range(row_start[i], row_start[i + ONE], np.uint64(CAPACITY)):",
+            "    length = min(row_start[i + ONE] - first_pair, np.uint64(CAPACITY))",
             "    for m in range(length):",
             "        p = first_pair + m",
             *("        " + line for line in inner),

@@ -63,8 +63,8 @@ class LoopGraph:
         """Run; returns what the loops reduce, in order; nothing inside another graph.
 
         Raises:
-            ValueError: a loop takes an array that the method has not from its arguments, or a
-                number that was computed from those of the graph; see also `checked_graphs`.
+            ValueError: a loop takes an array that the method has not from its arguments, or it
+                computes with a number of the graph; see also `checked_graphs`.
         """
         loops: Loops = owner.backend.loops
         recorder = loops.recorder
@@ -72,16 +72,11 @@ class LoopGraph:
         if recorder.is_busy:
             self.function(owner, *arguments, **options)
             return ()
-        kept: KeptGraph | None = owner.__dict__.get(self.name)
         # recorded: run that where it leads to the same arrays, else record anew
+        kept: KeptGraph | None = owner.__dict__.get(self.name)
         if kept is not None:
-            values = kept.fits(loops, owner, arguments, options)
-            if values is not None and not recorder.checks:
-                return kept.run(values)
-            given = self._arrange(owner, *arguments, **options)
-            if values is not None:
-                return self._check(loops, kept, *given).results
-            return self._record(loops, kept, *given).results
+            values, found = self._updated(loops, kept, owner, arguments, options)
+            return kept.run(values) if found is None else found.results
         # first call: nothing is recorded of a method that is called once
         if loops.records:
             owner.__dict__[self.name] = KeptGraph()
@@ -103,13 +98,7 @@ class LoopGraph:
         kept = owner.__dict__.get(self.name)
         if kept is None:
             kept = owner.__dict__[self.name] = KeptGraph()
-        values = kept.fits(loops, owner, arguments, options)
-        if values is None:
-            objects, values = self._arrange(owner, *arguments, **options)
-            self._record(loops, kept, objects, values, is_run=False)
-        elif loops.recorder.checks:
-            given = self._arrange(owner, *arguments, **options)
-            self._check(loops, kept, *given, is_run=False)
+        values, _ = self._updated(loops, kept, owner, arguments, options, is_run=False)
         return kept.step(values, place)
 
     def _free_number(self, plain: int, named: tuple[str, ...]) -> int:
@@ -129,25 +118,33 @@ class LoopGraph:
             given[name] = Number(value, k)
         return loops.recorder.record(lambda: self.function(**given), into)
 
-    def _record(
-        self, loops: Loops, kept: KeptGraph, objects: tuple, values: tuple, *, is_run: bool = True
-    ) -> Recording:
-        """Record the method, with the launches of the recording before bound again."""
-        before, kept.recording = kept.recording, None
-        found = self._recorded(loops, objects, values, Recording(before, is_run=is_run))
-        kept.keep(loops, found, self._parameters, objects, values)
-        return found
-
-    def _check(
-        self, loops: Loops, kept: KeptGraph, objects: tuple, values: tuple, *, is_run: bool = True
-    ) -> Recording:
-        """Run the method, and compare what it launches with the recording."""
+    def _updated(
+        self,
+        loops: Loops,
+        kept: KeptGraph,
+        owner: Any,
+        arguments: tuple,
+        options: dict[str, Any],
+        *,
+        is_run: bool = True,
+    ) -> tuple[tuple, Recording | None]:
+        """Numbers of a call, and what its method has launched; None where the recording serves."""
+        values = kept.fits(loops, owner, arguments, options)
+        if values is not None and not loops.recorder.checks:
+            return values, None
         before = kept.recording
-        assert before is not None
-        into = Recording(before.without_launches(), is_run=is_run)
-        found = self._recorded(loops, objects, values, into)
-        refuse_change(before, found)
-        return found
+        objects, given = self._arrange(owner, *arguments, **options)
+        # it would launch the same: compare that with the recording
+        if values is not None and before is not None:
+            into = Recording(before.without_launches(), is_run=is_run)
+            found = self._recorded(loops, objects, given, into)
+            refuse_change(before, found)
+            return given, found
+        # else record it anew, with the launches of the recording before bound again
+        kept.recording = None
+        found = self._recorded(loops, objects, given, Recording(before, is_run=is_run))
+        kept.keep(loops, found, self._parameters, objects, given)
+        return given, found
 
 
 @overload

@@ -16,7 +16,7 @@ from lasersph.compute.access_paths import (
 from lasersph.compute.compiled_iteration import LoopStep
 from lasersph.compute.launch import list_function
 from lasersph.compute.loops import Loops
-from lasersph.compute.recording import Derived, Number, Recorded, Recording
+from lasersph.compute.recording import Number, Recorded, Recording
 
 Named = list[tuple[Any, list[str]]]
 """Launches with their names for a number."""
@@ -180,23 +180,13 @@ def step_of_recording(found: Recording, numbers: int, place: int) -> LoopStep:
 
 
 def launches_of_numbers(found: Recording, numbers: int) -> list[Named]:
-    """For each number of a graph the launches that take it.
-
-    Raises:
-        ValueError: a loop takes a number that was computed from those.
-    """
+    """For each number of a graph the launches that take it, with their names for it."""
     named: list[Named] = [[] for _ in range(numbers)]
     for launch, call, _ in found.launches:
         # a number of the graph is told by its type from a constant of the same value
         for name, value in call.constants.items():
-            parts = value if isinstance(value, tuple | list) else (value,)
             if type(value) is Number:
                 named[value.place].append((launch, [name]))
-            elif any(isinstance(one, Derived) for one in parts):
-                raise ValueError(
-                    f"{call.function.__name__}() takes as {name} a number that its graph computes:"
-                    " let the graph be given that"
-                )
     return named
 
 
@@ -236,11 +226,8 @@ def _taken(loops: Loops, found: Recording) -> tuple[list[NamedArray], list[Named
     for _, call, _ in found.launches:
         given, name = loops.given(call), call.function.__name__
         # all arrays of a loop, with their names for messages
-        named = [*zip(given.signature.symbols, given.arrays, strict=True)]
-        named += zip(given.signature.tables, given.tables, strict=True)
-        named += [(f"output {k}", one) for k, one in enumerate(given.outs)]
-        named += [("row_start", given.row_start), ("neighbor", given.neighbor)]
-        for symbol, host in named:
+        lists = ("row_start", given.row_start), ("neighbor", given.neighbor)
+        for symbol, host in (*given.named, *lists):
             # arrays that the recording has made are its own
             if host is not None and id(owner_of(host)) not in made:
                 taken.setdefault(id(host), (f"{symbol} of {name}()", host))

@@ -8,7 +8,6 @@ no result depends on the number of threads.
 
 from __future__ import annotations
 
-import ctypes
 from array import array
 from collections.abc import Callable
 from functools import cache
@@ -148,23 +147,6 @@ class Launch:
         results: what the last run has reduced. numbers: the constants as `places` counts them.
     """
 
-    __slots__ = (
-        "_arrays",
-        "_block",
-        "_bound",
-        "_frame",
-        "_partial",
-        "_per_row",
-        "_start",
-        "_threads",
-        "address",
-        "numbers",
-        "places",
-        "rebound",
-        "reductions",
-        "results",
-    )
-
     def __init__(self, bound: Bound, threads: int, *, holds: bool) -> None:
         compiled, listed, rows, visits, lists, fields, outs, tables, constants = bound
         self.reductions, self.places = compiled.reductions, compiled.places
@@ -288,15 +270,14 @@ def _address(memory: array) -> int:
 def start_function(precision: str) -> Callable[[int], None]:
     """Foreign function that runs the launch at an address."""
     text = (NATIVE + RUN).format(precision=precision) + "\n\ndef loop(launch):\n    run(launch)\n"
-    address = folder.entry(text, is_fast=False)
-    return ctypes.PYFUNCTYPE(None, ctypes.c_uint64)(address)
+    return folder.function(text, 1)
 
 
 @cache
 def list_function(precision: str) -> Callable[[int, int], None]:
     """Foreign function that runs the launches at a list of addresses, one after the other."""
     text = (NATIVE + RUN).format(precision=precision) + LIST
-    return ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 2)(folder.entry(text, is_fast=False))
+    return folder.function(text, 2)
 
 
 def bytes_of(reductions: tuple[str, ...]) -> array:

@@ -54,6 +54,13 @@ class Given(NamedTuple):
     neighbor: np.ndarray | None
     geometry: tuple | None
 
+    @property
+    def named(self) -> list[tuple[str, np.ndarray]]:
+        """All arrays but the lists, with what messages call them."""
+        outs = [(f"out {k}", out) for k, out in enumerate(self.outs) if out is not None]
+        fields = zip(self.signature.symbols, self.arrays, strict=True)
+        return [*fields, *outs, *zip(self.signature.tables, self.tables, strict=True)]
+
 
 class Loops:
     """All loops of one backend, found by signature and kinds; `records`: whether graphs can run
@@ -272,15 +279,9 @@ class Loops:
 
     def _refuse_precision(self, given: Given) -> None:
         """Raise ValueError where real numbers are not of the backend's precision."""
-        signature = given.signature
-        named = [
-            *zip(signature.symbols, given.arrays, strict=True),
-            *((f"out {k}", o) for k, o in enumerate(given.outs)),
-            *zip(signature.tables, given.tables, strict=True),
-        ]
-        for name, one in named:
-            is_real = getattr(one, "ndim", 0) > 0 and one.dtype.kind == "f"
-            is_pair = ("pair", name) in [(role, symbol) for _, role, symbol in signature.roles]
+        roles = [(role, symbol) for _, role, symbol in given.signature.roles]
+        for name, one in given.named:
+            is_real, is_pair = one.dtype.kind == "f", ("pair", name) in roles
             if is_real and one.dtype != self.real and not (is_pair and one.dtype == np.float32):
                 raise ValueError(f"{name} is {one.dtype}, the backend {self.precision}")
 
@@ -389,9 +390,6 @@ def _refuse_length(name: str, length: int, needed: int) -> None:
 
 def _refuse_strides(given: Given) -> None:
     """Raise ValueError where an array is not contiguous along its last axis."""
-    outs = {f"out {k}": out for k, out in enumerate(given.outs) if out is not None}
-    arrays = dict(zip(given.signature.symbols, given.arrays, strict=True))
-    tables = dict(zip(given.signature.tables, given.tables, strict=True))
-    for name, one in (arrays | outs | tables).items():
+    for name, one in given.named:
         if one.size and one.strides[-1] != one.itemsize:
             raise ValueError(f"{name} is not contiguous along its last axis")

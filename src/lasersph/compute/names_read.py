@@ -34,6 +34,7 @@ class NamesRead:
 
     def add_classes(self, classes: Iterable[type]) -> bool:
         """Look names up in the classes of objects; returns whether there are new names."""
+        # a name that is found may stand for a member whose code has further names
         before = len(self.names)
         self._classes.update(one for kind in classes for one in kind.__mro__)
         while True:

@@ -14,7 +14,7 @@ from numba import types
 from numba.extending import intrinsic
 
 __all__ = [
-    "ROOM",
+    "CAPACITY",
     "at_float32",
     "at_float64",
     "at_int64",
@@ -24,12 +24,12 @@ __all__ = [
     "invoke",
     "maximum",
     "minimum",
-    "room_float32",
-    "room_float64",
-    "room_int64",
-    "room_uint8",
-    "room_uint32",
-    "room_uint64",
+    "scratch_float32",
+    "scratch_float64",
+    "scratch_int64",
+    "scratch_uint8",
+    "scratch_uint32",
+    "scratch_uint64",
 ]
 
 
@@ -52,29 +52,33 @@ at_float64, at_float32 = _view(types.float64), _view(types.float32)
 at_uint64, at_uint32, at_uint8 = _view(types.uint64), _view(types.uint32), _view(types.uint8)
 at_int64 = _view(types.int64)
 
-ROOM = 64
-"""Elements of the room of a function: more than most particles have neighbors."""
+CAPACITY = 64
+"""Elements of the scratch memory of a function: more than most particles have neighbors."""
 
 
-def _room(element: Any) -> Any:
-    """Intrinsic that gives a function room for some elements, which no other memory overlaps."""
+def _scratch(element: Any) -> Any:
+    """Intrinsic that gives a function memory for some elements, which no other memory overlaps."""
 
     @intrinsic
-    def room(_context: Any) -> tuple:
+    def scratch(_context: Any) -> tuple:
         def code(context: Any, builder: Any, _signature: Any, _arguments: Any) -> Any:
             kind = context.get_value_type(element)
             with builder.goto_entry_block():
-                place = builder.alloca(kind, ROOM)
+                place = builder.alloca(kind, CAPACITY)
             return place
 
         return types.CPointer(element)(), code
 
-    return room
+    return scratch
 
 
-room_float64, room_float32 = _room(types.float64), _room(types.float32)
-room_uint64, room_uint32, room_uint8 = _room(types.uint64), _room(types.uint32), _room(types.uint8)
-room_int64 = _room(types.int64)
+scratch_float64, scratch_float32 = _scratch(types.float64), _scratch(types.float32)
+scratch_uint64, scratch_uint32, scratch_uint8 = (
+    _scratch(types.uint64),
+    _scratch(types.uint32),
+    _scratch(types.uint8),
+)
+scratch_int64 = _scratch(types.int64)
 
 
 def _extreme(name: str) -> Any:

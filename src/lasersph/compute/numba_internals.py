@@ -7,11 +7,9 @@ missing, one line says so with what that costs, and the public way gives the sam
 
 | part | here | public way |
 |---|---|---|
-| THREADS | `hand_over` | `prange` (`parallel.shared_text`, `parallel.invoke`) |
+| THREADS | `hand_over` | `prange` (`cache.shared_text`, `parallel.invoke`) |
 | MACHINE_CODE | `llvm_of`, for object files (`machine_code`) | `cfunc(..., cache=True).address` |
 | WRAPPERS | options of `njit` | `with_public_options` |
-| EVENTS | `compile_events` | loops that Numba's own cache lacks are not counted |
-| STATISTICS | `found_and_compiled` | all signatures count as compiled |
 | BLAS | `skip_blas` | Numba looks for BLAS at its first function |
 
 Importing this starts nothing.
@@ -22,8 +20,7 @@ from __future__ import annotations
 import importlib
 import re
 import warnings
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from enum import Enum
 from importlib.metadata import version
 from typing import Any
@@ -34,7 +31,6 @@ FAST = {"reassoc", "contract", "arcp", "nsz"}
 """Liberties of the compiler with sums and products of a loop; NaN and infinity stay."""
 _LONGEST_REASON = 120
 _PARALLEL_FOR = "numba_parallel_for"
-_EVENT = "numba:compile"
 _CGUTILS = ("alloca_once_value", "for_range", "get_or_insert_function", "gep_inbounds")
 _CGUTILS += ("if_unlikely", "is_not_null", "voidptr_t")
 _WRAPPERS = ("no_cpython_wrapper", "no_cfunc_wrapper")
@@ -49,8 +45,6 @@ class Part(Enum):
         "a start takes some tenths of a second longer",
     )
     WRAPPERS = ("options without wrappers", "compiling takes a tenth longer")
-    EVENTS = ("events of compiling", "functions with a cache of their own are not counted")
-    STATISTICS = ("counts of its cache", "all functions of that cache count as compiled")
     BLAS = ("check for BLAS as known", "a start may load SciPy's linear algebra, 0.15 s")
 
 
@@ -286,55 +280,7 @@ def with_public_options(text: str) -> str:
 
 
 # ----------------------------------------------------------------------------------------------
-# EVENTS and STATISTICS: what Numba compiles and what it finds; BLAS: a look for it
-
-
-def _refuse_events() -> None:
-    """Raise where there are no events."""
-    event = importlib.import_module("numba.core.event")
-    for name in ("Listener", "register", "unregister"):
-        getattr(event, name)
-
-
-@contextmanager
-def compile_events(begun: Callable[[], None], done: Callable[[], None]) -> Iterator[None]:
-    """Call `begun` before and `done` after each function that Numba's dispatchers compile inside a
-    `with` block, where it says so."""
-    try:
-        _refuse_events()
-    except (AttributeError, ImportError):
-        yield
-        return
-    from numba.core import event
-
-    class _Listener(event.Listener):
-        def on_start(self, event: Any) -> None:
-            begun()
-
-        def on_end(self, event: Any) -> None:
-            done()
-
-    listener = _Listener()
-    event.register(_EVENT, listener)
-    try:
-        yield
-    finally:
-        event.unregister(_EVENT, listener)
-
-
-def _refuse_statistics() -> None:
-    """Raise where a dispatcher counts nothing."""
-    dispatcher = importlib.import_module("numba.core.dispatcher").Dispatcher
-    _ = dispatcher.stats
-
-
-def found_and_compiled(dispatcher: Any) -> tuple[int, int]:
-    """Signatures of a compiled function that its cache had, and that it had not."""
-    try:
-        stats = dispatcher.stats
-        return sum(stats.cache_hits.values()), sum(stats.cache_misses.values())
-    except AttributeError:
-        return 0, len(dispatcher.signatures)
+# BLAS: a look for it
 
 
 def _refuse_blas() -> None:
@@ -358,7 +304,5 @@ def skip_blas() -> None:
 _REFUSALS: dict[Part, Callable[[], None]] = {
     Part.THREADS: _refuse_threads,
     Part.WRAPPERS: _refuse_wrappers,
-    Part.EVENTS: _refuse_events,
-    Part.STATISTICS: _refuse_statistics,
     Part.BLAS: _refuse_blas,
 }

@@ -163,11 +163,6 @@ def loop(plan_address, ones_address, frame_address):
 '''
 
 
-def rebinding_text(precision: str) -> str:
-    """Text of the module that binds and runs a launch."""
-    return (NATIVE + RUN).format(precision=precision) + TEXT
-
-
 class Rebound:
     """Binding of a launch to other arrays at each call.
 
@@ -273,5 +268,4 @@ def has_known_layout() -> bool:
 def rebinding_function(precision: str) -> Callable[[int, int, int], None]:
     """Foreign function that binds and runs, of the addresses of a plan, of arrays' addresses and of
     a frame."""
-    address = folder.entry(rebinding_text(precision), is_fast=False)
-    return ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 3)(address)
+    return folder.function((NATIVE + RUN).format(precision=precision) + TEXT, 3)

@@ -10,14 +10,8 @@ import numpy as np
 from lasersph.compute.signature import Call
 
 
-class Derived(float):
-    """A number computed from those that a graph is given, while it is recorded."""
-
-    __slots__ = ()
-
-
-class Number(Derived):
-    """A number that a graph is given, while it is recorded.
+class Number(float):
+    """A number that a graph is given, while it is recorded; nothing can be computed from it.
 
     Attributes:
         place: among the numbers of the graph.
@@ -31,29 +25,24 @@ class Number(Derived):
         return found
 
 
-def _derived(name: str) -> Callable[..., Any]:
-    compute = getattr(float, name)
-
-    def operator(self: float, *others: Any) -> Any:
-        found = compute(self, *others)
-        return found if found is NotImplemented else Derived(found)
-
-    return operator
+def _refuse(_number: Number, *_others: Any) -> Any:
+    raise ValueError("a graph computes with a number that it is given: let it be given the result")
 
 
+# what is computed would keep its value when the graph is run again with other numbers
 for _operator in ["add", "sub", "mul", "truediv", "pow", "mod", "floordiv"]:
     for _name in (f"__{_operator}__", f"__r{_operator}__"):
-        setattr(Derived, _name, _derived(_name))
+        setattr(Number, _name, _refuse)
 for _name in ("__neg__", "__pos__", "__abs__"):
-    setattr(Derived, _name, _derived(_name))
+    setattr(Number, _name, _refuse)
 
 
 def without_names(call: Call) -> Call:
     """A call with plain numbers."""
     constants = call.constants
-    if not any(isinstance(value, Derived) for value in constants.values()):
+    if not any(type(value) is Number for value in constants.values()):
         return call
-    plain = {k: float(v) if isinstance(v, Derived) else v for k, v in constants.items()}
+    plain = {k: float(v) if type(v) is Number else v for k, v in constants.items()}
     return call._replace(constants=plain)
 
 
@@ -161,6 +150,7 @@ class Recorder:
     def add(self, launch: Any, call: Call) -> tuple[float, ...]:
         """Take a launch, and run it where it is to be; returns its results."""
         assert self.recording is not None
+        # a step of an iteration is bound without being run
         results = launch() if self.recording.is_run else None
         self.recording.launches.append(Recorded(launch, call, results))
         return results or ()

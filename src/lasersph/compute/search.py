@@ -10,13 +10,13 @@ not depend on the number of threads. On a periodic axis the nearest image counts
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
 from math import inf, isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from lasersph.compute import cache, source
+from lasersph.compute import source
+from lasersph.compute.array_function import ArrayFunction, array_function
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.cell_grid import CellGrid
@@ -160,7 +160,7 @@ def neighbor_list(
         )
 
     # refuse positions and supports that no cell could hold
-    host = np.ascontiguousarray(host)
+    host, supports = np.ascontiguousarray(host), np.ascontiguousarray(supports)
     refuse_escape(host, lower, upper)
     smallest, largest = (supports.min(), supports.max()) if total else (1.0, 1.0)
     if not (smallest > 0.0 and isfinite(largest)):  # not a number is neither
@@ -178,13 +178,13 @@ def neighbor_list(
     periodic = tuple(bool(width) for width in widths)
 
     # loops for this dimension and mean, and the particles sorted by cell
-    module = _module(_scan(backend.precision, dimension, mean, periodic).text)
-    sort = _module(sort_text(backend.precision, dimension)).sort
+    scan = array_function(_scan(dimension, mean, periodic).text, "scan", backend.precision)
+    sort = array_function(sort_text(dimension), "sort", backend.precision)
     cells = _levels(sort, host, supports, mean, lower, upper, (smallest, largest))
 
     # the search radius is widened by what rounding of positions may take from a pair
     extent = float(max(*map(abs, (*cells.low.flat, *cells.high.flat)), *widths))
-    slack = backend.real.type(8.0 * np.finfo(backend.real).eps * (extent + float(largest)))
+    slack = 8.0 * np.finfo(backend.real).eps * (extent + float(largest))
     targets = host
     if wanted is not None:  # the others lie where nothing is near
         rows = backend.unwrap(wanted)
@@ -192,33 +192,34 @@ def neighbor_list(
         targets[:, rows] = host[:, rows]
 
     # find the pairs of each row and join them to one list
-    arguments = (np.uint64(count), targets, supports, *cells, slack, widths)
-    pairs = _scanned(module, backend, arguments, count, row_start, used)
+    widening = np.array([slack], backend.real)
+    arguments = (count, targets, supports, *cells, widening, widths)
+    pairs = _scanned(scan, backend, arguments, count, row_start, used)
     neighbor = used.neighbor[:pairs] if room is None else room.listed(pairs)
     return backend.wrap(row_start), backend.wrap(neighbor)
 
 
-_module = lru_cache(maxsize=32)(cache.load)
-"""Loaded module of a text, which takes a tenth of a millisecond to look up by its content."""
-
-
-def _scan(precision: str, dimension: int, mean: Callable, periodic: tuple[bool, ...]) -> ScanText:
+def _scan(dimension: int, mean: Callable, periodic: tuple[bool, ...]) -> ScanText:
     """Text of the scan, written anew only where something that it was made from has changed."""
-    key = (precision, dimension, mean, periodic)
+    key = (dimension, mean, periodic)
     if key not in _scans or not source.is_current(_scans[key].watched):
         _scans[key] = scan_text(*key)
     return _scans[key]
 
 
 def _scanned(
-    module: Any, backend: Backend, arguments: tuple, count: int, row_start: np.ndarray, room: Room
+    scan: ArrayFunction,
+    backend: Backend,
+    arguments: tuple,
+    count: int,
+    row_start: np.ndarray,
+    room: Room,
 ) -> int:
     """Scan groups of blocks into scratch, growing it where it is too short, and join them in the
     room; returns the number of pairs."""
-    store = _module(store_text()).store
+    store = array_function(store_text(), "store", backend.precision)
 
     # scratch for a group of blocks; each block lists its own rows there
-    threads = np.uint64(backend.threads)
     blocks, group = -(-count // BLOCK), 32 * backend.threads
     scratch = room.for_group(min(group, blocks), _PLACES_PER_ROW * min(BLOCK, count))
     ends = np.empty(count, dtype=np.uint64)
@@ -227,10 +228,9 @@ def _scanned(
     filled = begin = 0
     while begin < blocks:
         end = min(begin + group, blocks)
-        start = np.uint64(begin)
-        share = (start, np.uint64(end), threads, start)
+        share = {"blocks": end - begin, "threads": backend.threads}
         # scan: neighbors of each block, each into its own row of scratch
-        module.scan(*share, used, *arguments, scratch, ends)
+        scan(begin, used, *arguments, scratch, ends, **share)
         # where a block has run out of scratch, the group begins anew with twice as much
         counts = used[: end - begin]
         if counts.max() > scratch.shape[1]:
@@ -242,13 +242,13 @@ def _scanned(
         if filled > neighbor.size:  # memory that is never written costs nothing
             neighbor = room.lengthen(before, filled + (blocks - end) * int(counts.max()))
         # store: copy the blocks to their places and set the row pointers
-        store(*share, np.uint64(count), bases, scratch, ends, row_start, neighbor)
+        store(begin, count, bases, scratch, ends, row_start, neighbor, **share)
         begin = end
     return filled
 
 
 def _levels(
-    sort: Callable,
+    sort: ArrayFunction,
     position: np.ndarray,
     support: np.ndarray,
     mean: Callable,
@@ -314,7 +314,7 @@ def _levels(
 
 
 def _sorted(
-    sort: Callable,
+    sort: ArrayFunction,
     position: np.ndarray,
     members: np.ndarray,
     low: np.ndarray,
@@ -324,11 +324,11 @@ def _sorted(
 ) -> tuple[np.ndarray, np.ndarray, Any]:
     """Sort members by cell into `order`; first member per cell, cells per axis, 1 / size."""
     found = grid(low, high, size, members.size)
-    shape, inverse = np.array(found.shape, np.int64), position.dtype.type(found.inverse[0])
+    shape, inverse = np.array(found.shape, np.int64), np.array(found.inverse[:1], position.dtype)
     start = np.empty(found.count + 1, dtype=np.uint32)
     cell = np.empty(members.size, dtype=np.uint32)
     sort(position, members, low, inverse, shape, cell, start, order)
-    return start, shape, inverse
+    return start, shape, inverse[0]
 
 
 def grid(low: np.ndarray, high: np.ndarray, size: float, members: int) -> CellGrid:

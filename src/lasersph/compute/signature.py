@@ -144,6 +144,7 @@ def _bound(call: Call, function: Callable, roles: tuple) -> tuple:
     Raises:
         ValueError: a field or a constant is missing.
     """
+    # a bare name is a field where the call has such a field, else a constant
     bound = []
     for name, role, symbol in roles:
         if role == "bare":

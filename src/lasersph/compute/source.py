@@ -43,6 +43,7 @@ class SourceUnit:
             return self._names[key]
         if key in self._open:
             raise LoopSourceError(f"{function.__qualname__}() calls itself")
+        # a name of its own for each function and kinds of arguments
         self._open.add(key)
         tree, file, first_line = parsed(function)
         name = f"f__{function.__name__}"
@@ -51,6 +52,7 @@ class SourceUnit:
             number += 1
             name = f"f__{function.__name__}_{number}"
         self._used.add(name)
+        # what it calls is written before it, by this same method
         writer = FunctionWriter(self, function, tree, (file, first_line))
         text, result = writer.written(name, kinds)
         self.texts.append(text)
@@ -98,6 +100,7 @@ def parsed(function: Any) -> tuple[ast.FunctionDef, str, int]:
     if function.__code__.co_freevars:
         free = ", ".join(function.__code__.co_freevars)
         raise LoopSourceError(f"{name}() reads {free} of an enclosing function; pass constants")
+    # its text, as the file has it now
     try:
         lines, first = inspect.getsourcelines(function)
     except (OSError, TypeError) as error:
@@ -106,6 +109,7 @@ def parsed(function: Any) -> tuple[ast.FunctionDef, str, int]:
         tree = next(iter(ast.parse(textwrap.dedent("".join(lines))).body), None)
     except SyntaxError as error:
         raise LoopSourceError(f"{name}(): {error}") from error
+    # that must be the function which was imported
     if function.__name__ == "<lambda>":
         raise LoopSourceError(f"{name} is not written as a plain `def`")
     if not isinstance(tree, ast.FunctionDef) or not _is_up_to_date(function):

@@ -17,13 +17,13 @@ sweeps.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from types import ModuleType
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from lasersph.compute import cache
 from lasersph.compute.arguments import parameter_names
+from lasersph.compute.array_function import array_function
 from lasersph.compute.array_types import Array, PairList
 from lasersph.compute.backend import Backend
 from lasersph.compute.sweep_text import ROWS, TILES, sweep_text
@@ -32,7 +32,6 @@ BLOCK = 8192
 """Rows of a block: where blocks meet, sweeps pass on less, but few blocks leave threads idle."""
 FILL = 3.0
 """Most weights stored, over pairs."""
-_FIRST = np.uint64(0)
 
 
 class Tiles(NamedTuple):
@@ -48,6 +47,7 @@ class Tiles(NamedTuple):
     value: np.ndarray
 
 
+@dataclass(eq=False)
 class OrderedPairs:
     """Weights of pairs, arranged for sweeps.
 
@@ -57,17 +57,12 @@ class OrderedPairs:
         total, after: (n,) sums of all weights of a row but g_ii, and of those after it.
     """
 
-    def __init__(
-        self,
-        backend: Backend,
-        colors: list[np.ndarray],
-        sides: list[Tiles],
-        inner: np.ndarray,
-        total: Array,
-        after: Array,
-    ) -> None:
-        self.backend, self.colors, self.sides, self.inner = backend, colors, sides, inner
-        self.total, self.after = total, after
+    backend: Backend
+    colors: list[np.ndarray]
+    sides: list[Tiles]
+    inner: np.ndarray
+    total: Array
+    after: Array
 
     @property
     def stored(self) -> int:
@@ -75,34 +70,19 @@ class OrderedPairs:
         sides = sum(tiles.column.nbytes + tiles.value.nbytes for tiles in self.sides)
         return sides + 2 * self.inner.nbytes
 
-    def prepare(
-        self,
-        function: Callable,
-        fields: Mapping[str, Array],
-        out: Sequence[Array],
-        *,
-        backward: bool = False,
-        reduces: int = 0,
-        **constants: float,
-    ) -> Sweep:
-        """A sweep bound to its arrays; calling it with some constants runs it.
-
-        Args:
-            function: plain function of `total`, the sum, of fields at i and of constants, by name.
-                Its first result is what neighbors read; it may also be a field, read before that.
-            out: array of each result but of those that are summed over the rows, the last ones.
-            reduces: how many are.
-        """
-        return Sweep(self, function, fields, out, constants, backward=backward, reduces=reduces)
-
 
 class Sweep:
     """A sweep with its arrays; called with the numbers that have changed, it runs.
 
+    Args:
+        function: plain function of `total`, the sum, of fields at i and of constants, by name.
+            Its first result is what neighbors read; it may also be a field, read before that.
+        out: array of each result but of those that are summed over the rows, the last ones.
+        reduces: how many are.
+
     Attributes:
         function: of a row, with so many `arguments`. places: of the constants by name. read, out:
-            host arrays, (n,). tiles, inner:
-            weights that it reads.
+            host arrays, (n,). tiles, inner: weights that it reads.
     """
 
     def __init__(
@@ -111,18 +91,16 @@ class Sweep:
         function: Callable,
         fields: Mapping[str, Array],
         out: Sequence[Array],
-        constants: Mapping[str, float],
         *,
-        backward: bool,
-        reduces: int,
+        backward: bool = False,
+        reduces: int = 0,
+        **constants: float,
     ) -> None:
         # loop of this function, forward or backward
         backend, count = pairs.backend, pairs.total.shape[0]
         roles = _roles(function, fields, constants)
-        text, _ = sweep_text(
-            backend.precision, function, roles, reduces, len(out), backward=backward
-        )
-        self._module: ModuleType = cache.load(text)
+        text = sweep_text(function, roles, reduces, len(out), backward=backward)
+        sweep = array_function(text, "sweep", backend.precision)
         self.function, self.arguments = function, len(roles)
         # arrays that it reads and writes, all of the rows' length
         self.read = [backend.unwrap(fields[name]) for name in roles if roles[name] == "field"]
@@ -133,23 +111,19 @@ class Sweep:
             if array.shape != (count,) or array.dtype != backend.real:
                 raise ValueError(f"{array.dtype}{array.shape}; ({count},) is asked for")
         # colors in the order of the sweep, and what the rows are given
-        self._colors = pairs.colors[::-1] if backward else pairs.colors
+        colors = pairs.colors[::-1] if backward else pairs.colors
         names = [name for name in roles if roles[name] == "constant"]
         self.places = {name: k for k, name in enumerate(names)}
         self._numbers = np.array([constants[name] for name in names], backend.real)
         # a row of sums for each block, added up when all colors are done
-        blocks = sum(blocks.size for blocks in pairs.colors)
+        blocks = sum(blocks.size for blocks in colors)
         self._partial = np.zeros((blocks, reduces), backend.real)
-        self._arguments = (
-            np.uint64(BLOCK),
-            np.uint64(count),
-            self._partial,
-            *self.tiles,
-            self.inner,
-            *arrays,
-            self._numbers,
-        )
-        self._threads = np.uint64(backend.threads)
+        self._given = (BLOCK, count, self._partial, *self.tiles, self.inner, *arrays, self._numbers)
+        self._parts = [
+            (sweep.frame(one, *self._given, blocks=one.size, threads=backend.threads), one)
+            for one in colors
+        ]
+        self._run = sweep.run
 
     def set(self, constants: Mapping[str, float]) -> None:
         """Take constants by name."""
@@ -160,9 +134,8 @@ class Sweep:
         """Run; returns the sums over the rows."""
         self.set(constants)
         # a color waits for the one before; its blocks go side by side
-        for blocks in self._colors:
-            share = (_FIRST, np.uint64(blocks.size), self._threads)
-            self._module.loop(*share, blocks, *self._arguments)
+        for frame, _ in self._parts:
+            self._run(frame)
         return tuple(np.add.reduce(self._partial, dtype=np.float64).tolist())
 
 
@@ -178,14 +151,15 @@ def ordered_pairs(backend: Backend, neighbors: PairList, weights: Array) -> Orde
     if not isinstance(neighbor, np.ndarray) or not neighbor.size:
         return None
     # color the blocks so that no two of a color have neighbors in each other
-    module, size, count = cache.load(TILES), np.uint64(BLOCK), row_start.size - 1
+    count = row_start.size - 1
     touches = np.zeros((-(-count // BLOCK),) * 2, np.uint8)
-    module.touching(size, row_start, neighbor, touches)
+    array_function(TILES, "touching")(BLOCK, row_start, neighbor, touches)
     color = _coloring(touches)
     # columns of each chunk; too many zeros among the weights do not pay
     chunks = -(-count // ROWS)
     columns = np.zeros((2, chunks), np.uint64)
-    module.count_columns(size, color, row_start, neighbor, columns)
+    seen = np.zeros(count, np.uint32)
+    array_function(TILES, "count_columns")(BLOCK, color, row_start, neighbor, seen, columns)
     if ROWS * int(columns.sum()) > FILL * neighbor.size:
         return None
     # fill the tiles before and after each chunk, and the weights within it
@@ -198,14 +172,13 @@ def ordered_pairs(backend: Backend, neighbors: PairList, weights: Array) -> Orde
         start = np.concatenate([np.zeros(1, np.uint64), np.cumsum(lengths, dtype=np.uint64)])
         stored = int(start[-1])
         tiles = Tiles(start, np.empty(stored, np.uint32), np.empty((stored, ROWS), host.dtype))
-        module.fill(
-            np.uint64(side), size, color, row_start, neighbor, host, *tiles, inner, total, after
-        )
+        slots, sums = np.zeros(count, np.uint64), (inner, total, after)
+        pairs = (color, row_start, neighbor, host, slots)
+        array_function(TILES, "fill")(side, BLOCK, *pairs, *tiles, *sums)
         sides.append(tiles)
     # numbers of the blocks of each color
     colors = [np.flatnonzero(color == k) for k in range(int(color.max()) + 1)]
-    sums = backend.wrap(total), backend.wrap(after)
-    return OrderedPairs(backend, colors, sides, inner, *sums)
+    return OrderedPairs(backend, colors, sides, inner, backend.wrap(total), backend.wrap(after))
 
 
 def _roles(function: Callable, fields: Mapping, constants: Mapping) -> dict[str, str]:

@@ -100,8 +100,8 @@ def multilinear(lines: Lines, t: Term) -> Value:
     weights = ["real(1.0)"]
     for share in _vector(lines, t, "multilinear"):
         # the corner below and the corner above along one more axis
-        rest = lines.atom(f"real(1.0) - {share}")
-        weights = [f"({w} * {end})" for w in weights for end in (rest, share)]
+        complement = lines.atom(f"real(1.0) - {share}")
+        weights = [f"({w} * {end})" for w in weights for end in (complement, share)]
         weights = [lines.atom(text) for text in weights]
     return Value("real", (len(weights),), tuple(weights))
 

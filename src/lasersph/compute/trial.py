@@ -19,29 +19,23 @@ import numpy as np
 
 from lasersph.compute import machine_code
 from lasersph.compute.arguments import address
-from lasersph.compute.generate import NATIVE, OUTER
+from lasersph.compute.generate import NATIVE
 
 PREFIX = "trial_"
 """Begins the names of the files with answers."""
 _LONGEST = 600.0
 """Compiling two loops takes seconds [s], on a machine that does nothing else."""
 _BLOCKS = 40
-_BODY = """    if end - begin > np.uint64(1):
+_SHARED_LOOP = """
+def loop(begin, end, threads, frame):
+    visits = at_uint64(frame)
+    if end - begin > np.uint64(1):
         dispatch_blocks()
         return
     for b in range(begin, end):
         visits[b] += b + np.uint64(1)
 """
-_ARRAY_LOOP = f"""
-{OUTER.replace(", cache=True", "")}
-def loop(begin, end, threads, visits):
-{_BODY}"""
-"""Adds to each block its number and one; called from Python."""
-_FRAME_LOOP = f"""
-def loop(begin, end, threads, frame):
-    visits = at_uint64(frame)
-{_BODY}"""
-"""The same, called by its address."""
+"""Adds to each block its number and one, on several threads."""
 _PLAIN_LOOP = """
 def loop(begin, end, threads, frame):
     visits = at_uint64(frame)
@@ -77,32 +71,27 @@ def _function_of(text: str) -> Any:
     return space["loop"]
 
 
-def _visits(part: str) -> list[list[int]]:
-    """Values that loops over all blocks but two leave of zeros, by the ways that a part serves."""
+def _visits(part: str) -> list[int]:
+    """Values that a loop over all blocks but two, compiled by a part, leaves of zeros."""
     from lasersph.compute import numba_internals
 
-    first, last, threads = np.uint64(1), np.uint64(_BLOCKS - 1), np.uint64(2)
-    found = [np.zeros(_BLOCKS, np.uint64) for _ in range(2)]
+    visits = np.zeros(_BLOCKS, np.uint64)
     if part == numba_internals.Part.THREADS.name:
-        _function_of(_ARRAY_LOOP)(first, last, threads, found[0])
-        callback = numba_internals.compiled_callback(
-            _function_of(_FRAME_LOOP), "trial", is_fast=True
-        )
+        function = _function_of(_SHARED_LOOP)
+        callback = numba_internals.compiled_callback(function, "trial", is_fast=True)
         entry = callback.address
     else:
-        found = found[1:]
         code = machine_code.compile_function(_function_of(_PLAIN_LOOP), "trial", is_fast=True)
         entry = machine_code.address_of(code, "trial")
         assert entry is not None
     call = ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 4)(entry)
-    call(int(first), int(last), int(threads), address(found[-1]))
-    return [one.tolist() for one in found]
+    call(1, _BLOCKS - 1, 2, address(visits))
+    return visits.tolist()
 
 
 def main(part: str) -> int:
     """0 where each block was visited once, else 1."""
-    wanted = [0, *range(2, _BLOCKS), 0]
-    return 0 if all(one == wanted for one in _visits(part)) else 1
+    return 0 if _visits(part) == [0, *range(2, _BLOCKS), 0] else 1
 
 
 if __name__ == "__main__":

@@ -288,5 +288,5 @@ class LayeredLight:
         fields |= {"F": self.fluence, "area": self._area}
         out = (self.columns, None, None)
         backend.pointwise(enter_column, fields, out, reduce=names, **self._entering)
-        take = absorb_light if shares is self._lattice else absorb_from_two
-        backend.pointwise(take, shares, self.deposit, reduce=("sum",), columns=self.columns)
+        absorb = absorb_light if shares is self._lattice else absorb_from_two
+        backend.pointwise(absorb, shares, self.deposit, reduce=("sum",), columns=self.columns)

@@ -17,7 +17,7 @@ from lasersph.compute.backend import Backend
 from lasersph.compute.cell_grid import CellGrid, cell_along, place_along
 from lasersph.compute.vectors import vector
 
-FAR = 1e30
+EXCLUDED_COORDINATE = 1e30
 """Coordinate of what does not count [m]. Format: farther than any particle."""
 
 
@@ -57,8 +57,8 @@ class Axis:
 def box(x, mask):
     """Coordinates of a particle with mask 1, for the smallest box around all of them: those for
     the lower corner, then those for the upper one."""
-    low = x if mask > 0.0 else 0.0 * x + FAR
-    high = x if mask > 0.0 else 0.0 * x - FAR
+    low = x if mask > 0.0 else 0.0 * x + EXCLUDED_COORDINATE
+    high = x if mask > 0.0 else 0.0 * x - EXCLUDED_COORDINATE
     if len(x) == 1:
         return low[0], high[0]
     if len(x) == 2:

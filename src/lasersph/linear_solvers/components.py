@@ -49,8 +49,8 @@ def mean_of(k, share, values, order, start):
 
 def without_mean(p, component, means):
     """Value less the mean of its component, and its square."""
-    rest = p - means[component]
-    return rest, rest * rest
+    deviation = p - means[component]
+    return deviation, deviation * deviation
 
 
 def component_of(cell, components):
@@ -90,7 +90,9 @@ class Components:
         # parts of the cells that hold particles
         cells.update(position, mask)
         grid = cells.grid
-        members = backend.look(backend.count_by_key(cells.number, grid.count + 1))[: grid.count]
+        members = backend.host_view(backend.count_by_key(cells.number, grid.count + 1))[
+            : grid.count
+        ]
         part = connected_parts(members.reshape(grid.shape) > 0, grid.repeats).ravel()
 
         # components are the parts with enough particles, in the order of their first cells

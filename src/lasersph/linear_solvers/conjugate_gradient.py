@@ -74,7 +74,7 @@ def neighbor(g_ij, z_j):
     return g_ij * z_j
 
 
-def turn(total, z, p, q, d, beta, s):
+def new_direction(total, z, p, q, d, beta, s):
     """Direction p = z + beta p, q = A p = A z + beta q, and p q for the step length."""
     product = d * z - s * total if d > 0.0 else 0.0 * z
     new, turned = z + beta * p, product + beta * q
@@ -83,9 +83,9 @@ def turn(total, z, p, q, d, beta, s):
 
 def advance(x, r, p, q, d, alpha):
     """x += alpha p, r -= alpha q, z = r / d; reduces r z and |r|."""
-    rest = r - alpha * q
-    z = quotient(rest, d)
-    return x + alpha * p, rest, z, rest * z, abs(rest)
+    new_r = r - alpha * q
+    z = quotient(new_r, d)
+    return x + alpha * p, new_r, z, new_r * z, abs(new_r)
 
 
 class ConjugateGradient:
@@ -198,7 +198,7 @@ class ConjugateGradient:
             used.neighbors,
             v | {"g_ij": used.weights},
             (v["p"], v["q"], None),
-            finish=turn,
+            finish=new_direction,
             reduce=(None, None, "sum"),
             beta=beta,
             s=s,

@@ -169,8 +169,8 @@ class GridCorrection:
             )
             return
         above = self.levels[k + 1]
-        level.smooth(grid_nodes.rest, level.at["rest"])
-        level.collect(above, "rest", above.outputs("r", "x", "y"))
+        level.smooth(grid_nodes.residual, level.at["residual"])
+        level.collect(above, "residual", above.outputs("r", "x", "y"))
         self._cycle(k + 1)
         level.add(above)
         level.smooth(grid_nodes.sweep, level.at["x"])

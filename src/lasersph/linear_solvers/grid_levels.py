@@ -80,7 +80,7 @@ class GridLevel:
         shape, repeats = [axis.nodes for axis in axes], [axis.wraps for axis in axes]
         self.nodes = CellGrid((0.0,) * d, shape, inverse, repeats)
         self.count = self.nodes.count
-        names = ("C", "s", "a", "d", "v", "r", "x", "y", "rest")
+        names = ("C", "s", "a", "d", "v", "r", "x", "y", "residual")
         self.all = {name: backend.zeros(self.count + 1) for name in names}
         self.at = {name: backend.head(array, self.count) for name, array in self.all.items()}
         self.at["k"] = backend.asarray(np.arange(self.count), "index")
@@ -123,7 +123,7 @@ class GridLevel:
         run(grid_nodes.diagonal, at, self.outputs("d", "v"), all_s=self.all["s"], **given)
 
     def smooth(self, function: Callable, out: Array) -> None:
-        """`rest` or `sweep` of the present x and y = s x."""
+        """`residual` or `sweep` of the present x and y = s x."""
         given = {"all_y": self.all["y"], "couplings": self.couplings}
         self.backend.pointwise(function, self.at, out, **given)
 
@@ -155,7 +155,9 @@ class GridLevel:
     def matrix(self) -> NDArray[np.float64]:
         """K of the present volumes and boundary coefficients, on the host, (count, count)."""
         n, (first, second, k) = self.count, self._pairs
-        s, a = (np.asarray(self.backend.look(self.at[name]), np.float64) for name in ("s", "a"))
+        s, a = (
+            np.asarray(self.backend.host_view(self.at[name]), np.float64) for name in ("s", "a")
+        )
         g = k * s[first] * s[second]
         K = np.bincount(self._places, np.concatenate([a, g, -g]), n * n)
         return K.astype(np.float64, copy=False).reshape(n, n)

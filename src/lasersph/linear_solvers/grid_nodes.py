@@ -39,7 +39,7 @@ def diagonal(around, s, a, all_s, couplings, damping):
     return total, damping / d
 
 
-def rest(around, s, d, a, x, r, all_y, couplings):
+def residual(around, s, d, a, x, r, all_y, couplings):
     """r - K x, with y = s x."""
     total = gathered(around, couplings, all_y)
     return r - s * (d * x - total) - a * x

@@ -56,8 +56,8 @@ def forward(total, p, t, middle, inverse, s):
 
 def advance(x, r, t, w, K, F, s, alpha):
     """x += alpha t, r' -= alpha (t + w); reduces r' K r' and the bound of the residual."""
-    rest = r - alpha * (t + w)
-    return x + alpha * t, rest, K * rest * rest, (K + s * F) * abs(rest)
+    new_r = r - alpha * (t + w)
+    return x + alpha * t, new_r, K * new_r * new_r, (K + s * F) * abs(new_r)
 
 
 class IncompleteFactors:
@@ -88,10 +88,10 @@ class IncompleteFactors:
             "middle": self._middle,
             "F": pairs.after,
         }
-        self._eliminate = pairs.prepare(forward, v | {"p": v["r"]}, [v["r"]], reduces=1, s=0.0)
+        self._eliminate = Sweep(pairs, forward, v | {"p": v["r"]}, [v["r"]], reduces=1, s=0.0)
         self.sweeps = (
-            pairs.prepare(backward, v, [v["t"], v["p"]], backward=True, beta=0.0, s=0.0),
-            pairs.prepare(forward, v, [v["w"]], reduces=1, s=0.0),
+            Sweep(pairs, backward, v, [v["t"], v["p"]], backward=True, beta=0.0, s=0.0),
+            Sweep(pairs, forward, v, [v["w"]], reduces=1, s=0.0),
         )
 
     def solve(
@@ -138,5 +138,5 @@ class IncompleteFactors:
             self._of = (C, a, mask)
             fields = {"C": C, "S": self.pairs.total, "F": self.pairs.after, "a": a, "mask": mask}
             out = [self._t, self._K, self._inverse, self._middle]
-            self._factor = self.pairs.prepare(factor, fields, out, s=0.0)
+            self._factor = Sweep(self.pairs, factor, fields, out, s=0.0)
         return self._factor

@@ -33,7 +33,7 @@ def entry_times(a_ij, p_j):
     return a_ij * p_j
 
 
-def rest(total, d, p, b):
+def subtract_product(total, d, p, b):
     """Residual b_i - (A p)_i, and its square for the norm."""
     r = b - d * p - total
     return r, r * r
@@ -43,6 +43,11 @@ def residual(backend: Backend, matrix: PairMatrix, x: Array, b: Array, r: Array)
     """Write b - A x into `r`; returns its 2-norm."""
     fields = {"a_ij": matrix.entries, "d": matrix.diagonal, "p": x, "b": b}
     (square,) = backend.pair_sum(
-        entry_times, matrix.neighbors, fields, (r, None), finish=rest, reduce=(None, "sum")
+        entry_times,
+        matrix.neighbors,
+        fields,
+        (r, None),
+        finish=subtract_product,
+        reduce=(None, "sum"),
     )
     return square**0.5

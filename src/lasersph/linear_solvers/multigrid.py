@@ -97,7 +97,7 @@ def coupling(g_ij, w_j, x_i, x_j):
     return g_ij * w_j * (x_i - x_j)
 
 
-def rest(total, r, C, w, x, s):
+def remaining(total, r, C, w, x, s):
     """r - A x."""
     return r - C * x - s * w * total
 
@@ -147,7 +147,9 @@ class _Level:
         )
         self.weights = backend.asarray(aggregates.weight)
         self.size = backend.asarray(aggregates.size)
-        self.C, self.w, self.d, self.r, self.x, self.rest = (backend.zeros(count) for _ in range(6))
+        self.C, self.w, self.d, self.r, self.x, self.residual = (
+            backend.zeros(count) for _ in range(6)
+        )
         self._padded = backend.zeros(members)  # sums want as many values as there are rows
         self.solution = backend.head(self._padded, count)
         self._v = {"g_ij": self.weights, "r": self.r, "C": self.C, "w": self.w, "d": self.d}
@@ -174,7 +176,7 @@ class _Level:
 
     def find_remainder(self, s: float) -> None:
         """Remainder of the right-hand side, r - A x."""
-        self.backend.pair_sum(coupling, self.pairs, self._v, self.rest, finish=rest, s=s)
+        self.backend.pair_sum(coupling, self.pairs, self._v, self.residual, finish=remaining, s=s)
 
     def sweep_again(self, s: float) -> None:
         """One more damped Jacobi sweep, which gives the solution."""
@@ -212,7 +214,7 @@ class Multigrid:
         self.backend, self.operator = backend, operator
         pairs = first.neighbors
         host = [pairs.position, pairs.support, pairs.row_start, pairs.neighbor, first.weights]
-        self.levels = [_Level(backend, a) for a in coarsen(*(backend.look(v) for v in host))]
+        self.levels = [_Level(backend, a) for a in coarsen(*(backend.host_view(v) for v in host))]
         self._C = backend.zeros(count)
         if not self.levels:
             return
@@ -259,7 +261,7 @@ class Multigrid:
         for level, above in pairwise(self.levels):
             level.sweep_from_zero()
             level.find_remainder(s)
-            above.restrict(level.rest)
+            above.restrict(level.residual)
 
         # exact where few are left
         fields = {"inverse_ij": self._inverse, "r": coarsest.r}

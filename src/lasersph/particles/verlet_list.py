@@ -114,7 +114,7 @@ class VerletList:
         self._positions = fields["x"], half
         self.skin, self.is_compared = 0.0, False
         self._radius, self._room = backend.zeros(half.shape[1]), search.Room()
-        self._support = float(backend.look(fields["l"])[0])
+        self._support = float(backend.host_view(fields["l"])[0])
         self._relative = RelativeDisplacement(backend, fields, box, self._support + largest_skin)
 
     def is_stale(self, motion: LargestMotion, rows: Rows | None = None) -> bool:

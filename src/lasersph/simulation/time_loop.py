@@ -385,7 +385,7 @@ class _Loop:
         self.folder.save_checkpoint(
             step=self.steps,
             time=state.time,
-            arrays={name: backend.look(array) for name, array in self.solver.fields.items()},
+            arrays={name: backend.host_view(array) for name, array in self.solver.fields.items()},
             scalars={
                 "limit": self.limit,
                 "wall_time": self._wall_time(),

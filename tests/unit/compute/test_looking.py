@@ -31,14 +31,17 @@ def same(found, expected):
 def test_parts(backend, scalar, vector):
     """Every index means what it means to NumPy."""
     for index in SCALAR:
-        assert same(backend.look(backend.asarray(scalar))[index], scalar[index]), index
+        assert same(backend.host_view(backend.asarray(scalar))[index], scalar[index]), index
     for index in VECTOR:
-        assert same(backend.look(backend.asarray(vector))[index], vector[index]), index
+        assert same(backend.host_view(backend.asarray(vector))[index], vector[index]), index
 
 
 def test_whole(backend, scalar, vector):
     """Sums, comparisons, extremes and methods are NumPy's, and nothing can be written."""
-    seen, arrows = backend.look(backend.asarray(scalar)), backend.look(backend.asarray(vector))
+    seen, arrows = (
+        backend.host_view(backend.asarray(scalar)),
+        backend.host_view(backend.asarray(vector)),
+    )
     assert np.max(seen) == 5.0 and seen.min() == -1.0 and float(seen.max()) == 5.0
     assert np.max(arrows) == vector.max() and same(np.min(arrows, axis=1), vector.min(axis=1))
     assert np.max(seen, where=seen < 4.5, initial=0.0) == 4.0
@@ -55,7 +58,10 @@ def test_whole(backend, scalar, vector):
 
 def test_computed(backend, scalar, vector):
     """Functions, reductions and searches that a card does itself give what NumPy gives."""
-    seen, arrows = backend.look(backend.asarray(scalar)), backend.look(backend.asarray(vector))
+    seen, arrows = (
+        backend.host_view(backend.asarray(scalar)),
+        backend.host_view(backend.asarray(vector)),
+    )
     is_high, is_low = seen >= 3.0, ~(seen > 1.0)
     assert same(is_high, scalar >= 3.0) and same(is_high & (seen < 5.0), [1, 0, 1, 0, 0])
     assert same(is_low | is_high, [1, 1, 1, 1, 1]) and np.any(is_low) and not np.any(seen > 9.0)
@@ -72,7 +78,7 @@ def test_computed(backend, scalar, vector):
     assert same(arrows + even, vector + even) and same(arrows - even[:, :1], vector - even)
     assert same(arrows[0] * scalar, vector[0] * scalar)  # of the host, with a value for each
     assert set(np.argpartition(seen, 1)[:2].tolist()) == {1, 3}
-    order = backend.look(backend.asarray([0, 2, 5, 9], "index"))
+    order = backend.host_view(backend.asarray([0, 2, 5, 9], "index"))
     assert np.searchsorted(order, 5) == 2 and np.searchsorted(order, 10) == 4
 
 
@@ -80,7 +86,7 @@ def test_shown_and_snapshot(backend, scalar, vector):
     """A host array that never changes stands beside others; a snapshot outlives its array."""
     widths = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
     array = backend.asarray(vector)
-    seen, shown, kept = backend.look(array), backend.shown(widths), backend.snapshot(array)
+    seen, shown, kept = backend.host_view(array), backend.shown(widths), backend.snapshot(array)
     assert same(seen[0] * shown, vector[0] * widths) and np.min(shown) == 1.0
     assert same(shown[np.array([4, 0])], [5.0, 1.0]) and same(backend.shown(widths), widths)
     backend.fill(array, 0.0)
@@ -96,11 +102,11 @@ def test_no_more_than_looked_at(backend, scalar, vector, monkeypatch):
     sizes, to_host = [], CudaArray.to_host
     monkeypatch.setattr(CudaArray, "to_host", lambda a: sizes.append(a.size) or to_host(a))
     array = backend.asarray(scalar)
-    seen, arrows = backend.look(array), backend.look(backend.asarray(vector))
+    seen, arrows = backend.host_view(array), backend.host_view(backend.asarray(vector))
     assert seen.max() == 5.0 and seen[:4].max() == 4.0 and sizes == []
     assert same(arrows[1, :4][ROWS[:2]], vector[1, :4][ROWS[:2]]) and sizes == [2]
     assert np.cumsum(seen)[-1] + np.cumsum(seen)[-1] == 24.0 and sizes == [2, 5]
-    stale = backend.look(array)
+    stale = backend.host_view(array)
     backend.fill(array, 0.0)
     with pytest.raises(RuntimeError, match="after it had been written"):
         stale.max()

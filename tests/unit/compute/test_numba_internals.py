@@ -12,7 +12,6 @@ import pytest
 
 from lasersph.compute import cache, numba_internals, trial
 from lasersph.compute.numba_internals import Part
-from lasersph.compute.parallel import shared_text
 
 PARTS = [part.name for part in Part]
 SOLVERS = ("conduction", "melt-pool", "ablation")
@@ -125,21 +124,14 @@ def test_other_calls_are_refused(monkeypatch):
 
 TEXT = """
 import numpy as np
-from numba import njit
 
 from lasersph.compute.parallel import dispatch_blocks
 
-
-@njit(cache=True)
-def doubled(begin, end, threads, values):
-    if end - begin > np.uint64(1):
-        dispatch_blocks()
-        return
-    values[begin] *= 2.0
+ONE = np.uint64(1)
 
 
 def loop(begin, end, threads, count, frame):
-    if end - begin > np.uint64(1):
+    if end - begin > ONE:
         dispatch_blocks()
         return
     count
@@ -147,11 +139,21 @@ def loop(begin, end, threads, count, frame):
 
 
 def test_public_text():
-    """A loop that Python calls shares its own blocks; one called by its address does one block."""
-    text = shared_text(TEXT)
-    assert "dispatch_blocks" not in text and text.count("prange(") == 1
+    """A loop that is called by its address does one block; who calls it shares the blocks."""
+    text = cache.shared_text(TEXT)
+    assert "dispatch_blocks" not in text and "import invoke\n" in text
     assert "def loop(begin, end, threads, count, frame):\n    count" in text
-    assert shared_text("answer = 42\n") == "answer = 42\n"
+    assert cache.shared_text("answer = 42\n") == "answer = 42\n"
+
+
+STORED = """
+from numba import njit
+
+
+@njit(cache=True)
+def doubled(values):
+    values *= 2.0
+"""
 
 
 def test_full_disk(tmp_path, monkeypatch):
@@ -164,7 +166,7 @@ def test_full_disk(tmp_path, monkeypatch):
     monkeypatch.setattr(cache, "_refuse_full", full)
     values = np.ones(8)
     with pytest.warns(RuntimeWarning, match="not stored: .*No space left"):
-        module = cache.load(TEXT + "\n# full disk\n")
-    module.doubled(*(np.uint64(k) for k in (0, 8, 2)), values)
+        module = cache.load(STORED)
+    module.doubled(values)
     assert values.tolist() == [2.0] * 8
     assert not list(Path(tmp_path, "__pycache__").iterdir())

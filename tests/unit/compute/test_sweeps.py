@@ -7,7 +7,7 @@ import pytest
 
 from lasersph import compute
 from lasersph.compute import sweeps
-from lasersph.compute.sweeps import ordered_pairs
+from lasersph.compute.sweeps import Sweep, ordered_pairs
 
 
 def pairs_of(backend, dense):
@@ -53,7 +53,7 @@ def run(backend, dense, b, s, **options):
     ordered = ordered_pairs(backend, *pairs_of(backend, dense))
     assert ordered is not None
     v = backend.zeros(len(b))
-    sweep = ordered.prepare(swept, {"b": backend.asarray(b)}, [v], reduces=1, s=0.0, **options)
+    sweep = Sweep(ordered, swept, {"b": backend.asarray(b)}, [v], reduces=1, s=0.0, **options)
     (square,) = sweep(s=s)
     found = backend.to_host(v)
     assert square == pytest.approx(found @ found)
@@ -103,7 +103,7 @@ def test_pairs_listed_twice_are_summed_and_a_row_does_not_see_itself(backend):
     ordered = ordered_pairs(backend, neighbors, backend.asarray([9.0, 1.0, 2.0, 1.0, 2.0, 9.0]))
     assert backend.to_host(ordered.total).tolist() == [3.0, 3.0]
     v = backend.zeros(2)
-    ordered.prepare(swept, {"b": backend.asarray([1.0, 1.0])}, [v], reduces=1, s=1.0)()
+    Sweep(ordered, swept, {"b": backend.asarray([1.0, 1.0])}, [v], reduces=1, s=1.0)()
     assert backend.to_host(v).tolist() == [1.0, 4.0]
 
 
@@ -128,9 +128,9 @@ def test_missing_and_unfit_arguments_are_refused(backend):
     """A field that is not given, and an array of another length."""
     ordered = ordered_pairs(backend, *pairs_of(backend, band(12)))
     with pytest.raises(ValueError, match="needs b"):
-        ordered.prepare(swept, {}, [backend.zeros(12)], reduces=1, s=1.0)
+        Sweep(ordered, swept, {}, [backend.zeros(12)], reduces=1, s=1.0)
     with pytest.raises(ValueError, match="is asked for"):
-        ordered.prepare(swept, {"b": backend.zeros(5)}, [backend.zeros(12)], reduces=1, s=1.0)
+        Sweep(ordered, swept, {"b": backend.zeros(5)}, [backend.zeros(12)], reduces=1, s=1.0)
 
 
 def test_other_memory_is_not_arranged():

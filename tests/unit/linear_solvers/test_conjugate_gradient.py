@@ -9,7 +9,7 @@ from lasersph.linear_solvers.conjugate_gradient import (
     ConjugateGradient,
     PairOperator,
     advance,
-    turn,
+    new_direction,
 )
 from lasersph.particles.support import arithmetic
 from lasersph.sph.kernels import kernel
@@ -96,8 +96,8 @@ def test_stops_at_residual_and_at_the_limit(backend):
 
 def test_terms_by_hand():
     """One product and one update of a single unknown; a held one stays 0."""
-    assert turn(6.0, 2.0, 3.0, 4.0, 7.0, 0.5, 0.1) == (3.5, 15.4, 3.5 * 15.4)
-    assert turn(6.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.1) == (0.0, 0.0, 0.0)
+    assert new_direction(6.0, 2.0, 3.0, 4.0, 7.0, 0.5, 0.1) == (3.5, 15.4, 3.5 * 15.4)
+    assert new_direction(6.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.1) == (0.0, 0.0, 0.0)
     x, r, z, rz, size = advance(1.0, 5.0, 2.0, 4.0, 4.0, 0.5)
     assert (x, r, z, rz, size) == (2.0, 3.0, 0.75, 2.25, 3.0)
     assert advance(0.0, 0.0, 0.0, 0.0, 0.0, 0.5) == (0.0, 0.0, 0.0, 0.0, 0.0)

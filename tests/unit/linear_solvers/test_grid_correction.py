@@ -84,7 +84,7 @@ def test_every_level_holds_the_whole_volume(backend, period):
 
 
 def dense_of(backend, level):
-    """Matrix K of a level, column by column from `grid_nodes.rest`."""
+    """Matrix K of a level, column by column from `grid_nodes.residual`."""
     K = np.zeros((level.count, level.count))
     s = backend.to_host(level.at["s"])
     for k in range(level.count):
@@ -93,8 +93,8 @@ def dense_of(backend, level):
         backend.copy(backend.asarray(x), level.all["x"])
         backend.copy(backend.asarray(x * np.append(s, 0.0)), level.all["y"])
         backend.fill(level.all["r"], 0.0)
-        level.smooth(grid_nodes.rest, level.at["rest"])
-        K[:, k] = -backend.to_host(level.at["rest"])
+        level.smooth(grid_nodes.residual, level.at["residual"])
+        K[:, k] = -backend.to_host(level.at["residual"])
     return K
 
 

@@ -35,8 +35,8 @@ def stiffness(backend, level, x):
     set_values(backend, level, "x", x)
     set_values(backend, level, "y", x * backend.to_host(level.at["s"]))
     set_values(backend, level, "r", np.zeros(level.count))
-    level.smooth(grid_nodes.rest, level.at["rest"])
-    return -backend.to_host(level.at["rest"])
+    level.smooth(grid_nodes.residual, level.at["residual"])
+    return -backend.to_host(level.at["residual"])
 
 
 def test_couplings_by_hand():
@@ -106,8 +106,8 @@ def test_transfers_are_transposed(backend, axes):
         for one in (level, above):
             backend.fill(one.all["s"], 1.0)
         e, r = random.normal(size=above.count), random.normal(size=level.count)
-        set_values(backend, level, "rest", r)
-        level.collect(above, "rest", above.outputs("r", "x", "y"))
+        set_values(backend, level, "residual", r)
+        level.collect(above, "residual", above.outputs("r", "x", "y"))
         collected = backend.to_host(above.at["r"])
 
         def prolonged(values, level=level, above=above):

@@ -76,7 +76,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             "position": shown(body.filling.position[:, :count]),
             "width": shown(body.filling.width[:, :count]),
             "volume": shown(body.filling.body_volume),
-            "mass": body.backend.look(particles["mass"]),
+            "mass": body.backend.host_view(particles["mass"]),
             "latent_heats": body.curve.latent_heats,
             "temperature": fetch(particles["temperature"]),
             "enthalpy": fetch(particles["enthalpy"]),
@@ -100,7 +100,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         if not self.settings.evaporates:
             return None
         columns = solver.body.filling.surface
-        mass = solver.backend.look(solver.particles["evaporated_mass"])[columns]
+        mass = solver.backend.host_view(solver.particles["evaporated_mass"])[columns]
         return mass / self.case.material.density_reference
 
     def observers(self, iterations: Sequence[str]) -> Observers:
@@ -204,7 +204,7 @@ class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
 
     def view(self, solver: Conduction, step: int, limit: str) -> View:
         """The state for observers."""
-        fields = self.heat_view(solver, step, limit, solver.backend.look)
+        fields = self.heat_view(solver, step, limit, solver.backend.host_view)
         return View(**fields, evaporated=self.evaporated(solver))
 
     def step_forecast(self) -> StepForecast:

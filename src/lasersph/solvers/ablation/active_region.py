@@ -78,7 +78,7 @@ class ActiveRegion:
     ) -> None:
         self.backend = backend
         self.count = position.shape[1]
-        host = backend.look(position)
+        host = backend.host_view(position)
         low, high = host.min(axis=1), host.max(axis=1)
         extent = np.where(np.array(period) > 0.0, period, high - low)
         self._grid = CellGrid.over(low, extent, support, [length > 0.0 for length in period])

@@ -212,7 +212,9 @@ def _region(
         return None
     geometry = particles.geometry
     # Heat reaches one support and the skin further in the life of a pair list.
-    support = float(backend.look(particles.now["support"])[0]) + settings.skin * geometry.spacing
+    support = (
+        float(backend.host_view(particles.now["support"])[0]) + settings.skin * geometry.spacing
+    )
     lit = backend.asarray(np.arange(geometry.surface_count), "index")
     return ActiveRegion(backend, particles.now["position"], support, geometry.period, lit)
 

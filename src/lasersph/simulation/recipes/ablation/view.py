@@ -21,13 +21,13 @@ def ablation_fields(case: Case, solver: Ablation, step: int) -> dict[str, Any]:
     particles, backend = solver.particles, solver.backend
     geometry, curve = solver.body.geometry, solver.body.curve
     count = _shown_count(solver) if step else particles.count
-    position = backend.look(particles["position"])[:, :count]
+    position = backend.host_view(particles["position"])[:, :count]
     names = ("temperature", "enthalpy", "melt_fraction", "vapor_fraction")
-    return {name: backend.look(particles[name])[:count] for name in names} | {
+    return {name: backend.host_view(particles[name])[:count] for name in names} | {
         "position": position,
         "width": np.broadcast_to(np.array(geometry.cell)[:, None], position.shape),
         "volume": np.broadcast_to(np.array(geometry.volume), (count,)),
-        "mass": backend.look(particles["mass"])[:count],
+        "mass": backend.host_view(particles["mass"])[:count],
         "latent_heats": curve.latent_heats,
         "surface": _surface(solver, count),
         "solidus": curve.solidus,
@@ -43,7 +43,7 @@ def _shown_count(solver: Ablation) -> int:
     if solver.rows is None:
         return count
     # Indices of active particles come sorted; walls have the numbers from `count` on.
-    rows = solver.backend.look(solver.rows)
+    rows = solver.backend.host_view(solver.rows)
     return int(rows[np.searchsorted(rows, count) - 1]) + 1
 
 
@@ -52,10 +52,10 @@ def _surface(solver: Ablation, count: int) -> np.ndarray:
     backend = solver.backend
     # The light knows which particles it meets; without light those of the free surface count.
     if solver.light is not None:
-        found = backend.look(solver.light.hit).astype(np.int64)
+        found = backend.host_view(solver.light.hit).astype(np.int64)
         found = found[found < count]
     else:
-        found = np.flatnonzero(backend.look(solver.surface.at_surface)[:count])
+        found = np.flatnonzero(backend.host_view(solver.surface.at_surface)[:count])
     return found if found.size else np.zeros(1, np.int64)
 
 
@@ -67,13 +67,13 @@ def _ablation_view(case: Case, solver: Ablation, count: int) -> AblationView:
     geometry = solver.body.geometry
     flying = np.zeros(0, np.int64)
     if state.ejecta.number:
-        flying = backend.look(backend.rows_where(particles["kind"], EJECTED)).astype(np.int64)
+        flying = backend.host_view(backend.rows_where(particles["kind"], EJECTED)).astype(np.int64)
 
     # Fields of the particles of the body.
     fields = {"stage": particles["kind"], "normal": solver.surface.normal}
     names = ("velocity", "density", "pressure", "vapor_pressure")
     fields |= {name: particles[name] for name in names}
-    fields = {name: backend.look(array)[..., :count] for name, array in fields.items()}
+    fields = {name: backend.host_view(array)[..., :count] for name, array in fields.items()}
     columns = solver.light
     dimension = geometry.dimension
     pressure, speed = solver.extremes()
@@ -84,11 +84,11 @@ def _ablation_view(case: Case, solver: Ablation, count: int) -> AblationView:
         column_width=float(geometry.cell[0]),
         column_top=np.zeros(0) if columns is None else columns.column_tops(),
         # Fields of the flying ones, and the sums over all that has left.
-        ejecta_position=backend.look(particles["position"])[:, flying],
+        ejecta_position=backend.host_view(particles["position"])[:, flying],
         ejecta_velocity=fields["velocity"][:, flying],
-        ejecta_temperature=backend.look(particles["temperature"])[flying],
-        ejecta_mass=backend.look(particles["mass"])[flying],
-        ejecta_time=backend.look(particles["leaving_time"])[flying],
+        ejecta_temperature=backend.host_view(particles["temperature"])[flying],
+        ejecta_mass=backend.host_view(particles["mass"])[flying],
+        ejecta_time=backend.host_view(particles["leaving_time"])[flying],
         ejected_count=state.ejecta.number,
         ejected_mass=state.ejecta.mass,
         ejected_energy=state.ejecta.energy,

@@ -53,7 +53,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         """The state for observers: arrays where they lie, those of a closed box as copies, whose
         observer looks at some states later than the step after which it is shown them."""
         backend = solver.backend
-        fetch = backend.look if self.case.flow is None else backend.snapshot
+        fetch = backend.host_view if self.case.flow is None else backend.snapshot
         flow = flow_view(self.case, solver, fetch)
         fields = self.heat_view(solver, step, limit, fetch)
         fields |= {"position": fetch(solver.position), "flow": flow}

@@ -30,24 +30,24 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
     temperature = gradient = speed = np.zeros(0)
 
     # Surface particles from left to right, with the temperature of their centers.
-    found = np.asarray(backend.look(backend.rows_where(free.at_surface, 1.0)), np.int64)
+    found = np.asarray(backend.host_view(backend.rows_where(free.at_surface, 1.0)), np.int64)
     surface = found[np.argsort(position[0, found], kind="stable")]
     if surface.size:
-        temperature = backend.look(solver.particles["temperature"])[surface]
+        temperature = backend.host_view(solver.particles["temperature"])[surface]
         gradient = np.gradient(temperature, position[0, surface])
         # Where the surface is computed, temperature and gradient of the surface itself.
         if solver.fluid_count > 0.0 and flow.current_block is not None:
-            of_surface = backend.look(free.temperature)[surface]
-            known = backend.look(solver.kinds.active)[surface] > 0.0
+            of_surface = backend.host_view(free.temperature)[surface]
+            known = backend.host_view(solver.kinds.active)[surface] > 0.0
             if free.moves:  # a surface that moves is known where it flows only
-                known = backend.look(solver.kinds.fluid)[surface] > 0.0
+                known = backend.host_view(solver.kinds.fluid)[surface] > 0.0
                 of_surface = np.where(known, of_surface, temperature)
             temperature = of_surface
             gradient = np.gradient(temperature, position[0, surface])
-            gradient = np.where(known, backend.look(free.gradient)[surface], gradient)
+            gradient = np.where(known, backend.host_view(free.gradient)[surface], gradient)
         # Velocity of the surface: that of the particle and half the jump to its ghost.
-        flows = backend.look(solver.kinds.fluid)[surface]
-        jump = backend.look(free.ghost_velocity_jump)[surface]
+        flows = backend.host_view(solver.kinds.fluid)[surface]
+        jump = backend.host_view(free.ghost_velocity_jump)[surface]
         speed = velocity[0, surface] + flows * (0.5 * jump)
     T = material.flow_temperature
     has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
@@ -62,7 +62,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
     return FlowView(
         velocity=velocity,
         pressure=pressure,
-        flows=backend.look(solver.kinds.fluid) > 0.0,
+        flows=backend.host_view(solver.kinds.fluid) > 0.0,
         surface=surface,
         surface_temperature=temperature,
         surface_gradient=gradient,
