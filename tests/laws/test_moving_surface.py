@@ -138,7 +138,7 @@ def test_pairs_pass_on_the_whole_stress():
     position = backend.to_host(solver.position).copy()
     position[1] -= 0.05 * surface.spacing
     backend.copy(backend.asarray(position), solver.position)
-    solver.flow.stop(solver.kinds)
+    solver.flow.stop_solid(solver.kinds)
     solver.advect(0.0)
     rows = np.repeat(
         np.arange(block.count), np.diff(backend.to_host(block.pairs.row_start).astype(int))

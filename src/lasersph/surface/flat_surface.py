@@ -97,15 +97,16 @@ def fluidity_across(total_0, total_1):
 
 
 class FlatSurface(StillSurface):
-    """The surface z = `plane`, see `Surface`.
+    """The surface z = `plane`, see `Surface`; its tangent points along x.
 
     Args:
         count: particles of the whole body. spacing, support: of the particles at it [m].
         material: gamma(T) or its slope. viscosity: eta at the liquidus [Pa s]. has_stress: whether
             gamma drives the flow. given: the surface's own temperature, where the case gives it.
-    """
 
-    tangent = (1.0, 0.0)
+    Attributes:
+        stress: (n,) tau [Pa].
+    """
 
     def __init__(
         self,
@@ -124,9 +125,11 @@ class FlatSurface(StillSurface):
         self.viscosity = viscosity
         self.given = given
         self.has_stress = has_stress
+        self.stress = backend.zeros(count)
+        self.tangent = self.jump_direction
         self._place = {"n": self.normal, "plane": plane, "near": spacing, "far": support}
         self._gamma = backend.zeros(count)
-        self._slope = backend.zeros((2, count))
+        self._slope = backend.zeros((len(self.normal), count))
         self._fluidity = backend.asarray(np.ones(count))
         if has_stress:
             T, gamma = surface_tension_table(material)

@@ -42,7 +42,7 @@ class GhostPressure(Protocol):
         """(size,) particle behind each."""
         ...
 
-    def extend_pressure(self, p: Array) -> Array | None:
+    def extend_pressure(self, p: Array) -> Array:
         """(size,) pressure, carried on beyond a surface that moves."""
         ...
 
@@ -51,11 +51,11 @@ class PressureGradient(Protocol):
     """Gradient of the pressure below a surface.
 
     Attributes:
-        term: of a pair, with p, C and G. is_over_lowest: whether it sees the pressure over the
-            lowest one.
+        term: of a pair, with p, C and G. is_symmetric: whether the forces of two particles on
+            each other are opposite, so that a sum over ghosts is what presses on a face.
     """
 
-    is_over_lowest: bool
+    is_symmetric: bool
 
     @property
     def term(self) -> Callable[..., Any]:
@@ -74,7 +74,7 @@ class PressureGradient(Protocol):
 class SymmetricGradient:
     """Gradient of a pressure that is known but for a constant."""
 
-    is_over_lowest = True
+    is_symmetric = True
 
     @property
     def term(self) -> Callable[..., Any]:
@@ -96,7 +96,7 @@ class SymmetricGradient:
 class DifferenceGradient:
     """Gradient of a pressure that is given at the surface."""
 
-    is_over_lowest = False
+    is_symmetric = False
 
     @property
     def term(self) -> Callable[..., Any]:
@@ -108,6 +108,4 @@ class DifferenceGradient:
 
     def extend(self, backend: Backend, ghosts: GhostPressure, p: Array, lowest: float) -> Array:
         """Pressure carried on through that of the surface."""
-        found = ghosts.extend_pressure(p)
-        assert found is not None
-        return found
+        return ghosts.extend_pressure(p)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot
+from lasersph.particles.ghosts import MIRROR
 from lasersph.particles.particles import Particles
 from lasersph.surface.pressure_gradient import PressureGradient, SymmetricGradient
 from lasersph.surface.surface import (
@@ -26,6 +27,10 @@ from lasersph.surface.surface import (
     upward,
 )
 from lasersph.surface.time_rule import TimeRule, WholeStep
+
+MIN_PLANE_DISTANCE = 1e-30
+"""Least distance from a plane that counts [m]. Guard: no division by 0 for a particle that lies on
+one."""
 
 
 def depth_below(x, n, plane):
@@ -55,30 +60,30 @@ class StillSurface:
     """Top that stays where it is, as a step sees it, see `Surface`.
 
     Args:
-        count: particles of the whole body. top: z of the plane [m].
+        count: particles of the whole body. top: z of the plane [m]. dimension: d.
     """
 
-    normal: Vector = upward(2)
-    tangent: Vector = (0.0, 0.0)
-    normal_velocity = 0.0
-    heat_flux = 0.0
+    crossing = MIRROR
     moves = False
     largest_speed = inf
-    ghosts: SurfaceGhosts | None = None
     pressure = PressureCondition()
     pressure_gradient: PressureGradient = SymmetricGradient()
     time_rule: TimeRule = WholeStep()
 
-    def __init__(self, backend: Backend, count: int, top: float) -> None:
+    def __init__(self, backend: Backend, count: int, top: float, dimension: int = 2) -> None:
         self.backend = backend
         self.top = top
+        self.normal: Vector = upward(dimension)
+        self.jump_direction: float | Vector = (1.0,) + (0.0,) * (dimension - 1)
         self.at_surface = backend.zeros(count)
         self.near_surface = backend.zeros(count)
         self.depth = backend.zeros(count)
         self.temperature = backend.zeros(count)
         self.gradient = backend.zeros(count)
-        self.stress = backend.zeros(count)
         self.ghost_velocity_jump = backend.zeros(count)
+        # ghosts mirror their sources: nothing is shifted, no pressure is given
+        nothing, still = backend.zeros(count), backend.zeros((dimension, count))
+        self.ghosts = SurfaceGhosts(nothing, nothing, MIN_PLANE_DISTANCE, still, still)
         self.state = Particles(backend, 0, 1)
 
     @property

@@ -30,22 +30,19 @@ def upward(dimension: int) -> Vector:
 class PressureCondition(NamedTuple):
     """Boundary condition of the pressure equation at a surface, arrays (n,) or None for none.
 
-    coefficient: cross-section over distance a [m^(d-2)]. value: p_b [Pa]. flux: sum of
-    cross-section times dp/dn, n outward [Pa m^(d-2)].
+    coefficient: cross-section over distance a [m^(d-2)]. value: p_b [Pa].
     """
 
     coefficient: Array | None = None
     value: Array | None = None
-    flux: Array | None = None
 
 
 class SurfaceGhosts(NamedTuple):
-    """Ghosts across the local tangent of a surface that is no plane, by their sources.
+    """Ghosts across the local tangent of a surface, by their sources; of a plane all are 0.
 
     distance: (n,) from the tangent [m]. pressure: (n,) p_b at the surface [Pa]. min_distance: least
-    distance that counts [m]. normal: (2, n) of the surface, outward. shift: (2, n) from source to
-    ghost [m]. jump: (2, n) velocity of the ghost over its source [m/s]; stress_jump: that with
-    which pairs across pass on the whole stress, however they lie.
+    distance that counts [m]. normal: (d, n) of the surface, outward. shift: (d, n) from source to
+    ghost [m].
     """
 
     distance: Array
@@ -53,8 +50,6 @@ class SurfaceGhosts(NamedTuple):
     min_distance: float
     normal: Array
     shift: Array
-    jump: Array
-    stress_jump: Array
 
 
 class SurfaceStep(NamedTuple):
@@ -104,26 +99,26 @@ class Surface(Protocol):
     """The free surface.
 
     Attributes:
-        normal, tangent: unit vectors, the normal outward. normal_velocity: [m/s]. heat_flux: into
-            the body [W/m^2]. at_surface, near_surface: (n,) 1 for a particle that lies at the
-            surface, within its support of it. depth: (n,) below the surface along the beam [m].
-            temperature: (n,) of the surface above a particle at it [K]. gradient: (n,) of that
-            along the surface [K/m]. stress: (n,) tau [Pa]. ghost_velocity_jump: (n,) by how much a
-            ghost beyond the surface is faster than its source, 2 d tau / eta [m/s]. ghosts: what
-            those beyond a surface that is no plane have; None for a plane.
+        normal: unit vector, outward. crossing: MIRROR or TANGENT, how ghosts lie beyond it.
         top: highest place of a particle [m]. moves: whether it is no plane. largest_speed: that
-            melt below it can have [m/s]. pressure_gradient, time_rule: what a step takes from it.
+            melt below it can have [m/s].
+        pressure_gradient, time_rule: what a step takes from it. jump_direction: along which jumps
+            of velocities point that are numbers; 1 where they are vectors.
+        at_surface, near_surface: (n,) 1 for a particle that lies at the surface, within its support
+            of it. depth: (n,) below the surface along the beam [m]. temperature: (n,) of the
+            surface above a particle at it [K]. gradient: (n,) of that along the surface [K/m].
+            ghost_velocity_jump: (n,) by how much a ghost beyond the surface is faster than its
+            source along it, 2 d tau / eta [m/s]. ghosts: what those across its tangents have.
         state: what survives a step and is no field of the particles, by column.
     """
 
-    # the plane, and what crosses it
+    # how it lies, and what a step takes from it
     normal: Vector
-    tangent: Vector
-    normal_velocity: float
-    heat_flux: float
+    crossing: str
     top: float
     moves: bool
     largest_speed: float
+    jump_direction: float | Vector
     pressure_gradient: PressureGradient
     time_rule: TimeRule
     # fields of the particles, set anew in each step
@@ -132,13 +127,8 @@ class Surface(Protocol):
     depth: Array
     temperature: Array
     gradient: Array
-    stress: Array
     ghost_velocity_jump: Array
-
-    @property
-    def ghosts(self) -> SurfaceGhosts | None:
-        """None for a plane."""
-        ...
+    ghosts: SurfaceGhosts
 
     @property
     def state(self) -> Particles:
@@ -152,7 +142,7 @@ class Surface(Protocol):
 
     @property
     def velocity_jump(self) -> Array:
-        """By how much ghosts are faster than their sources [m/s]: (n,) along a plane, (2, n)."""
+        """By how much ghosts are faster than their sources [m/s]: (n,) along a plane, (d, n)."""
         ...
 
     @property

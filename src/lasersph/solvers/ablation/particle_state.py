@@ -151,7 +151,7 @@ class ParticleState:
         fields = self.fields(level)
         self.backend.pointwise(evaluate_state, fields, out, rows=rows, **self._tables)
 
-    def enter(self, rows: Rows | None) -> None:
+    def add_to_half(self, rows: Rows | None) -> None:
         """Let the middle of the step know particles that take part from now on."""
         for name in self.half:
             value = {"value": self.now[name]}

@@ -231,7 +231,7 @@ class Ablation:
         """Let pairs and the middle of the step know what is computed, and its neighbors."""
         subset = None if self.region is None else self.region.subset
         self.pairs.subset = subset
-        self.body.enter(None if subset is None else subset.members)
+        self.body.add_to_half(None if subset is None else subset.members)
 
     def _absorb_light(self, step: float) -> dict[str, float]:
         """Light of the step: where what falls on the surface goes [J], by ENERGIES."""

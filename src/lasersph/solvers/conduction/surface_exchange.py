@@ -73,17 +73,17 @@ class SurfaceExchange:
                 "flux_nodes": backend.asarray(flux),
             }
 
-    def rest(self) -> None:
+    def use_lattice(self) -> None:
         """Let the surface be that of the particles on their lattice, as at the start."""
-        self._take(*self._lattice)
+        self._set_surface(*self._lattice)
         self._columns = None
 
-    def follow(self, columns: SurfaceColumns) -> None:
+    def use_columns(self, columns: SurfaceColumns) -> None:
         """Let the surface be that of the particles that lie at it now (2-D)."""
-        self._take(columns.rows, columns.area)
+        self._set_surface(columns.rows, columns.area)
         self._columns = columns
 
-    def _take(self, rows: Rows, area: Array) -> None:
+    def _set_surface(self, rows: Rows, area: Array) -> None:
         """Surface particles and their areas (n,) [m^(d-1)]; those before lose nothing any more."""
         backend, nothing = self.body.backend, self.body.backend.zeros(self.rows.shape[0])
         for quantity in (self.power, self.slope, self.mass_flux):

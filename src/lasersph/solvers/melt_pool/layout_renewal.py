@@ -1,10 +1,11 @@
 """Particles laid out anew below a relief, so that what melts there next starts evenly.
 
 So they are in a pause between pulses. And where a surface recedes: particles below it share what
-evaporates, and once one has lost WORN of its volume, all are laid out before each step, with what
-they carry. Else rows at the surface become thinner without end, above the melt that comes from
-below; lower than the gap that is kept below the surface, none would count as lying at it: steel
-that melts and evaporates under steady light, six rows in D/v, had no surface after five rows.
+evaporates, and once one has less than MIN_VOLUME_RATIO of its volume, all are laid out before each
+step, with what they carry. Else rows at the surface become thinner without end, above the melt that
+comes from below; lower than the gap that is kept below the surface, none would count as lying at
+it: steel that melts and evaporates under steady light, six rows in D/v, had no surface after five
+rows.
 """
 
 from __future__ import annotations
@@ -23,11 +24,11 @@ from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.step_control import StepFailed
 
-EVEN = (0.7, 1.4)
+HEIGHT_RANGE = (0.7, 1.4)
 """Height of particles laid out below a relief over the spacing. Geometry: the row at the surface
 lies half a cell below it and counts as far as a spacing, the next 1.5 cells deep; more than one row
 would count as that at the surface, or none."""
-WORN = 0.6
+MIN_VOLUME_RATIO = 0.6
 """Volume of a particle over that of a cell of the lattice below which the surface recedes.
 Geometry: a row of it lies as deep as `moving_surface.MIN_DEPTH`. In deep melt four spacings have
 evaporated then."""
@@ -86,12 +87,10 @@ class LayoutRenewal:
         Raises:
             UnevenRelief: the relief is too deep for these layers.
         """
-        if not self.domain.surface.moves:
-            return
         if not self.recedes:
             fields: dict[str, Array] = {"value": self._fine_volume}
             (least,) = self.body.backend.pointwise(same, fields, (None,), reduce=("min",))
-            self.recedes = least < WORN * self._cell
+            self.recedes = least < MIN_VOLUME_RATIO * self._cell
         if not self.recedes:
             return
         layout, volume = self._layout(), self._fine("volume")
@@ -119,7 +118,7 @@ class LayoutRenewal:
         except ValueError as error:
             raise UnevenRelief(f"{error}; {more}") from None
         least, most = (size / domain.spacing for size in layout.heights)
-        if least < EVEN[0] or most > EVEN[1]:
+        if least < HEIGHT_RANGE[0] or most > HEIGHT_RANGE[1]:
             raise UnevenRelief(
                 f"particles below the relief would be {least:.3g} to {most:.3g} spacings high; "
                 f"{more}, fewer pulses or an earlier end"
@@ -145,4 +144,4 @@ class LayoutRenewal:
         has_row = backend.zeros(block.count)
         backend.fill(has_row, 1.0)
         block.find_pairs(position, has_row)
-        self.pairs.renew(block)
+        self.pairs.update(block)

@@ -82,7 +82,7 @@ class PairGeometry:
             kept = self._others[name] = self.backend.zeros(count)
         return kept
 
-    def begin(self, pairs: NeighborList, has_row: Array | None, even_above: float) -> None:
+    def set_pairs(self, pairs: NeighborList, has_row: Array | None, even_above: float) -> None:
         """Take a new list.
 
         Rows above a plane are set apart, where all neighbors have the support radius of the row:

@@ -16,7 +16,7 @@ from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.layout_renewal import LayoutRenewal
 
-SAME = 1e-9
+PERIOD_TOLERANCE = 1e-9
 """Difference of two times over the period of a pulse train. Rounding: they are the same."""
 
 
@@ -41,7 +41,7 @@ class Pauses:
     def end(self) -> float | None:
         """Start of the next pulse [s], once nothing is molten and no light comes before it."""
         time, period = self.state.time, self.pulse.interval or np.inf
-        number = int(np.floor(time / period + SAME))
+        number = int(np.floor(time / period + PERIOD_TOLERANCE))
         if number + 1 >= self.pulse.count or time - number * period < self.pulse.window[1]:
             return None
         fields = {"value": self.body.particles["melt_fraction"]}

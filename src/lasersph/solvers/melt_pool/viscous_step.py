@@ -22,7 +22,7 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 TOLERANCE = 1e-8
 """Residual over that of the first guess, in 2-norms. Accuracy: four orders below what the pressure
 is solved to."""
-MOST = 200
+MAX_ITERATIONS = 200
 """Iterations of a step at most. Guard: the step limit keeps the matrix near its diagonal, so that
 few are usual."""
 
@@ -99,20 +99,20 @@ class ViscousStep:
             backend.copy(self._star, v)
             return 0
         s = self.nu * step
-        r_z, r_r = self.begin(block, v, b, extended, rows, s, step)
+        r_z, r_r = self.find_first_residual(block, v, b, extended, rows, s, step)
         steps = (
             partial(self.set_direction, block, rows, s),
             partial(self.approach, v, rows, s),
             None,
         )
         iterations, *_ = backend.iterate(
-            conjugate_gradients, steps, 0.0, r_z, r_r, TOLERANCE**2 * r_r, MOST
+            conjugate_gradients, steps, 0.0, r_z, r_r, TOLERANCE**2 * r_r, MAX_ITERATIONS
         )
         backend.copy(v, self.velocity)
         return int(iterations)
 
     @graph
-    def begin(
+    def find_first_residual(
         self, block: Block, v: Array, b: Array, extended: Array, rows: Rows, s: float, step: float
     ) -> None:
         """Residual of the first guess, and the diagonal; reduces r z and r r."""

@@ -127,7 +127,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     # A box starts with the velocity of its case; a block is laid out below its first surface.
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
-        flow.begin(start)
+        flow.set_initial_velocity(start)
     solver = MeltPool(heat, flow, domain, settings, case.pause)
     if case.flow is None and case.initial_surface is not None:
         solver.layout_renewal.lay_out()

@@ -39,7 +39,7 @@ def curvature(total, z, m, a, s, slope):
     return z * (m * z + s * slope * (total + a * z))
 
 
-def take(h, z, alpha, h_nodes, P_nodes):
+def next_enthalpy(h, z, alpha, h_nodes, P_nodes):
     """New enthalpy with its potential."""
     new = h + alpha * z
     return new, interpolate(new, h_nodes, P_nodes)
@@ -77,5 +77,5 @@ class PublishedStep(ImplicitStep):
     ) -> tuple[float, dict[str, float]]:
         """Enthalpies h + alpha z, and their residual."""
         fields, out = {"h": self.h, "z": self.spare}, (self.h, self.P)
-        self.body.backend.pointwise(take, fields, out, alpha=self.alpha, **self.curve)
+        self.body.backend.pointwise(next_enthalpy, fields, out, alpha=self.alpha, **self.curve)
         return self.find_residual(step)
