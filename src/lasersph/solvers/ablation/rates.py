@@ -83,7 +83,7 @@ class Rates:
             "alpha_liquid": parameters.alpha_liquid,
             "factor": parameters.weight_factor,
             "up": upward(dimension),
-            **parameters.ambient,
+            "surroundings": backend.asarray(parameters.surroundings.table),
         }
         self.moving, self.weights = Moving.ALL, None
 
@@ -100,26 +100,46 @@ class Rates:
 
     def evaluate(self, level: Particles, step: float, rows: Rows | None) -> float:
         """Find the rates at a level, and what limits the next step; returns the heat lost [W]."""
-        particles, state, pair_sum = self.particles, self.state, self.particles.backend.pair_sum
+        particles, state, backend = self.particles, self.state, self.particles.backend
         pairs = self.pairs.now if level is particles.now else self.pairs.half
         fields = particles.fields(level) | {"A": self.area}
+
+        # all three equations in one pass over the pairs
         if self.moving is Moving.ALL:
-            out = (self._drho, self._a, self._dh, None, None, None)
-            how = {"finish": particle_rates, "reduce": (None, None, None, "sum", "max", "max")}
-            lost, square, fourth = pair_sum(
-                pair_rates, pairs, fields, out, rows=rows, **how, step=step, **self._constants
+            lost, square, fourth = backend.pair_sum(
+                pair_rates,
+                pairs,
+                fields,
+                (self._drho, self._a, self._dh, None, None, None),
+                rows=rows,
+                finish=particle_rates,
+                reduce=(None, None, None, "sum", "max", "max"),
+                step=step,
+                **self._constants,
             )
+            # bound of |mu_ij| by the fourth root of the sum of its fourth powers
             state.approach_speed, state.acceleration = fourth**0.25, sqrt(square)
             state.is_balanced = square == 0.0
             return lost
-        how = {"finish": heat_rates, "reduce": (None, "sum"), "step": step}
-        how |= self.parameters.ambient
-        if self.moving is Moving.VAPOR:
-            term, how["factor"] = pair_heat, self.parameters.weight_factor
-        else:
+
+        # heat alone, between particles that part or by weights of pairs at rest
+        term, constants = pair_heat, {"factor": self.parameters.weight_factor}
+        if self.moving is Moving.NOTHING:
             assert self.weights is not None
-            term, pairs, fields["g_ij"] = harmonic_flow, self.pairs.now, self.weights
-        (lost,) = pair_sum(term, pairs, fields, (self._dh, None), rows=rows, **how)
+            term, constants = harmonic_flow, {}
+            pairs, fields["g_ij"] = self.pairs.now, self.weights
+        (lost,) = backend.pair_sum(
+            term,
+            pairs,
+            fields,
+            (self._dh, None),
+            rows=rows,
+            finish=heat_rates,
+            reduce=(None, "sum"),
+            step=step,
+            surroundings=self._constants["surroundings"],
+            **constants,
+        )
         return lost
 
     def check_stability(self, step: float, rows: Rows | None) -> None:

@@ -64,7 +64,7 @@ class Ablation:
         self.backend = particles.backend
         self.state = AblationState()
         self._rates = Rates(particles, pairs, surface.area, parameters, self.state)
-        self._needs_surface = light is not None or parameters.loses_heat
+        self._needs_surface = light is not None or parameters.surroundings.take_heat
         self._is_surface_current = False
         self._all_rows = self.backend.asarray(np.arange(particles.now.capacity), "index")
         self._include_active()

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.boundaries import Boundaries
+from lasersph.boundaries import Boundaries, Surroundings
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.layered import LayeredLight
@@ -64,7 +64,7 @@ class Body:
     wall_power: Array
     area: Array
     tables: dict[str, Array]
-    ambient: dict[str, float]
+    surroundings: Surroundings
 
     @property
     def count(self) -> int:
@@ -128,7 +128,7 @@ def assemble(
             "m_nodes": backend.asarray(curve.melt_fraction),
             "v_nodes": backend.asarray(curve.vapor_fraction),
         },
-        ambient=boundaries.surroundings(material, curve.initial_temperature),
+        surroundings=boundaries.surroundings(material, curve.initial_temperature),
     )
     body.update_temperature()
     return body

@@ -17,17 +17,15 @@ from lasersph.solvers.step_control import StepFailed
 from lasersph.surface.columns import SurfaceColumns
 
 
-def surface_power(T, area, T_a, h_c, eps):
+def surface_power(T, area, surroundings):
     """Power lost by a surface particle [W] and its slope in T [W/K]."""
-    loss, slope = surface_loss(T, T_a, h_c, eps)
+    loss, slope = surface_loss(T, surroundings)
     return area * loss, area * slope, area * loss
 
 
-def evaporating_power(
-    T, area, T_a, h_c, eps, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes
-):
+def evaporating_power(T, area, surroundings, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes):
     """As `surface_power` with evaporation; also its power [W] and the mass flux [kg/(m^2 s)]."""
-    loss, slope = surface_loss(T, T_a, h_c, eps)
+    loss, slope = surface_loss(T, surroundings)
     heat, heat_slope, mass = evaporation_loss(
         T, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes
     )
@@ -61,17 +59,15 @@ class SurfaceExchange:
         self._lattice = backend.asarray(body.filling.surface, "index"), body.area
         self.rows, self.area = self._lattice
         self._columns: SurfaceColumns | None = None
-        self._tables: dict[str, Array] = {}
-        self.is_idle = not evaporates and not body.ambient["h_c"] and not body.ambient["eps"]
-        self.constants: dict[str, float] = dict(body.ambient)
+        self._tables = {"surroundings": backend.asarray(body.surroundings.table)}
+        self.is_idle = not evaporates and not body.surroundings.take_heat
+        self.constants: dict[str, float] = {}
         vapor = body.material.vaporization
         if evaporates and vapor is not None:
             ratio, flux, _ = outflow_tables()
-            self.constants |= vapor_constants(vapor) | {"p_e": ambient_pressure}
-            self._tables = {
-                "ratio_nodes": backend.asarray(ratio),
-                "flux_nodes": backend.asarray(flux),
-            }
+            self.constants = vapor_constants(vapor) | {"p_e": ambient_pressure}
+            self._tables["ratio_nodes"] = backend.asarray(ratio)
+            self._tables["flux_nodes"] = backend.asarray(flux)
 
     def use_lattice(self) -> None:
         """Let the surface be that of the particles on their lattice, as at the start."""
