@@ -45,8 +45,9 @@ class GhostRules:
     """Rules of what ghosts carry, by their type, host arrays.
 
     Attributes:
-        factor, added: (d, w) diagonal of F, and v_0 [m/s]. stressed: (w,) 1 beyond a free surface,
-            where 2 d tau / eta is added to the velocity of the source.
+        sign: (d, w) diagonal of S, see `particles.ghosts`. factor, added: (d, w) diagonal of F, and
+            v_0 [m/s]. stressed: (w,) 1 beyond a free surface, where 2 d tau / eta is added to the
+            velocity of the source.
         dirichlet: (w,) 1 beyond a Dirichlet face. wall_temperature: (w,) [K], its mean where it
             varies along the face, as `varies` (w,) says. flux: (w,) into the body [W/m^2]. normal:
             (d, w) outward, plane: (w,) place of the face along it [m]. heat_face: (w,) number
@@ -54,6 +55,7 @@ class GhostRules:
             those across each axis that lie between for the flow. Else 0.
     """
 
+    sign: Array
     factor: Array
     added: Array
     stressed: Array
@@ -65,6 +67,21 @@ class GhostRules:
     plane: Array
     heat_face: Array
     walls: Array
+
+    @property
+    def velocity(self) -> dict[str, Array]:
+        """Tables of velocities as viscosity sees them, F (v_s + t j_s) + v_0."""
+        return {"stressed": self.stressed, "factor": self.factor, "added": self.added}
+
+    @property
+    def mirrored_velocity(self) -> dict[str, Array]:
+        """Tables of velocities as the divergence sees them, S (v_s + t j_s): nothing crosses."""
+        return {"stressed": self.stressed, "factor": self.sign, "added": 0.0 * self.added}
+
+    @property
+    def velocity_change(self) -> dict[str, Array]:
+        """Tables of a change of velocities, F d_s."""
+        return {"factor": self.factor}
 
     @property
     def has_one_wall(self) -> NDArray[np.bool_]:
@@ -150,6 +167,7 @@ class FaceConditions:
         shape = ghost_types.sign.shape
         factor, added = self._velocities(ghost_types)
         rules = GhostRules(
+            sign=ghost_types.sign,
             factor=factor,
             added=added,
             stressed=np.zeros(shape[1]),

@@ -63,23 +63,23 @@ class GhostExtension:
         }
 
         # F and v_0 of walls, or S alone; beyond a stressed surface the velocity is carried on
-        self._factor = table(rules.factor)
-        carry: Constants = {"stressed": table(rules.stressed), "along": surface.jump_direction}
-        self._velocity = carry | {"factor": self._factor, "added": table(rules.added)}
-        self._mirror = carry | {"factor": self._sign, "added": table(0.0 * rules.added)}
+        along: Constants = {"along": surface.jump_direction}
+        self._velocity = along | self._tables(rules.velocity)
+        self._mirrored_velocity = along | self._tables(rules.mirrored_velocity)
+        self._velocity_change = self._tables(rules.velocity_change)
 
         # walls on which no liquid slips: components that they turn around, normal and place
         is_wall = (rules.walls > 0.0) & rules.has_one_wall & (types.crosses_surface == 0.0)
-        along = (~is_wall & is_wall.any(axis=0) & (rules.factor < 0.0)).astype(float)
-        self.has_still_walls = bool(along.any())
+        turned = (~is_wall & is_wall.any(axis=0) & (rules.factor < 0.0)).astype(float)
+        self.has_still_walls = bool(turned.any())
         # S x + o = x lies on the plane of the wall: n . x = o/2
         normal = is_wall.astype(float)
         plane = 0.5 * np.sum(normal * types.offset, axis=0)
-        self._still_walls: Constants = {
-            "along": table(along),
-            "normal": table(normal),
-            "plane": table(plane),
-        }
+        self._still_walls = self._tables({"along": turned, "normal": normal, "plane": plane})
+
+    def _tables(self, values: Mapping[str, np.ndarray]) -> Constants:
+        """Tables by the type of a ghost, for loops."""
+        return {name: self.particles.table(one) for name, one in values.items()}
 
     def find(self, position: Array, radius: Array) -> None:
         """Find the ghosts of the particles at `position`, shape (d, n) [m].
@@ -93,6 +93,7 @@ class GhostExtension:
         if self.place.shape[1] != self.size:
             self.place = self.backend.zeros((self.dimension, self.size))
         self.sources = {"source": particles.source, "ghost_type": particles.ghost_type}
+        self.sources["place"] = self.place
 
     def gather(self, field: Array) -> Array:
         """The field of all particles on the block with ghosts: (n,) to (M,)."""
@@ -127,7 +128,9 @@ class GhostExtension:
         Beyond a stressed surface they continue the profile: mirrored, it would bend there, and its
         divergence with it. Args as of `extend_velocity`.
         """
-        return self._extend(ghost_fields.ghost_velocity, {"v": v, "jump": jump, **self._mirror})
+        return self._extend(
+            ghost_fields.ghost_velocity, {"v": v, "jump": jump, **self._mirrored_velocity}
+        )
 
     def add_at_walls(self, v: Array, a: Array, relative: Array, step: float, nu: float) -> None:
         """Add to velocities (d, M) what `ghost_fields.velocity_at_wall` says.
@@ -136,7 +139,7 @@ class GhostExtension:
             a: (d, n) grad p/rho [m/s^2]. relative: (n,) viscosity over that at the liquidus.
                 step: [s]. nu: at the liquidus [m^2/s].
         """
-        fields = {**self.sources, "v": v, "x": self.place}
+        fields = {**self.sources, "v": v}
         tables: Constants = {"m": relative, "a": a, **self._still_walls}
         function = ghost_fields.velocity_at_wall
         self.backend.pointwise(function, fields, v, **tables, step=step, nu=nu)
@@ -144,7 +147,7 @@ class GhostExtension:
     def extend_velocity_change(self, d: Array, out: Array) -> None:
         """Extend a change (d, n) of velocities, where walls and stress stay the same, into `out`
         (d, M) [m/s]."""
-        self._extend(ghost_fields.velocity_change, {"d": d, "factor": self._factor}, out)
+        self._extend(ghost_fields.velocity_change, {"d": d, **self._velocity_change}, out)
 
     def mirror(self, a: Array) -> Array:
         """A vector field (d, n) on the block with ghosts, as the planes between mirror it."""
@@ -197,7 +200,7 @@ class GhostExtension:
         """
         self.backend.pointwise(
             ghost_fields.tangent_plane,
-            {**self.sources, "x": self.place, **given},
+            {**self.sources, **given},
             (given["normal"], given["plane"]),
             surface_normal=self.surface.normal,
             distance=self.surface.distance,
