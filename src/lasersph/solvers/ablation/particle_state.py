@@ -109,8 +109,12 @@ class ParticleState:
         self.backend, self.geometry, self.material, self.curve = backend, geometry, material, curve
         self.count, total = geometry.count, geometry.total
         size = (backend, self.count, geometry.dimension)
+
+        # levels of a step: its start, with all fields, and its middle, with what changes
         self.now = Particles(*size, (*LEVEL, *OTHERS), capacity=total)
         self.half = Particles(*size, LEVEL, capacity=total)
+
+        # tables of the caloric curve and of k(T), constants of the equation of state
         T, k = material.table("conductivity", 1.0, HOTTEST)
         self._tables = {
             "h_nodes": backend.asarray(curve.enthalpy),
@@ -125,6 +129,8 @@ class ParticleState:
             "c_0": sound_speed,
             "has_tension": float(has_tension),
         }
+
+        # fields at the start, and what follows from them
         start = {
             "position": initial.position,
             "velocity": initial.velocity,
@@ -146,6 +152,7 @@ class ParticleState:
 
     def refresh(self, level: Particles, rows: Rows | None = None) -> None:
         """Set what follows from enthalpy, density and kind."""
+        # T(h), fractions, k(T), P(rho) and volumes in one loop
         names = [name if isinstance(name, str) else name.name for name in DERIVED]
         out = (*(level[name] for name in names), self.now["opaque"])
         fields = self.fields(level)

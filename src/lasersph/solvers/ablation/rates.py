@@ -93,6 +93,7 @@ class Rates:
         if moving is not Moving.NOTHING:
             self.weights = None
         elif self.weights is None:
+            # g_ij of pairs at rest, which stay the same while nothing moves
             backend, pairs = self.particles.backend, self.pairs.now
             self.weights, fields = backend.zeros(pairs.neighbor.shape[0]), self.particles.fields()
             factor = self.parameters.weight_factor
@@ -149,11 +150,13 @@ class Rates:
             NotConverged: its heat or its force is not finite, or matter would be torn apart.
         """
         particles, pointwise = self.particles, self.particles.backend.pointwise
+        # heat alone: the energy that is gained must be finite
         fields = {"m": particles.now["mass"], "dh": self._dh}
         if self.moving is not Moving.ALL:
             (gain,) = pointwise(energy_gain, fields, (None,), rows=rows, reduce=("sum",), dt=step)
             is_stable = isfinite(gain)
         else:
+            # all equations: forces as well, and no particle may become too thin
             fields |= {"rho": particles.now["density"], "a": self._a, "drho": self._drho}
             reduce = ("sum", "min", "sum")
             gain, thinnest, force = pointwise(
@@ -173,6 +176,7 @@ class Rates:
             source: level that the rates were found at; positions move with its velocity.
         """
         particles, pointwise = self.particles, self.particles.backend.pointwise
+        # y_0 + dt f(y'), of what may change in the step
         fields = particles.now.by_symbol() | {"v_rate": source["velocity"]}
         fields |= {"a": self._a, "drho": self._drho, "dh": self._dh}
         x, v, rho, h = (target[name] for name in ("position", "velocity", "density", "enthalpy"))

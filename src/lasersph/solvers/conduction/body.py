@@ -90,25 +90,36 @@ def assemble(
     use_second_moment: bool,
 ) -> Body:
     """Fill the domain, find the pairs, and assemble their weights."""
+    # particles with dummies beyond the faces, pairs and weights g_ij
     ends = {face: KINDS[boundaries.kind_of(face)] for face in PLANE}
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
     weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
     neighbors, row, weights = _weights(backend, weighing, filling)
+
+    # faces: A, sum of A P_w, sum of A T_w and b; their pairs weigh 0 from then on
     walls = walls_of(
         boundaries, curve, layers, filling, weights, row, backend.to_host(neighbors.neighbor)
     )
     count = filling.count
+
+    # operator of the pairs between particles, sum_j g_ij (P_j - P_i) - A_i P_i
     pairs = PairOperator(
         neighbors=neighbors.without_ghosts(backend, backend.asarray(filling.source, "index")),
         weights=backend.asarray(weights),
         boundary_coefficient=backend.asarray(walls.coefficient),
         total=backend.asarray(np.bincount(row, weights, minlength=count)),
     )
+
+    # cross-section of surface particles that light and losses pass
     area = np.zeros(count)
     area[filling.surface] = np.prod(filling.width[:-1, filling.surface], axis=0)
+
+    # fields at rest at the initial temperature, h = 0
     fields = ("mass", *HISTORY, "evaporated_mass", *DERIVED)
     particles = Particles(backend, count, layers.dimension, fields)
     particles.set("mass", material.density_reference * filling.volume[:count])
+
+    # caloric curve as tables of the backend
     body = Body(
         backend=backend,
         filling=filling,
@@ -158,6 +169,7 @@ def weighing_of(lattice: Lattice, layers: Layers, *, use_second_moment: bool) ->
     mean = graded if lattice.arrangement == "graded" else arithmetic
     if not use_second_moment:
         return Weighing(shape, mean, ratio, weight, {}, _equal_factors)
+    # factors N and a of each layer, by which a linear profile conducts exactly
     up = upward(layers.dimension)
     factors = layer_factors(layers, shape, ratio, mean)
     return Weighing(shape, mean, ratio, layered_weight, {"up": up}, factors.at)
@@ -172,6 +184,7 @@ def _weights(
     backend: Backend, weighing: Weighing, filling: Filling
 ) -> tuple[NeighborList, NDArray[np.int64], NDArray[np.float64]]:
     """All pairs with dummies, and on the host the row and the weight of each pair."""
+    # g_ij of all particles with their dummies
     normal, lateral = weighing.factors(filling.layer)
     fields = {
         "V": backend.asarray(filling.volume),
@@ -189,6 +202,8 @@ def _weights(
     )
     weights = backend.zeros(backend.to_host(neighbors.neighbor).size)
     backend.pair_values(weighing.function, neighbors, fields, weights, **weighing.constants)
+
+    # row of each pair, on the host, where faces are assembled
     row_start = backend.to_host(neighbors.row_start).astype(np.int64)
     row = np.repeat(np.arange(filling.count), np.diff(row_start))
     return neighbors, row, np.array(backend.to_host(weights))

@@ -55,10 +55,13 @@ class SurfaceExchange:
         """`ambient_pressure` [Pa]: against which vapor leaves, 0 for vacuum."""
         backend, count = body.backend, body.count
         self.body, self.evaporates = body, evaporates
+        # rows at the surface: those of the lattice until particles move
         self.power, self.slope, self.mass_flux = (backend.zeros(count) for _ in range(3))
         self._lattice = backend.asarray(body.filling.surface, "index"), body.area
         self.rows, self.area = self._lattice
         self._columns: SurfaceColumns | None = None
+
+        # what losses depend on: surroundings, and the vapor's curves where it evaporates
         self._tables = {"surroundings": backend.asarray(body.surroundings.table)}
         self.is_idle = not evaporates and not body.surroundings.take_heat
         self.constants: dict[str, float] = {}
@@ -111,6 +114,7 @@ class SurfaceExchange:
         )
         if hottest <= highest:
             return
+        # the hottest place, for the message
         rows = np.asarray(backend.to_host(self.rows), np.int64)
         place = rows[int(np.argmax(backend.to_host(temperature)[rows]))]
         x, where = "", position()
@@ -126,6 +130,7 @@ class SurfaceExchange:
         """Set power and slope; returns the power lost and the power removed by vapor [W]."""
         if self.is_idle:
             return 0.0, 0.0
+        # q(T) A and its slope, with L_v m(T) where vapor leaves
         fields = {"T": temperature, "area": self.area}
         if not self.evaporates:
             function, out = surface_power, (self.power, self.slope, None)

@@ -94,6 +94,7 @@ class PoolDomain:
 
     def _grow(self, deepest: float) -> None:
         """Let the block hold what lies as deep as that [m]."""
+        # layers down to MELT_MARGIN supports below the melt, and some more
         needed = int(np.searchsorted(self._bottom, deepest + MELT_MARGIN * self.support)) + 1
         if self.is_box:
             needed = self._bottom.size
@@ -108,6 +109,8 @@ class PoolDomain:
         """
         if last == self._bottom.size:
             return self.block_layers
+
+        # reach of each layer's pairs, against the last layer of the block
         center = self._bottom - 0.5 * self.layers.thickness
         support = self.lattice.support[self._starts[:-1]]
         reach = SKIN * 0.5 * (support[:last] + support[last])
@@ -120,6 +123,7 @@ class PoolDomain:
         Raises:
             PoolTooDeep: a particle below the finest layers flows.
         """
+        # depth of the deepest particle that flows
         fields = {"x": position, "fluid": kinds.fluid}
         (deepest,) = self.backend.pointwise(fluid_depth, fields, (None,), reduce=("max",))
         if deepest > self.fine_depth and not self.is_box:
@@ -129,6 +133,8 @@ class PoolDomain:
                 f"{format_quantity(self.fine_depth, 'm')}; give "
                 f'particles.fine_depth = "{1.3e9 * deepest:.0f} nm" or more'
             )
+
+        # another block where it has grown, with resting layers below
         self._grow(deepest)
         total = self._bottom.size
         if self._block is None or self._block.complete_layers != self.block_layers:

@@ -159,6 +159,7 @@ class FaceExchange:
         """Add the momentum of a viscous step that has just been taken."""
         if self.potential is None:
             return
+        # dt rho nu times the sums, along each face and across it
         found = self.sum_viscous_forces(block, flow, flow.viscous_step(step))
         factor = step * flow.liquid.density * flow.liquid.viscosity
         add_to(self.impulse, found[: len(PLANE)], factor)
@@ -184,6 +185,7 @@ class FaceExchange:
         """Add the momentum of the pressure that has just corrected the velocity."""
         if self.potential is None or not self.books_pressing:
             return
+        # dt times the force on the face, and the constant p_0 over its length
         found = self.sum_pressure(block, flow.projection.gradient_fields)
         add_to(self.pressing, outward(found), step)
         (x_0, x_1), (z_0, z_1) = block.conditions.box

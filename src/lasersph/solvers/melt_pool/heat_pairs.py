@@ -44,12 +44,16 @@ class HeatPairs:
         backend, body, pairs, rows = self.backend, self.body, self.body.pairs, None
         if block.has_row is not None:
             rows = backend.rows_where(backend.head(block.has_row, block.complete_rows), 1.0)
+
+        # g_ij of the block's rows, with walls taken out
         self.weigh(block, rows)
         row_start, neighbor = block.pairs.row_start, block.without_ghosts().neighbor
         if rows is None:
             pairs.neighbors = replace(pairs.neighbors, row_start=row_start, neighbor=neighbor)
             pairs.weights = block.weights
             return
+
+        # rows of the block in the place of the old ones, all others as they are
         chosen, ones = backend.zeros(body.count, "flag"), backend.zeros(rows.shape[0], "flag")
         backend.fill(ones, 1)
         backend.scatter(ones, rows, chosen)
@@ -66,6 +70,7 @@ class HeatPairs:
         """Terms of walls, weights between particles and their sums."""
         backend, body, pairs = self.backend, self.body, self.body.pairs
         fields = {"g_ij": block.weights} | block.walls.rules
+        # A, A P_w + b and A T_w of rows near faces, 0 of others; g_ij = 0 toward Dirichlet faces
         if block.walls.exchange_heat:
             out = (pairs.boundary_coefficient, body.wall_flow, body.wall_heat)
             near = block.rows_near_faces
@@ -80,5 +85,7 @@ class HeatPairs:
                 min_distance=block.walls.min_distance,
             )
             backend.pair_values(inner_weight, block.pairs, fields, block.weights, rows=near)
+
+        # S_i = sum_j g_ij, and the mark of rows that have moved
         backend.pair_sum(weight_of, block.pairs, {"g_ij": block.weights}, pairs.total, rows=rows)
         backend.pointwise(one, {"mark": self._renewed}, self._renewed, rows=rows)

@@ -28,6 +28,7 @@ def refuse_unstable(flow: Flow, domain: PoolDomain, position: Array, time: float
     is_possible = speed <= domain.surface.largest_speed
     if is_possible and speed * MIN_CROSSING_TIME * time <= domain.support:
         return
+    # the fastest particle, for the message
     host = flow.backend.to_host
     fastest = int(np.argmax(np.sum(host(flow.velocity) ** 2, axis=0)))
     x, z = (format_quantity(float(place), "m", 3) for place in host(position)[:, fastest])

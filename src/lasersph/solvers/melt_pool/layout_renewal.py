@@ -73,10 +73,13 @@ class LayoutRenewal:
         Raises:
             UnevenRelief: the relief is too deep for these layers.
         """
+        # even columns below the surface as it is; what it remembers of the flow is gone
         layout, surface = self._layout(), self.domain.surface
         self.volume += float(np.sum(layout.volume) - np.sum(self._fine("volume")))
         self.recedes = False
         surface.reset()
+
+        # mass of the cold metal in the new volumes
         mass = self.body.material.density_reference * layout.volume
         self._place({"position": layout.position, "volume": layout.volume, "mass": mass})
 
@@ -93,6 +96,7 @@ class LayoutRenewal:
             self.recedes = least < MIN_VOLUME_RATIO * self._cell
         if not self.recedes:
             return
+        # even columns again, which take over h, p and v of what was there
         layout, volume = self._layout(), self._fine("volume")
         carried = [self._fine(name) for name in ("enthalpy", "pressure", "velocity")]
         density = np.sum(self._fine("mass")) / np.sum(volume)
@@ -100,6 +104,8 @@ class LayoutRenewal:
         volume, (h, p, *v) = carry_over(
             self.domain.layers, layout, place, volume, np.vstack(carried)
         )
+
+        # the same mass and heat as before, without a past that a step could extrapolate
         new = {"position": layout.position, "volume": volume, "mass": density * volume}
         new |= {"pressure": p, "velocity": np.array(v)} | {name: h for name in HISTORY}
         self._place(new | {"enthalpy_excess": 0.0 * h})
@@ -117,6 +123,8 @@ class LayoutRenewal:
             layout = lay_below(domain.layers, height)
         except ValueError as error:
             raise UnevenRelief(f"{error}; {more}") from None
+
+        # cells neither flat nor tall, so that one row lies at the surface
         least, most = (size / domain.spacing for size in layout.heights)
         if least < HEIGHT_RANGE[0] or most > HEIGHT_RANGE[1]:
             raise UnevenRelief(
@@ -129,6 +137,7 @@ class LayoutRenewal:
         """Give the particles of the finest layers new fields, and all of them new pairs."""
         body, domain, surface = self.body, self.domain, self.domain.surface
         particles, backend = body.particles, body.backend
+        # new values of the finest layers, the old ones below
         for name, values in fields.items():
             whole = np.array(backend.to_host(particles[name]))
             whole[..., : values.shape[-1]] = values

@@ -116,11 +116,14 @@ class ParticleKinds:
     @graph
     def mark_walls(self, block: Block) -> None:
         """Kinds and marks of the particles of a block, by their fluid neighbors."""
+        # nothing is wall to begin with
         backend, count = self.backend, block.count
         marks = (self.kind, self.unknown, self.dummy, self.active)
         for mark in marks:
             backend.fill(mark, 0)
         out, near = tuple(backend.head(m, count) for m in marks), self.edge_distance
+
+        # within the support of fluid: dummy; a spacing from it: edge
         fields = {"fluid": block.gather(self.fluid), "g_ij": block.weights}
         backend.pair_sum(
             fluid_neighbors,

@@ -35,6 +35,7 @@ class Steadiness:
         """Take note of the time [s], the largest speed [m/s] and the kinetic energy [J]."""
         if self.wanted is None or (time - self.time) * speed < self.width:
             return
+        # (max E - min E) < wanted mean E over the samples
         self.time, self.energies = time, [*self.energies[1:], energy]
         if self.energies[0] > 0.0:
             width = max(self.energies) - min(self.energies)

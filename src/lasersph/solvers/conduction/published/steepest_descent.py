@@ -59,6 +59,7 @@ class PublishedStep(ImplicitStep):
     def solve(self, step: float, wanted: float) -> None:
         """Direction z and length alpha of one preconditioned step of steepest descent."""
         body, backend = self.body, self.body.backend
+        # z = r / diag, and r z
         fields = {"r": self.r, "z": self.spare, "m": self.mass, "p": self.spare}
         fields |= {
             "S": body.pairs.total,
@@ -67,6 +68,7 @@ class PublishedStep(ImplicitStep):
         }
         out, reduce = (self.spare, None), (None, "sum")
         (rz,) = backend.pointwise(descend, fields, out, reduce=reduce, **self.constants)
+        # alpha = r z / z A z
         finish: dict[str, Any] = {"finish": curvature, "reduce": ("sum",), **self.constants}
         (zAz,) = backend.pair_sum(difference, body.pairs.neighbors, fields, (None,), **finish)
         self.alpha = rz / zAz
