@@ -31,8 +31,7 @@ from lasersph.sph.tangential import (
     tangential_gradient,
     tangential_terms,
 )
-from lasersph.surface.still_surface import StillSurface
-from lasersph.surface.surface import SurfaceNeighbors, SurfaceStep
+from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
 
 LOWEST, HIGHEST = 1.0, 2.0e4
 """Range of temperatures of the table of surface tension [K]. Format: it ends far above any metal.
@@ -96,7 +95,7 @@ def fluidity_across(total_0, total_1):
     return total_0 / total_1 if total_1 > 0.0 else 1.0 + total_1
 
 
-class FlatSurface(StillSurface):
+class FlatSurface(Surface):
     """The surface z = `plane`, see `Surface`; its tangent points along x.
 
     Args:

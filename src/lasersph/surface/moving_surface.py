@@ -46,11 +46,9 @@ from lasersph.surface.recession import MassLoss, take_mass
 from lasersph.surface.segments import SurfaceSegments
 from lasersph.surface.smoothing import ODD_PARITY
 from lasersph.surface.surface import (
-    PressureCondition,
-    SurfaceGhosts,
+    Surface,
     SurfaceNeighbors,
     SurfaceStep,
-    upward,
 )
 from lasersph.surface.surface_stress import PARITIES, StressAlong, SurfaceStress
 from lasersph.surface.time_rule import Midpoint, TimeRule
@@ -79,7 +77,7 @@ steel and aluminum, some 4 km/s; what flows faster is not incompressible, and no
 200 m/s."""
 
 
-class MovingSurface:
+class MovingSurface(Surface):
     """The surface over a box of liquid, see `Surface`.
 
     Args:
@@ -91,7 +89,6 @@ class MovingSurface:
     """
 
     crossing = TANGENT
-    jump_direction = 1.0
     moves = True
     largest_speed = MAX_SPEED
     pressure_gradient: PressureGradient = DifferenceGradient()
@@ -110,39 +107,23 @@ class MovingSurface:
         has_stress: bool,
         forcing: SurfaceForcing,
     ) -> None:
-        self.backend, self.line = backend, line
-        self.bottom, self.spacing = bottom, spacing
-        dimension = 1 + len(line.shape)
-        self.normal = upward(dimension)
         # no particle comes to lie higher above the plane z = 0 than the wall lies below it
-        self.top = -bottom
+        dimension, min_distance = 1 + len(line.shape), MIN_DISTANCE * spacing
+        super().__init__(backend, count, -bottom, dimension, min_distance)
+        self.line, self.bottom, self.spacing = line, bottom, spacing
         self.liquid, self.forcing = liquid, forcing
         self.stress_law = SurfaceStress(liquid, forcing, has_stress=has_stress)
-
-        # fields of the particles below it
-        self.at_surface, self.near_surface = backend.zeros(count), backend.zeros(count)
-        self.depth, self.ghost_velocity_jump = backend.zeros(count), backend.zeros(count)
-        self.temperature, self.gradient = backend.zeros(count), backend.zeros(count)
-
-        # ghosts across its tangents, by their sources
-        self.ghosts = SurfaceGhosts(
-            distance=backend.zeros(count),
-            pressure=backend.zeros(count),
-            min_distance=MIN_DISTANCE * spacing,
-            normal=backend.zeros((dimension, count)),
-            shift=backend.zeros((dimension, count)),
-        )
+        # a ghost's jump is a vector, and so is that which passes on the whole stress
+        self.jump_direction = 1.0
         self._jump = backend.zeros((dimension, count))
         self._stress_jump = backend.zeros((dimension, count))
-        self.pressure = PressureCondition()
 
         # the line as loops know it
         low, high = (END_KINDS[kind] for kind in line.ends[0])
         self._grid: Constants = {"start": line.start[0], "inverse": 1.0 / line.widths[0]}
         self._ends = self._grid | {"columns": line.count, "low_end": low, "high_end": high}
         self._nodes: Constants = self._grid | {"nodes": float(line.count + 4)}
-        self._marks: Constants = {"near": spacing, "far": support}
-        self._marks["min_distance"] = MIN_DISTANCE * spacing
+        self._marks: Constants = {"near": spacing, "far": support, "min_distance": min_distance}
         self._columns = {"k": backend.asarray(np.arange(line.count), "index")}
 
         # columns: what survives a step, what moves, what leaves, values along the line
@@ -195,10 +176,6 @@ class MovingSurface:
     def settled_jump(self, settled: Array) -> Array:
         """The jump is seen at once."""
         return self._jump
-
-    def kept_at_face(self, dummy: Array) -> Array:
-        """Dummies alone: particles at the surface are kept below it by `confine`."""
-        return dummy
 
     def heights(self, columns: int) -> HostArray:
         """Heights of the columns."""

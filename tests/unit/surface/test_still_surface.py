@@ -6,8 +6,7 @@ from flow_boxes import box
 
 from lasersph import compute
 from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGradient
-from lasersph.surface.still_surface import NoSurface, settle
-from lasersph.surface.surface import PressureCondition
+from lasersph.surface.surface import PressureCondition, Surface, settle
 from lasersph.surface.time_rule import Midpoint, WholeStep
 
 
@@ -21,7 +20,7 @@ def test_a_box_without_a_surface_asks_nothing_of_a_step():
     """No condition, jump, limit, state or mark."""
     solver = box()
     surface, host = solver.domain.surface, solver.backend.to_host
-    assert isinstance(surface, NoSurface)
+    assert type(surface) is Surface
     assert surface.pressure == PressureCondition()
     assert surface.time_step_limits() == {} and surface.validity_error() == ""
     assert surface.state.kept == {} and surface.checkpoint_scalars() == {}
@@ -31,7 +30,7 @@ def test_a_box_without_a_surface_asks_nothing_of_a_step():
 
 def test_depth_below_the_top(backend):
     """Top - z, whatever x."""
-    surface = NoSurface(backend, 2, 0.5)
+    surface = Surface(backend, 2, 0.5)
     place, out = backend.asarray(np.array([[3.0, -7.0], [0.25, -2.0]])), backend.zeros(2)
     surface.find_depth(place, out)
     assert backend.to_host(out).tolist() == [0.25, 2.5]

@@ -23,7 +23,7 @@ from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.solver import lies_at_surface
 from lasersph.solvers.step_control import RETRIES, NotConverged
 from lasersph.surface.flat_surface import ImposedTemperature
-from lasersph.surface.still_surface import settle
+from lasersph.surface.surface import settle
 
 LIFE = 45
 """Steps after which the small pool is solid."""
