@@ -31,6 +31,7 @@ from lasersph.sph.tangential import (
     tangential_gradient,
     tangential_terms,
 )
+from lasersph.surface.columns import product
 from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
 
 LOWEST, HIGHEST = 1.0, 2.0e4
@@ -53,11 +54,6 @@ def mark_surface(x, n, plane, near, far):
     """1 for a particle at the surface, 1 for one within its support of it, and its depth [m]."""
     depth = plane - dot(x, n)
     return (1.0 if depth < near else 0.0), (1.0 if depth < far else 0.0), depth
-
-
-def both(mark, active):
-    """1 where both are."""
-    return mark * active
 
 
 def surface_tension(T, T_nodes, gamma_nodes):
@@ -197,7 +193,7 @@ class FlatSurface(Surface):
     def _rows(self, mark: Array, active: Array) -> Rows:
         """Index array of marked particles that are active."""
         found = self.backend.zeros(self.stress.shape[0])
-        self.backend.pointwise(both, {"mark": mark, "active": active}, found)
+        self.backend.pointwise(product, {"a": mark, "b": active}, found)
         return self.backend.rows_where(found, 1.0)
 
     def _find_slope(

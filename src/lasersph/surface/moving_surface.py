@@ -41,7 +41,7 @@ from lasersph.surface.column_flux import flux_through, volume_flux
 from lasersph.surface.forcing import SurfaceForcing
 from lasersph.surface.height_field import HeightField, length_ratio
 from lasersph.surface.pressure_condition import SurfaceLiquid, find_conditions
-from lasersph.surface.pressure_gradient import DifferenceGradient, PressureGradient
+from lasersph.surface.pressure_gradient import DifferenceGradient
 from lasersph.surface.recession import MassLoss, take_mass
 from lasersph.surface.segments import SurfaceSegments
 from lasersph.surface.smoothing import ODD_PARITY
@@ -51,7 +51,7 @@ from lasersph.surface.surface import (
     SurfaceStep,
 )
 from lasersph.surface.surface_stress import PARITIES, StressAlong, SurfaceStress
-from lasersph.surface.time_rule import Midpoint, TimeRule
+from lasersph.surface.time_rule import Midpoint
 from lasersph.surface.validity import validity_error
 
 HostArray = NDArray[np.float64]
@@ -91,8 +91,8 @@ class MovingSurface(Surface):
     crossing = TANGENT
     moves = True
     largest_speed = MAX_SPEED
-    pressure_gradient: PressureGradient = DifferenceGradient()
-    time_rule: TimeRule = Midpoint()
+    pressure_gradient = DifferenceGradient()
+    time_rule = Midpoint()
 
     def __init__(
         self,
@@ -115,8 +115,8 @@ class MovingSurface(Surface):
         self.stress_law = SurfaceStress(liquid, forcing, has_stress=has_stress)
         # a ghost's jump is a vector, and so is that which passes on the whole stress
         self.jump_direction = 1.0
-        self._jump = backend.zeros((dimension, count))
-        self._stress_jump = backend.zeros((dimension, count))
+        self.velocity_jump = backend.zeros((dimension, count))
+        self.stress_jump = backend.zeros((dimension, count))
 
         # the line as loops know it
         low, high = (END_KINDS[kind] for kind in line.ends[0])
@@ -160,22 +160,12 @@ class MovingSurface(Surface):
         self._values = self._values._replace(shear=shear, strain_rate=strain_rate)
         self._update_tables()
 
-    @property
-    def velocity_jump(self) -> Array:
-        """(d, n) across the tangents."""
-        return self._jump
-
-    @property
-    def stress_jump(self) -> Array:
-        """That with which pairs across pass on the whole stress."""
-        return self._stress_jump
-
     def settle(self, settled: Array, relative_viscosity: Array, remaining: float) -> None:
         """Nothing is to be undone under a given pressure."""
 
     def settled_jump(self, settled: Array) -> Array:
         """The jump is seen at once."""
-        return self._jump
+        return self.velocity_jump
 
     def heights(self, columns: int) -> HostArray:
         """Heights of the columns."""
@@ -212,7 +202,7 @@ class MovingSurface(Surface):
         members = self._members(now.position, now.flows)
         found = backend.zeros((2, line.count)), backend.zeros(line.count), backend.zeros(line.count)
         tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
-        tables |= {"x": now.position, "v": now.velocity, "jump": self._jump}
+        tables |= {"x": now.position, "v": now.velocity, "jump": self.velocity_jump}
         tables |= {"T": now.T, "depth": self.depth, "spacing": self.spacing}
         backend.pointwise(loops.surface_velocity, self._columns, found, **tables, **self._ends)
         velocity, T, weight = (backend.to_host(values) for values in found)
@@ -249,8 +239,8 @@ class MovingSurface(Surface):
             backend, line, molten, members, self.ghosts, neighbors, relative
         )
         shares = backend.asarray(np.pad(share, 2, mode="edge"))
-        fields = {"x": now.position, "jump": self._jump}
-        backend.pointwise(loops.passed_on, fields, self._stress_jump, **self._nodes, share=shares)
+        fields = {"x": now.position, "jump": self.velocity_jump}
+        backend.pointwise(loops.passed_on, fields, self.stress_jump, **self._nodes, share=shares)
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
         """Let what is molten under too thin columns rest; returns how many particles flow."""
@@ -353,7 +343,7 @@ class MovingSurface(Surface):
         """Interpolate the values of the line to particles and their ghosts."""
         ghosts = self.ghosts
         fields = {"x": position, "n": ghosts.normal, "distance": ghosts.distance}
-        out = (self._jump, self.ghost_velocity_jump, ghosts.pressure)
+        out = (self.velocity_jump, self.ghost_velocity_jump, ghosts.pressure)
         out += (self.temperature, self.gradient)
         self.backend.pointwise(loops.surface_values, fields, out, **self._nodes, **self._fields)
 

@@ -22,8 +22,8 @@ from lasersph.compute.vectors import dot, same
 from lasersph.particles.ghosts import MIRROR
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.particles.particles import Particles
-from lasersph.surface.pressure_gradient import PressureGradient, SymmetricGradient
-from lasersph.surface.time_rule import TimeRule, WholeStep
+from lasersph.surface.pressure_gradient import SymmetricGradient
+from lasersph.surface.time_rule import WholeStep
 
 Vector = tuple[float, ...]
 MIN_PLANE_DISTANCE = 1e-30
@@ -143,14 +143,16 @@ class Surface:
             of it. depth: (n,) below the surface along the beam [m]. temperature: (n,) of the
             surface above a particle at it [K]. gradient: (n,) of that along the surface [K/m].
             ghost_velocity_jump: (n,) by how much a ghost beyond the surface is faster than its
-            source along it, 2 d tau / eta [m/s]. ghosts: what those across its tangents have.
+            source along it, 2 d tau / eta [m/s]. velocity_jump, stress_jump: (n,) along a plane, or
+            (d, n), that jump for the flow, and as viscosity sees it. ghosts: what those across its
+            tangents have.
     """
 
     crossing = MIRROR
     moves = False
     largest_speed = inf
-    pressure_gradient: PressureGradient = SymmetricGradient()
-    time_rule: TimeRule = WholeStep()
+    pressure_gradient = SymmetricGradient()
+    time_rule = WholeStep()
 
     def __init__(
         self,
@@ -169,6 +171,7 @@ class Surface:
         self.at_surface, self.near_surface = backend.zeros(count), backend.zeros(count)
         self.depth, self.ghost_velocity_jump = backend.zeros(count), backend.zeros(count)
         self.temperature, self.gradient = backend.zeros(count), backend.zeros(count)
+        self.velocity_jump = self.stress_jump = self.ghost_velocity_jump
         # beyond a plane ghosts mirror their sources: nothing is shifted, no pressure is given
         self.ghosts = SurfaceGhosts(
             distance=backend.zeros(count),
@@ -179,17 +182,7 @@ class Surface:
         )
         self._no_state = Particles(backend, 0, 1)
 
-    # jumps of velocity beyond it, and the pressure there
-    @property
-    def velocity_jump(self) -> Array:
-        """By how much ghosts are faster than their sources [m/s]: (n,) along a plane, (d, n)."""
-        return self.ghost_velocity_jump
-
-    @property
-    def stress_jump(self) -> Array:
-        """The same as viscosity sees it."""
-        return self.ghost_velocity_jump
-
+    # jumps of velocity beyond it
     def settle(self, settled: Array, relative_viscosity: Array, remaining: float) -> None:
         """Let the jump (n,) that the divergence sees follow that of the stress.
 

@@ -116,14 +116,8 @@ class ParticleState:
 
         # tables of the caloric curve and of k(T), constants of the equation of state
         T, k = material.table("conductivity", 1.0, HOTTEST)
-        self._tables = {
-            "h_nodes": backend.asarray(curve.enthalpy),
-            "T_nodes": backend.asarray(curve.temperature),
-            "P_nodes": backend.asarray(curve.potential),
-            "m_nodes": backend.asarray(curve.melt_fraction),
-            "v_nodes": backend.asarray(curve.vapor_fraction),
-            "k_T": backend.asarray(T),
-            "k_nodes": backend.asarray(k),
+        nodes = curve.tables | {"k_T": T, "k_nodes": k}
+        self._tables = {name: backend.asarray(values) for name, values in nodes.items()} | {
             "melts_at": melts_at,
             "rho_0": material.density_reference,
             "c_0": sound_speed,

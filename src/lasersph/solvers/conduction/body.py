@@ -132,13 +132,7 @@ def assemble(
         wall_heat=backend.asarray(walls.heat),
         wall_power=backend.asarray(walls.power),
         area=backend.asarray(area),
-        tables={
-            "h_nodes": backend.asarray(curve.enthalpy),
-            "T_nodes": backend.asarray(curve.temperature),
-            "P_nodes": backend.asarray(curve.potential),
-            "m_nodes": backend.asarray(curve.melt_fraction),
-            "v_nodes": backend.asarray(curve.vapor_fraction),
-        },
+        tables={name: backend.asarray(nodes) for name, nodes in curve.tables.items()},
         surroundings=boundaries.surroundings(material, curve.initial_temperature),
     )
     body.update_temperature()

@@ -246,9 +246,15 @@ class ImplicitStep:
     @graph
     def balance(self, s: float) -> None:
         """Residual into `r`; reduces its size, what walls give, and the size of its terms."""
-        out, reduce = (self.r, None, None, None), (None, "sum", "sum", "sum")
-        pairs, how = self.body.pairs.neighbors, {"finish": residual, "reduce": reduce}
-        self.backend.pair_sum(flow, pairs, self._fields(), out, **how, s=s)
+        self.backend.pair_sum(
+            flow,
+            self.body.pairs.neighbors,
+            self._fields(),
+            (self.r, None, None, None),
+            finish=residual,
+            reduce=(None, "sum", "sum", "sum"),
+            s=s,
+        )
 
     @graph
     def move(self, damping: float) -> None:

@@ -27,13 +27,13 @@ from lasersph.particles.ghosts import GhostParticles, ghost_types_of
 from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
 from lasersph.physics.viscosity import viscous_weight
 from lasersph.solvers.melt_pool.block_layers import SKIN, BlockLayers, StaticParticleData
-from lasersph.solvers.melt_pool.block_terms import both
 from lasersph.solvers.melt_pool.block_walls import BlockWalls
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.ghost_extension import GhostExtension
 from lasersph.solvers.melt_pool.near_melt import NearMelt
 from lasersph.solvers.melt_pool.pair_geometry import PairGeometry, distance_square
 from lasersph.sph.correction import bounded_inverse, moment_term
+from lasersph.surface.columns import product
 from lasersph.surface.surface import Surface
 
 
@@ -235,7 +235,7 @@ class Block:
         marks = {"a": backend.head(ghosts.is_near, complete)}
         marks["b"] = backend.head(self.has_row, complete)
         found = backend.zeros(complete)
-        backend.pointwise(both, marks, found)
+        backend.pointwise(product, marks, found)
         self.rows_near_faces = backend.rows_where(found, 1.0)
 
     def move(self, position: Array) -> None:

@@ -23,11 +23,6 @@ def inner_weight(g_ij, dirichlet_j):
     return g_ij * (1.0 - dirichlet_j)
 
 
-def both(a, b):
-    """1 where both marks are."""
-    return a * b
-
-
 def weight_of(g_ij):
     """Weight of a pair, for its sum over the neighbors."""
     return g_ij

@@ -166,19 +166,15 @@ class FaceConditions:
         """Rules for ghosts of these types."""
         shape = ghost_types.sign.shape
         factor, added = self._velocities(ghost_types)
+        numbers = ("stressed", "dirichlet", "wall_temperature", "flux", "plane", "heat_face")
         rules = GhostRules(
             sign=ghost_types.sign,
             factor=factor,
             added=added,
-            stressed=np.zeros(shape[1]),
-            dirichlet=np.zeros(shape[1]),
-            wall_temperature=np.zeros(shape[1]),
             varies=np.zeros(shape[1], bool),
-            flux=np.zeros(shape[1]),
             normal=np.zeros(shape),
-            plane=np.zeros(shape[1]),
-            heat_face=np.zeros(shape[1]),
             walls=np.zeros(shape),
+            **{name: np.zeros(shape[1]) for name in numbers},
         )
         for one in self._crossings(ghost_types):
             rules.walls[one.axis, one.types] = self.number_of(one.face)

@@ -59,11 +59,6 @@ def heat_terms(
     return a_0, a_1, a_2, a_3, b_0, b_1, b_2, b_3
 
 
-def sums_of_row(total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7):
-    """Sums of a row."""
-    return total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7
-
-
 def heat_of_row(P, a_0, a_1, a_2, a_3, b_0, b_1, b_2, b_3):
     """Heat that flows into a particle over each face [W/m]."""
     return b_0 - a_0 * P, b_1 - a_1 * P, b_2 - a_2 * P, b_3 - a_3 * P
@@ -137,7 +132,6 @@ class FaceExchange:
             block.pairs,
             fields | block.walls.rules,
             tuple(self._sums.values()),
-            finish=sums_of_row,
             rows=block.rows_near_faces,
             min_distance=block.walls.min_distance,
         )
@@ -176,7 +170,6 @@ class FaceExchange:
             block.pairs,
             fields | block.walls.faces,
             (None,) * (2 * len(PLANE)),
-            finish=sums_of_row,
             rows=block.rows_near_faces,
             reduce=("sum",) * (2 * len(PLANE)),
         )

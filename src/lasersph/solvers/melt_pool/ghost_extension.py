@@ -97,14 +97,16 @@ class GhostExtension:
 
     def gather(self, field: Array) -> Array:
         """The field of all particles on the block with ghosts: (n,) to (M,)."""
-        out, fields = self.backend.zeros(self.size), {"place": self.source}
-        self.backend.pointwise(element, fields, out, table=field)
-        return out
+        return self._read(field, self.source)
 
     def of_type(self, table: Array) -> Array:
         """(M,) values by the type of each particle."""
-        out, fields = self.backend.zeros(self.size), {"place": self.particles.ghost_type}
-        self.backend.pointwise(element, fields, out, table=table)
+        return self._read(table, self.particles.ghost_type)
+
+    def _read(self, table: Array, place: Array) -> Array:
+        """(M,) values of a table at their places."""
+        out = self.backend.zeros(self.size)
+        self.backend.pointwise(element, {"place": place}, out, table=table)
         return out
 
     def _extend(self, function: Callable, tables: Constants, out: Array | None = None) -> Array:

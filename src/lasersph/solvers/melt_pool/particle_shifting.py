@@ -107,18 +107,7 @@ def allowed_shares(total_0, total_1, total_2, total_3, h):
 
 
 def limited_exchange(
-    h_i,
-    h_j,
-    phase_i,
-    phase_j,
-    dirichlet_j,
-    G_ij,
-    shift_i,
-    shift_j,
-    up_i,
-    up_j,
-    down_i,
-    down_j,
+    h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j, up_i, up_j, down_i, down_j
 ):
     """Exchange of a pair, by the smaller of the shares that its two particles allow [J/kg]."""
     # the giver's share of losses and the taker's share of gains: the same q for both, heat is kept
@@ -275,8 +264,15 @@ class ParticleShifting:
         shares = {"up": self._up, "down": self._down}
         backend.pointwise(shares_of, block.ghosts.sources, (up, down), **shares)
         fields |= {"up": up, "down": down, "m": m}
-        how = {"finish": add_exchange, "reduce": (None, "sum"), "rows": rows}
-        (added,) = backend.pair_sum(limited_exchange, pairs, fields, (h, None), **how)
+        (added,) = backend.pair_sum(
+            limited_exchange,
+            pairs,
+            fields,
+            (h, None),
+            finish=add_exchange,
+            reduce=(None, "sum"),
+            rows=rows,
+        )
         return added
 
     def move(self, position: Array, kinds: ParticleKinds) -> None:

@@ -132,9 +132,15 @@ class PressureEquation:
         self.components = Components(backend, count, support, period)
         self._correction = GridCorrection(backend, count, support, period)
         self._nothing, self._inner = backend.zeros(count), backend.zeros(0)
-        self._d, self._b, self._r, self._z, self._s, self._q = (
-            backend.zeros(count) for _ in range(6)
+        # diagonal and right-hand side, residual r, z = M^-1 r, direction s and A s
+        self._d, self._b = backend.zeros(count), backend.zeros(count)
+        self._r, self._z = backend.zeros(count), backend.zeros(count)
+        self._s, self._q = backend.zeros(count), backend.zeros(count)
+        # pairs, weights and boundary coefficient of the operator, none yet
+        self._neighbors = NeighborList(
+            backend.zeros(count + 1, "offset"), backend.zeros(0, "index")
         )
+        self._weights, self._coefficient = self._inner, self._nothing
 
     def set_operator(
         self,
@@ -232,9 +238,14 @@ class PressureEquation:
         components.remove_means(self._b)
 
         # r = b - A p
-        given, reduce = fields | {"b": self._b}, (None, "sum")
-        how = {"finish": residual, "reduce": reduce}
-        backend.pair_sum(neighbor_value, self._neighbors, given, (self._r, None), **how)
+        backend.pair_sum(
+            neighbor_value,
+            self._neighbors,
+            fields | {"b": self._b},
+            (self._r, None),
+            finish=residual,
+            reduce=(None, "sum"),
+        )
 
     @graph
     def set_direction(self, beta: float) -> None:
@@ -245,8 +256,14 @@ class PressureEquation:
         fields = {"p": s, "s": s, "d": self._d, "mask": self.components.mask}
         # q = A s by one sum over the pairs, with s q for the length of the step
         fields["g_ij"] = self._weights
-        how = {"finish": multiply, "reduce": (None, "sum")}
-        self.backend.pair_sum(neighbor_value, self._neighbors, fields, (q, None), **how)
+        self.backend.pair_sum(
+            neighbor_value,
+            self._neighbors,
+            fields,
+            (q, None),
+            finish=multiply,
+            reduce=(None, "sum"),
+        )
 
     @graph
     def approach(self, p: Array, alpha: float) -> None:

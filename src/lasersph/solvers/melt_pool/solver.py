@@ -105,6 +105,7 @@ class MeltPool:
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
+        self._numbers: dict[str, float] = {}
         self.domain.surface.find(self.position)
 
     @property

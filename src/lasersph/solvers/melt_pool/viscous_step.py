@@ -17,6 +17,7 @@ from lasersph.compute.vectors import dot
 from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.physics.viscosity import forced, momentum, predict
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.block_terms import weight_of
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 
 TOLERANCE = 1e-8
@@ -51,11 +52,6 @@ def next_solution(v, r, d, q, V, g_sum, alpha, s):
 def next_direction(z, d, beta):
     """New direction z + beta d."""
     return z + beta * d
-
-
-def weight_of(g_ij):
-    """Weight of a pair, for its sum over the neighbors."""
-    return g_ij
 
 
 class ViscousStep:
@@ -139,8 +135,16 @@ class ViscousStep:
         self.backend.pointwise(next_direction, {"z": z, "d": d}, d, rows=rows, beta=beta)
         block.ghosts.extend_velocity_change(d, self._changes)
         fields = {"g_ij": block.viscous_weights, "V": block.V, "v": self._changes, "d": d}
-        how = {"finish": matrix_product, "reduce": (None, "sum")}
-        self.backend.pair_sum(momentum, block.pairs, fields, (q, None), rows=rows, **how, s=s)
+        self.backend.pair_sum(
+            momentum,
+            block.pairs,
+            fields,
+            (q, None),
+            rows=rows,
+            finish=matrix_product,
+            reduce=(None, "sum"),
+            s=s,
+        )
 
     @graph
     def approach(self, v: Array, rows: Rows, s: float, alpha: float) -> None:

@@ -49,6 +49,8 @@ class PublishedStep(ImplicitStep):
     """The implicit step with the published iteration instead of Newton's."""
 
     max_iterations = MAX_ITERATIONS
+    alpha = 0.0
+    """Length of the last step. Derived: there is none yet."""
 
     def assemble(self, step: float) -> None:
         """There is no matrix: A is applied pair by pair, with the steepest dP/dh."""
