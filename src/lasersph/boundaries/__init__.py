@@ -2,14 +2,7 @@
 
 from lasersph.boundaries.flow_conditions import FlowCondition, FlowConditions
 from lasersph.boundaries.initial_motion import InitialMotion
-from lasersph.boundaries.settings import Boundaries, Surroundings
+from lasersph.boundaries.settings import Boundaries
 from lasersph.boundaries.vessel import Vessel
 
-__all__ = [
-    "Boundaries",
-    "FlowCondition",
-    "FlowConditions",
-    "InitialMotion",
-    "Surroundings",
-    "Vessel",
-]
+__all__ = ["Boundaries", "FlowCondition", "FlowConditions", "InitialMotion", "Vessel"]

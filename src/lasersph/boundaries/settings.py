@@ -31,7 +31,6 @@ from lasersph.input import (
     Temperature,
     TemperatureDifference,
     Time,
-    format_quantity,
     refusal,
 )
 from lasersph.materials import Material
@@ -66,15 +65,6 @@ class Surroundings(NamedTuple):
     def table(self) -> Array:
         """The numbers as `physics.losses.surface_loss` reads them."""
         return np.array([self.temperature, self.convection, self.emissivity])
-
-    def description(self, owner: str) -> str:
-        """Losses in words, and whose emissivity it is; empty where there are none."""
-        parts = []
-        if self.emissivity:
-            parts.append(f"radiation, emissivity {self.emissivity:g} {owner}")
-        if self.convection:
-            parts.append(f"convection, {format_quantity(self.convection, 'W/(m^2 K)')}")
-        return f"{'; '.join(parts)}; to {format_quantity(self.temperature, 'K')}" if parts else ""
 
 
 class SurfaceWave(Model):

@@ -23,7 +23,8 @@ def surface_loss(T, surroundings):
     """Convection and radiation [W/m^2] and their slope in T [W/(m^2 K)].
 
     Args:
-        surroundings: table of T_a [K], h_c [W/(m^2 K)] and eps, see `boundaries.Surroundings`.
+        surroundings: table of T_a [K], h_c [W/(m^2 K)] and eps, see
+            `boundaries.settings.Surroundings`.
     """
     T_a, h_c = surroundings[0], surroundings[1]
     eps = surroundings[2]

@@ -121,4 +121,10 @@ def _losses(case: Case) -> str:
     # A value of the case goes before that of the metal.
     owner = "as given" if boundaries.emissivity is not None else f"of {case.material.name}"
     surroundings = boundaries.surroundings(case.material, case.initial_temperature)
-    return surroundings.description(owner)
+    parts = []
+    if surroundings.emissivity:
+        parts.append(f"radiation, emissivity {surroundings.emissivity:g} {owner}")
+    if surroundings.convection:
+        parts.append(f"convection, {format_quantity(surroundings.convection, 'W/(m^2 K)')}")
+    to = format_quantity(surroundings.temperature, "K")
+    return f"{'; '.join(parts)}; to {to}" if parts else ""

@@ -45,11 +45,7 @@ from lasersph.surface.pressure_gradient import DifferenceGradient
 from lasersph.surface.recession import MassLoss, take_mass
 from lasersph.surface.segments import SurfaceSegments
 from lasersph.surface.smoothing import ODD_PARITY
-from lasersph.surface.surface import (
-    Surface,
-    SurfaceNeighbors,
-    SurfaceStep,
-)
+from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
 from lasersph.surface.surface_stress import PARITIES, StressAlong, SurfaceStress
 from lasersph.surface.time_rule import Midpoint
 from lasersph.surface.validity import validity_error
@@ -260,8 +256,7 @@ class MovingSurface(Surface):
         is_molten = backend.asarray(self.segments.is_molten.astype(float))
         grid = self._grid | {"columns": float(line.count), "is_molten": is_molten}
         fields = {"x": position, "flows": flows}
-        (count,) = backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)
-        return count
+        return backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)[0]
 
     def advance_first_half(self, now: SurfaceStep) -> None:
         """Move the line through the first half of a step, with the velocity at its begin."""

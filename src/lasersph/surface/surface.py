@@ -208,8 +208,7 @@ class Surface:
         Args:
             volume: (n,) [m^2].
         """
-        (count,) = self.backend.pointwise(same, {"value": flows}, (None,), reduce=("sum",))
-        return count
+        return self.backend.pointwise(same, {"value": flows}, (None,), reduce=("sum",))[0]
 
     def advance_first_half(self, now: SurfaceStep) -> None:
         """Follow the melt through the first half of a step; `now` is from its begin."""

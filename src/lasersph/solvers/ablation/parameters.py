@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lasersph.boundaries import Surroundings
+from lasersph.boundaries.settings import Surroundings
 
 
 @dataclass(frozen=True)

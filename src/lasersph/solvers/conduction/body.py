@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.boundaries import Boundaries, Surroundings
+from lasersph.boundaries import Boundaries
+from lasersph.boundaries.settings import Surroundings
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.layered import LayeredLight

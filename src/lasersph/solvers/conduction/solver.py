@@ -245,10 +245,8 @@ class Conduction:
         if self.settings.plateau != "clip" or limit is None:
             return 0.0
         fields = self.particles.by_symbol("enthalpy", "mass")
-        (cut,) = self.body.backend.pointwise(
-            clip_enthalpy, fields, (fields["h"], None), reduce=(None, "sum"), h_limit=limit
-        )
-        return cut
+        out, reduce = (fields["h"], None), (None, "sum")
+        return self.backend.pointwise(clip_enthalpy, fields, out, reduce=reduce, h_limit=limit)[0]
 
     def _account(self, energy: dict[str, float], discarded: float) -> None:
         """Add the energies of a step; what walls exchange is the balance of the pair sums."""

@@ -31,11 +31,7 @@ class GhostExtension:
     """
 
     def __init__(
-        self,
-        backend: Backend,
-        particles: GhostParticles,
-        rules: GhostRules,
-        surface: Surface,
+        self, backend: Backend, particles: GhostParticles, rules: GhostRules, surface: Surface
     ) -> None:
         self.backend, self.particles = backend, particles
         self.surface: SurfaceGhosts = surface.ghosts

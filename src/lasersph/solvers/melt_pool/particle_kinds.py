@@ -82,10 +82,8 @@ class ParticleKinds:
         if self.is_box:
             self._mark_all()
             return float(self.fluid.shape[0])
-        (count,) = self.backend.pointwise(
-            is_fluid, {"f_m": melt_fraction}, (self.fluid,), reduce=("sum",)
-        )
-        return count
+        fields = {"f_m": melt_fraction}
+        return self.backend.pointwise(is_fluid, fields, (self.fluid,), reduce=("sum",))[0]
 
     def _mark_all(self) -> None:
         """Mark all as fluid, once for all."""

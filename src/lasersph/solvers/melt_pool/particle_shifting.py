@@ -277,14 +277,14 @@ class ParticleShifting:
 
     def move(self, position: Array, kinds: ParticleKinds) -> None:
         """Move the particles to their shifted positions, inside the faces."""
-        (x0, x1), (z0, z1) = self.box
+        low, high = zip(*self.box, strict=True)
         fields = {"x": position, "displacement": self.displacement, "fluid": kinds.fluid}
         self.backend.pointwise(
             shifted_position,
             fields,
             position,
-            low=(x0, z0),
-            high=(x1, z1),
+            low=low,
+            high=high,
             width=self.periods,
             gap=MIN_FACE_DISTANCE * self.spacing,
         )

@@ -11,8 +11,6 @@ The paper states no stopping rule; here it is the residual of `implicit`.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lasersph.compute.array_types import Constants, Rows
@@ -71,8 +69,10 @@ class PublishedStep(ImplicitStep):
         out, reduce = (self.spare, None), (None, "sum")
         (rz,) = backend.pointwise(descend, fields, out, reduce=reduce, **self.constants)
         # alpha = r z / z A z
-        finish: dict[str, Any] = {"finish": curvature, "reduce": ("sum",), **self.constants}
-        (zAz,) = backend.pair_sum(difference, body.pairs.neighbors, fields, (None,), **finish)
+        pairs, constants = body.pairs.neighbors, self.constants
+        (zAz,) = backend.pair_sum(
+            difference, pairs, fields, (None,), finish=curvature, reduce=("sum",), **constants
+        )
         self.alpha = rz / zAz
         self.linear += 1
 
