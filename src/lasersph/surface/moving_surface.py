@@ -355,8 +355,6 @@ class MovingSurface(Surface):
     def _update_values(self) -> None:
         """Values along the line for loops."""
         self._fields = {
-            name: self.backend.asarray(self.line.extend(values, parity))
-            for name, values, parity in zip(
-                StressAlong._fields, self._values, PARITIES, strict=True
-            )
+            name: self.backend.asarray(self.line.extend(values, PARITIES[name]))
+            for name, values in self._values._asdict().items()
         }

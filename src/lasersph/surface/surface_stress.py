@@ -48,13 +48,13 @@ class StressAlong(NamedTuple):
     p_b: HostArray
 
 
-PARITIES = StressAlong(
-    T_line=EVEN_PARITY,
-    gradient=ODD_PARITY,
-    shear=ODD_PARITY,
-    strain_rate=EVEN_PARITY,
-    p_b=EVEN_PARITY,
-)
+PARITIES = {
+    "T_line": EVEN_PARITY,
+    "gradient": ODD_PARITY,
+    "shear": ODD_PARITY,
+    "strain_rate": EVEN_PARITY,
+    "p_b": EVEN_PARITY,
+}
 """How each goes on beyond a plane of symmetry."""
 
 

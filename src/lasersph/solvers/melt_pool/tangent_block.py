@@ -90,7 +90,8 @@ class TangentBlock(Block):
 
         # flux times the true length over that
         low, high = self.conditions.box[0]
-        length_ratio = backend.to_host(self.surface.length_ratio())
-        length = (high - low) * float(np.mean(length_ratio))
+        length_ratio = self.surface.length_ratio()
+        assert length_ratio is not None
+        length = (high - low) * float(np.mean(backend.to_host(length_ratio)))
         fields = {"flux": rules["flux"], "across": self.across}
         backend.pointwise(scaled_flux, fields, rules["flux"], factor=length / seen)
