@@ -81,7 +81,7 @@ class MovingSurface(Surface):
             of the wall [m]. spacing, support: of the particles [m]. has_stress: gamma drives it.
 
     Attributes:
-        line: the heights. ghosts: what lies beyond. loss: mass that leaves.
+        line: the heights. values: along it. segments: what of it moves. loss: mass that leaves.
     """
 
     crossing = TANGENT
@@ -127,7 +127,7 @@ class MovingSurface(Surface):
         self._is_overrun = np.zeros(line.count, bool)
         self.segments = SurfaceSegments(line)
         self.loss = MassLoss(line.count, liquid.particle_density, forcing)
-        self._values = self._no_values()
+        self.values = self._no_values()
         metal = liquid.material
         self._initial_tension = float(metal.surface_tension_at(metal.flow_temperature))
         self._tension = self._initial_tension
@@ -143,7 +143,7 @@ class MovingSurface(Surface):
     @property
     def state(self) -> Particles:
         """Table of the columns, with their present values."""
-        own = self._values
+        own = self.values
         values = self.line.height, own.shear, own.strain_rate, self.loss.followed
         for field, value in zip(STATE, values, strict=True):
             self._state.set(field.name, value)
@@ -153,7 +153,7 @@ class MovingSurface(Surface):
         """Go on from the values of the table."""
         found = [np.array(self.backend.to_host(self._state[field.name])) for field in STATE]
         self.line.height, shear, strain_rate, self.loss.followed = found
-        self._values = self._values._replace(shear=shear, strain_rate=strain_rate)
+        self.values = self.values._replace(shear=shear, strain_rate=strain_rate)
         self._update_tables()
 
     def settle(self, settled: Array, relative_viscosity: Array, remaining: float) -> None:
@@ -169,7 +169,7 @@ class MovingSurface(Surface):
 
     def reset(self) -> None:
         """Forget strain rates, stresses and temperatures along the line."""
-        self._values = self._no_values()
+        self.values = self._no_values()
         self._tension = self._initial_tension
         self._update_tables()
 
@@ -225,7 +225,7 @@ class MovingSurface(Surface):
         if molten.any() and not molten.all():
             p_b = np.interp(places, places[molten], values.p_b[molten])
             values = values._replace(p_b=p_b)
-        self._values = values
+        self.values = values
         self._update_values()
         self._set_values(now.position)
 
@@ -356,5 +356,5 @@ class MovingSurface(Surface):
         """Values along the line for loops."""
         self._fields = {
             name: self.backend.asarray(self.line.extend(values, PARITIES[name]))
-            for name, values in self._values._asdict().items()
+            for name, values in self.values._asdict().items()
         }
