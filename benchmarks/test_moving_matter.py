@@ -13,7 +13,7 @@ from lasersph.solvers.ablation.equations import pair_rates, particle_rates
 EDGE = 80
 CONSTANTS = {
     "h_s": 1.45, "c_0": 10.0, "alpha_solid": 5.0, "alpha_liquid": 0.1, "factor": 1.0, "g": 9.81,
-    "up": (0.0, 0.0, 1.0), "T_a": 300.0, "h_c": 0.0, "eps": 0.0, "step": 1.0,
+    "up": (0.0, 0.0, 1.0), "surroundings": np.array([300.0, 0.0, 0.0]), "step": 1.0,
 }  # fmt: skip
 
 

@@ -1,7 +1,6 @@
 """Rooms explain themselves: docstrings name a quantity, comments name steps, no word is private.
 
-Each room is held to the same numbers. Rooms that do not reach them yet stand in a table with what
-they have; their numbers can only get better, and a room that reaches the common ones leaves it.
+Each room is held to the same numbers.
 """
 
 import ast
@@ -18,8 +17,6 @@ ROOMS = sorted(folder.name for folder in SOURCE.iterdir() if any(folder.rglob("*
 
 MOST_CODE = 40
 """Lines of code to a line of comment at most; codes of this field that read well have 6 to 60."""
-MOST_CODE_YET = {"solvers": 187}
-"""The same of rooms that have fewer comments."""
 PRAGMA = re.compile(r"#\s*(noqa|type:|pyright:|fmt:|pragma)")
 
 WORDS = {
@@ -59,14 +56,6 @@ WORDS = {
     "way": "advection_time, displacement",
 }
 """Words that only this code knew in their meaning; with a leading underscore they are the same."""
-WORDS_YET = {
-    "solvers": {
-        *("EVEN", "FAR", "ROOM", "SAME", "WORN", "current_block"),
-        *("enter", "even_out_flux", "follow", "look", "renew", "rest", "take", "turn", "way"),
-    },
-    "surface": {"EVEN", "follow", "renew"},
-}
-"""Those that rooms still have."""
 
 
 @cache
@@ -129,29 +118,22 @@ def test_docstrings_begin_with_a_verb_or_the_quantity(room):
 
 @pytest.mark.parametrize("room", ROOMS)
 def test_steps_have_comments(room):
-    """A room has a line of comment to 40 lines of code, or as many as it had."""
+    """A room has a line of comment to 40 lines of code."""
     counts = [lines_of(file, tree) for file, tree in files_of(room)]
     code, comments = map(sum, zip(*counts, strict=True))
-    most = MOST_CODE_YET.get(room, MOST_CODE)
-    assert code <= most * max(comments, 1), f"{code} lines of code, {comments} of comments"
+    assert code <= MOST_CODE * max(comments, 1), f"{code} lines of code, {comments} of comments"
 
 
 @pytest.mark.parametrize("room", ROOMS)
 def test_no_private_words(room):
-    """No name is one of the listed words, but where a room still has it."""
+    """No name is one of the listed words."""
     found = [
         f'{file.relative_to(SOURCE)}:{line}: {name}, write "{WORDS[word]}"'
         for file, tree in files_of(room)
         for name, line in names_bound_in(tree)
-        if (word := listed_word(name)) and word not in WORDS_YET.get(room, ())
+        if (word := listed_word(name))
     ]
     assert not found, "\n".join(found)
-
-
-def test_tables_name_rooms_and_words_that_exist():
-    """A slip in a table would hold nothing."""
-    assert {*MOST_CODE_YET, *WORDS_YET} <= set(ROOMS)
-    assert set().union(*WORDS_YET.values()) <= set(WORDS)
 
 
 def test_the_rules_catch_what_they_are_for(tmp_path):

@@ -39,7 +39,7 @@ def test_flow_that_has_become_unstable():
     velocity = host_fields(solver)["velocity"]
     fastest = np.argmax(velocity[0])
     velocity[1, fastest] = 2000.0
-    solver.flow.begin(velocity)
+    solver.flow.set_initial_velocity(velocity)
     x, z = (format_quantity(place, "m", 3) for place in host_fields(solver)["position"][:, fastest])
     line = rf"unstable: 2e\+03 m/s at x = {x}, z = {z}; take another particles.spacing"
     with pytest.raises(NotConverged, match=line):

@@ -27,14 +27,14 @@ def test_recoil_presses_and_mass_leaves(pressure):
     case, solver = solver_of("moving-film", *FILM, f"boundaries.ambient_pressure={pressure}")
     surface, line = solver.domain.surface, solver.domain.surface.line
     for _ in range(4):
-        T = surface._line_temperature
+        T = surface.values.T_line
         solver.step(2e-10)
     ambient = case.boundaries.pressure_of_surroundings
-    T = surface._line_temperature
+    T = surface.values.T_line
     recoil = recoil_at(T, case.material.vaporization, ambient)
     assert np.min(recoil) > 1e4
     # nothing bends a flat surface, and a film that sinks evenly is at rest
-    assert surface._line_pressure == pytest.approx(recoil, rel=1e-3)
+    assert surface.values.p_b == pytest.approx(recoil, rel=1e-3)
     gone = surface.loss.followed / surface.liquid.density
     assert np.all(gone > 1e-13)
     assert line.height.sum() == pytest.approx(-gone.sum(), rel=1e-10)

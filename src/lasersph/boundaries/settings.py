@@ -14,7 +14,7 @@ The emissivity is the metal's where none is given here.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,25 @@ STANDARD_ATMOSPHERE = 101325.0
 """Pressure of the surroundings [Pa]. Exact: by its definition."""
 KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left", "right": "right"}
 """Each face and how the keys of its temperature and flux begin."""
+
+
+class Surroundings(NamedTuple):
+    """Surroundings that take heat from a surface: their temperature T_a [K], the heat transfer
+    coefficient h_c [W/(m^2 K)], and the emissivity eps of the surface."""
+
+    temperature: float
+    convection: float
+    emissivity: float
+
+    @property
+    def take_heat(self) -> bool:
+        """Whether any heat leaves to them."""
+        return self.convection > 0.0 or self.emissivity > 0.0
+
+    @property
+    def table(self) -> Array:
+        """The numbers as `physics.losses.surface_loss` reads them."""
+        return np.array([self.temperature, self.convection, self.emissivity])
 
 
 class SurfaceWave(Model):
@@ -258,14 +277,10 @@ class Boundaries(Model):
         """Against which vapor leaves the surface [Pa]: 1 atm where the case does not say."""
         return STANDARD_ATMOSPHERE if self.ambient_pressure is None else self.ambient_pressure
 
-    def surroundings(self, material: Material, initial: float) -> dict[str, float]:
-        """T_a [K], h_c [W/(m^2 K)] and eps of `physics.losses.surface_loss`."""
-        ambient = self.ambient_temperature
-        return {
-            "T_a": initial if ambient is None else ambient,
-            "h_c": self.convection,
-            "eps": self.emissivity_of(material),
-        }
+    def surroundings(self, material: Material, initial: float) -> Surroundings:
+        """Surroundings of the surface of a metal; initial: temperature at the start [K]."""
+        ambient = initial if self.ambient_temperature is None else self.ambient_temperature
+        return Surroundings(ambient, self.convection, self.emissivity_of(material))
 
     def _given(self, face: str, what: str) -> float | None:
         # the faces' own key before that of all sides

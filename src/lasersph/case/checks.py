@@ -191,8 +191,8 @@ def _material(case: CaseContents) -> Iterator[tuple[str, str]]:
         yield "initial_temperature" if is_start else "material", text
     yield from _evaporation(case)
     # An ambient temperature counts only where heat leaves by convection or radiation.
-    losses = case.boundaries.surroundings(case.material, case.initial_temperature)
-    if case.boundaries.ambient_temperature is not None and not losses["h_c"] and not losses["eps"]:
+    surroundings = case.boundaries.surroundings(case.material, case.initial_temperature)
+    if case.boundaries.ambient_temperature is not None and not surroundings.take_heat:
         yield (
             "boundaries.ambient_temperature",
             "says nothing without convection or emissivity; give one of them or leave it out",

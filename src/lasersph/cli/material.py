@@ -137,7 +137,7 @@ def _rows(material: Material) -> list[tuple[str, str, str, str]]:
         section = getattr(material, group)
         for name, unit in units.items():
             number = getattr(section, name, None)
-            if number is not None:
+            if isinstance(number, float):
                 source = section.source_of(name)
                 rows.append((f"{group}, {name}", f"{number:.5g} {unit}".strip(), "", source))
     # Optics by wavelength; text in a cell stays on one line.

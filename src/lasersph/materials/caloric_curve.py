@@ -64,6 +64,17 @@ class CaloricCurve:
         for array in arrays:
             array.flags.writeable = False
 
+    @property
+    def tables(self) -> dict[str, Array]:
+        """Nodes by the names that loops give them."""
+        return {
+            "h_nodes": self.enthalpy,
+            "T_nodes": self.temperature,
+            "P_nodes": self.potential,
+            "m_nodes": self.melt_fraction,
+            "v_nodes": self.vapor_fraction,
+        }
+
     def temperature_at(self, enthalpy: ArrayLike) -> Array:
         """Temperature [K] at specific enthalpy [J/kg], any shape."""
         return self._linear(self.temperature, enthalpy)

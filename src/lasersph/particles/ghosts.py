@@ -191,40 +191,39 @@ class GhostParticles:
             is_near: (n,) 1 for them; all_rows: (n,) 1 for all.
     """
 
-    source: Array
-    ghost_type: Array
-    near: Rows
-
     def __init__(
         self, backend: Backend, count: int, search_radius: float, ghost_types: GhostTypes
     ) -> None:
         self.backend, self.count, self.ghost_types = backend, count, ghost_types
         low, high = (tuple(places.tolist()) for places in ghost_types.near.T)
-        self._near: Constants = {"low": low, "high": high, "search_radius": search_radius}
+        self._bounds: Constants = {"low": low, "high": high, "search_radius": search_radius}
+        self._near_faces = near_surface if ghost_types.crosses_surface.any() else near_faces
         self._crossed = backend.asarray(ghost_types.crossed, "index")
         self._marks = backend.zeros((len(low), count))
         self.is_near, self.all_rows = backend.zeros(count), backend.zeros(count)
         backend.fill(self.all_rows, 1.0)
+        self.near: Rows = backend.zeros(0, "index")
         self._numbers = backend.zeros(0, "index")
-        self.total, self.source = 0, backend.zeros(0, "index")
+        self.total = 0
+        self.source = backend.zeros(0, "index")
+        self.ghost_type = backend.zeros(0, "index")
 
-    def find(self, position: Array, below: tuple[Array, Array] | None = None) -> None:
+    def find(self, position: Array, distance: Array, radius: Array) -> None:
         """Find the ghosts of the particles at `position`, shape (d, n) [m].
 
         Args:
-            below: (n,) distances from a surface that is the upper TANGENT face [m], and (count,)
-                radii within which particles have ghosts across it [m].
+            distance: (n,) from a surface that is the upper TANGENT face [m]. radius: (count,)
+                within which particles have ghosts across it [m].
         """
         backend, count = self.backend, self.count
+
         # particles near a face, and the faces that they are near
-        fields = {"x": backend.head(position, count)}
+        fields = {"x": backend.head(position, count), "radius": radius}
+        fields["distance"] = backend.head(distance, count)
         out = self._marks, self.is_near
-        if below is None:
-            backend.pointwise(near_faces, fields, out, **self._near)
-        else:
-            fields["distance"], fields["radius"] = (backend.head(a, count) for a in below)
-            backend.pointwise(near_surface, fields, out, **self._near)
+        backend.pointwise(self._near_faces, fields, out, **self._bounds)
         near = self.near = backend.rows_where(self.is_near, 1.0)
+
         # which pairs of a type and such a particle make a ghost
         size, others = near.shape[0], self.ghost_types.count - 1
         marks = backend.zeros(others * size)
@@ -232,6 +231,7 @@ class GhostParticles:
         tables: Constants = {"near": near, "marks": self._marks, "crossed": self._crossed}
         backend.pointwise(is_ghost, fields, marks, **tables, size=max(size, 1))
         found = backend.rows_where(marks, 1.0)
+
         # source and type of each particle and each ghost
         ghosts = found.shape[0]
         total = self.total = count + ghosts

@@ -19,8 +19,15 @@ STEFAN_BOLTZMANN = 5.670374419e-8
 """Radiation constant [W/(m^2 K^4)]. Source: CODATA 2018."""
 
 
-def surface_loss(T, T_a, h_c, eps):
-    """Convection and radiation [W/m^2] and their slope in T [W/(m^2 K)]."""
+def surface_loss(T, surroundings):
+    """Convection and radiation [W/m^2] and their slope in T [W/(m^2 K)].
+
+    Args:
+        surroundings: table of T_a [K], h_c [W/(m^2 K)] and eps, see
+            `boundaries.settings.Surroundings`.
+    """
+    T_a, h_c = surroundings[0], surroundings[1]
+    eps = surroundings[2]
     loss = h_c * (T - T_a) + eps * STEFAN_BOLTZMANN * (T**4 - T_a**4)
     slope = h_c + 4.0 * eps * STEFAN_BOLTZMANN * T**3
     return loss, slope

@@ -118,12 +118,13 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
 def _losses(case: Case) -> str:
     """Heat losses of the surface in words, and who says so; empty where there are none."""
     boundaries = case.boundaries
-    losses = boundaries.surroundings(case.material, case.initial_temperature)
     # A value of the case goes before that of the metal.
     owner = "as given" if boundaries.emissivity is not None else f"of {case.material.name}"
+    surroundings = boundaries.surroundings(case.material, case.initial_temperature)
     parts = []
-    if losses["eps"]:
-        parts.append(f"radiation, emissivity {losses['eps']:g} {owner}")
-    if losses["h_c"]:
-        parts.append(f"convection, {format_quantity(losses['h_c'], 'W/(m^2 K)')}")
-    return f"{'; '.join(parts)}; to {format_quantity(losses['T_a'], 'K')}" if parts else ""
+    if surroundings.emissivity:
+        parts.append(f"radiation, emissivity {surroundings.emissivity:g} {owner}")
+    if surroundings.convection:
+        parts.append(f"convection, {format_quantity(surroundings.convection, 'W/(m^2 K)')}")
+    to = format_quantity(surroundings.temperature, "K")
+    return f"{'; '.join(parts)}; to {to}" if parts else ""

@@ -31,10 +31,9 @@ def volume_flux(
     members = members_of(backend, key, line.count)
 
     # mean velocity around each side, and how thick the solid is there
-    x, u = backend.component(now.position, 0), backend.component(now.velocity, 0)
     found = backend.zeros(line.count + 1), backend.zeros(line.count + 1)
     tables = {"row_start": members.row_start, "member": members.neighbor, "V": now.volume}
-    tables |= {"x": x, "u": u, "flows": now.flows}
+    tables |= {"x": now.position, "v": now.velocity, "flows": now.flows}
     places = {"k": backend.asarray(np.arange(line.count + 1), "index")}
     backend.pointwise(loops.mean_velocity, places, found, **tables, **ends)
     mean, solid = (backend.to_host(values) for values in found)

@@ -66,7 +66,7 @@ def share_of_column(column, cover, factor, covers):
 
 
 def product(a, b):
-    """Product of two numbers."""
+    """Product of two numbers, 1 where two marks both are."""
     return a * b
 
 
@@ -89,6 +89,7 @@ class SurfaceColumns:
         self._flat = self._length_ratio = backend.asarray(np.ones(columns))
         self._sums = {side: tuple(backend.zeros(columns) for _ in "12") for side in ("", "_right")}
         self._ends: list[tuple[Array, Array, NeighborList]] = []
+        self._values = backend.zeros(0)
 
     def find(self, position: Array, rows: Rows, length_ratio: Array | None = None) -> None:
         """Let the particles `rows` at their positions (2, n) [m] share the surface.

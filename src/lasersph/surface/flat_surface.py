@@ -31,8 +31,8 @@ from lasersph.sph.tangential import (
     tangential_gradient,
     tangential_terms,
 )
-from lasersph.surface.still_surface import StillSurface
-from lasersph.surface.surface import SurfaceNeighbors, SurfaceStep
+from lasersph.surface.columns import product
+from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
 
 LOWEST, HIGHEST = 1.0, 2.0e4
 """Range of temperatures of the table of surface tension [K]. Format: it ends far above any metal.
@@ -54,11 +54,6 @@ def mark_surface(x, n, plane, near, far):
     """1 for a particle at the surface, 1 for one within its support of it, and its depth [m]."""
     depth = plane - dot(x, n)
     return (1.0 if depth < near else 0.0), (1.0 if depth < far else 0.0), depth
-
-
-def both(mark, active):
-    """1 where both are."""
-    return mark * active
 
 
 def surface_tension(T, T_nodes, gamma_nodes):
@@ -96,16 +91,17 @@ def fluidity_across(total_0, total_1):
     return total_0 / total_1 if total_1 > 0.0 else 1.0 + total_1
 
 
-class FlatSurface(StillSurface):
-    """The surface z = `plane`, see `Surface`.
+class FlatSurface(Surface):
+    """The surface z = `plane`, see `Surface`; its tangent points along x.
 
     Args:
         count: particles of the whole body. spacing, support: of the particles at it [m].
         material: gamma(T) or its slope. viscosity: eta at the liquidus [Pa s]. has_stress: whether
             gamma drives the flow. given: the surface's own temperature, where the case gives it.
-    """
 
-    tangent = (1.0, 0.0)
+    Attributes:
+        stress: (n,) tau [Pa].
+    """
 
     def __init__(
         self,
@@ -124,9 +120,11 @@ class FlatSurface(StillSurface):
         self.viscosity = viscosity
         self.given = given
         self.has_stress = has_stress
+        self.stress = backend.zeros(count)
+        self.tangent = self.jump_direction
         self._place = {"n": self.normal, "plane": plane, "near": spacing, "far": support}
         self._gamma = backend.zeros(count)
-        self._slope = backend.zeros((2, count))
+        self._slope = backend.zeros((len(self.normal), count))
         self._fluidity = backend.asarray(np.ones(count))
         if has_stress:
             T, gamma = surface_tension_table(material)
@@ -195,7 +193,7 @@ class FlatSurface(StillSurface):
     def _rows(self, mark: Array, active: Array) -> Rows:
         """Index array of marked particles that are active."""
         found = self.backend.zeros(self.stress.shape[0])
-        self.backend.pointwise(both, {"mark": mark, "active": active}, found)
+        self.backend.pointwise(product, {"a": mark, "b": active}, found)
         return self.backend.rows_where(found, 1.0)
 
     def _find_slope(

@@ -33,7 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.surface.smoothing import (
-    EVEN,
+    EVEN_PARITY,
     PIN_WEIGHT,
     End,
     Ends,
@@ -94,7 +94,7 @@ class HeightField:
         self.pins: Pins = ((0.0, 0.0),) * len(shape)
         self._smoothing: dict[tuple[tuple[float, ...], bool], Smoothing] = {}
         # the smoothed field of heights 1 over pins at 0, by which the volume is kept
-        self._raised = self.smooth(np.ones(shape), EVEN, 0.0)
+        self._raised = self.smooth(np.ones(shape), EVEN_PARITY, 0.0)
 
     def centers(self, axis: int = 0) -> Array:
         """Middle of the columns along an axis [m]."""
@@ -107,7 +107,9 @@ class HeightField:
         other.height = self.height.copy()
         return other
 
-    def smooth(self, values: Array, parity: Parity = EVEN, at_pins: float | None = None) -> Array:
+    def smooth(
+        self, values: Array, parity: Parity = EVEN_PARITY, at_pins: float | None = None
+    ) -> Array:
         """F of values at the columns, `shape`.
 
         Args:
@@ -120,14 +122,14 @@ class HeightField:
     @property
     def smoothed(self) -> Array:
         """F eta [m]."""
-        parities = self._parities(EVEN)
+        parities = self._parities(EVEN_PARITY)
         return self._solve(self.height, parities, self._at_ends(self.pins), passes_pins=True)
 
-    def derivative(self, values: Array, parity: Parity = EVEN, axis: int = 0) -> Array:
+    def derivative(self, values: Array, parity: Parity = EVEN_PARITY, axis: int = 0) -> Array:
         """Derivative of values at the columns along an axis, one-sided at pinned ends."""
         return self._stencil(FIRST, values, self._parities(parity)[axis], axis) / self.widths[axis]
 
-    def gradient(self, values: Array, parity: Parity = EVEN) -> Array:
+    def gradient(self, values: Array, parity: Parity = EVEN_PARITY) -> Array:
         """(d - 1, *shape) derivatives along all axes."""
         axes = range(len(self.shape))
         return np.array([self.derivative(values, parity, axis) for axis in axes])
@@ -151,12 +153,12 @@ class HeightField:
         terms = []
         for axis, width in enumerate(self.widths):
             # (S^2 - eta_a^2) eta_aa; on a line the factor is 1
-            second = self._stencil(SECOND, smoothed, EVEN, axis) / width**2
+            second = self._stencil(SECOND, smoothed, EVEN_PARITY, axis) / width**2
             others = (square[other] for other in range(len(self.shape)) if other != axis)
             terms.append(sum(others, 1.0) * second)
         for a, b in combinations(range(len(self.shape)), 2):
             # eta_ab: the slope along b is even along a
-            terms.append(-2.0 * slopes[a] * slopes[b] * self.derivative(slopes[b], EVEN, a))
+            terms.append(-2.0 * slopes[a] * slopes[b] * self.derivative(slopes[b], EVEN_PARITY, a))
         return -np.sum(terms, axis=0) / (1.0 + np.sum(square, axis=0)) ** 1.5
 
     def heights_after(self, step: float, *flux: Array) -> Array:
@@ -194,7 +196,7 @@ class HeightField:
         section = self.height.reshape(self.shape[0], -1).mean(axis=1)
         return float(2.0 * np.mean(section * mean_cosine))
 
-    def extend(self, values: Array, parity: float = EVEN, axis: int = 0) -> Array:
+    def extend(self, values: Array, parity: float = EVEN_PARITY, axis: int = 0) -> Array:
         """Values with two more at either end of an axis."""
         low, high = self.ends[axis]
         return along_axis(lambda line: extended(line, low, high, parity), axis, values)
@@ -230,7 +232,7 @@ class HeightField:
         """Parity along each axis: what is odd along x is even along others."""
         if isinstance(parity, tuple):
             return parity
-        return (parity,) + (EVEN,) * (len(self.shape) - 1)
+        return (parity,) + (EVEN_PARITY,) * (len(self.shape) - 1)
 
     def _stencil(self, weights: Array, values: Array, parity: float, axis: int) -> Array:
         """Sum of five neighboring values with weights; at pinned ends of the quartic."""

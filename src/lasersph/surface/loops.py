@@ -158,6 +158,11 @@ def seen_sign(c, columns, low_end, high_end):
     return 1.0
 
 
+def seen_velocity(v, sign):
+    """Velocity that is seen there: its part along x times that sign [m/s]."""
+    return vector(sign * v[0], v[1])
+
+
 def b_spline(distance):
     """Quadratic B-spline of a distance in columns, which has the integral 1."""
     if distance < 0.5:
@@ -167,11 +172,12 @@ def b_spline(distance):
     return 0.0
 
 
-def mean_velocity(k, row_start, member, x, u, V, flows, start, inverse, columns, low_end, high_end):
-    """Mean u of what flows around the k-th side of the columns [m/s]; how thick the solid is [m].
+def mean_velocity(k, row_start, member, x, v, V, flows, start, inverse, columns, low_end, high_end):
+    """Mean velocity along the line of what flows around the k-th side of the columns [m/s]; how
+    thick the solid is [m].
 
     Args:
-        k: 0 for the left end. row_start, member: particles of each column. x, u: [m], [m/s].
+        k: 0 for the left end. row_start, member: particles of each column. x, v: [m], [m/s].
         V: volume [m^2]. flows: 1 or 0.
     """
     side = int(k)
@@ -183,10 +189,11 @@ def mean_velocity(k, row_start, member, x, u, V, flows, start, inverse, columns,
             sign = seen_sign(c, columns, low_end, high_end)
             for p in range(row_start[column], row_start[column + 1]):
                 j = member[p]
-                place = seen_place((x[j] - start) * inverse, c, columns, low_end, high_end)
+                x_j, v_j = x[j], v[j]
+                place = seen_place((x_j[0] - start) * inverse, c, columns, low_end, high_end)
                 # each with its volume and a B-spline of its distance
                 share = b_spline(abs(place - side)) * V[j]
-                flow += flows[j] * sign * share * u[j]
+                flow += flows[j] * sign * share * v_j[0]
                 volume += flows[j] * share
                 solid += (1.0 - flows[j]) * share
     return flow / max(volume, 1.0e-300), solid * inverse
@@ -227,10 +234,8 @@ def surface_velocity(
     member,
     x,
     depth,
-    u,
-    w,
-    jump_x,
-    jump_z,
+    v,
+    jump,
     T,
     start,
     inverse,
@@ -247,9 +252,12 @@ def surface_velocity(
     """
     # moments of the place r along the surface and of the squared depth d
     center, middle = int(k), k + 0.5
-    s_0, s_1, s_2, s_d, s_1d, s_dd = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    u_0, u_1, u_d, w_0, w_1, w_d = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    n_0, n_1, n_2, T_0, T_1 = 0.0, 0.0, 0.0, 0.0, 0.0
+    s_0, s_1, s_2 = 0.0, 0.0, 0.0
+    s_d, s_1d, s_dd = 0.0, 0.0, 0.0
+    # of the velocity, and of the temperature with the places that it is fitted to
+    v_0, v_1, v_d = vector(0.0, 0.0), vector(0.0, 0.0), vector(0.0, 0.0)
+    n_0, n_1, n_2 = 0.0, 0.0, 0.0
+    T_0, T_1 = 0.0, 0.0
 
     # particles of five columns, with images beyond the ends
     for c in range(center - 2, center + 3):
@@ -260,25 +268,23 @@ def surface_velocity(
                 j = member[p]
                 layers = depth[j] / spacing
                 if layers < VELOCITY_DEPTH:
-                    place = seen_place((x[j] - start) * inverse, c, columns, low_end, high_end)
+                    x_j = x[j]
+                    place = seen_place((x_j[0] - start) * inverse, c, columns, low_end, high_end)
                     # weights fall along the surface and with the depth
                     r, d = place - middle, layers * layers
                     near = max(1.0 - r * r / (WINDOW * WINDOW), 0.0)
                     share = max(1.0 - layers / VELOCITY_DEPTH, LEAST_SHARE) * near * near
                     # velocity carried on to the surface by half of the ghost's jump
-                    u_j, w_j = sign * (u[j] + 0.5 * jump_x[j]), w[j] + 0.5 * jump_z[j]
+                    v_j = seen_velocity(v[j] + 0.5 * jump[j], sign)
                     s_0 += share
                     s_1 += share * r
                     s_2 += share * r * r
                     s_d += share * d
                     s_1d += share * r * d
                     s_dd += share * d * d
-                    u_0 += share * u_j
-                    u_1 += share * r * u_j
-                    u_d += share * d * u_j
-                    w_0 += share * w_j
-                    w_1 += share * r * w_j
-                    w_d += share * d * w_j
+                    v_0 += share * v_j
+                    v_1 += share * r * v_j
+                    v_d += share * d * v_j
                     # moments for the temperature, of the uppermost two layers alone
                     if layers < TEMPERATURE_DEPTH:
                         share = max(1.0 - layers / TEMPERATURE_DEPTH, LEAST_SHARE) * near * near
@@ -293,15 +299,17 @@ def surface_velocity(
     if det > 1.0e-9 * n_0 * n_0:
         T_s = (n_2 * T_0 - n_1 * T_1) / det
     # cofactors of 1, r, d; without the parabola where all are as deep, a mean where all are in line
-    c_0, c_1, c_d = s_2 * s_dd - s_1d * s_1d, s_1d * s_d - s_1 * s_dd, s_1 * s_1d - s_2 * s_d
+    c_0 = s_2 * s_dd - s_1d * s_1d
+    c_1 = s_1d * s_d - s_1 * s_dd
+    c_d = s_1 * s_1d - s_2 * s_d
     det = s_0 * c_0 + s_1 * c_1 + s_d * c_d
     if det <= LEAST_DEPTH * s_0 * s_2 * s_dd:
         c_0, c_1, c_d, det = s_2, -s_1, 0.0, s_0 * s_2 - s_1 * s_1
     if det <= 1.0e-9 * s_0 * c_0:
         c_0, c_1, c_d, det = 1.0, 0.0, 0.0, max(s_0, 1.0e-300)
+    v_s = c_0 * v_0 + c_1 * v_1 + c_d * v_d
     return (
-        (c_0 * u_0 + c_1 * u_1 + c_d * u_d) / det,
-        (c_0 * w_0 + c_1 * w_1 + c_d * w_d) / det,
+        vector(v_s[0] / det, v_s[1] / det),
         T_s,
         n_0,
     )

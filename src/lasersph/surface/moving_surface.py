@@ -25,7 +25,6 @@ the smoothing length are damped within the time of that wave.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +32,7 @@ from numpy.typing import NDArray
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.particles.fields import Field
+from lasersph.particles.ghosts import TANGENT
 from lasersph.particles.neighbor_lists import NeighborList, members_of
 from lasersph.particles.particles import Particles
 from lasersph.surface import loops
@@ -41,19 +41,13 @@ from lasersph.surface.column_flux import flux_through, volume_flux
 from lasersph.surface.forcing import SurfaceForcing
 from lasersph.surface.height_field import HeightField, length_ratio
 from lasersph.surface.pressure_condition import SurfaceLiquid, find_conditions
-from lasersph.surface.pressure_gradient import DifferenceGradient, PressureGradient
+from lasersph.surface.pressure_gradient import DifferenceGradient
 from lasersph.surface.recession import MassLoss, take_mass
-from lasersph.surface.segments import Segment, SurfaceSegments
-from lasersph.surface.smoothing import EVEN, ODD
-from lasersph.surface.surface import (
-    PressureCondition,
-    SurfaceGhosts,
-    SurfaceNeighbors,
-    SurfaceStep,
-    upward,
-)
-from lasersph.surface.surface_stress import SurfaceStress
-from lasersph.surface.time_rule import Midpoint, TimeRule
+from lasersph.surface.segments import SurfaceSegments
+from lasersph.surface.smoothing import ODD_PARITY
+from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
+from lasersph.surface.surface_stress import PARITIES, StressAlong, SurfaceStress
+from lasersph.surface.time_rule import Midpoint
 from lasersph.surface.validity import validity_error
 
 HostArray = NDArray[np.float64]
@@ -62,7 +56,7 @@ MIN_DISTANCE = 0.2
 particle that has come out would have its ghost in its own place."""
 MIN_DEPTH = 0.3
 """Particles stay as far below the surface, over the spacing. Guard: as at faces."""
-THINNEST = 0.5
+MIN_MELT_THICKNESS = 0.5
 """Thickness of melt over the spacing from which its column moves, as a mean of five columns.
 Accuracy: less is no row; with 3 a quarter of the relief of `texture-steel` was lost at 32 nm."""
 END_KINDS = {"pinned": loops.PINNED, "mirror": loops.MIRROR, "periodic": loops.PERIODIC}
@@ -73,13 +67,13 @@ STATE = (
     Field("surface_followed", "followed", "kg/m^2", "evaporated mass that has left", is_kept=True),
 )
 """Fields of the columns that survive a step."""
-FASTEST = 1000.0
+MAX_SPEED = 1000.0
 """Speed of metal below a surface that moves [m/s]. Guard: a quarter of the speed of sound in liquid
 steel and aluminum, some 4 km/s; what flows faster is not incompressible, and no texture flows at
 200 m/s."""
 
 
-class MovingSurface:
+class MovingSurface(Surface):
     """The surface over a box of liquid, see `Surface`.
 
     Args:
@@ -87,17 +81,14 @@ class MovingSurface:
             of the wall [m]. spacing, support: of the particles [m]. has_stress: gamma drives it.
 
     Attributes:
-        line: the heights. ghosts: what lies beyond. loss: mass that leaves.
+        line: the heights. values: along it. segments: what of it moves. loss: mass that leaves.
     """
 
-    normal = upward(2)
-    tangent = (1.0, 0.0)
-    normal_velocity = heat_flux = 0.0
-    top = inf
+    crossing = TANGENT
     moves = True
-    largest_speed = FASTEST
-    pressure_gradient: PressureGradient = DifferenceGradient()
-    time_rule: TimeRule = Midpoint()
+    largest_speed = MAX_SPEED
+    pressure_gradient = DifferenceGradient()
+    time_rule = Midpoint()
 
     def __init__(
         self,
@@ -112,37 +103,48 @@ class MovingSurface:
         has_stress: bool,
         forcing: SurfaceForcing,
     ) -> None:
-        self.backend, self.line, self.bottom, self.spacing = backend, line, bottom, spacing
+        # no particle comes to lie higher above the plane z = 0 than the wall lies below it
+        dimension, min_distance = 1 + len(line.shape), MIN_DISTANCE * spacing
+        super().__init__(backend, count, -bottom, dimension, min_distance)
+        self.line, self.bottom, self.spacing = line, bottom, spacing
         self.liquid, self.forcing = liquid, forcing
         self.stress_law = SurfaceStress(liquid, forcing, has_stress=has_stress)
-        # fields of the particles below it
-        self.at_surface, self.near_surface, self.depth = (backend.zeros(count) for _ in range(3))
-        self.temperature, self.gradient, self.stress = (backend.zeros(count) for _ in range(3))
-        self.ghost_velocity_jump = backend.zeros(count)
-        # ghosts across its tangents, by their sources
-        self._distance, self._p_b = backend.zeros(count), backend.zeros(count)
-        vectors = tuple(backend.zeros((2, count)) for _ in range(4))
-        self._n, self._shift, self._jump, self._stress_jump = vectors
-        self.ghosts = SurfaceGhosts(self._distance, self._p_b, MIN_DISTANCE * spacing, *vectors)
-        self.pressure = PressureCondition()
-        self._state = Particles(backend, line.count, 1, STATE)
-        self._is_overrun = np.zeros(line.count, bool)
+        # a ghost's jump is a vector, and so is that which passes on the whole stress
+        self.jump_direction = 1.0
+        self.velocity_jump = backend.zeros((dimension, count))
+        self.stress_jump = backend.zeros((dimension, count))
+
         # the line as loops know it
         low, high = (END_KINDS[kind] for kind in line.ends[0])
         self._grid: Constants = {"start": line.start[0], "inverse": 1.0 / line.widths[0]}
         self._ends = self._grid | {"columns": line.count, "low_end": low, "high_end": high}
-        self._nodes = float(line.count + 4)
-        self._marks: Constants = {"near": spacing, "far": support}
-        self._marks["min_distance"] = MIN_DISTANCE * spacing
+        self._nodes: Constants = self._grid | {"nodes": float(line.count + 4)}
+        self._marks: Constants = {"near": spacing, "far": support, "min_distance": min_distance}
         self._columns = {"k": backend.asarray(np.arange(line.count), "index")}
+
+        # columns: what survives a step, what moves, what leaves, values along the line
+        self._state = Particles(backend, line.count, 1, STATE)
+        self._is_overrun = np.zeros(line.count, bool)
         self.segments = SurfaceSegments(line)
         self.loss = MassLoss(line.count, liquid.particle_density, forcing)
-        self.reset()
+        self.values = self._no_values()
+        metal = liquid.material
+        self._initial_tension = float(metal.surface_tension_at(metal.flow_temperature))
+        self._tension = self._initial_tension
+        # tables of both, for loops
+        self._tables: Constants = {}
+        self._fields: Constants = {}
+        self._update_tables()
+
+    def _no_values(self) -> StressAlong:
+        """Zero stresses, strain rates and temperatures along the line."""
+        return StressAlong(*(np.zeros(self.line.count) for _ in StressAlong._fields))
 
     @property
     def state(self) -> Particles:
         """Table of the columns, with their present values."""
-        values = self.line.height, self._shear, self._strain_rate, self.loss.followed
+        own = self.values
+        values = self.line.height, own.shear, own.strain_rate, self.loss.followed
         for field, value in zip(STATE, values, strict=True):
             self._state.set(field.name, value)
         return self._state
@@ -150,29 +152,16 @@ class MovingSurface:
     def take_state(self) -> None:
         """Go on from the values of the table."""
         found = [np.array(self.backend.to_host(self._state[field.name])) for field in STATE]
-        self.line.height, self._shear, self._strain_rate, self.loss.followed = found
-        self._renew()
-
-    @property
-    def velocity_jump(self) -> Array:
-        """(2, n) across the tangents."""
-        return self._jump
-
-    @property
-    def stress_jump(self) -> Array:
-        """That with which pairs across pass on the whole stress."""
-        return self._stress_jump
+        self.line.height, shear, strain_rate, self.loss.followed = found
+        self.values = self.values._replace(shear=shear, strain_rate=strain_rate)
+        self._update_tables()
 
     def settle(self, settled: Array, relative_viscosity: Array, remaining: float) -> None:
         """Nothing is to be undone under a given pressure."""
 
     def settled_jump(self, settled: Array) -> Array:
         """The jump is seen at once."""
-        return self._jump
-
-    def kept_at_face(self, dummy: Array) -> Array:
-        """Dummies alone: particles at the surface are kept below it by `confine`."""
-        return dummy
+        return self.velocity_jump
 
     def heights(self, columns: int) -> HostArray:
         """Heights of the columns."""
@@ -180,15 +169,15 @@ class MovingSurface:
 
     def reset(self) -> None:
         """Forget strain rates, stresses and temperatures along the line."""
-        metal, zero = self.liquid.material, np.zeros(self.line.count)
-        self._shear = self._strain_rate = self._gradient = zero
-        self._line_pressure = self._line_temperature = zero
-        self._tension = float(metal.surface_tension_at(metal.flow_temperature))
-        self._renew()
+        self.values = self._no_values()
+        self._tension = self._initial_tension
+        self._update_tables()
 
     def find(self, position: Array) -> None:
-        """Set marks, depths and ghosts of the particles at `position`, shape (2, n) [m]."""
-        out = (self.at_surface, self.near_surface, self.depth, self._n, self._distance, self._shift)
+        """Set marks, depths and ghosts of the particles at `position`, shape (d, n) [m]."""
+        ghosts = self.ghosts
+        out = (self.at_surface, self.near_surface, self.depth)
+        out += (ghosts.normal, ghosts.distance, ghosts.shift)
         tables: Constants = self._tables | self._marks
         self.backend.pointwise(loops.surface_geometry, {"x": position}, out, **tables)
 
@@ -202,74 +191,52 @@ class MovingSurface:
 
     def update_stress(self, now: SurfaceStep, neighbors: SurfaceNeighbors, active: Array) -> None:
         """Set what the line gives the particles and their ghosts; see `Surface`."""
-        backend, line, places = self.backend, self.line, self.line.centers()
+        backend, line = self.backend, self.line
         self._set_values(now.position)
 
         # velocity and temperature along the line, fitted to the particles of five columns
         members = self._members(now.position, now.flows)
-        x = backend.component(now.position, 0)
-        u, w = (backend.component(now.velocity, k) for k in (0, 1))
-        jump_x, jump_z = (backend.component(self._jump, k) for k in (0, 1))
-        found = tuple(backend.zeros(line.count) for _ in range(4))
+        found = backend.zeros((2, line.count)), backend.zeros(line.count), backend.zeros(line.count)
         tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
-        tables |= {"x": x, "T": now.T, "depth": self.depth, "u": u, "w": w}
-        tables |= self._ends | {"spacing": self.spacing, "jump_x": jump_x, "jump_z": jump_z}
-        backend.pointwise(loops.surface_velocity, self._columns, found, **tables)
-        u_s, w_s, T_s, weight = (backend.to_host(values) for values in found)
+        tables |= {"x": now.position, "v": now.velocity, "jump": self.velocity_jump}
+        tables |= {"T": now.T, "depth": self.depth, "spacing": self.spacing}
+        backend.pointwise(loops.surface_velocity, self._columns, found, **tables, **self._ends)
+        velocity, T, weight = (backend.to_host(values) for values in found)
 
         # columns without melt near the surface, or just reached: what those beside them have
-        full = (weight > 0.0) & ~self._is_overrun
+        full, places = (weight > 0.0) & ~self._is_overrun, line.centers()
         if full.any() and not full.all():
-            u_s, w_s, T_s = (np.interp(places, places[full], f[full]) for f in (u_s, w_s, T_s))
-        self._line_temperature = T_s
+            velocity = np.array([np.interp(places, places[full], u[full]) for u in velocity])
+            T = np.interp(places, places[full], T[full])
 
         # du_t/dn, du_t/ds and p_b along each part that moves
-        self._shear, self._strain_rate, self._gradient = (np.zeros(line.count) for _ in range(3))
-        self._line_pressure, largest = np.zeros(line.count), 0.0
-        self.segments.follow()
-        for part in self.segments.parts:
-            largest = max(largest, self._set_part(part, now.interval, (u_s, w_s), T_s))
+        values, largest = self._no_values()._replace(T_line=np.array(T)), 0.0
+        self.segments.update_heights()
+        for columns, own in self.segments.parts:
+            x, u = places[columns], velocity[:, columns]
+            along, tension = self.stress_law.along(own, x, now.interval, u, T[columns])
+            largest = max(largest, tension)
+            for whole, part in zip(values, along, strict=True):
+                whole[columns] = part
         self._tension = largest or self._tension
+
         # beside a pool the pressure that holds at its edge
         molten = self.segments.is_molten
         if molten.any() and not molten.all():
-            known = self._line_pressure[molten]
-            self._line_pressure = np.interp(places, places[molten], known)
-        self._renew_values()
+            p_b = np.interp(places, places[molten], values.p_b[molten])
+            values = values._replace(p_b=p_b)
+        self.values = values
+        self._update_values()
         self._set_values(now.position)
 
         # boundary coefficients of the pressure equation, and the jump that passes on all stress
-        relative = self.liquid.relative_viscosity_at(self._line_temperature)
+        relative = self.liquid.relative_viscosity_at(values.T_line)
         self.pressure, share = find_conditions(
             backend, line, molten, members, self.ghosts, neighbors, relative
         )
-        tables = {name: self._tables[name] for name in ("start", "inverse", "nodes")}
-        tables["share"] = backend.asarray(np.pad(share, 2, mode="edge"))
-        fields = {"x": now.position, "jump": self._jump}
-        backend.pointwise(loops.passed_on, fields, self._stress_jump, **tables)
-
-    def _set_part(
-        self,
-        part: Segment,
-        interval: tuple[float, float],
-        velocity: tuple[HostArray, HostArray],
-        T: HostArray,
-    ) -> float:
-        """Stress, strain rates and pressure along a part that moves; largest gamma there [N/m].
-
-        Args:
-            velocity, T: of the whole line [m/s], [K].
-        """
-        columns, line = part
-        u, w = velocity
-        own = u[columns], w[columns]
-        found = self.stress_law.along(line, self.line.centers()[columns], interval, own, T[columns])
-        self._line_temperature[columns] = found.temperature
-        self._gradient[columns] = found.temperature_slope
-        self._shear[columns] = found.shear_rate
-        self._strain_rate[columns] = found.strain_rate
-        self._line_pressure[columns] = found.pressure
-        return found.largest_tension
+        shares = backend.asarray(np.pad(share, 2, mode="edge"))
+        fields = {"x": now.position, "jump": self.velocity_jump}
+        backend.pointwise(loops.passed_on, fields, self.stress_jump, **self._nodes, share=shares)
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
         """Let what is molten under too thin columns rest; returns how many particles flow."""
@@ -282,19 +249,18 @@ class MovingSurface:
         backend.pointwise(loops.thickness_of, self._columns, found, **tables)
         thickness = line.mean_of_neighbors(backend.to_host(found), everywhere)
         # columns over which the melt runs move, however little of it has arrived there
-        thick = thickness >= THINNEST * self.spacing
+        thick = thickness >= MIN_MELT_THICKNESS * self.spacing
         self._is_overrun = self.segments.overrun(thick) & ~thick
         self.segments.choose(thick | self._is_overrun)
         # particles of the columns that do not move rest
         is_molten = backend.asarray(self.segments.is_molten.astype(float))
         grid = self._grid | {"columns": float(line.count), "is_molten": is_molten}
         fields = {"x": position, "flows": flows}
-        (count,) = backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)
-        return count
+        return backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)[0]
 
     def advance_first_half(self, now: SurfaceStep) -> None:
         """Move the line through the first half of a step, with the velocity at its begin."""
-        self.segments.follow()
+        self.segments.update_heights()
         self.loss.begin_step(self.backend, now, self.segments)
         self._go_halfway(now)
 
@@ -305,12 +271,12 @@ class MovingSurface:
         # short waves are damped within the time of the fastest wave that the line shows
         line, moved, step = self.line, self.line.height.copy(), now.interval[1] - now.interval[0]
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
-        self.segments.follow()
+        self.segments.update_heights()
         for part, own in self.segments.parts:
             own.damp_short_waves(step * rate)
             moved[part] = own.height
         line.height = moved
-        self._renew()
+        self._update_tables()
         self.find(now.position)
         # the particles lose what has left through the surface
         if not self.loss.lost.any():
@@ -321,14 +287,14 @@ class MovingSurface:
 
     def _go_halfway(self, now: SurfaceStep) -> None:
         """Move the line by what flows in half of a step, and by half of what leaves in it."""
-        self.segments.follow()
+        self.segments.update_heights()
         flux = volume_flux(self.backend, self.line, self.bottom, now, self._ends)
         half, height = 0.5 * (now.interval[1] - now.interval[0]), self.line.height.copy()
         for part, own in self.segments.parts:
             flow = flux_through(own, part, flux)
             height[part] = own.heights_after(half, flow) - 0.5 * self.loss.lost[part]
         self.line.height = height
-        self._renew()
+        self._update_tables()
 
     def confine(self, position: Array, flows: Array) -> None:
         """Keep particles that flow below the surface."""
@@ -370,30 +336,25 @@ class MovingSurface:
 
     def _set_values(self, position: Array) -> None:
         """Interpolate the values of the line to particles and their ghosts."""
-        fields = {"x": position, "n": self._n, "distance": self._distance}
-        out = (self._jump, self.ghost_velocity_jump, self._p_b, self.temperature, self.gradient)
-        tables = {name: self._tables[name] for name in ("start", "inverse", "nodes")}
-        self.backend.pointwise(loops.surface_values, fields, out, **tables, **self._fields)
+        ghosts = self.ghosts
+        fields = {"x": position, "n": ghosts.normal, "distance": ghosts.distance}
+        out = (self.velocity_jump, self.ghost_velocity_jump, ghosts.pressure)
+        out += (self.temperature, self.gradient)
+        self.backend.pointwise(loops.surface_values, fields, out, **self._nodes, **self._fields)
 
-    def _renew(self) -> None:
-        """Tables of the line for loops."""
-        self._set_tables(self.line.height)
-        self._renew_values()
+    def _update_tables(self) -> None:
+        """Tables of the line for loops: place and slope of the surface, and values along it."""
+        line, asarray = self.line, self.backend.asarray
+        slope = line.derivative(line.height)
+        self._tables = self._nodes | {
+            "height": asarray(line.extend(line.height)),
+            "slope": asarray(line.extend(slope, ODD_PARITY)),
+        }
+        self._update_values()
 
-    def _set_tables(self, height: HostArray) -> None:
-        """Place and slope of the surface for loops, for heights [m]."""
-        line, backend = self.line, self.backend
-        self._tables: Constants = self._grid | {"nodes": self._nodes}
-        self._tables["height"] = backend.asarray(line.extend(height))
-        self._tables["slope"] = backend.asarray(line.extend(line.derivative(height), ODD))
-
-    def _renew_values(self) -> None:
+    def _update_values(self) -> None:
         """Values along the line for loops."""
-        odd = {"shear": self._shear, "gradient": self._gradient}
-        even = {"strain_rate": self._strain_rate, "p_b": self._line_pressure}
-        even["T_line"] = self._line_temperature
         self._fields = {
-            name: self.backend.asarray(self.line.extend(values, parity))
-            for fields, parity in ((even, EVEN), (odd, ODD))
-            for name, values in fields.items()
+            name: self.backend.asarray(self.line.extend(values, PARITIES[name]))
+            for name, values in self.values._asdict().items()
         }

@@ -73,8 +73,8 @@ def find_conditions(
     backend.pair_sum(terms, neighbors.pairs, fields, (a, p_b, length), finish=finish)
     # where viscosity varies, the length counts as the stress of the pairs does
     if neighbors.viscous_weights is not neighbors.weights:
-        fields["g_ij"], unused = neighbors.viscous_weights, backend.zeros((2, count))
-        out = (*(backend.component(unused, k) for k in (0, 1)), length)
+        fields["g_ij"] = neighbors.viscous_weights
+        out = (backend.zeros(count), backend.zeros(count), length)
         backend.pair_sum(terms, neighbors.pairs, fields, out, finish=finish)
     # length that the particles of each column see, over its own
     seen, places = backend.zeros(line.count), {"k": backend.asarray(np.arange(line.count), "index")}

@@ -42,61 +42,43 @@ class GhostPressure(Protocol):
         """(size,) particle behind each."""
         ...
 
-    def extend_pressure(self, p: Array) -> Array | None:
+    def extend_pressure(self, p: Array) -> Array:
         """(size,) pressure, carried on beyond a surface that moves."""
         ...
 
 
-class PressureGradient(Protocol):
-    """Gradient of the pressure below a surface.
+class SymmetricGradient:
+    """Gradient of a pressure that is known but for a constant.
 
     Attributes:
-        term: of a pair, with p, C and G. is_over_lowest: whether it sees the pressure over the
-            lowest one.
+        is_symmetric: whether the forces of two particles on each other are opposite, so that a sum
+            over ghosts is what presses on a face.
     """
 
-    is_over_lowest: bool
+    is_symmetric = True
 
     @property
     def term(self) -> Callable[..., Any]:
-        """Pair function of the sum."""
-        ...
-
-    def find_lowest(self, backend: Backend, p: Array, rows: Rows) -> None:
-        """Reduce the lowest pressure of some rows [Pa], where the gradient sees p over that."""
-        ...
-
-    def extend(self, backend: Backend, ghosts: GhostPressure, p: Array, lowest: float) -> Array:
-        """(size,) pressure of particles and ghosts as the gradient sees it [Pa]."""
-        ...
-
-
-class SymmetricGradient:
-    """Gradient of a pressure that is known but for a constant."""
-
-    is_over_lowest = True
-
-    @property
-    def term(self) -> Callable[..., Any]:
-        """(p_i C_i + p_j C_j) G_ij."""
+        """Term of a pair, (p_i C_i + p_j C_j) G_ij."""
         return correction.corrected_symmetric_term
 
     def find_lowest(self, backend: Backend, p: Array, rows: Rows) -> None:
-        """Reduce the lowest pressure of some rows [Pa]."""
+        """Reduce the lowest pressure of some rows [Pa], where the gradient sees p over that."""
         backend.pointwise(pressure_of, {"p": p}, (None,), rows=rows, reduce=("min",))
 
     def extend(self, backend: Backend, ghosts: GhostPressure, p: Array, lowest: float) -> Array:
-        """Pressure over the lowest one; ghosts mirror that of their source."""
+        """(size,) pressure of particles and ghosts as the gradient sees it [Pa]: over the lowest
+        one; ghosts mirror that of their source."""
         found, tables = backend.zeros(ghosts.size), {"p": p}
         fields = {"source": ghosts.source}
         backend.pointwise(pressure_over_lowest, fields, found, **tables, lowest=lowest)
         return found
 
 
-class DifferenceGradient:
+class DifferenceGradient(SymmetricGradient):
     """Gradient of a pressure that is given at the surface."""
 
-    is_over_lowest = False
+    is_symmetric = False
 
     @property
     def term(self) -> Callable[..., Any]:
@@ -108,6 +90,4 @@ class DifferenceGradient:
 
     def extend(self, backend: Backend, ghosts: GhostPressure, p: Array, lowest: float) -> Array:
         """Pressure carried on through that of the surface."""
-        found = ghosts.extend_pressure(p)
-        assert found is not None
-        return found
+        return ghosts.extend_pressure(p)

@@ -54,8 +54,8 @@ from lasersph.surface.surface import SurfaceStep
 SHARE = 8.0
 """Depth from which mass is taken, over the thickness that has left. Derived: a share of 1 / S of
 the depth reached leaves with each further thickness, so that after g spacings the smallest particle
-keeps (1.5 / (e S g))^(1/S) of its volume: with 8 it has 0.6 (`WORN`, where layouts are renewed)
-after 4 spacings, with 4 after one; 0.62 after three (tested)."""
+keeps (1.5 / (e S g))^(1/S) of its volume: with 8 it has 0.6 (where layouts are renewed, see
+`layout_renewal`) after 4 spacings, with 4 after one; 0.62 after three (tested)."""
 CATCH_UP = 0.05
 """How much more a step takes, over its share, of what longer steps before it have evaporated.
 Study: the least that ends a delay; with 0.1 steps of a third of the length change the temperature
@@ -82,8 +82,7 @@ def recede(
     depth,
     V_j,
     h_j,
-    u_j,
-    w_j,
+    v_j,
     share,
     columns,
     inverse,
@@ -94,7 +93,7 @@ def recede(
 
     Args:
         i, column: its number and that of its column. row_start, member: particles of each column
-            within reach. depth, V_j, h_j, u_j, w_j: of all. share: s of each column. columns: their
+            within reach. depth, V_j, h_j, v_j: of all. share: s of each column. columns: their
             number; that of particles beyond reach. inverse: 1 / width of a column [1/m].
     """
     if column >= columns:
@@ -121,11 +120,17 @@ def recede(
     left = (1.0 - s) * V
     mass = m - density * s * V
     enthalpy = h + density * entering / mass * (h_j[source] - h)
-    change = vector(u_j[source] - v[0], w_j[source] - v[1])
 
     # it sinks by what has left below its middle
     place = vector(x[0], x[1] - s * inverse * (total - above - 0.5 * V))
-    return place, left, mass, enthalpy, v + entering / left * change, m * h - mass * enthalpy
+    return (
+        place,
+        left,
+        mass,
+        enthalpy,
+        v + entering / left * (v_j[source] - v),
+        m * h - mass * enthalpy,
+    )
 
 
 def part_due(step: float, delay: float) -> tuple[float, float]:
@@ -224,8 +229,7 @@ def take_mass(
     number = backend.asarray(np.arange(now.flows.shape[0]), "index")
     fields = {"i": number, "column": column} | dict(zip("xVmhv", old, strict=True))
     tables |= {"depth": depth, "V_j": now.volume, "h_j": now.enthalpy}
-    tables |= {name: backend.component(now.velocity, k) for k, name in enumerate(("u_j", "w_j"))}
-    tables |= {"share": backend.asarray(share), "columns": float(count)}
+    tables |= {"v_j": now.velocity, "share": backend.asarray(share), "columns": float(count)}
 
     # m', h' and v' of every particle from the values before, and the heat that leaves in all
     tables |= {"inverse": inverse, "density": density}

@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 from lasersph.surface.height_field import HeightField
 from lasersph.surface.smoothing import End, Ends
 
-FEWEST = 12
+MIN_COLUMNS = 12
 """Columns of a part that moves, with those of its image. Accuracy: two smoothing lengths of six
 columns; fewer show no curvature and are held."""
 
-ADVANCE = 0.5
+ADVANCE_HEIGHT = 0.5
 """Height of melt over the solid beside its last column, over the width of a column, above which it
 advances. Study: 45 degrees from the pin at the side of that column to its middle, the steepest
 slope of a wave; 1 changes a relief of 410 nm by 1 %."""
@@ -69,7 +69,7 @@ class SurfaceSegments:
             left: End = whole.ends[0][0] if begin == 0 and not repeats else "pinned"
             right: End = whole.ends[0][1] if end == count and not repeats else "pinned"
             with_image = 2 if "mirror" in (left, right) else 1
-            if with_image * (end - begin) < FEWEST:
+            if with_image * (end - begin) < MIN_COLUMNS:
                 # too short for a curvature: its heights stay
                 continue
             columns = (np.arange(begin, end) + first) % count
@@ -84,12 +84,12 @@ class SurfaceSegments:
         for shift, first in ((1, 0), (-1, -1)):  # from the left, from the right
             # melt higher than half a column over a column that does not move falls onto it
             rise = np.roll(whole.height, shift) - whole.height
-            beside = np.roll(thick, shift) & (rise > ADVANCE * whole.widths[0])
+            beside = np.roll(thick, shift) & (rise > ADVANCE_HEIGHT * whole.widths[0])
             beside[first] &= whole.ends[0][0] == "periodic"
             found |= beside
         return found
 
-    def follow(self) -> None:
+    def update_heights(self) -> None:
         """Give the segments the heights of the whole line, and of the solid beside them."""
         whole = self.whole
         for columns, line in self.parts:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:  # SciPy's matrices take a tenth of a second to load, and few 
 Array = NDArray[np.float64]
 End = Literal["mirror", "periodic", "pinned"]
 Ends = tuple[End, End]
-EVEN, ODD = 1.0, -1.0
+EVEN_PARITY, ODD_PARITY = 1.0, -1.0
 """How a field goes on beyond a plane of symmetry. Exact: heights and temperatures are even,
 velocities along x odd."""
 ORDER, PINNED_ORDER = 5, 4

@@ -1,25 +1,34 @@
 """`Surface`: what a step of a melt pool wants to know of the free surface over the melt.
 
-A box without one has `NoSurface`, a flat one is `FlatSurface`. One that moves, z = eta(x, t), is
-`MovingSurface`: it brings a pressure from its curvature and its vapor, a gradient of the pressure
-and a time at which forces act, limits of the step from its capillary waves, and moves with the melt
-below it. No step asks which it has.
+Here is what holds for a top that stays where it is, as that of a box without a free surface does:
+nothing of it moves, wears or survives a step; the step is a whole one, the gradient of the pressure
+the symmetric one. A free surface that stays flat is `FlatSurface`. One that moves, z = eta(x, t),
+is `MovingSurface`: it brings a pressure from its curvature and its vapor, a gradient of the
+pressure and a time at which forces act, limits of the step from its capillary waves, and moves with
+the melt below it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import inf
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from lasersph.compute.array_types import Array
+from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import dot, same
+from lasersph.particles.ghosts import MIRROR
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.particles.particles import Particles
-from lasersph.surface.pressure_gradient import PressureGradient
-from lasersph.surface.time_rule import TimeRule
+from lasersph.surface.pressure_gradient import SymmetricGradient
+from lasersph.surface.time_rule import WholeStep
 
 Vector = tuple[float, ...]
+MIN_PLANE_DISTANCE = 1e-30
+"""Least distance from a plane that counts [m]. Guard: no division by 0 for a particle that lies on
+one."""
 
 
 def upward(dimension: int) -> Vector:
@@ -27,25 +36,45 @@ def upward(dimension: int) -> Vector:
     return (0.0,) * (dimension - 1) + (1.0,)
 
 
+def depth_below(x, n, plane):
+    """Depth of a particle below the surface [m]."""
+    return plane - dot(x, n)
+
+
+def settle(settled, jump, m, remaining):
+    """Jump that the divergence sees [m/s]; at once the present one where there was none.
+
+    Ghosts beyond a stressed surface continue the profile of u, and where they do so unevenly their
+    divergence is that of the profile. A stress that changes at once has no profile yet: its
+    divergence would have to be undone within the step, by a pressure that grows as 1 / dt. So the
+    jump follows within the time l^2 / nu in which momentum crosses a support, nu of the particle.
+    Under a given pressure at the surface nothing is to be undone: it is seen at once.
+
+    Args:
+        m: relative viscosity. remaining: part of the difference after the step, exp(-dt nu / l^2)
+            where m is 1.
+    """
+    if settled == 0.0:
+        return 1.0 * jump
+    return settled + (1.0 - remaining**m) * (jump - settled)
+
+
 class PressureCondition(NamedTuple):
     """Boundary condition of the pressure equation at a surface, arrays (n,) or None for none.
 
-    coefficient: cross-section over distance a [m^(d-2)]. value: p_b [Pa]. flux: sum of
-    cross-section times dp/dn, n outward [Pa m^(d-2)].
+    coefficient: cross-section over distance a [m^(d-2)]. value: p_b [Pa].
     """
 
     coefficient: Array | None = None
     value: Array | None = None
-    flux: Array | None = None
 
 
 class SurfaceGhosts(NamedTuple):
-    """Ghosts across the local tangent of a surface that is no plane, by their sources.
+    """Ghosts across the local tangent of a surface, by their sources; of a plane all are 0.
 
     distance: (n,) from the tangent [m]. pressure: (n,) p_b at the surface [Pa]. min_distance: least
-    distance that counts [m]. normal: (2, n) of the surface, outward. shift: (2, n) from source to
-    ghost [m]. jump: (2, n) velocity of the ghost over its source [m/s]; stress_jump: that with
-    which pairs across pass on the whole stress, however they lie.
+    distance that counts [m]. normal: (d, n) of the surface, outward. shift: (d, n) from source to
+    ghost [m].
     """
 
     distance: Array
@@ -53,8 +82,6 @@ class SurfaceGhosts(NamedTuple):
     min_distance: float
     normal: Array
     shift: Array
-    jump: Array
-    stress_jump: Array
 
 
 class SurfaceStep(NamedTuple):
@@ -100,66 +127,62 @@ class SurfaceNeighbors(Protocol):
         ...
 
 
-class Surface(Protocol):
-    """The free surface.
+class Surface:
+    """A top that stays where it is, and the members of every other one.
+
+    Args:
+        count: particles of the whole body. top: z of the plane [m]. dimension: d.
 
     Attributes:
-        normal, tangent: unit vectors, the normal outward. normal_velocity: [m/s]. heat_flux: into
-            the body [W/m^2]. at_surface, near_surface: (n,) 1 for a particle that lies at the
-            surface, within its support of it. depth: (n,) below the surface along the beam [m].
-            temperature: (n,) of the surface above a particle at it [K]. gradient: (n,) of that
-            along the surface [K/m]. stress: (n,) tau [Pa]. ghost_velocity_jump: (n,) by how much a
-            ghost beyond the surface is faster than its source, 2 d tau / eta [m/s]. ghosts: what
-            those beyond a surface that is no plane have; None for a plane.
+        normal: unit vector, outward. crossing: MIRROR or TANGENT, how ghosts lie beyond it.
         top: highest place of a particle [m]. moves: whether it is no plane. largest_speed: that
-            melt below it can have [m/s]. pressure_gradient, time_rule: what a step takes from it.
-        state: what survives a step and is no field of the particles, by column.
+            melt below it can have [m/s].
+        pressure_gradient, time_rule: what a step takes from it. jump_direction: along which jumps
+            of velocities point that are numbers; 1 where they are vectors.
+        at_surface, near_surface: (n,) 1 for a particle that lies at the surface, within its support
+            of it. depth: (n,) below the surface along the beam [m]. temperature: (n,) of the
+            surface above a particle at it [K]. gradient: (n,) of that along the surface [K/m].
+            ghost_velocity_jump: (n,) by how much a ghost beyond the surface is faster than its
+            source along it, 2 d tau / eta [m/s]. velocity_jump, stress_jump: (n,) along a plane, or
+            (d, n), that jump for the flow, and as viscosity sees it. ghosts: what those across its
+            tangents have.
     """
 
-    # the plane, and what crosses it
-    normal: Vector
-    tangent: Vector
-    normal_velocity: float
-    heat_flux: float
-    top: float
-    moves: bool
-    largest_speed: float
-    pressure_gradient: PressureGradient
-    time_rule: TimeRule
-    # fields of the particles, set anew in each step
-    at_surface: Array
-    near_surface: Array
-    depth: Array
-    temperature: Array
-    gradient: Array
-    stress: Array
-    ghost_velocity_jump: Array
+    crossing = MIRROR
+    moves = False
+    largest_speed = inf
+    pressure_gradient = SymmetricGradient()
+    time_rule = WholeStep()
 
-    @property
-    def ghosts(self) -> SurfaceGhosts | None:
-        """None for a plane."""
-        ...
+    def __init__(
+        self,
+        backend: Backend,
+        count: int,
+        top: float,
+        dimension: int = 2,
+        min_distance: float = MIN_PLANE_DISTANCE,
+    ) -> None:
+        self.backend, self.top = backend, top
+        self.normal = upward(dimension)
+        self.jump_direction: float | Vector = (1.0,) + (0.0,) * (dimension - 1)
+        self.pressure = PressureCondition()
 
-    @property
-    def state(self) -> Particles:
-        """Table of the columns, with their present values."""
-        ...
+        # fields of the particles, set anew in each step
+        self.at_surface, self.near_surface = backend.zeros(count), backend.zeros(count)
+        self.depth, self.ghost_velocity_jump = backend.zeros(count), backend.zeros(count)
+        self.temperature, self.gradient = backend.zeros(count), backend.zeros(count)
+        self.velocity_jump = self.stress_jump = self.ghost_velocity_jump
+        # beyond a plane ghosts mirror their sources: nothing is shifted, no pressure is given
+        self.ghosts = SurfaceGhosts(
+            distance=backend.zeros(count),
+            pressure=backend.zeros(count),
+            min_distance=min_distance,
+            normal=backend.zeros((dimension, count)),
+            shift=backend.zeros((dimension, count)),
+        )
+        self._no_state = Particles(backend, 0, 1)
 
-    @property
-    def pressure(self) -> PressureCondition:
-        """Condition for the pressure; an empty one for dp/dn = 0."""
-        ...
-
-    @property
-    def velocity_jump(self) -> Array:
-        """By how much ghosts are faster than their sources [m/s]: (n,) along a plane, (2, n)."""
-        ...
-
-    @property
-    def stress_jump(self) -> Array:
-        """The same as viscosity sees it."""
-        ...
-
+    # jumps of velocity beyond it
     def settle(self, settled: Array, relative_viscosity: Array, remaining: float) -> None:
         """Let the jump (n,) that the divergence sees follow that of the stress.
 
@@ -167,83 +190,84 @@ class Surface(Protocol):
             relative_viscosity: (n,) over that at the liquidus. remaining: part of the difference
                 after the step where that is 1.
         """
-        ...
+        fields = {"settled": settled, "jump": self.ghost_velocity_jump, "m": relative_viscosity}
+        self.backend.pointwise(settle, fields, settled, remaining=remaining)
 
     def settled_jump(self, settled: Array) -> Array:
         """`velocity_jump` as the divergence sees it."""
-        ...
+        return settled
 
     def kept_at_face(self, dummy: Array) -> Array:
         """(n,) 1 for particles that are shifted along a face only; dummy: (n,) 1 for dummies."""
-        ...
-
-    def heights(self, columns: int) -> np.ndarray:
-        """(columns,) mean heights [m]."""
-        ...
+        return dummy
 
     # the step, in the order of its calls
-    def advance_first_half(self, now: SurfaceStep) -> None:
-        """Follow the melt through the first half of a step; `now` is from its begin."""
-        ...
-
-    def reset(self) -> None:
-        """Forget what the flow below has left at the surface, but for its heights."""
-        ...
-
-    def find(self, position: Array) -> None:
-        """Set marks and depths of the particles at `position`, shape (dim, n) [m]."""
-        ...
-
-    def length_ratio(self) -> Array | None:
-        """(columns,) true length of the surface over that seen from above; None for a plane."""
-        ...
-
-    def find_depth(self, position: Array, out: Array) -> None:
-        """Depth below the surface along the beam [m] of particles at `position` [m]."""
-        ...
-
-    def update_stress(self, now: SurfaceStep, neighbors: SurfaceNeighbors, active: Array) -> None:
-        """Set temperature, gradient, stress, jump and pressure at the advected positions.
-
-        Args:
-            active: (n,) 1 for particles within the support of fluid; elsewhere there is no stress.
-        """
-        ...
-
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
         """Set `flows` (n,) to 0 where the melt is too thin for this surface to move; their sum.
 
         Args:
             volume: (n,) [m^2].
         """
-        ...
+        return self.backend.pointwise(same, {"value": flows}, (None,), reduce=("sum",))[0]
+
+    def advance_first_half(self, now: SurfaceStep) -> None:
+        """Follow the melt through the first half of a step; `now` is from its begin."""
+
+    def find(self, position: Array) -> None:
+        """Set marks and depths of the particles at `position`, shape (d, n) [m]."""
+
+    def update_stress(self, now: SurfaceStep, neighbors: SurfaceNeighbors, active: Array) -> None:
+        """Set temperature, gradient, jump and pressure at the advected positions.
+
+        Args:
+            active: (n,) 1 for particles within the support of fluid; elsewhere there is no stress.
+        """
 
     def advance_second_half(self, now: SurfaceStep) -> float:
         """Follow the melt through the second half; `now` is from the end of the step. Mass that
         leaves is taken from its particles; returns the heat that leaves with it [J/m]."""
-        ...
+        return 0.0
 
     def confine(self, position: Array, flows: Array) -> None:
         """Keep particles that flow, (n,) 1, below a surface that is not the domain's face."""
-        ...
+
+    # where it lies
+    def find_depth(self, position: Array, out: Array) -> None:
+        """Depth below the surface along the beam [m] of particles at `position` [m]."""
+        fields = {"x": position}
+        self.backend.pointwise(depth_below, fields, out, n=self.normal, plane=self.top)
+
+    def length_ratio(self) -> Array | None:
+        """(columns,) true length of the surface over that seen from above; None for a plane."""
+        return None
+
+    def heights(self, columns: int) -> np.ndarray:
+        """(columns,) mean heights [m]."""
+        return np.zeros(columns)
 
     def validity_error(self) -> str:
         """Why the run cannot go on: "what, where; what to change"; empty where it can."""
-        ...
+        return ""
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]."""
-        ...
+        return {}
 
     # retries and checkpoints
+    @property
+    def state(self) -> Particles:
+        """Table of the columns, with what survives a step and is no field of the particles."""
+        return self._no_state
+
     def take_state(self) -> None:
         """Go on from the values of `state`."""
-        ...
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step."""
-        ...
+        return {}
 
     def restore(self, numbers: Mapping[str, float]) -> None:
         """Continue from `checkpoint_scalars`."""
-        ...
+
+    def reset(self) -> None:
+        """Forget what the flow below has left at the surface, but for its heights."""

@@ -19,7 +19,7 @@ from lasersph.surface.flat_surface import surface_tension_table
 from lasersph.surface.forcing import SurfaceForcing
 from lasersph.surface.height_field import HeightField, length_ratio
 from lasersph.surface.pressure_condition import SurfaceLiquid
-from lasersph.surface.smoothing import EVEN, ODD
+from lasersph.surface.smoothing import EVEN_PARITY, ODD_PARITY
 
 HostArray = NDArray[np.float64]
 
@@ -35,15 +35,27 @@ def normal_stress(viscosity: HostArray, along: HostArray) -> HostArray:
 
 
 class StressAlong(NamedTuple):
-    """Values along a line (m,): temperature [K] and its slope along the surface [K/m], du_t/dn and
-    du_t/ds [1/s], p_b [Pa]; and the largest surface tension [N/m]."""
+    """Values along a line (m,), by the names of `loops.surface_values`.
 
-    temperature: HostArray
-    temperature_slope: HostArray
-    shear_rate: HostArray
+    T_line, gradient: temperature [K] and its slope along the surface [K/m]. shear, strain_rate:
+    du_t/dn and du_t/ds [1/s]. p_b: pressure [Pa].
+    """
+
+    T_line: HostArray
+    gradient: HostArray
+    shear: HostArray
     strain_rate: HostArray
-    pressure: HostArray
-    largest_tension: float
+    p_b: HostArray
+
+
+PARITIES = {
+    "T_line": EVEN_PARITY,
+    "gradient": ODD_PARITY,
+    "shear": ODD_PARITY,
+    "strain_rate": EVEN_PARITY,
+    "p_b": EVEN_PARITY,
+}
+"""How each goes on beyond a plane of symmetry."""
 
 
 class SurfaceStress:
@@ -65,22 +77,23 @@ class SurfaceStress:
         line: HeightField,
         x: HostArray,
         interval: tuple[float, float],
-        velocity: tuple[HostArray, HostArray],
+        velocity: HostArray,
         T: HostArray,
-    ) -> StressAlong:
-        """Stress along a part that moves.
+    ) -> tuple[StressAlong, float]:
+        """Stress along a part that moves, and the largest surface tension there [N/m].
 
         Args:
             x: (m,) places of its columns [m]. interval: begin and end of the step [s].
-            velocity: (m,) of the melt at the surface, along x and z [m/s]. T: (m,) there [K].
+            velocity: (2, m) of the melt at the surface [m/s]. T: (m,) there [K].
         """
         liquid, forcing = self.liquid, self.forcing
 
         # t . dv/ds and n . dv/ds of the smoothed velocity
-        u, w = line.smooth(velocity[0], ODD, 0.0), line.smooth(velocity[1], EVEN, 0.0)
+        u = line.smooth(velocity[0], ODD_PARITY, 0.0)
+        w = line.smooth(velocity[1], EVEN_PARITY, 0.0)
         (slope,) = slopes = line.slopes
         S = length_ratio(slopes)
-        u_x, w_x = line.derivative(u, ODD), line.derivative(w)
+        u_x, w_x = line.derivative(u, ODD_PARITY), line.derivative(w)
         along = (u_x + slope * w_x) / S**2
         across = (-slope * u_x + w_x) / S**2
 
@@ -103,11 +116,11 @@ class SurfaceStress:
             pressure = pressure + wave.mean_over(x, *interval)
         if forcing.recoil is not None:
             pressure = pressure + forcing.recoil(T)
-        return StressAlong(
-            temperature=T,
-            temperature_slope=line.derivative(T) / S,
-            shear_rate=shear_rate(tau, viscosity, across),
+        found = StressAlong(
+            T_line=T,
+            gradient=line.derivative(T) / S,
+            shear=shear_rate(tau, viscosity, across),
             strain_rate=along,
-            pressure=pressure,
-            largest_tension=float(np.max(tension)),
+            p_b=pressure,
         )
+        return found, float(np.max(tension))

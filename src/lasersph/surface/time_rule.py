@@ -6,8 +6,6 @@ a step finds holds in its middle, and goes on to its end by as much again.
 
 from __future__ import annotations
 
-from typing import Protocol
-
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 
@@ -17,31 +15,21 @@ def continue_from_middle(v, v_old):
     return 2.0 * v - v_old
 
 
-class TimeRule(Protocol):
-    """When forces act.
+class WholeStep:
+    """Forces of the end of a step: the published scheme.
 
     Attributes:
         share: of the step after which the positions, at which forces are found, and the velocity
             that viscosity sees lie.
     """
 
-    share: float
-
-    def finish(self, backend: Backend, v: Array, v_old: Array) -> None:
-        """Carry the velocity (d, n) [m/s] on to the end of the step, from v_old at its begin."""
-        ...
-
-
-class WholeStep:
-    """Forces of the end of a step: the published scheme."""
-
     share = 1.0
 
     def finish(self, backend: Backend, v: Array, v_old: Array) -> None:
-        """The velocity is that of the end."""
+        """Carry the velocity (d, n) [m/s] on to the end of the step, from v_old at its begin."""
 
 
-class Midpoint:
+class Midpoint(WholeStep):
     """Forces of the middle of a step."""
 
     share = 0.5

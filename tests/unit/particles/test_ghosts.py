@@ -34,7 +34,8 @@ def ghosts(backend):
         position = np.array(position, float).T
         count = count or position.shape[1]
         found = GhostParticles(backend, count, search_radius, ghost_types_of(faces))
-        found.find(backend.asarray(position))
+        nothing = backend.zeros(position.shape[1])
+        found.find(backend.asarray(position), nothing, nothing)
         source, ghost_type = (
             backend.to_host(part).astype(int) for part in (found.source, found.ghost_type)
         )
@@ -137,12 +138,12 @@ def unit_box(*kinds):
     return tuple(FacePair(kind, kind, 0.0, 1.0) for kind in kinds)
 
 
-def found_at(backend, faces, place, below=None):
+def found_at(backend, faces, place, below=(0.0, 0.0)):
     """Places and types of the ghosts of one particle within 0.3 of the faces."""
     types = ghost_types_of(faces)
     found = GhostParticles(backend, 1, 0.3, types)
-    below = below and tuple(backend.asarray([one]) for one in below)
-    found.find(backend.asarray(np.array(place)[:, None]), below)
+    below = tuple(backend.asarray([one]) for one in below)
+    found.find(backend.asarray(np.array(place)[:, None]), *below)
     of_type = backend.to_host(found.ghost_type).astype(int)[1 : found.total]
     places = types.sign[:, of_type] * np.array(place)[:, None] + types.offset[:, of_type]
     return {tuple(np.round(one, 12)) for one in places.T}, types.crossed[:, of_type], of_type

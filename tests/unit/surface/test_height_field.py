@@ -7,7 +7,7 @@ from surface_lines import line_of
 from lasersph.surface import smoothing
 from lasersph.surface.capillary_waves import fastest_wave
 from lasersph.surface.height_field import cutoff_of
-from lasersph.surface.smoothing import ODD, ORDER
+from lasersph.surface.smoothing import ODD_PARITY, ORDER
 
 PERIOD = 5e-6
 CUTOFF = 0.3e-6
@@ -62,8 +62,10 @@ def test_velocity_across_a_plane_of_symmetry():
     found = line()
     k = 2.0 * np.pi / PERIOD
     u = np.sin(k * found.centers())
-    assert found.smooth(u, ODD) == pytest.approx(u, abs=1e-6)
-    assert found.derivative(u, ODD) == pytest.approx(k * np.cos(k * found.centers()), abs=1e-6 * k)
+    assert found.smooth(u, ODD_PARITY) == pytest.approx(u, abs=1e-6)
+    assert found.derivative(u, ODD_PARITY) == pytest.approx(
+        k * np.cos(k * found.centers()), abs=1e-6 * k
+    )
 
 
 def matrix_of(found, respond):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from surface_lines import line_of
 
-from lasersph.surface.segments import FEWEST, SurfaceSegments
+from lasersph.surface.segments import MIN_COLUMNS, SurfaceSegments
 
 
 def segments(ends, molten):
@@ -13,7 +13,7 @@ def segments(ends, molten):
     whole.height = np.arange(len(molten), dtype=float)
     found = SurfaceSegments(whole)
     found.choose(np.array(molten, bool))
-    found.follow()
+    found.update_heights()
     return found
 
 
@@ -25,12 +25,12 @@ def test_all_molten():
 
 def test_two_pools_and_a_spot_too_narrow():
     """Pinned at the heights of the solid beside them; at the plane of symmetry mirrored."""
-    molten = [1] * 15 + [0] * 5 + [1] * (FEWEST - 1) + [0] * 3 + [1] * 20 + [0] * 2
+    molten = [1] * 15 + [0] * 5 + [1] * (MIN_COLUMNS - 1) + [0] * 3 + [1] * 20 + [0] * 2
     found = segments(("mirror", "mirror"), molten)
     first, second = found.parts
     assert first.columns.tolist() == list(range(15)) and first.line.ends[0] == ("mirror", "pinned")
     assert first.line.pins[0][1] == 15.0
-    begin = 15 + 5 + FEWEST - 1 + 3
+    begin = 15 + 5 + MIN_COLUMNS - 1 + 3
     assert second.columns.tolist() == list(range(begin, begin + 20))
     assert second.line.ends[0] == ("pinned", "pinned")
     assert second.line.pins[0] == (begin - 1.0, begin + 20.0)
@@ -54,12 +54,12 @@ def test_lines_of_the_same_length_do_not_share_heights():
     assert first.line.height[0] == 1.0 and second.line.height[0] == 24.0
 
 
-@pytest.mark.parametrize("width", [FEWEST // 2 - 1, FEWEST // 2])
+@pytest.mark.parametrize("width", [MIN_COLUMNS // 2 - 1, MIN_COLUMNS // 2])
 def test_half_of_a_pool_moves_as_the_whole_does(width):
     """At a plane of symmetry the columns of the image count."""
     whole = segments(("pinned", "pinned"), [0] * 9 + [1] * 2 * width + [0] * 9)
     half = segments(("mirror", "pinned"), [1] * width + [0] * 9)
-    assert len(half.parts) == len(whole.parts) == (2 * width >= FEWEST)
+    assert len(half.parts) == len(whole.parts) == (2 * width >= MIN_COLUMNS)
 
 
 @pytest.mark.parametrize("end, overrun", [("mirror", [9]), ("periodic", [0, 9])])

@@ -6,8 +6,7 @@ from flow_boxes import box
 
 from lasersph import compute
 from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGradient
-from lasersph.surface.still_surface import NoSurface, settle
-from lasersph.surface.surface import PressureCondition
+from lasersph.surface.surface import PressureCondition, Surface, settle
 from lasersph.surface.time_rule import Midpoint, WholeStep
 
 
@@ -21,8 +20,8 @@ def test_a_box_without_a_surface_asks_nothing_of_a_step():
     """No condition, jump, limit, state or mark."""
     solver = box()
     surface, host = solver.domain.surface, solver.backend.to_host
-    assert isinstance(surface, NoSurface)
-    assert surface.pressure == PressureCondition() and surface.ghosts is None
+    assert type(surface) is Surface
+    assert surface.pressure == PressureCondition()
     assert surface.time_step_limits() == {} and surface.validity_error() == ""
     assert surface.state.kept == {} and surface.checkpoint_scalars() == {}
     assert not host(surface.at_surface).any() and not host(surface.velocity_jump).any()
@@ -31,7 +30,7 @@ def test_a_box_without_a_surface_asks_nothing_of_a_step():
 
 def test_depth_below_the_top(backend):
     """Top - z, whatever x."""
-    surface = NoSurface(backend, 2, 0.5)
+    surface = Surface(backend, 2, 0.5)
     place, out = backend.asarray(np.array([[3.0, -7.0], [0.25, -2.0]])), backend.zeros(2)
     surface.find_depth(place, out)
     assert backend.to_host(out).tolist() == [0.25, 2.5]
@@ -60,4 +59,4 @@ def test_gradients():
     assert symmetric.term(2.0, 2.0, identity, identity, G).tolist() == [2.0, 1.0]
     assert differences.term(2.0, 2.0, identity, identity, G).tolist() == [0.0, 0.0]
     assert differences.term(2.0, 4.0, identity, identity, G).tolist() == [1.0, 0.5]
-    assert symmetric.is_over_lowest and not differences.is_over_lowest
+    assert symmetric.is_symmetric and not differences.is_symmetric

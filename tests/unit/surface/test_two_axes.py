@@ -5,7 +5,7 @@ import pytest
 from surface_lines import line_of
 
 from lasersph.surface.height_field import HeightField
-from lasersph.surface.smoothing import EVEN, ODD, ORDER, multinomial, orders_along
+from lasersph.surface.smoothing import EVEN_PARITY, ODD_PARITY, ORDER, multinomial, orders_along
 
 SIDE, CUTOFF = 1.2e-6, 0.3e-6
 MIRROR, PERIODIC, PINNED = ("mirror",) * 2, ("periodic",) * 2, ("pinned",) * 2
@@ -144,9 +144,9 @@ def test_parity_along_each_axis():
     x, y = places(found)
     k = 2.0 * np.pi / SIDE
     u = np.sin(0.5 * k * x) * np.cos(np.pi * y / (1.25 * SIDE))
-    slope = found.derivative(u, ODD)
+    slope = found.derivative(u, ODD_PARITY)
     assert slope == pytest.approx(
         0.5 * k * np.cos(0.5 * k * x) * np.cos(np.pi * y / (1.25 * SIDE)), abs=1e-4 * k
     )
     v = np.cos(0.5 * k * x) * np.sin(np.pi * y / (1.25 * SIDE))
-    assert found.smooth(v, (EVEN, ODD)) == pytest.approx(v, abs=1e-3)
+    assert found.smooth(v, (EVEN_PARITY, ODD_PARITY)) == pytest.approx(v, abs=1e-3)

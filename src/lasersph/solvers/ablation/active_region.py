@@ -78,12 +78,15 @@ class ActiveRegion:
     ) -> None:
         self.backend = backend
         self.count = position.shape[1]
+        # cells at least as wide as the support, over the box or its periods
         host = backend.host_view(position)
         low, high = host.min(axis=1), host.max(axis=1)
         extent = np.where(np.array(period) > 0.0, period, high - low)
         self._grid = CellGrid.over(low, extent, support, [length > 0.0 for length in period])
         self._shape = self._grid.shape
         self.cell = self._grid.find_cells(backend, position)
+
+        # what is active: cells around what is lit; all else is looked at once
         self._largest = 0.0
         self._mark = backend.zeros(self.count)
         self.fields = {"active": backend.zeros(self._grid.count)}
@@ -114,6 +117,11 @@ class ActiveRegion:
         if self.rows is None:
             return False
         backend = self.backend
+        # disturbed is
+        # h
+        #  > LEAST_RISE max
+        # h
+        # , or what moves
         (largest,) = backend.pointwise(
             magnitude, {"h": fields["h"]}, (None,), rows=self.rows, reduce=("max",)
         )
@@ -126,6 +134,8 @@ class ActiveRegion:
         )
         if found == 0.0:
             return False
+
+        # cells two around it must be active; those beyond become so with them
         cells = self._cells_of(fields["x"], self._marked(rows))
         if not np.any(self._grid.grown(cells, ACTIVE_AROUND) & ~self._active):
             return False
@@ -152,10 +162,13 @@ class ActiveRegion:
         """Let the cells `active`, shaped as the box, be active and no others."""
         backend = self.backend
         self._active = active
+        # field of a checkpoint; where all is active nothing is left out
         backend.copy(backend.asarray(active.ravel().astype(float)), self.fields["active"])
         if active.all():
             self.rows = self.subset = None
             return
+
+        # particles near the edge, those that are computed, and their neighbors
         self._edge = self._particles_in(active & self._grid.grown(~active, ACTIVE_AROUND + 1))
         members = self._particles_in(self._grid.grown(active, 1))
         self.rows = self._particles_in(active)
@@ -173,5 +186,6 @@ class ActiveRegion:
         backend = self.backend
         x = backend.zeros((len(self._shape), rows.shape[0]))
         backend.gather(position, rows, x)
+        # cells that count one of them or more
         counts = backend.count_by_key(self._grid.find_cells(backend, x), self._grid.count)
         return backend.to_host(counts).reshape(self._shape) > 0

@@ -59,6 +59,7 @@ class Vapor:
         Args:
             fields: by symbol; kind, m, h, v, T, left_at, p_v. time: end of the step [s].
         """
+        # one pass over the particles, with sums over those that leave in this step
         out = (fields["left_at"], fields["p_v"], None, None, None, None)
         given = {"reduce": (None, None, *4 * ("sum",)), "time": time, **self._constants}
         number, mass, energy, kinetic = self.backend.pointwise(

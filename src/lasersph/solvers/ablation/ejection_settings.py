@@ -62,12 +62,15 @@ class EjectionSettings(Model):
 
     @model_validator(mode="after")
     def _check_model(self) -> EjectionSettings:
+        # keys of the published rule say nothing beside the balance of enthalpy
         given = [key for key in OF_PUBLISHED if getattr(self, key) is not None]
         if self.model == "enthalpy" and given:
             reason = (
                 'says nothing where model = "enthalpy"; leave it out or write model = "published"'
             )
             raise refusal(*((key, reason) for key in given))
+
+        # a preset says all of them
         if self.preset is not None and len(given) > 1:
             raise refusal(
                 *(
@@ -75,6 +78,8 @@ class EjectionSettings(Model):
                     for key in given[1:]
                 )
             )
+
+        # a distance and the rule that needs it go together
         if self.leave == "distance" and self.leave_distance is None:
             raise refusal(
                 ("leave_distance", 'missing for leave = "distance"; write e.g. 0.677, in spacings')

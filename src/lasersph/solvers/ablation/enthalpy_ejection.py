@@ -63,6 +63,7 @@ class EnthalpyEjection:
         Args:
             fields: by symbol; x, kind, v, h, T, m, E, exposed, normal, left_at, p_v.
         """
+        # what has h >= h_v leaves with h_v along its normal, and gives what it has beyond
         kind, h = fields["kind"], fields["h"]
         rule = {"h_v": self.enthalpy_vaporized, "up": self.light.up, **self.vapor.speed}
         (excess,) = self.backend.pointwise(
@@ -73,8 +74,12 @@ class EnthalpyEjection:
             reduce=(None, None, None, "sum"),
             **rule,
         )
+
+        # mass and energy that it takes along
         ejecta = self.vapor.account(fields, rows, time)
         if excess == 0.0:
             return ejecta
+
+        # the excess goes down the columns of the light, as far as they uncover anything
         given = self.light.pass_excess_down(self._excess, fields["x"], kind, h, fields["m"])
         return ejecta._replace(discarded=excess - given)

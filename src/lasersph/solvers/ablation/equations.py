@@ -72,9 +72,7 @@ def pair_rates(
     )
 
 
-def particle_rates(
-    total_0, total_1, total_2, total_3, kind, m, T, E, A, step, up, g, T_a, h_c, eps
-):
+def particle_rates(total_0, total_1, total_2, total_3, kind, m, T, E, A, step, up, g, surroundings):
     """Rates of one particle from its sums.
 
     Returns d rho/dt [kg/(m^d s)], dv/dt [m/s^2], dh/dt [W/kg], heat lost by the surface and to
@@ -86,21 +84,21 @@ def particle_rates(
     """
     moves = 1.0 if kind == INTERIOR else 0.0
     is_wall = 1.0 if kind == WALL else 0.0
-    dh, lost = heat_rates(total_2, kind, m, T, E, A, step, T_a, h_c, eps)
+    dh, lost = heat_rates(total_2, kind, m, T, E, A, step, surroundings)
     a = moves * (total_1 - g * up)
     return (moves + is_wall) * total_0, a, dh, lost, dot(a, a), moves * total_3
 
 
-def heat_rates(total, kind, m, T, E, A, step, T_a, h_c, eps):
+def heat_rates(total, kind, m, T, E, A, step, surroundings):
     """dh/dt [W/kg], and heat lost by the surface and to walls [W], of one particle.
 
     Args:
         total: heat from its neighbors [W]. m: mass [kg]. T: [K]. E: light absorbed in the step [J].
-        A: open area [m^(d-1)]. step: [s]. T_a, h_c, eps: of `losses.surface_loss`.
+        A: open area [m^(d-1)]. step: [s]. surroundings: of `losses.surface_loss`.
     """
     takes_heat = 1.0 if kind <= LEAVING else 0.0
     is_wall = 1.0 if kind == WALL else 0.0
-    loss, _slope = surface_loss(T, T_a, h_c, eps)
+    loss, _slope = surface_loss(T, surroundings)
     gain = takes_heat * (total + E / step - A * loss)
     return gain / m, takes_heat * A * loss + is_wall * total
 

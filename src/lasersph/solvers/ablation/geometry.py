@@ -99,10 +99,14 @@ def lay_out(
     """
     bounds, spacing = layers.extents, layers.spacing
     dimension = layers.dimension
+
+    # material on its lattice, walls around the vessel
     filling = fill(layers, surface=FREE, bottom=FREE, sides=FREE)
     periodic = [f for f in faces_of(dimension) if boundaries.kind_of(f) == "periodic"]
     box = vessel.box(bounds)
     walls = wall_particles(box, spacing, walled_faces(boundaries, dimension), periodic)
+
+    # particles of each wall, at its temperature, which conduct where that is given
     places, temperatures, conducts = [filling.position], [], []
     for face, place in walls.items():
         places.append(place)
@@ -110,6 +114,8 @@ def lay_out(
         conducts.append(np.full(place.shape[1], float(boundaries.kind_of(face) == "wall")))
     position = np.concatenate(places, axis=1)
     count, total = filling.count, position.shape[1]
+
+    # motion of the whole, or a wave: v_z = c_0 s(z), rho = rho_0 (1 + s)
     velocity, strain = np.zeros((dimension, total)), np.zeros(total)
     if isinstance(motion, Uniform):
         velocity[:, :count] = motion.velocity(dimension)[:, None]
@@ -119,8 +125,11 @@ def lay_out(
         velocity[-1, :count] = sound_speed * strain[:count]
         position[-1, :count] += motion.displacement(z, depth, sound_speed)
     elif motion.hydrostatic:
+        # at rest under gravity: rho from p = rho_0 g depth
         pressure = density * gravity * np.maximum(-position[-1], 0.0)
         strain = density_under(pressure, density, sound_speed) / density - 1.0
+
+    # what stays of it, and the state at the start
     period = [
         high - low if faces[0] in periodic else 0.0
         for (low, high), faces in zip(bounds, face_pairs(dimension), strict=True)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lasersph.boundaries.settings import Surroundings
+
 
 @dataclass(frozen=True)
 class Parameters:
@@ -14,7 +16,7 @@ class Parameters:
         alpha_solid, alpha_liquid: artificial viscosity [1].
         viscous_rate, diffusive_rate: of what stops and cools fastest on the lattice [1/s].
         weight_factor: of the conduction weights [1].
-        ambient: T_a, h_c, eps of the surroundings, as in `losses.surface_loss`.
+        surroundings: to which the surface loses heat.
         low, high: corners of the box in which ejecta are followed [m].
     """
 
@@ -27,11 +29,6 @@ class Parameters:
     viscous_rate: float
     diffusive_rate: float
     weight_factor: float
-    ambient: dict[str, float]
+    surroundings: Surroundings
     low: tuple[float, ...]
     high: tuple[float, ...]
-
-    @property
-    def loses_heat(self) -> bool:
-        """Whether the surface loses heat to the surroundings."""
-        return self.ambient["h_c"] > 0.0 or self.ambient["eps"] > 0.0

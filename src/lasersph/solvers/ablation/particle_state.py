@@ -109,22 +109,22 @@ class ParticleState:
         self.backend, self.geometry, self.material, self.curve = backend, geometry, material, curve
         self.count, total = geometry.count, geometry.total
         size = (backend, self.count, geometry.dimension)
+
+        # levels of a step: its start, with all fields, and its middle, with what changes
         self.now = Particles(*size, (*LEVEL, *OTHERS), capacity=total)
         self.half = Particles(*size, LEVEL, capacity=total)
+
+        # tables of the caloric curve and of k(T), constants of the equation of state
         T, k = material.table("conductivity", 1.0, HOTTEST)
-        self._tables = {
-            "h_nodes": backend.asarray(curve.enthalpy),
-            "T_nodes": backend.asarray(curve.temperature),
-            "P_nodes": backend.asarray(curve.potential),
-            "m_nodes": backend.asarray(curve.melt_fraction),
-            "v_nodes": backend.asarray(curve.vapor_fraction),
-            "k_T": backend.asarray(T),
-            "k_nodes": backend.asarray(k),
+        nodes = curve.tables | {"k_T": T, "k_nodes": k}
+        self._tables = {name: backend.asarray(values) for name, values in nodes.items()} | {
             "melts_at": melts_at,
             "rho_0": material.density_reference,
             "c_0": sound_speed,
             "has_tension": float(has_tension),
         }
+
+        # fields at the start, and what follows from them
         start = {
             "position": initial.position,
             "velocity": initial.velocity,
@@ -146,12 +146,13 @@ class ParticleState:
 
     def refresh(self, level: Particles, rows: Rows | None = None) -> None:
         """Set what follows from enthalpy, density and kind."""
+        # T(h), fractions, k(T), P(rho) and volumes in one loop
         names = [name if isinstance(name, str) else name.name for name in DERIVED]
         out = (*(level[name] for name in names), self.now["opaque"])
         fields = self.fields(level)
         self.backend.pointwise(evaluate_state, fields, out, rows=rows, **self._tables)
 
-    def enter(self, rows: Rows | None) -> None:
+    def add_to_half(self, rows: Rows | None) -> None:
         """Let the middle of the step know particles that take part from now on."""
         for name in self.half:
             value = {"value": self.now[name]}

@@ -83,7 +83,7 @@ class Rates:
             "alpha_liquid": parameters.alpha_liquid,
             "factor": parameters.weight_factor,
             "up": upward(dimension),
-            **parameters.ambient,
+            "surroundings": backend.asarray(parameters.surroundings.table),
         }
         self.moving, self.weights = Moving.ALL, None
 
@@ -93,6 +93,7 @@ class Rates:
         if moving is not Moving.NOTHING:
             self.weights = None
         elif self.weights is None:
+            # g_ij of pairs at rest, which stay the same while nothing moves
             backend, pairs = self.particles.backend, self.pairs.now
             self.weights, fields = backend.zeros(pairs.neighbor.shape[0]), self.particles.fields()
             factor = self.parameters.weight_factor
@@ -100,26 +101,46 @@ class Rates:
 
     def evaluate(self, level: Particles, step: float, rows: Rows | None) -> float:
         """Find the rates at a level, and what limits the next step; returns the heat lost [W]."""
-        particles, state, pair_sum = self.particles, self.state, self.particles.backend.pair_sum
+        particles, state, backend = self.particles, self.state, self.particles.backend
         pairs = self.pairs.now if level is particles.now else self.pairs.half
         fields = particles.fields(level) | {"A": self.area}
+
+        # all three equations in one pass over the pairs
         if self.moving is Moving.ALL:
-            out = (self._drho, self._a, self._dh, None, None, None)
-            how = {"finish": particle_rates, "reduce": (None, None, None, "sum", "max", "max")}
-            lost, square, fourth = pair_sum(
-                pair_rates, pairs, fields, out, rows=rows, **how, step=step, **self._constants
+            lost, square, fourth = backend.pair_sum(
+                pair_rates,
+                pairs,
+                fields,
+                (self._drho, self._a, self._dh, None, None, None),
+                rows=rows,
+                finish=particle_rates,
+                reduce=(None, None, None, "sum", "max", "max"),
+                step=step,
+                **self._constants,
             )
+            # bound of |mu_ij| by the fourth root of the sum of its fourth powers
             state.approach_speed, state.acceleration = fourth**0.25, sqrt(square)
             state.is_balanced = square == 0.0
             return lost
-        how = {"finish": heat_rates, "reduce": (None, "sum"), "step": step}
-        how |= self.parameters.ambient
-        if self.moving is Moving.VAPOR:
-            term, how["factor"] = pair_heat, self.parameters.weight_factor
-        else:
+
+        # heat alone, between particles that part or by weights of pairs at rest
+        term, constants = pair_heat, {"factor": self.parameters.weight_factor}
+        if self.moving is Moving.NOTHING:
             assert self.weights is not None
-            term, pairs, fields["g_ij"] = harmonic_flow, self.pairs.now, self.weights
-        (lost,) = pair_sum(term, pairs, fields, (self._dh, None), rows=rows, **how)
+            term, constants = harmonic_flow, {}
+            pairs, fields["g_ij"] = self.pairs.now, self.weights
+        (lost,) = backend.pair_sum(
+            term,
+            pairs,
+            fields,
+            (self._dh, None),
+            rows=rows,
+            finish=heat_rates,
+            reduce=(None, "sum"),
+            step=step,
+            surroundings=self._constants["surroundings"],
+            **constants,
+        )
         return lost
 
     def check_stability(self, step: float, rows: Rows | None) -> None:
@@ -129,11 +150,13 @@ class Rates:
             NotConverged: its heat or its force is not finite, or matter would be torn apart.
         """
         particles, pointwise = self.particles, self.particles.backend.pointwise
+        # heat alone: the energy that is gained must be finite
         fields = {"m": particles.now["mass"], "dh": self._dh}
         if self.moving is not Moving.ALL:
             (gain,) = pointwise(energy_gain, fields, (None,), rows=rows, reduce=("sum",), dt=step)
             is_stable = isfinite(gain)
         else:
+            # all equations: forces as well, and no particle may become too thin
             fields |= {"rho": particles.now["density"], "a": self._a, "drho": self._drho}
             reduce = ("sum", "min", "sum")
             gain, thinnest, force = pointwise(
@@ -153,6 +176,7 @@ class Rates:
             source: level that the rates were found at; positions move with its velocity.
         """
         particles, pointwise = self.particles, self.particles.backend.pointwise
+        # y_0 + dt f(y'), of what may change in the step
         fields = particles.now.by_symbol() | {"v_rate": source["velocity"]}
         fields |= {"a": self._a, "drho": self._drho, "dh": self._dh}
         x, v, rho, h = (target[name] for name in ("position", "velocity", "density", "enthalpy"))

@@ -58,13 +58,16 @@ class Ablation:
         ejection: EnthalpyEjection | PublishedEjection | None = None,
         region: ActiveRegion | None = None,
     ) -> None:
+        # who is computed, what falls on the surface, what leaves it
         self.body, self.pairs, self._surface = particles, pairs, surface
         self.parameters, self.time_settings = parameters, time
         self.light, self.ejection, self.region = light, ejection, region
         self.backend = particles.backend
         self.state = AblationState()
+
+        # rates of the three equations, and the surface where anything asks for it
         self._rates = Rates(particles, pairs, surface.area, parameters, self.state)
-        self._needs_surface = light is not None or parameters.loses_heat
+        self._needs_surface = light is not None or parameters.surroundings.take_heat
         self._is_surface_current = False
         self._all_rows = self.backend.asarray(np.arange(particles.now.capacity), "index")
         self._include_active()
@@ -105,17 +108,20 @@ class Ablation:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
+        # the active region has numbers where not all is computed
         scalars = self.state.checkpoint_scalars() | self.pairs.checkpoint_scalars()
         return scalars | ({} if self.region is None else self.region.checkpoint_scalars())
 
     def restore(self, arrays: Mapping[str, np.ndarray], scalars: Mapping[str, float]) -> None:
         """Continue from the arrays of `fields` and from `checkpoint_scalars`."""
+        # fields and numbers first, then what follows from them
         self.particles.restore(arrays)
         self.state.restore(scalars)
         if self.region is not None:
             self.region.restore(arrays, scalars)
         self.body.refresh(self.particles)
         self._include_active()
+        # surface, weights and pairs are found again
         self._is_surface_current, self._rates.weights = False, None
         self.pairs.restore(scalars)
         if self._needs_surface:
@@ -129,6 +135,8 @@ class Ablation:
         )
         if time.fixed_step is not None:
             return limits
+
+        # sound, forces, viscosity and heat [Alshaer2017, eqs. (31), (32)]
         limits |= compressible_limits(
             is_still=state.is_balanced and state.speed == 0.0,
             courant=parameters.courant,
@@ -141,6 +149,8 @@ class Ablation:
         )
         if time.step is not None:
             limits[name_of_longest(self.light is not None)] = time.step
+
+        # no more than a part of a layer may vaporize in a step
         if self.light is not None and self.ejection is not None:
             flux = self.light.largest_flux(state.time, state.time + min(limits.values()))
             if flux > 0.0:
@@ -200,10 +210,13 @@ class Ablation:
         Raises:
             NotConverged: particles would pass their neighbors.
         """
+        # particles that heat or motion may get to in this step
         fields, state, pairs = self.particles.by_symbol(), self.state, self.pairs
         has_grown = self.region is not None and self.region.grow(fields)
         if has_grown:
             self._include_active()
+
+        # displacement of the fastest in the step: below the thickest skin that lists have
         square, leaving = self.backend.pointwise(
             speed_squares, fields, (None, None), rows=self.rows, reduce=("max", "max")
         )
@@ -214,6 +227,8 @@ class Ablation:
                 f"matter moves {format_quantity(motion.displacement, 'm')} in "
                 f"{format_quantity(step, 's')}; take shorter steps"
             )
+
+        # pairs, and with them weights and surface, where they have come out of date
         if has_grown or pairs.is_stale(motion, self.rows):
             pairs.rebuild(motion, self.rows)
             self._rates.weights, self._is_surface_current = None, False
@@ -231,13 +246,14 @@ class Ablation:
         """Let pairs and the middle of the step know what is computed, and its neighbors."""
         subset = None if self.region is None else self.region.subset
         self.pairs.subset = subset
-        self.body.enter(None if subset is None else subset.members)
+        self.body.add_to_half(None if subset is None else subset.members)
 
     def _absorb_light(self, step: float) -> dict[str, float]:
         """Light of the step: where what falls on the surface goes [J], by ENERGIES."""
         light, time = self.light, self.state.time
         if light is None:
             return {}
+        # energy of the step on the columns, then on what it meets first
         light.shine(time, time + step)
         return energies(light, light.absorb(self.particles["temperature"]))
 
@@ -245,11 +261,13 @@ class Ablation:
         """Let what has taken up enough heat leave the surface."""
         if self.ejection is None:
             return
+        # exposed particles leave by the rule, along the normal of the surface
         surface = self._surface
         fields = self.particles.by_symbol() | {
             "exposed": surface.at_surface,
             "normal": surface.normal,
         }
+        # count what they take along; the surface lies lower now
         ejecta = self.ejection.eject(fields, self.pairs.now, self.rows, self.state.time, step)
         self.body.refresh(self.particles, self.rows)
         if ejecta.number:
@@ -260,6 +278,7 @@ class Ablation:
         """Move what has been ejected, straight on until it passes the edge of what is followed."""
         if not self.state.ejecta.number:
             return
+        # x + dt v of what has been ejected, GONE beyond the edges of the box
         x, kind = self.particles["position"], self.particles["kind"]
         rows = self.backend.rows_where(kind, EJECTED)
         flight = {"step": step, "low": self.parameters.low, "high": self.parameters.high}
@@ -297,8 +316,10 @@ class Ablation:
         """
         if self._is_surface_current:
             return
+        # pairs of a start at rest, which no step has found yet
         if self.pairs.skin == 0.0:
             self.pairs.rebuild(REST, self.rows)
+        # divergence of the positions (28), and the particles that the light meets first
         particles = self.particles
         self._surface.find(self.pairs.now, particles["volume"], particles["opaque"], self.rows)
         if self.light is not None:

@@ -36,6 +36,7 @@ class AblationState:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """All numbers by name."""
+        # plain numbers, then energies and ejecta under names of their own
         own = {name: value for name, value in vars(self).items() if name not in GROUPS}
         own |= {f"energy.{name}": value for name, value in self.energy.items()}
         return own | {f"ejecta.{name}": value for name, value in self.ejecta._asdict().items()}
@@ -56,6 +57,7 @@ class AblationState:
 
     def count_ejecta(self, ejecta: Ejecta) -> None:
         """Count what left in a step."""
+        # sums of what had left before and what leaves now; its energies are booked
         number, *others = (was + now for was, now in zip(self.ejecta, ejecta, strict=True))
         self.ejecta = Ejecta(int(number), *others)
         self.add({"removed": ejecta.energy, "discarded": ejecta.discarded})

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
+from lasersph.boundaries.settings import Surroundings
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.layered import LayeredLight
@@ -64,7 +65,7 @@ class Body:
     wall_power: Array
     area: Array
     tables: dict[str, Array]
-    ambient: dict[str, float]
+    surroundings: Surroundings
 
     @property
     def count(self) -> int:
@@ -90,26 +91,37 @@ def assemble(
     use_second_moment: bool,
 ) -> Body:
     """Fill the domain, find the pairs, and assemble their weights."""
+    # particles with dummies beyond the faces, pairs and weights g_ij
     ends = {face: KINDS[boundaries.kind_of(face)] for face in PLANE}
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
     weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
     is_axisymmetric = layers.geometry.is_axisymmetric
     neighbors, row, weights = _weights(backend, weighing, filling, is_axisymmetric=is_axisymmetric)
+
+    # faces: A, sum of A P_w, sum of A T_w and b; their pairs weigh 0 from then on
     walls = walls_of(
         boundaries, curve, layers, filling, weights, row, backend.to_host(neighbors.neighbor)
     )
     count = filling.count
+
+    # operator of the pairs between particles, sum_j g_ij (P_j - P_i) - A_i P_i
     pairs = PairOperator(
         neighbors=neighbors.without_ghosts(backend, backend.asarray(filling.source, "index")),
         weights=backend.asarray(weights),
         boundary_coefficient=backend.asarray(walls.coefficient),
         total=backend.asarray(np.bincount(row, weights, minlength=count)),
     )
+
+    # cross-section of surface particles that light and losses pass
     area = np.zeros(count)
     area[filling.surface] = filling.cross_section[filling.surface]
+
+    # fields at rest at the initial temperature, h = 0
     fields = ("mass", *HISTORY, "evaporated_mass", *DERIVED)
     particles = Particles(backend, count, layers.dimension, fields)
     particles.set("mass", material.density_reference * filling.body_volume)
+
+    # caloric curve as tables of the backend
     body = Body(
         backend=backend,
         filling=filling,
@@ -122,14 +134,8 @@ def assemble(
         wall_heat=backend.asarray(walls.heat),
         wall_power=backend.asarray(walls.power),
         area=backend.asarray(area),
-        tables={
-            "h_nodes": backend.asarray(curve.enthalpy),
-            "T_nodes": backend.asarray(curve.temperature),
-            "P_nodes": backend.asarray(curve.potential),
-            "m_nodes": backend.asarray(curve.melt_fraction),
-            "v_nodes": backend.asarray(curve.vapor_fraction),
-        },
-        ambient=boundaries.surroundings(material, curve.initial_temperature),
+        tables={name: backend.asarray(nodes) for name, nodes in curve.tables.items()},
+        surroundings=boundaries.surroundings(material, curve.initial_temperature),
     )
     body.update_temperature()
     return body
@@ -159,6 +165,7 @@ def weighing_of(lattice: Lattice, layers: Layers, *, use_second_moment: bool) ->
     mean = graded if lattice.arrangement == "graded" else arithmetic
     if not use_second_moment:
         return Weighing(shape, mean, ratio, weight, {}, _equal_factors)
+    # factors N and a of each layer, by which a linear profile conducts exactly
     up = upward(layers.dimension)
     factors = layer_factors(layers, shape, ratio, mean)
     return Weighing(shape, mean, ratio, layered_weight, {"up": up}, factors.at)
@@ -173,6 +180,7 @@ def _weights(
     backend: Backend, weighing: Weighing, filling: Filling, *, is_axisymmetric: bool
 ) -> tuple[NeighborList, NDArray[np.int64], NDArray[np.float64]]:
     """All pairs with dummies, and on the host the row and the weight of each pair."""
+    # g_ij of all particles with their dummies
     normal, lateral = weighing.factors(filling.layer)
     fields = {
         "V": backend.asarray(filling.volume),
@@ -194,6 +202,8 @@ def _weights(
     if is_axisymmetric:
         rings = {"g_ij": weights, "measure": backend.asarray(filling.measure)}
         backend.pair_values(ring_weight, neighbors, rings, weights)
+
+    # row of each pair, on the host, where faces are assembled
     row_start = backend.to_host(neighbors.row_start).astype(np.int64)
     row = np.repeat(np.arange(filling.count), np.diff(row_start))
     return neighbors, row, np.array(backend.to_host(weights))

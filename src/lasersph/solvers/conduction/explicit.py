@@ -41,6 +41,7 @@ class ExplicitStep:
         backend, count = body.backend, body.count
         self.body, self.exchange = body, exchange
         self.h, self.T, self.k, self.rate = (backend.zeros(count) for _ in range(4))
+        # k(T) as a table up to the end of the caloric curve
         material, curve = body.material, body.curve
         lowest, highest = float(curve.temperature.min()), float(max(curve.temperature.max(), 5e4))
         T, k = material.table("conductivity", max(lowest, 1.0), highest)
@@ -56,6 +57,7 @@ class ExplicitStep:
             curve.enthalpy[1:] - curve.enthalpy[:-1]
         )
         body = self.body
+        # dt lambda/2 <= 1 for the fastest row
         fields = {
             "S": body.pairs.total,
             "a": body.pairs.boundary_coefficient,
@@ -69,11 +71,13 @@ class ExplicitStep:
     def advance(self, state: HeatState, step: float, exchanged: float) -> dict[str, float]:
         """Enthalpies after `step` [s] into the particles; returns the energies of the step."""
         backend, particles = self.body.backend, self.body.particles
+        # h' = h^n + dt/2 f(h^n)
         h, h_0 = particles["enthalpy"], particles["enthalpy_before"]
         backend.copy(h, h_0)
         self._evaluate(h, step)
         fields = {"h0": h_0, "rate": self.rate}
         backend.pointwise(step_from, fields, self.h, dt=0.5 * step)
+        # h^(n+1) = h^n + dt f(h')
         energy = self._evaluate(self.h, step)
         backend.pointwise(step_from, fields, h, dt=step)
         return energy
@@ -82,6 +86,7 @@ class ExplicitStep:
         """Rate of heating at given enthalpies; returns the energies of a whole step at it [J]."""
         body, backend = self.body, self.body.backend
         backend.pointwise(properties, {"h": enthalpy}, (self.T, self.k), **self.tables)
+        # light and losses at the temperature of the surface
         absorbed = body.light.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
         fields = {"T": self.T, "k": self.k, "m": body.particles["mass"]}
@@ -91,6 +96,7 @@ class ExplicitStep:
             "b": body.wall_heat,
             "g_ij": body.pairs.weights,
         }
+        # dh/dt = (sum of flows + E/dt - q + walls) / m (27)
         (walls,) = backend.pair_sum(
             harmonic_flow,
             body.pairs.neighbors,

@@ -149,11 +149,16 @@ class ImplicitStep:
         Raises:
             NotConverged: the residual does not fall to the tolerance.
         """
+        # predict, and the energy that is missing then
         self.newton, self.linear, self.forcing = 0, 0, FIRST_FORCING
         self.predict(state, step)
         error, energy = self.find_residual(step)
         allowed = self.tolerance * max(exchanged, energy["absorbed"] + abs(energy["lost"]), error)
         allowed = max(allowed, self.rounding * self.size)
+
+        # assemble, solve, correct until sum
+        # r
+        #  is small enough
         while error > allowed:
             if self.newton == self.max_iterations:
                 raise NotConverged(
@@ -163,20 +168,26 @@ class ImplicitStep:
             plateau = self.assemble(step)
             self.solve(step, max(self.forcing * error, 0.3 * allowed))
             found, energy = self.correct(step, error, plateau)
+            # how much of the residual is that of the linearization [Eisenstat1996, eq. (2.1)]
             nonlinear = abs(found - self.solver.residual) / error
             self.forcing = min(max(nonlinear, FORCING[0]), FORCING[1])
             self.newton, error = self.newton + 1, found
+
+        # what is left of r is added to the enthalpies
         self.accept()
         return energy | {"newton_residual": error}
 
     def predict(self, state: HeatState, step: float) -> None:
         """Set the first guess of enthalpy and potential, from those of the last steps."""
+        # P along a straight line through the last two steps
         last, before = state.time_step, state.time_step_before
         ratio = near = step / last if last > 0.0 else 0.0
         far = 0.0
+        # a parabola through three, where steps are about as long
         if 0.0 < step <= SMOOTH_RATIO * last and last <= SMOOTH_RATIO * before:
             bend = step * (step + last) / (last + before)
             near, far = ratio + bend / last, -bend / before
+        # h on plateaus, P elsewhere, and dP/dh there
         weights = {"ratio": ratio, "near": near, "far": far}
         out = (self.h, self.P, self.slope)
         self.body.backend.pointwise(initial_guess, self.history, out, **weights, **self.curve)
@@ -198,6 +209,7 @@ class ImplicitStep:
     ) -> tuple[float, dict[str, float]]:
         """Apply the change, halved until the residual falls; then whatever the last one gives."""
         backend, damping = self.body.backend, 1.0
+        # h + damping dP, then the particles on plateaus with their neighbors fixed (65)
         backend.copy(self.h, self.start)
         for _ in range(HALVINGS):
             self.move(damping)
@@ -211,6 +223,7 @@ class ImplicitStep:
 
     def accept(self) -> None:
         """Take the enthalpies with what is left of r."""
+        # h = h' + r/m, kept apart from h' for the next prediction
         h_0, excess, h_old, h_older = self.history.values()
         fields = {"h": self.h, "r": self.r, "m": self.mass, "h0": h_0}
         fields |= {"excess": excess, "previous": h_old}
@@ -225,6 +238,7 @@ class ImplicitStep:
             backend.pointwise(interpolate, {"x": self.h}, self.T, rows=rows, **self.nodes)
         absorbed = body.light.absorb(self.T)
         lost, removed = self.exchange.evaluate(self.T)
+        # r = m (h0 - h) + E + s (sum g (P_j - P) + B - a P - q)
         error, walls, self.size = self.balance(step)
         surface = {"absorbed": absorbed, "lost": lost * step, "removed": removed * step}
         return error, surface | {"walls": walls * step}
@@ -232,9 +246,15 @@ class ImplicitStep:
     @graph
     def balance(self, s: float) -> None:
         """Residual into `r`; reduces its size, what walls give, and the size of its terms."""
-        out, reduce = (self.r, None, None, None), (None, "sum", "sum", "sum")
-        pairs, how = self.body.pairs.neighbors, {"finish": residual, "reduce": reduce}
-        self.backend.pair_sum(flow, pairs, self._fields(), out, **how, s=s)
+        self.backend.pair_sum(
+            flow,
+            self.body.pairs.neighbors,
+            self._fields(),
+            (self.r, None, None, None),
+            finish=residual,
+            reduce=(None, "sum", "sum", "sum"),
+            s=s,
+        )
 
     @graph
     def move(self, damping: float) -> None:

@@ -60,6 +60,7 @@ class Conduction:
         whether the metal follows what has evaporated; `end_of_pulse`: time to compute of each pulse
         where the pauses between them are jumped over [s], else that of the run."""
         self.end_of_pulse = time.end if end_of_pulse is None else end_of_pulse
+        # body, what it loses, and metal that follows what has evaporated
         self.body, self.settings, self.time_settings, self.laser = body, settings, time, laser
         self.particles, self.state = body.particles, HeatState()
         self.exchange = SurfaceExchange(
@@ -71,6 +72,8 @@ class Conduction:
             density = body.material.density_reference
             self.recession = Recession(body.particles, body.filling, density)
         self._before = backend.zeros(body.count)
+
+        # explicit or implicit; residuals no smaller than rounding
         if settings.scheme == "explicit":
             self.scheme: ExplicitStep | ImplicitStep = ExplicitStep(body, self.exchange)
             self._stable = self.scheme.stable_step()
@@ -79,6 +82,8 @@ class Conduction:
             tolerance = max(settings.tolerance, 200.0 * float(np.finfo(backend.real).eps))
             self.scheme = scheme(body, self.exchange, tolerance)
             self._stable = np.inf
+
+        # energy that residuals are measured by before any was absorbed
         self.expected = 0.0
         if laser is not None:
             area = float(np.sum(body.light.surface_area))
@@ -126,6 +131,8 @@ class Conduction:
         limits = common_limits(time, state.time, pulse)
         if time.fixed_step is not None:
             return limits
+
+        # a surface that recedes passes a part of a particle in a step
         if self.recession is not None and state.recession > 0.0:
             limits["recession"] = self.recession.longest_step(state.recession)
         name = name_of_longest(pulse is not None)
@@ -134,6 +141,7 @@ class Conduction:
             if time.step is not None:
                 limits[name] = time.step
         else:
+            # light resolved while it is on, 0.5 % of the time since it ended after that
             longest = time.step
             if longest is None and pulse is not None:
                 longest = 0.5 * pulse.resolution
@@ -142,6 +150,7 @@ class Conduction:
             if longest is not None and state.lit_until > 0.0:
                 dark = state.time - state.lit_until
                 limits["cooling"] = max(longest, time.cooling * dark)
+            # no faster than the last step allows, by length and change of temperature
             if state.unclipped_step > 0.0:
                 limits["growth"] = time.growth * state.unclipped_step
                 if state.temperature_change > 0.0:
@@ -198,13 +207,19 @@ class Conduction:
         backend.copy(temperature, self._before)
         if self.recession is not None:  # of the last step; a step that fails keeps it
             state.energy["removed"] += self.recession.advance()
+
+        # enthalpies by the scheme, cut by the plateau rule, and what follows from them
         energy = self.scheme.advance(state, step, self._exchanged())
         discarded = self._discard()
         (state.temperature_change,) = self.update_temperature()
+
+        # vapor that has left, and how fast the surface recedes by that
         if self.settings.evaporates:
             self.exchange.accumulate(particles["evaporated_mass"], step)
         if self.recession is not None:
             state.recession = self.recession.speed(self.exchange.mass_flux)
+
+        # energies and times of the step
         self._account(energy, discarded)
         if self.laser is not None and self.laser.pulse.active(state.time, state.time + step):
             state.lit_until = state.time + step
@@ -230,13 +245,12 @@ class Conduction:
         if self.settings.plateau != "clip" or limit is None:
             return 0.0
         fields = self.particles.by_symbol("enthalpy", "mass")
-        (cut,) = self.body.backend.pointwise(
-            clip_enthalpy, fields, (fields["h"], None), reduce=(None, "sum"), h_limit=limit
-        )
-        return cut
+        out, reduce = (fields["h"], None), (None, "sum")
+        return self.backend.pointwise(clip_enthalpy, fields, out, reduce=reduce, h_limit=limit)[0]
 
     def _account(self, energy: dict[str, float], discarded: float) -> None:
         """Add the energies of a step; what walls exchange is the balance of the pair sums."""
+        # light by where it went, losses with what walls exchange
         total = self.state.energy
         for name, value in energies(self.body.light, energy["absorbed"]).items():
             total[name] += value

@@ -17,17 +17,15 @@ from lasersph.solvers.step_control import StepFailed
 from lasersph.surface.columns import SurfaceColumns
 
 
-def surface_power(T, area, T_a, h_c, eps):
+def surface_power(T, area, surroundings):
     """Power lost by a surface particle [W] and its slope in T [W/K]."""
-    loss, slope = surface_loss(T, T_a, h_c, eps)
+    loss, slope = surface_loss(T, surroundings)
     return area * loss, area * slope, area * loss
 
 
-def evaporating_power(
-    T, area, T_a, h_c, eps, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes
-):
+def evaporating_power(T, area, surroundings, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes):
     """As `surface_power` with evaporation; also its power [W] and the mass flux [kg/(m^2 s)]."""
-    loss, slope = surface_loss(T, T_a, h_c, eps)
+    loss, slope = surface_loss(T, surroundings)
     heat, heat_slope, mass = evaporation_loss(
         T, p_b, T_b, L_b, T_c, R_s, p_e, ratio_nodes, flux_nodes
     )
@@ -57,33 +55,34 @@ class SurfaceExchange:
         """`ambient_pressure` [Pa]: against which vapor leaves, 0 for vacuum."""
         backend, count = body.backend, body.count
         self.body, self.evaporates = body, evaporates
+        # rows at the surface: those of the lattice until particles move
         self.power, self.slope, self.mass_flux = (backend.zeros(count) for _ in range(3))
         self._lattice = backend.asarray(body.filling.surface, "index"), body.area
         self.rows, self.area = self._lattice
         self._columns: SurfaceColumns | None = None
-        self._tables: dict[str, Array] = {}
-        self.is_idle = not evaporates and not body.ambient["h_c"] and not body.ambient["eps"]
-        self.constants: dict[str, float] = dict(body.ambient)
+
+        # what losses depend on: surroundings, and the vapor's curves where it evaporates
+        self._tables = {"surroundings": backend.asarray(body.surroundings.table)}
+        self.is_idle = not evaporates and not body.surroundings.take_heat
+        self.constants: dict[str, float] = {}
         vapor = body.material.vaporization
         if evaporates and vapor is not None:
             ratio, flux, _ = outflow_tables()
-            self.constants |= vapor_constants(vapor) | {"p_e": ambient_pressure}
-            self._tables = {
-                "ratio_nodes": backend.asarray(ratio),
-                "flux_nodes": backend.asarray(flux),
-            }
+            self.constants = vapor_constants(vapor) | {"p_e": ambient_pressure}
+            self._tables["ratio_nodes"] = backend.asarray(ratio)
+            self._tables["flux_nodes"] = backend.asarray(flux)
 
-    def rest(self) -> None:
+    def use_lattice(self) -> None:
         """Let the surface be that of the particles on their lattice, as at the start."""
-        self._take(*self._lattice)
+        self._set_surface(*self._lattice)
         self._columns = None
 
-    def follow(self, columns: SurfaceColumns) -> None:
+    def use_columns(self, columns: SurfaceColumns) -> None:
         """Let the surface be that of the particles that lie at it now (2-D)."""
-        self._take(columns.rows, columns.area)
+        self._set_surface(columns.rows, columns.area)
         self._columns = columns
 
-    def _take(self, rows: Rows, area: Array) -> None:
+    def _set_surface(self, rows: Rows, area: Array) -> None:
         """Surface particles and their areas (n,) [m^(d-1)]; those before lose nothing any more."""
         backend, nothing = self.body.backend, self.body.backend.zeros(self.rows.shape[0])
         for quantity in (self.power, self.slope, self.mass_flux):
@@ -115,6 +114,7 @@ class SurfaceExchange:
         )
         if hottest <= highest:
             return
+        # the hottest place, for the message
         rows = np.asarray(backend.to_host(self.rows), np.int64)
         place = rows[int(np.argmax(backend.to_host(temperature)[rows]))]
         x, where = "", position()
@@ -130,6 +130,7 @@ class SurfaceExchange:
         """Set power and slope; returns the power lost and the power removed by vapor [W]."""
         if self.is_idle:
             return 0.0, 0.0
+        # q(T) A and its slope, with L_v m(T) where vapor leaves
         fields = {"T": temperature, "area": self.area}
         if not self.evaporates:
             function, out = surface_power, (self.power, self.slope, None)

@@ -57,6 +57,8 @@ def walls_of(
     faces = [
         DirichletFace(face, kind == "wall") for face, kind in kinds.items() if kind in DIRICHLET
     ]
+
+    # Dirichlet faces: A, sum of A T_w and of A P(T_w)
     found = boundary_coefficients(faces, filling, weights, row, neighbor, layers.extents)
     count = filling.count
     coefficient, flow, heat, power = (np.zeros(count) for _ in range(4))
@@ -65,6 +67,8 @@ def walls_of(
         coefficient += pairs.total(count)
         heat += pairs.total(count, T)
         flow += pairs.total(count, wall_potential(curve, T))
+
+    # Neumann faces: b
     for face in (face for face, kind in kinds.items() if kind == NEUMANN):
         flux = boundaries.flux_of(face)
         power += face_power(face, flux, filling, weights, row, neighbor, layers)
@@ -75,6 +79,7 @@ def wall_potential(curve: CaloricCurve, temperature: Array) -> Array:
     """Heat potential of walls [W/m]; the end segments continue, flat where T is held."""
     rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
     T, P = curve.temperature[rising], curve.potential[rising]
+    # P(T) within the curve, its end segments beyond
     found = np.interp(temperature, T, P)
     below = P[0] + (P[1] - P[0]) / (T[1] - T[0]) * (temperature - T[0])
     found = np.where(temperature < T[0], below, found)
@@ -88,6 +93,7 @@ def wall_enthalpy(curve: CaloricCurve, temperature: np.ndarray) -> np.ndarray:
     """Enthalpy of walls [J/kg]; the end segments continue."""
     rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
     T, h = curve.temperature[rising], curve.enthalpy[rising]
+    # h(T) within the curve, its end segments beyond
     found = np.interp(temperature, T, h)
     below = h[0] + (h[1] - h[0]) / (T[1] - T[0]) * (temperature - T[0])
     above = h[-1] + (h[-1] - h[-2]) / (T[-1] - T[-2]) * (temperature - T[-1])

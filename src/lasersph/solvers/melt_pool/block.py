@@ -23,20 +23,17 @@ from lasersph.compute.backend import Backend
 from lasersph.compute.graph import graph
 from lasersph.compute.search import Room
 from lasersph.compute.vectors import element
-from lasersph.particles.faces import LEFT
-from lasersph.particles.ghosts import SLANTED, GhostParticles, ghost_types_of
+from lasersph.particles.ghosts import GhostParticles, ghost_types_of
 from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
-from lasersph.particles.support import common
 from lasersph.physics.viscosity import viscous_weight
 from lasersph.solvers.melt_pool.block_layers import SKIN, BlockLayers, StaticParticleData
-from lasersph.solvers.melt_pool.block_terms import both, is_near
 from lasersph.solvers.melt_pool.block_walls import BlockWalls
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.ghost_extension import GhostExtension
 from lasersph.solvers.melt_pool.near_melt import NearMelt
 from lasersph.solvers.melt_pool.pair_geometry import PairGeometry, distance_square
-from lasersph.surface.loops import inner_weight as weight_within
-from lasersph.surface.loops import mean_weight
+from lasersph.sph.correction import bounded_inverse, moment_term
+from lasersph.surface.columns import product
 from lasersph.surface.surface import Surface
 
 
@@ -44,8 +41,8 @@ class Block:
     """Particles 0 ... count - 1 with their ghosts and pairs.
 
     Args:
-        lattice: what stays the same of the particles. conditions: at the faces. surface: None in
-            a box without.
+        lattice: what stays the same of the particles. conditions: at the faces. surface: over the
+            melt.
         volume: (n,) of all particles, which may change [m^2].
         fine_depth: of the layers of the finest support; what lies below rests [m].
         complete_layers, complete_rows: layers and particles whose pairs are all in the block.
@@ -60,13 +57,14 @@ class Block:
         weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
             there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1]. viscous_weights:
             (pairs,) g_ij there times the mean of the relative viscosities of both particles [1].
+        correction: (d, d, count) matrices C of corrected gradients, see `correct_kernel`.
         rows: numbers of the particles whose pairs were found, None for
             all of the block; has_row: (count,) 1 for them, or None. rows_near_faces: those, of
             complete rows, that may have ghosts as neighbors.
     """
 
-    pairs: NeighborList
-    rows_near_faces: Rows
+    reach = 1.0
+    """Search radii beyond a face at most in which ghosts lie."""
 
     def __init__(
         self,
@@ -85,35 +83,42 @@ class Block:
         potential: Callable[[np.ndarray], np.ndarray],
         enthalpy: Callable[[np.ndarray], np.ndarray],
     ) -> None:
-        self.backend, self.lattice, self.conditions = backend, lattice, conditions
+        self.backend, self.lattice = backend, lattice
+        self.conditions, self.surface = conditions, surface
         self.complete_layers, self.complete_rows = complete_layers, complete_rows
-        self.count, self.has_bottom, self.surface = count, has_bottom, surface
-        self.volume = backend.head(volume, count)
+        self.has_bottom = has_bottom
+        self.count, self.volume = count, backend.head(volume, count)
+
         # layers, ghosts and walls
         types = ghost_types_of(conditions.ghost_faces(surface, has_bottom=has_bottom))
         self.layers = BlockLayers(backend, lattice, self.volume, types)
-        rules = conditions.rules(types, surface)
+        rules = conditions.rules(types)
         particles = GhostParticles(backend, count, self.layers.search_radius, types)
         self.ghosts = GhostExtension(backend, particles, rules, surface)
         self.walls = BlockWalls(
             backend, conditions, rules, self.ghosts, potential=potential, enthalpy=enthalpy
         )
+
         # the box around the block, and how far from the melt particles are looked for
-        (*sides, z), repeats = conditions.box, conditions.flow_kind(LEFT) == "periodic"
-        top = z[1] if self.ghosts.surface_ghosts is None else z[1] + fine_depth
-        self._bounds = (*sides, (max(z[0], bottom), top))
+        *sides, z = conditions.box
+        self._bounds = (*sides, (max(z[0], bottom), surface.top))
         supports = self.layers.moving_support, self.layers.largest_support
         near = SKIN * float(lattice.weighing.mean(*supports))
         self._even_above = near - fine_depth
-        along = (*(repeats,) * len(sides), False)
-        self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=along)
-        # pairs
+        repeats = [period > 0.0 for period in conditions.periods]
+        self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
+
+        # pairs, of which there are none yet
+        dimension, nothing = self.ghosts.dimension, backend.zeros(0, "index")
+        self.pairs = NeighborList(backend.zeros(count + 1, "offset"), nothing)
         self.rows: Rows | None = None
         self.has_row: Array | None = None
-        self._geometry, self._room = PairGeometry(backend, lattice.weighing), Room()
+        self.rows_near_faces: Rows = nothing
+        self._geometry, self._capacity = PairGeometry(backend, lattice.weighing), Room()
         self.weights, self.gradient, self.kernel = self._geometry.arrays
         self.viscous_weights = self.weights
-        self._folded = backend.zeros(0, "index")
+        self.correction = backend.zeros((dimension, dimension, count))
+        self._folded = nothing
 
     @property
     def V(self) -> Array:
@@ -143,15 +148,17 @@ class Block:
             EscapedParticle: a position is not finite or beyond the faces.
         """
         # rows to search: those near what flows, the pairs of all others are known
-        backend, ghosts, layers = self.backend, self.ghosts, self.layers
+        backend = self.backend
+        ghosts, layers = self.ghosts, self.layers
         self.has_row = has_row
         self.rows = None if has_row is None else backend.rows_where(has_row, 1.0)
+
         # ghosts, what they have of their sources and of the faces between
         ghosts.find(position, layers.radius)
         self.extend_to_ghosts(position)
         self._find_rows_near_faces()
         self.walls.find_varying()
-        self.walls.find_tangents()
+
         # pairs among all within the search radius
         corners = (self._corner(0), self._corner(1), (0.0,) * ghosts.dimension)
         self.pairs = find_neighbors(
@@ -165,17 +172,18 @@ class Block:
             radius=layers.fields["radius"],
             wanted=self.rows,
             total=ghosts.particles.total,
-            room=self._room,
+            room=self._capacity,
         )
+
         # kernels and weights of the pairs
         geometry, neighbor = self._geometry, self.pairs.neighbor
-        geometry.begin(self.pairs, has_row, self._even_above)
+        geometry.set_pairs(self.pairs, has_row, self._even_above)
         self.weights, self.gradient, self.kernel = geometry.arrays
         if self._folded.shape != neighbor.shape:
             self._folded = backend.zeros(neighbor.shape[0], "index")
         self.find_geometry(has_kernel=has_kernel)
-        # across a bent surface both distances count; viscosity may weigh the pairs anew
-        self._average_weights(position)
+        self._find_tangents(position)
+        # viscosity may weigh the pairs anew
         self.viscous_weights = self.weights
 
     @graph
@@ -193,43 +201,29 @@ class Block:
         fields = {"place": self.pairs.neighbor}
         self.backend.pointwise(element, fields, self._folded, table=self.ghosts.source)
 
-    def _average_weights(self, position: Array) -> None:
-        """Make the weights toward ghosts across a tangent symmetric.
+    def _find_tangents(self, position: Array) -> None:
+        """Planes between ghosts and sources stay where they are."""
 
-        Where the surface bends, the ghost of j is not as far from i as that of i from j: both
-        distances count, the second found with the ghosts in the place of their sources.
-        """
-        backend, ghosts = self.backend, self.ghosts
-        if ghosts.surface_ghosts is None:
-            return
-        ghosts.mark_crossing()
-        # rows within the support of the surface
-        near = backend.zeros(self.count)
-        fields = {"distance": backend.head(ghosts.surface_ghosts.distance, self.count)}
-        fields["has_row"] = self.has_row if self.has_row is not None else ghosts.particles.all_rows
-        backend.pointwise(is_near, fields, near, radius=self.layers.search_radius)
-        rows = backend.rows_where(near, 1.0)
-        # weights of the way back, and the mean of both
-        swapped = self._geometry.per_pair("swapped")
-        pairs = replace(self.pairs, position=ghosts.places_swapped(position), mean=common)
-        self._geometry.find_weights(pairs, self.layers.fields, swapped, rows)
-        fields = {"g_ij": self.weights, "swapped_ij": swapped, "across": self.across}
-        backend.pair_values(mean_weight, self.pairs, fields, self.weights, rows=rows)
+    def inner_weights(self) -> Array:
+        """(pairs,) weights of the pressure: ghosts mirror it, so that all pairs count."""
+        return self.weights
+
+    def normalize_surface_flux(self) -> None:
+        """Pairs across a plane see all of its length."""
+
+    @graph
+    def correct_kernel(self, rows: Rows) -> None:
+        """C_i = (sum_j x_ij (x) G_ij)^-1, bounded, of some rows at the present positions."""
+        fields = {"G_ij": self.gradient}
+        self.backend.pair_sum(
+            moment_term, self.pairs, fields, self.correction, finish=bounded_inverse, rows=rows
+        )
 
     def weigh_viscosity(self, relative: Array) -> None:
         """Set `viscous_weights` from viscosities (n,) of particles over that at the liquidus."""
         found = self.viscous_weights = self._geometry.per_pair("viscous")
         fields = {"g_ij": self.weights, "m": self.gather(relative)}
         self.backend.pair_values(viscous_weight, self.pairs, fields, found, rows=self.rows)
-
-    def weights_within(self) -> Array:
-        """(pairs,) weights that are 0 toward ghosts across the surface."""
-        if self.ghosts.surface_ghosts is None:
-            return self.weights
-        found = self._geometry.per_pair("within")
-        fields = {"g_ij": self.weights, "across": self.across}
-        self.backend.pair_values(weight_within, self.pairs, fields, found, rows=self.rows)
-        return found
 
     def _find_rows_near_faces(self) -> None:
         """Numbers of the particles with complete pairs that may have ghosts among them."""
@@ -241,15 +235,14 @@ class Block:
         marks = {"a": backend.head(ghosts.is_near, complete)}
         marks["b"] = backend.head(self.has_row, complete)
         found = backend.zeros(complete)
-        backend.pointwise(both, marks, found)
+        backend.pointwise(product, marks, found)
         self.rows_near_faces = backend.rows_where(found, 1.0)
 
     def move(self, position: Array) -> None:
         """The same pairs at other positions."""
         # lists are kept, distances and what follows from them are not
         self.place_pairs(position)
-        self._average_weights(position)
-        self.walls.find_tangents()
+        self._find_tangents(position)
 
     @graph
     def place_pairs(self, position: Array) -> None:
@@ -281,8 +274,5 @@ class Block:
 
     def _corner(self, end: int) -> tuple[float, ...]:
         """Box that no particle and no ghost may leave [m]."""
-        # ghosts lie at most a search radius beyond a face, twice the slant across a tangent
-        outward, reach = (-1.0 if end == 0 else 1.0), self.layers.search_radius
-        if self.ghosts.surface_ghosts is not None:
-            reach *= 2.0 * SLANTED
+        outward, reach = (-1.0 if end == 0 else 1.0), self.reach * self.layers.search_radius
         return tuple(pair[end] + outward * reach for pair in self._bounds)

@@ -62,6 +62,7 @@ class BlockLayers:
         volume: Array,
         types: GhostTypes,
     ) -> None:
+        # supports, and the radius within which pairs are searched
         count = volume.shape[0]
         self.backend, support = backend, lattice.support[:count]
         self.moving_support, self.largest_support = float(support.min()), float(support.max())

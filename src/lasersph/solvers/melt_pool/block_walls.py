@@ -18,10 +18,6 @@ from lasersph.solvers.melt_pool import ghost_fields
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions, GhostRules
 from lasersph.solvers.melt_pool.ghost_extension import GhostExtension
 
-NO_DISTANCE = 1e-30
-"""Least distance from a face that counts, where faces are planes [m]. Guard: no division by 0 for a
-particle that lies on one."""
-
 
 class BlockWalls:
     """Faces between particles and their ghosts.
@@ -30,9 +26,9 @@ class BlockWalls:
         potential, enthalpy: heat potential [W/m] and enthalpy [J/kg] of a wall's temperature [K].
 
     Attributes:
-        exchange_heat: whether any does. closest: see `wall_terms` [m]. faces: (M,) numbers by the
-            names of `ghost_faces`, 0 where there is none. rules: (M,) what they mean to heat, by
-            the names of `ghost_walls`.
+        exchange_heat: whether any does. min_distance: see `wall_terms` [m]. faces: (M,) numbers by
+            the names of `ghost_faces`, 0 where there is none. rules: (M,) what they mean to heat,
+            by the names of `ghost_walls`.
     """
 
     def __init__(
@@ -48,11 +44,11 @@ class BlockWalls:
         self.backend, self.conditions, self.ghosts = backend, conditions, ghosts
         self.potential, self.enthalpy = potential, enthalpy
         self.exchange_heat = bool(rules.dirichlet.any() or rules.flux.any())
-        surface, table = ghosts.surface_ghosts, ghosts.particles.table
-        self.closest = NO_DISTANCE if surface is None else surface.min_distance
+        self.min_distance = ghosts.surface.min_distance
         self.faces: dict[str, Array] = {}
         self.rules: dict[str, Array] = {}
         # tables by the type of a ghost; particles themselves have no wall
+        table = ghosts.particles.table
         names = ("normal", "dirichlet", "flux", "plane")
         self._walls = {name: table(getattr(rules, name)) for name in names}
         is_ghost = np.arange(rules.dirichlet.size) > 0
@@ -103,8 +99,8 @@ class BlockWalls:
             backend.scatter(backend.asarray(values), rows, self.rules[name])
 
     def find_tangents(self) -> None:
-        """Set where a surface that moves lies between ghosts and their sources."""
-        if self.ghosts.surface_ghosts is None or not self.exchange_heat:
+        """Set where the tangents of a surface lie between ghosts and their sources."""
+        if not self.exchange_heat:
             return
         given = {name: self.rules[name] for name in ("normal", "plane")}
         number = self.conditions.number_of(SURFACE)

@@ -9,22 +9,26 @@ import numpy as np
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.input import format_quantity
+from lasersph.particles.ghosts import MIRROR, TANGENT
 from lasersph.particles.layers import Layers
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_layers import SKIN, StaticParticleData
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
+from lasersph.solvers.melt_pool.tangent_block import TangentBlock
 from lasersph.solvers.step_control import StepFailed
 from lasersph.surface.surface import Surface
 
-ROOM = 16
+GROWTH = 16
 """Layers by which a block grows. Cost: how often arrays grow."""
-MARGIN = 8.0
+RESTING_LAYERS = 8.0
 """Resting layers below the moving rows, in units of the finest spacing. Geometry: two supports of
 3.75."""
-BELOW = 2.0
+MELT_MARGIN = 2.0
 """Depth of the rows below the deepest melt, in support radii. Geometry: edge and dummy particles
 lie within the first and second below the melt."""
+BLOCKS = {MIRROR: Block, TANGENT: TangentBlock}
+"""Blocks by how ghosts lie beyond the surface."""
 
 
 class PoolTooDeep(StepFailed):
@@ -40,7 +44,7 @@ class PoolDomain:
     """Conditions at the faces, surface and blocks.
 
     Attributes:
-        box: lower and upper end of each axis [m]. periods: width along each that repeats, else 0.
+        box: lower and upper end of each axis [m].
         spacing, support: of the particles that move [m]. block_layers: layers of the
             present block but for its margin. volume: (n,) of the particles [m^2].
     """
@@ -63,10 +67,6 @@ class PoolDomain:
         self.is_box = conditions.flow is not None
         self.spacing, self.support = layers.spacing, float(lattice.support.min())
         self.box = conditions.box
-        self.periods = tuple(
-            high - low if conditions.flow_kind(names[0]) == "periodic" else 0.0
-            for names, (low, high) in zip(conditions.faces, self.box, strict=True)
-        )
         self._bottom = np.cumsum(layers.thickness)
         self.fine_depth = layers.fine_depth
         self._starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
@@ -74,7 +74,7 @@ class PoolDomain:
         self._block: Block | None = None
 
     @property
-    def room(self) -> tuple[tuple[float, float], ...]:
+    def bounds(self) -> tuple[tuple[float, float], ...]:
         """The box up to the top of the surface [m]."""
         *sides, (bottom, _) = self.box
         return (*sides, (bottom, self.surface.top))
@@ -94,11 +94,12 @@ class PoolDomain:
 
     def _grow(self, deepest: float) -> None:
         """Let the block hold what lies as deep as that [m]."""
-        needed = int(np.searchsorted(self._bottom, deepest + BELOW * self.support)) + 1
+        # layers down to MELT_MARGIN supports below the melt, and some more
+        needed = int(np.searchsorted(self._bottom, deepest + MELT_MARGIN * self.support)) + 1
         if self.is_box:
             needed = self._bottom.size
         if needed > self.block_layers:
-            self.block_layers = min(needed + ROOM, self._bottom.size)
+            self.block_layers = min(needed + GROWTH, self._bottom.size)
 
     def _complete_layers(self, last: int) -> int:
         """Layers all of whose neighbors lie in a block of `last` layers.
@@ -108,6 +109,8 @@ class PoolDomain:
         """
         if last == self._bottom.size:
             return self.block_layers
+
+        # reach of each layer's pairs, against the last layer of the block
         center = self._bottom - 0.5 * self.layers.thickness
         support = self.lattice.support[self._starts[:-1]]
         reach = SKIN * 0.5 * (support[:last] + support[last])
@@ -120,6 +123,7 @@ class PoolDomain:
         Raises:
             PoolTooDeep: a particle below the finest layers flows.
         """
+        # depth of the deepest particle that flows
         fields = {"x": position, "fluid": kinds.fluid}
         (deepest,) = self.backend.pointwise(fluid_depth, fields, (None,), reduce=("max",))
         if deepest > self.fine_depth and not self.is_box:
@@ -129,13 +133,15 @@ class PoolDomain:
                 f"{format_quantity(self.fine_depth, 'm')}; give "
                 f'particles.fine_depth = "{1.3e9 * deepest:.0f} nm" or more'
             )
+
+        # another block where it has grown, with resting layers below
         self._grow(deepest)
         total = self._bottom.size
         if self._block is None or self._block.complete_layers != self.block_layers:
-            below = self._bottom[self.block_layers - 1] + MARGIN * self.spacing
+            below = self._bottom[self.block_layers - 1] + RESTING_LAYERS * self.spacing
             last = int(np.searchsorted(self._bottom, below * (1.0 + 1e-9))) + 1
             last = min(last, total)
-            self._block = Block(
+            self._block = BLOCKS[self.surface.crossing](
                 self.backend,
                 self.lattice,
                 self.conditions,

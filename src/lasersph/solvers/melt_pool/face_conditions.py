@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,6 @@ from lasersph.particles.ghosts import (
     MIRROR,
     OPEN,
     PERIODIC,
-    TANGENT,
     UPPER,
     FacePair,
     GhostTypes,
@@ -40,18 +40,14 @@ Array = NDArray[np.float64]
 ENDS = (LOWER, UPPER)
 
 
-def _has_tangent(face: str, surface: Surface) -> bool:
-    """Whether ghosts beyond a face lie across the local tangent of a surface."""
-    return face == SURFACE and surface.moves
-
-
 @dataclass(frozen=True)
 class GhostRules:
     """Rules of what ghosts carry, by their type, host arrays.
 
     Attributes:
-        factor, added: (d, w) diagonal of F, and v_0 [m/s]. stressed: (w,) 1 beyond a free surface,
-            where 2 d tau / eta is added to the velocity of the source.
+        sign: (d, w) diagonal of S, see `particles.ghosts`. factor, added: (d, w) diagonal of F, and
+            v_0 [m/s]. stressed: (w,) 1 beyond a free surface, where 2 d tau / eta is added to the
+            velocity of the source.
         dirichlet: (w,) 1 beyond a Dirichlet face. wall_temperature: (w,) [K], its mean where it
             varies along the face, as `varies` (w,) says. flux: (w,) into the body [W/m^2]. normal:
             (d, w) outward, plane: (w,) place of the face along it [m]. heat_face: (w,) number
@@ -59,6 +55,7 @@ class GhostRules:
             those across each axis that lie between for the flow. Else 0.
     """
 
+    sign: Array
     factor: Array
     added: Array
     stressed: Array
@@ -72,9 +69,35 @@ class GhostRules:
     walls: Array
 
     @property
+    def velocity(self) -> dict[str, Array]:
+        """Tables of velocities as viscosity sees them, F (v_s + t j_s) + v_0."""
+        return {"stressed": self.stressed, "factor": self.factor, "added": self.added}
+
+    @property
+    def mirrored_velocity(self) -> dict[str, Array]:
+        """Tables of velocities as the divergence sees them, S (v_s + t j_s): nothing crosses."""
+        return {"stressed": self.stressed, "factor": self.sign, "added": 0.0 * self.added}
+
+    @property
+    def velocity_change(self) -> dict[str, Array]:
+        """Tables of a change of velocities, F d_s."""
+        return {"factor": self.factor}
+
+    @property
     def has_one_wall(self) -> NDArray[np.bool_]:
         """(w,) whether one face lies between for the flow, and no edge or corner."""
         return np.count_nonzero(self.walls, axis=0) == 1
+
+
+class Crossing(NamedTuple):
+    """A face between ghosts and their sources: normal to an axis, its name, types (w,) of these
+    ghosts, its place [m], and -1 at the lower or 1 at the upper end of the axis."""
+
+    axis: int
+    face: str
+    types: NDArray[np.bool_]
+    at: float
+    outward: float
 
 
 class FaceConditions:
@@ -85,7 +108,8 @@ class FaceConditions:
             lateral faces mirror or repeat as the heat does, its surface is free, its bottom rests.
 
     Attributes:
-        faces: names of the lower and the upper face of each axis. interval: begin and end of the
+        faces: names of the lower and the upper face of each axis. periods: width along each axis
+            that repeats, else 0 [m]. interval: begin and end of the
             step, for what varies with time [s].
     """
 
@@ -98,6 +122,10 @@ class FaceConditions:
     ) -> None:
         self.box, self.boundaries, self.flow = box, boundaries, flow
         self.faces = face_pairs(len(box))
+        self.periods = tuple(
+            high - low if self.flow_kind(lower) == "periodic" else 0.0
+            for (lower, _), (low, high) in zip(self.faces, box, strict=True)
+        )
         self.initial_temperature = initial_temperature
         self.interval = (0.0, 0.0)
 
@@ -119,10 +147,10 @@ class FaceConditions:
         """Faces beyond which ghosts lie; without the bottom where particles go on below."""
         pairs = []
         for (lower, upper), (low, high) in zip(self.faces, self.box, strict=True):
-            is_periodic = self.flow_kind(lower) == "periodic"
-            kind = PERIODIC if is_periodic else MIRROR
-            below = OPEN if lower == BOTTOM and not has_bottom else kind
-            above = TANGENT if _has_tangent(upper, surface) else kind
+            below = above = PERIODIC
+            if self.flow_kind(lower) != "periodic":
+                below = OPEN if lower == BOTTOM and not has_bottom else MIRROR
+                above = surface.crossing if upper == SURFACE else MIRROR
             pairs.append(FacePair(below, above, low, high))
         return tuple(pairs)
 
@@ -134,89 +162,82 @@ class FaceConditions:
         """Largest speed of a wall [m/s]."""
         return max(abs(self.wall_velocity(face)) for pair in self.faces for face in pair)
 
-    def rules(self, ghost_types: GhostTypes, surface: Surface) -> GhostRules:
+    def rules(self, ghost_types: GhostTypes) -> GhostRules:
         """Rules for ghosts of these types."""
-        dimension, count = ghost_types.sign.shape
-        stressed, dirichlet, temperature = np.zeros(count), np.zeros(count), np.zeros(count)
-        flux, heat_face, plane = np.zeros(count), np.zeros(count), np.zeros(count)
-        normal, walls = np.zeros((dimension, count)), np.zeros((dimension, count))
-        varies = np.zeros(count, bool)
-        for axis, face, chosen, at, outward in self._crossings(ghost_types):
-            kind = self.boundaries.kind_of(face)
-            walls[axis, chosen] = self.number_of(face)
-            # the first Dirichlet face in a corner, else the first Neumann face
-            mine = chosen & (heat_face == 0.0)
-            if self.flow_kind(face) in FREE:
-                stressed[chosen] = 1.0
-                flux[mine] = surface.heat_flux
-            if kind in DIRICHLET:
-                mine = chosen & (dirichlet == 0.0)
-                dirichlet[mine] = 1.0
-                temperature[mine] = self.boundaries.temperature_of(face, self.initial_temperature)
-                varies[mine] = (
-                    face == SURFACE and self.boundaries.surface_temperature_wave is not None
-                )
-            elif kind == NEUMANN:
-                flux[mine] = self.boundaries.flux_of(face)
-            elif not flux[mine].any():
-                continue
-            normal[:, mine] = 0.0
-            normal[axis, mine], plane[mine] = outward, outward * at
-            heat_face[mine] = self.number_of(face)
-        factor, added = self._velocities(ghost_types, surface)
-        return GhostRules(
-            factor,
-            added,
-            stressed,
-            dirichlet,
-            temperature,
-            varies,
-            flux,
-            normal,
-            plane,
-            heat_face,
-            walls,
+        shape = ghost_types.sign.shape
+        factor, added = self._velocities(ghost_types)
+        numbers = ("stressed", "dirichlet", "wall_temperature", "flux", "plane", "heat_face")
+        rules = GhostRules(
+            sign=ghost_types.sign,
+            factor=factor,
+            added=added,
+            varies=np.zeros(shape[1], bool),
+            normal=np.zeros(shape),
+            walls=np.zeros(shape),
+            **{name: np.zeros(shape[1]) for name in numbers},
         )
+        for one in self._crossings(ghost_types):
+            rules.walls[one.axis, one.types] = self.number_of(one.face)
+            if self.flow_kind(one.face) in FREE:
+                rules.stressed[one.types] = 1.0
+            self._set_heat(rules, one)
+        return rules
+
+    def _set_heat(self, rules: GhostRules, crossing: Crossing) -> None:
+        """Let the heat condition of a face hold for the types of ghosts beyond it.
+
+        In an edge or a corner the first Dirichlet face holds, else the first Neumann face.
+        """
+        axis, face, types, at, outward = crossing
+        kind = self.boundaries.kind_of(face)
+        if kind in DIRICHLET:
+            mine = types & (rules.dirichlet == 0.0)
+            rules.dirichlet[mine] = 1.0
+            rules.wall_temperature[mine] = self.boundaries.temperature_of(
+                face, self.initial_temperature
+            )
+            wave = self.boundaries.surface_temperature_wave
+            rules.varies[mine] = face == SURFACE and wave is not None
+        elif kind == NEUMANN:
+            mine = types & (rules.heat_face == 0.0)
+            rules.flux[mine] = self.boundaries.flux_of(face)
+        else:
+            return
+        rules.normal[:, mine] = 0.0
+        rules.normal[axis, mine] = outward
+        rules.plane[mine] = outward * at
+        rules.heat_face[mine] = self.number_of(face)
 
     def varying_temperature(self, x: Array) -> Array:
         """Temperature of a face that varies along it, at places x [m] in the `interval`, [K]."""
         T_0 = self.initial_temperature
         return self.boundaries.temperature_along(SURFACE, x, T_0, self.interval)
 
-    def _crossings(
-        self, ghost_types: GhostTypes
-    ) -> Iterator[tuple[int, str, NDArray[np.bool_], float, float]]:
-        """Axis, face, types beyond it, its place [m] and -1 or 1, for all faces but periodic."""
+    def _crossings(self, ghost_types: GhostTypes) -> Iterator[Crossing]:
+        """All faces but periodic ones that lie between ghosts and their sources."""
         for axis, names in enumerate(self.faces):
             for end, face, at in zip(ENDS, names, self.box[axis], strict=True):
-                chosen = ghost_types.crossed[axis] == end
-                if self.flow_kind(face) != "periodic" and chosen.any():
-                    yield axis, face, chosen, at, 1.0 if end == UPPER else -1.0
+                types = ghost_types.crossed[axis] == end
+                if self.flow_kind(face) != "periodic" and types.any():
+                    yield Crossing(axis, face, types, at, 1.0 if end == UPPER else -1.0)
 
-    def _velocities(self, ghost_types: GhostTypes, surface: Surface) -> tuple[Array, Array]:
+    def _velocities(self, ghost_types: GhostTypes) -> tuple[Array, Array]:
         """Diagonal of F, and v_0.
 
-        Walls turn all components around, other faces the normal one; factors of several faces are
-        multiplied. The velocity of a moving wall ends in edges and corners with faces that it meets
-        and with other walls: carried on, it would pump fluid through the corner; reversed, as an
-        impermeable face asks for, its jump would empty the corner of particles. Half of the leak
-        remains, which shrinks with the spacing.
+        Walls turn all components around, other planes the normal one, tangents none; factors of
+        several faces are multiplied. The velocity of a moving wall ends in edges and corners with
+        faces that it meets and with other walls: carried on, it would pump fluid through the
+        corner; reversed, as an impermeable face asks for, its jump would empty the corner of
+        particles. Half of the leak remains, which shrinks with the spacing.
         """
-        factor, added = np.ones(ghost_types.sign.shape), np.zeros(ghost_types.sign.shape)
-        crossings = list(self._crossings(ghost_types))
-        walls = [one for one in crossings if self.flow_kind(one[1]) in WALLS]
-        has_one_wall = np.sum([chosen for _, _, chosen, _, _ in walls], axis=0) == 1
+        factor, added = ghost_types.sign.copy(), np.zeros(ghost_types.sign.shape)
+        walls = [one for one in self._crossings(ghost_types) if self.flow_kind(one.face) in WALLS]
+        has_one_wall = np.sum([one.types for one in walls], axis=0) == 1
         # components along walls, and what a wall that moves along x or up adds to them
-        for axis, face, chosen, _, _ in walls:
-            factor[np.ix_(np.arange(len(factor)) != axis, chosen)] *= -1.0
-            along = 0 if face in VERTICAL else -1
-            added[along, chosen & has_one_wall] = 2.0 * self.wall_velocity(face)
-        # components across any face
-        for axis, face, chosen, _, _ in crossings:
-            if _has_tangent(face, surface):  # no component is turned around across a tangent
-                continue
-            factor[axis, chosen] *= -1.0
-            added[axis, chosen] = 0.0
-            if self.flow_kind(face) in FREE:
-                added[axis, chosen] = 2.0 * surface.normal_velocity
+        for one in walls:
+            factor[np.ix_(np.arange(len(factor)) != one.axis, one.types)] *= -1.0
+            along = 0 if one.face in VERTICAL else -1
+            added[along, one.types & has_one_wall] = 2.0 * self.wall_velocity(one.face)
+        # nothing moves across a plane
+        added[ghost_types.sign < 0.0] = 0.0
         return factor, added

@@ -48,20 +48,15 @@ def of_face(q, face):
 
 
 def heat_terms(
-    g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, heat_face_j, x_i, x_j, closest
+    g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, heat_face_j, x_i, x_j, min_distance
 ):
     """Shares of a pair in A of each face, and in A P_w + b of each."""
     A, flow, _, b = wall_terms(
-        g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j, closest
+        g_ij, dirichlet_j, P_w_j, T_w_j, flux_j, normal_j, plane_j, x_i, x_j, min_distance
     )
     a_0, a_1, a_2, a_3 = of_face(A, heat_face_j)
     b_0, b_1, b_2, b_3 = of_face(flow + b, heat_face_j)
     return a_0, a_1, a_2, a_3, b_0, b_1, b_2, b_3
-
-
-def sums_of_row(total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7):
-    """Sums of a row."""
-    return total_0, total_1, total_2, total_3, total_4, total_5, total_6, total_7
 
 
 def heat_of_row(P, a_0, a_1, a_2, a_3, b_0, b_1, b_2, b_3):
@@ -102,7 +97,8 @@ class FaceExchange:
 
     Args:
         count: particles of the body. potential: of heat, at the end of each step, (count,) [W/m];
-            None for a pool, of which nothing is booked.
+            None for a pool, of which nothing is booked. books_pressing: whether the gradient of
+            the pressure is symmetric.
 
     Attributes:
         heat: into the box by face [J/m]. impulse: of the face on the liquid, along x at bottom and
@@ -110,8 +106,11 @@ class FaceExchange:
             [N s/m].
     """
 
-    def __init__(self, backend: Backend, count: int, potential: Array | None) -> None:
+    def __init__(
+        self, backend: Backend, count: int, potential: Array | None, *, books_pressing: bool
+    ) -> None:
         self.backend, self.potential = backend, potential
+        self.books_pressing = books_pressing
         self.heat: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         self.impulse: dict[str, float] = dict.fromkeys(PLANE, 0.0)
         self.pressing: dict[str, float] = dict.fromkeys(PLANE, 0.0)
@@ -133,9 +132,8 @@ class FaceExchange:
             block.pairs,
             fields | block.walls.rules,
             tuple(self._sums.values()),
-            finish=sums_of_row,
             rows=block.rows_near_faces,
-            closest=block.walls.closest,
+            min_distance=block.walls.min_distance,
         )
 
     def book_heat(self, block: Block, step: float) -> None:
@@ -155,10 +153,11 @@ class FaceExchange:
         """Add the momentum of a viscous step that has just been taken."""
         if self.potential is None:
             return
+        # dt rho nu times the sums, along each face and across it
         found = self.sum_viscous_forces(block, flow, flow.viscous_step(step))
         factor = step * flow.liquid.density * flow.liquid.viscosity
         add_to(self.impulse, found[: len(PLANE)], factor)
-        if not flow.surface.moves:
+        if self.books_pressing:
             add_to(self.pressing, outward(found[len(PLANE) :]), -factor)
 
     @graph
@@ -171,21 +170,20 @@ class FaceExchange:
             block.pairs,
             fields | block.walls.faces,
             (None,) * (2 * len(PLANE)),
-            finish=sums_of_row,
             rows=block.rows_near_faces,
             reduce=("sum",) * (2 * len(PLANE)),
         )
 
     def book_pressure(self, block: Block, flow: Flow, step: float) -> None:
         """Add the momentum of the pressure that has just corrected the velocity."""
-        if self.potential is None or flow.pressure_seen is None:
+        if self.potential is None or not self.books_pressing:
             return
-        fields, lowest = flow.pressure_seen
-        found = self.sum_pressure(block, fields)
+        # dt times the force on the face, and the constant p_0 over its length
+        found = self.sum_pressure(block, flow.projection.gradient_fields)
         add_to(self.pressing, outward(found), step)
         (x_0, x_1), (z_0, z_1) = block.conditions.box
         width, height = x_1 - x_0, z_1 - z_0
-        add_to(self.pressing, (height, height, width, width), step * lowest)
+        add_to(self.pressing, (height, height, width, width), step * flow.projection.lowest)
 
     @graph
     def sum_pressure(self, block: Block, fields: dict[str, Array]) -> None:

@@ -17,12 +17,6 @@ def move(x, v_old, v, step):
     return x + 0.5 * step * (v_old + v)
 
 
-def stop_solid(v, fluid):
-    """Velocity of what flows, 0 of all others [m/s]; and |v|^2."""
-    flowing = fluid * v
-    return flowing, dot(flowing, flowing)
-
-
 def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
     """Terms of D [1/s] and of the kernel sum S [1], V_j W_ij."""
     return corrected_divergence_term(v_i, v_j, C_i, G_ij), VW_ij

@@ -1,7 +1,7 @@
 """`GhostExtension`: fields of the particles of a block, extended to their ghosts.
 
-What a ghost carries follows from its source, its type and the tangent there (`ghost_fields`). Where
-no surface moves no type crosses a tangent, and there is none: normals and shifts are 0.
+What a ghost carries follows from its source, its type and the tangent there (`ghost_fields`). No
+type crosses the tangent of a plane: normals and shifts are 0 there.
 """
 
 from __future__ import annotations
@@ -24,89 +24,85 @@ class GhostExtension:
 
     Attributes:
         dimension: d. particles: which ghosts there are. size: M, their number with capacity for a
-            few more. source: (M,) particle behind each. sources: these and the types, the fields of
-            `ghost_fields`. place: (d, M) [m]. surface_ghosts: those across a surface that moves,
-            None without one. crosses_surface: (M,) 1 for these.
+            few more. source: (M,) particle behind each. place: (d, M) [m]. sources: these and the
+            types, the fields of `ghost_fields`. surface: what ghosts across its tangents
+            have. crosses_surface: (M,) 1 for these, once `mark_crossing` was called.
+            has_still_walls: whether there are walls on which no liquid slips.
     """
 
     def __init__(
-        self,
-        backend: Backend,
-        particles: GhostParticles,
-        rules: GhostRules,
-        surface: Surface,
+        self, backend: Backend, particles: GhostParticles, rules: GhostRules, surface: Surface
     ) -> None:
         self.backend, self.particles = backend, particles
+        self.surface: SurfaceGhosts = surface.ghosts
         self.dimension = particles.ghost_types.sign.shape[0]
+        # those that were found
         self.size, self.source = 0, particles.source
         self.sources: dict[str, Array] = {}
         self.place = backend.zeros((self.dimension, 0))
-        self.surface_ghosts: SurfaceGhosts | None = surface.ghosts
         self.crosses_surface = backend.zeros(0)
-        # what carries the velocity on: a number along the tangent of a plane, else a vector
-        moves = surface.ghosts is not None
-        self._along: float | tuple[float, ...] = 1.0 if moves else surface.tangent
-        # the planes of sources below a surface that moves
-        if self.surface_ghosts is not None:
-            self._normal, self._shift = self.surface_ghosts.normal, self.surface_ghosts.shift
-        else:
-            self._normal = self._shift = backend.zeros((self.dimension, particles.count))
-        self._set_tables(rules)
 
-    def _set_tables(self, rules: GhostRules) -> None:
-        """Tables of what ghosts carry, by their type."""
-        table, types = self.particles.table, self.particles.ghost_types
+        # S and o by their types, with the tangent between as far as there is one
+        table, types = particles.table, particles.ghost_types
         self._crosses_surface = table(types.crosses_surface)
         self._stays_inside = table(1.0 - types.crosses_surface)
-        # S and o, with the tangent between as far as there is one
         self._sign = table(types.sign)
-        self._mirrors: Constants = {"sign": self._sign, "normal": self._normal}
-        self._mirrors["crosses_surface"] = self._crosses_surface
-        self._images: Constants = {"sign": self._sign, "offset": table(types.offset)}
-        self._images["shift"] = self._shift
-        # F and v_0 of walls, or S alone
-        self._factor = table(rules.factor)
-        carry: Constants = {"stressed": table(rules.stressed), "along": self._along}
-        self._velocity = carry | {"factor": self._factor, "added": table(rules.added)}
-        self._mirror = carry | {"factor": self._sign, "added": table(0.0 * rules.added)}
-        self._set_still_walls(rules)
+        self._mirrors: Constants = {
+            "sign": self._sign,
+            "normal": self.surface.normal,
+            "crosses_surface": self._crosses_surface,
+        }
+        self._images: Constants = {
+            "sign": self._sign,
+            "offset": table(types.offset),
+            "shift": self.surface.shift,
+        }
 
-    def _set_still_walls(self, rules: GhostRules) -> None:
-        """Tables of walls below a surface that moves on which no liquid slips: the components that
-        they turn around, their normal, and their place along it."""
-        types = self.particles.ghost_types
+        # F and v_0 of walls, or S alone; beyond a stressed surface the velocity is carried on
+        along: Constants = {"along": surface.jump_direction}
+        self._velocity = along | self._tables(rules.velocity)
+        self._mirrored_velocity = along | self._tables(rules.mirrored_velocity)
+        self._velocity_change = self._tables(rules.velocity_change)
+
+        # walls on which no liquid slips: components that they turn around, normal and place
         is_wall = (rules.walls > 0.0) & rules.has_one_wall & (types.crosses_surface == 0.0)
-        along = (~is_wall & is_wall.any(axis=0) & (rules.factor < 0.0)).astype(float)
-        self.has_still_walls = self.surface_ghosts is not None and bool(along.any())
+        turned = (~is_wall & is_wall.any(axis=0) & (rules.factor < 0.0)).astype(float)
+        self.has_still_walls = bool(turned.any())
         # S x + o = x lies on the plane of the wall: n . x = o/2
         normal = is_wall.astype(float)
         plane = 0.5 * np.sum(normal * types.offset, axis=0)
-        named = {"along": along, "normal": normal, "plane": plane}
-        self._still_walls = {name: self.particles.table(values) for name, values in named.items()}
+        self._still_walls = self._tables({"along": turned, "normal": normal, "plane": plane})
+
+    def _tables(self, values: Mapping[str, np.ndarray]) -> Constants:
+        """Tables by the type of a ghost, for loops."""
+        return {name: self.particles.table(one) for name, one in values.items()}
 
     def find(self, position: Array, radius: Array) -> None:
         """Find the ghosts of the particles at `position`, shape (d, n) [m].
 
         Args:
-            radius: (count,) within which particles have ghosts across a surface that moves [m].
+            radius: (count,) within which particles have ghosts across a tangent [m].
         """
-        surface, particles = self.surface_ghosts, self.particles
-        particles.find(position, None if surface is None else (surface.distance, radius))
+        particles = self.particles
+        particles.find(position, self.surface.distance, radius)
         self.size, self.source = particles.source.shape[0], particles.source
-        self.sources = {"source": particles.source, "ghost_type": particles.ghost_type}
         if self.place.shape[1] != self.size:
             self.place = self.backend.zeros((self.dimension, self.size))
+        self.sources = {"source": particles.source, "ghost_type": particles.ghost_type}
+        self.sources["place"] = self.place
 
     def gather(self, field: Array) -> Array:
         """The field of all particles on the block with ghosts: (n,) to (M,)."""
-        out, fields = self.backend.zeros(self.size), {"place": self.source}
-        self.backend.pointwise(element, fields, out, table=field)
-        return out
+        return self._read(field, self.source)
 
     def of_type(self, table: Array) -> Array:
         """(M,) values by the type of each particle."""
-        out, fields = self.backend.zeros(self.size), {"place": self.sources["ghost_type"]}
-        self.backend.pointwise(element, fields, out, table=table)
+        return self._read(table, self.particles.ghost_type)
+
+    def _read(self, table: Array, place: Array) -> Array:
+        """(M,) values of a table at their places."""
+        out = self.backend.zeros(self.size)
+        self.backend.pointwise(element, {"place": place}, out, table=table)
         return out
 
     def _extend(self, function: Callable, tables: Constants, out: Array | None = None) -> Array:
@@ -130,7 +126,9 @@ class GhostExtension:
         Beyond a stressed surface they continue the profile: mirrored, it would bend there, and its
         divergence with it. Args as of `extend_velocity`.
         """
-        return self._extend(ghost_fields.ghost_velocity, {"v": v, "jump": jump, **self._mirror})
+        return self._extend(
+            ghost_fields.ghost_velocity, {"v": v, "jump": jump, **self._mirrored_velocity}
+        )
 
     def add_at_walls(self, v: Array, a: Array, relative: Array, step: float, nu: float) -> None:
         """Add to velocities (d, M) what `ghost_fields.velocity_at_wall` says.
@@ -139,7 +137,7 @@ class GhostExtension:
             a: (d, n) grad p/rho [m/s^2]. relative: (n,) viscosity over that at the liquidus.
                 step: [s]. nu: at the liquidus [m^2/s].
         """
-        fields = {**self.sources, "v": v, "x": self.place}
+        fields = {**self.sources, "v": v}
         tables: Constants = {"m": relative, "a": a, **self._still_walls}
         function = ghost_fields.velocity_at_wall
         self.backend.pointwise(function, fields, v, **tables, step=step, nu=nu)
@@ -147,7 +145,7 @@ class GhostExtension:
     def extend_velocity_change(self, d: Array, out: Array) -> None:
         """Extend a change (d, n) of velocities, where walls and stress stay the same, into `out`
         (d, M) [m/s]."""
-        self._extend(ghost_fields.velocity_change, {"d": d, "factor": self._factor}, out)
+        self._extend(ghost_fields.velocity_change, {"d": d, **self._velocity_change}, out)
 
     def mirror(self, a: Array) -> Array:
         """A vector field (d, n) on the block with ghosts, as the planes between mirror it."""
@@ -158,11 +156,9 @@ class GhostExtension:
         out = self.backend.zeros((self.dimension, self.dimension, self.size))
         return self._extend(ghost_fields.ghost_tensor, {"M": M, **self._mirrors}, out)
 
-    def extend_pressure(self, p: Array) -> Array | None:
-        """(M,) pressure, carried on beyond a surface that moves; None where there is none."""
-        if self.surface_ghosts is None:
-            return None
-        tables: Constants = {"p": p, "p_b": self.surface_ghosts.pressure}
+    def extend_pressure(self, p: Array) -> Array:
+        """(M,) pressure, mirrored at planes, and across a tangent carried on through p_b there."""
+        tables: Constants = {"p": p, "p_b": self.surface.pressure}
         tables["crosses_surface"] = self._crosses_surface
         return self._extend(ghost_fields.ghost_pressure, tables, self.backend.zeros(self.size))
 
@@ -200,13 +196,12 @@ class GhostExtension:
             given: both, as they are for planes. heat_face: by type, the number of the face that
                 heat crosses. surface: number of the surface.
         """
-        assert self.surface_ghosts is not None
         self.backend.pointwise(
             ghost_fields.tangent_plane,
-            {**self.sources, "x": self.place, **given},
+            {**self.sources, **given},
             (given["normal"], given["plane"]),
-            surface_normal=self.surface_ghosts.normal,
-            distance=self.surface_ghosts.distance,
+            surface_normal=self.surface.normal,
+            distance=self.surface.distance,
             sign=self._sign,
             crosses_surface=self._crosses_surface,
             heat_face=heat_face,

@@ -60,15 +60,15 @@ def ghost_pressure(source, ghost_type, p, p_b, crosses_surface):
     return p[source] + 2.0 * crosses_surface[ghost_type] * (p_b[source] - p[source])
 
 
-def velocity_at_wall(source, ghost_type, v, x, m, a, along, normal, plane, step, nu):
+def velocity_at_wall(source, ghost_type, place, v, m, a, along, normal, plane, step, nu):
     """Velocity of a ghost [m/s], with what the pressure does along a wall (`wall_pressure`).
 
     Args:
-        x: place of the ghost [m]. m: relative viscosity of the source [1], nu: what that counts
+        place: of the ghost [m]. m: relative viscosity of the source [1], nu: what that counts
             from [m^2/s]. a: grad p/rho [m/s^2]. along: 1 for the components along a wall. normal,
             plane: of that, and its place along the normal [m]. step: [s].
     """
-    d = dot(x, normal[ghost_type]) - plane[ghost_type]
+    d = dot(place, normal[ghost_type]) - plane[ghost_type]
     viscosity = nu * m[source]
     return v + along[ghost_type] * (2.0 * step + d * d / viscosity) * a[source]
 
@@ -112,7 +112,7 @@ def ghost_faces(ghost_type, wall, heat_face):
 def tangent_plane(
     source,
     ghost_type,
-    x,
+    place,
     normal,
     plane,
     surface_normal,
@@ -127,4 +127,4 @@ def tangent_plane(
     if crosses_surface[ghost_type] <= 0.0 or heat_face[ghost_type] != surface:
         return 1.0 * normal, plane
     n = sign[ghost_type] * surface_normal[source]
-    return n, dot(x, n) - distance[source]
+    return n, dot(place, n) - distance[source]

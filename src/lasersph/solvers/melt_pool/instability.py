@@ -10,7 +10,7 @@ from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.step_control import NotConverged
 
-SHORTEST = 1e-9
+MIN_CROSSING_TIME = 1e-9
 """Time in which the fastest particle crosses its support, over the time to compute. Guard: in a
 flow that takes less its speeds have grown without bound."""
 
@@ -26,8 +26,9 @@ def refuse_unstable(flow: Flow, domain: PoolDomain, position: Array, time: float
     """
     speed = flow.largest_speed
     is_possible = speed <= domain.surface.largest_speed
-    if is_possible and speed * SHORTEST * time <= domain.support:
+    if is_possible and speed * MIN_CROSSING_TIME * time <= domain.support:
         return
+    # the fastest particle, for the message
     host = flow.backend.to_host
     fastest = int(np.argmax(np.sum(host(flow.velocity) ** 2, axis=0)))
     x, z = (format_quantity(float(place), "m", 3) for place in host(position)[:, fastest])

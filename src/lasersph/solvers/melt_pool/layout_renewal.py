@@ -1,10 +1,11 @@
 """Particles laid out anew below a relief, so that what melts there next starts evenly.
 
 So they are in a pause between pulses. And where a surface recedes: particles below it share what
-evaporates, and once one has lost WORN of its volume, all are laid out before each step, with what
-they carry. Else rows at the surface become thinner without end, above the melt that comes from
-below; lower than the gap that is kept below the surface, none would count as lying at it: steel
-that melts and evaporates under steady light, six rows in D/v, had no surface after five rows.
+evaporates, and once one has less than MIN_VOLUME_RATIO of its volume, all are laid out before each
+step, with what they carry. Else rows at the surface become thinner without end, above the melt that
+comes from below; lower than the gap that is kept below the surface, none would count as lying at
+it: steel that melts and evaporates under steady light, six rows in D/v, had no surface after five
+rows.
 """
 
 from __future__ import annotations
@@ -23,11 +24,11 @@ from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.step_control import StepFailed
 
-EVEN = (0.7, 1.4)
+HEIGHT_RANGE = (0.7, 1.4)
 """Height of particles laid out below a relief over the spacing. Geometry: the row at the surface
 lies half a cell below it and counts as far as a spacing, the next 1.5 cells deep; more than one row
 would count as that at the surface, or none."""
-WORN = 0.6
+MIN_VOLUME_RATIO = 0.6
 """Volume of a particle over that of a cell of the lattice below which the surface recedes.
 Geometry: a row of it lies as deep as `moving_surface.MIN_DEPTH`. In deep melt four spacings have
 evaporated then."""
@@ -72,10 +73,13 @@ class LayoutRenewal:
         Raises:
             UnevenRelief: the relief is too deep for these layers.
         """
+        # even columns below the surface as it is; what it remembers of the flow is gone
         layout, surface = self._layout(), self.domain.surface
         self.volume += float(np.sum(layout.volume) - np.sum(self._fine("volume")))
         self.recedes = False
         surface.reset()
+
+        # mass of the cold metal in the new volumes
         mass = self.body.material.density_reference * layout.volume
         self._place({"position": layout.position, "volume": layout.volume, "mass": mass})
 
@@ -86,14 +90,13 @@ class LayoutRenewal:
         Raises:
             UnevenRelief: the relief is too deep for these layers.
         """
-        if not self.domain.surface.moves:
-            return
         if not self.recedes:
             fields: dict[str, Array] = {"value": self._fine_volume}
             (least,) = self.body.backend.pointwise(same, fields, (None,), reduce=("min",))
-            self.recedes = least < WORN * self._cell
+            self.recedes = least < MIN_VOLUME_RATIO * self._cell
         if not self.recedes:
             return
+        # even columns again, which take over h, p and v of what was there
         layout, volume = self._layout(), self._fine("volume")
         carried = [self._fine(name) for name in ("enthalpy", "pressure", "velocity")]
         density = np.sum(self._fine("mass")) / np.sum(volume)
@@ -101,6 +104,8 @@ class LayoutRenewal:
         volume, (h, p, *v) = carry_over(
             self.domain.layers, layout, place, volume, np.vstack(carried)
         )
+
+        # the same mass and heat as before, without a past that a step could extrapolate
         new = {"position": layout.position, "volume": volume, "mass": density * volume}
         new |= {"pressure": p, "velocity": np.array(v)} | {name: h for name in HISTORY}
         self._place(new | {"enthalpy_excess": 0.0 * h})
@@ -118,8 +123,10 @@ class LayoutRenewal:
             layout = lay_below(domain.layers, height)
         except ValueError as error:
             raise UnevenRelief(f"{error}; {more}") from None
+
+        # cells neither flat nor tall, so that one row lies at the surface
         least, most = (size / domain.spacing for size in layout.heights)
-        if least < EVEN[0] or most > EVEN[1]:
+        if least < HEIGHT_RANGE[0] or most > HEIGHT_RANGE[1]:
             raise UnevenRelief(
                 f"particles below the relief would be {least:.3g} to {most:.3g} spacings high; "
                 f"{more}, fewer pulses or an earlier end"
@@ -130,6 +137,7 @@ class LayoutRenewal:
         """Give the particles of the finest layers new fields, and all of them new pairs."""
         body, domain, surface = self.body, self.domain, self.domain.surface
         particles, backend = body.particles, body.backend
+        # new values of the finest layers, the old ones below
         for name, values in fields.items():
             whole = np.array(backend.to_host(particles[name]))
             whole[..., : values.shape[-1]] = values
@@ -145,4 +153,4 @@ class LayoutRenewal:
         has_row = backend.zeros(block.count)
         backend.fill(has_row, 1.0)
         block.find_pairs(position, has_row)
-        self.pairs.renew(block)
+        self.pairs.update(block)

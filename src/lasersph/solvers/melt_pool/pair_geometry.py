@@ -82,7 +82,7 @@ class PairGeometry:
             kept = self._others[name] = self.backend.zeros(count)
         return kept
 
-    def begin(self, pairs: NeighborList, has_row: Array | None, even_above: float) -> None:
+    def set_pairs(self, pairs: NeighborList, has_row: Array | None, even_above: float) -> None:
         """Take a new list.
 
         Rows above a plane are set apart, where all neighbors have the support radius of the row:
@@ -95,6 +95,7 @@ class PairGeometry:
         backend, count = self.backend, pairs.neighbor.shape[0]
         if self.arrays[0].shape[0] != count:
             self.arrays = (backend.zeros(count), backend.zeros((2, count)), backend.zeros(count))
+        # one support for all rows, or those with it apart
         self._rows = [(common, None)]
         if pairs.mean is common:
             return
@@ -102,6 +103,8 @@ class PairGeometry:
         if has_row is None:
             has_row = backend.zeros(rows)
             backend.fill(has_row, 1.0)
+
+        # rows above the plane, and below it
         fields = {"x": pairs.position, "has_row": has_row}
         marks = (backend.zeros(rows), backend.zeros(rows))
         backend.pointwise(even_rows, fields, marks, even_above=even_above)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.graph import graph
+from lasersph.compute.vectors import dot
 from lasersph.particles.kinds import DUMMY, EDGE, FLUID, INTERIOR
 from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.block import Block
@@ -24,6 +25,12 @@ EDGE_RATIO = 1.5
 def is_fluid(f_m):
     """1 where a particle flows, else 0."""
     return 1.0 if f_m >= MOLTEN else 0.0
+
+
+def stop_solid(v, fluid):
+    """Velocity of what flows, 0 of all others [m/s]; and |v|^2."""
+    flowing = fluid * v
+    return flowing, dot(flowing, flowing)
 
 
 def fluid_neighbors(fluid_j, g_ij, r_ij, edge_distance):
@@ -56,11 +63,6 @@ class ParticleKinds:
         fluid_rows, unknown_rows, dummy_rows, active_rows: index arrays.
     """
 
-    fluid_rows: Rows
-    unknown_rows: Rows
-    dummy_rows: Rows
-    active_rows: Rows
-
     def __init__(self, particles: Particles, spacing: float, *, is_box: bool) -> None:
         particles.add("kind", "was_fluid")
         backend, count = particles.backend, particles.count
@@ -69,6 +71,10 @@ class ParticleKinds:
         self.kind, self.before = particles["kind"], particles["was_fluid"]
         self.fluid, self.unknown = backend.zeros(count), backend.zeros(count)
         self.dummy, self.active = backend.zeros(count), backend.zeros(count)
+        self.fluid_rows: Rows = backend.zeros(0, "index")
+        self.unknown_rows: Rows = backend.zeros(0, "index")
+        self.dummy_rows: Rows = backend.zeros(0, "index")
+        self.active_rows: Rows = backend.zeros(0, "index")
         self._is_marked = False
 
     def find_fluid(self, melt_fraction: Array) -> float:
@@ -76,10 +82,8 @@ class ParticleKinds:
         if self.is_box:
             self._mark_all()
             return float(self.fluid.shape[0])
-        (count,) = self.backend.pointwise(
-            is_fluid, {"f_m": melt_fraction}, (self.fluid,), reduce=("sum",)
-        )
-        return count
+        fields = {"f_m": melt_fraction}
+        return self.backend.pointwise(is_fluid, fields, (self.fluid,), reduce=("sum",))[0]
 
     def _mark_all(self) -> None:
         """Mark all as fluid, once for all."""
@@ -95,6 +99,11 @@ class ParticleKinds:
         """Keep what flows now as what flowed before."""
         self.backend.copy(self.fluid, self.before)
 
+    def stop_solid(self, v: Array) -> tuple[float, ...]:
+        """Set velocities (d, n) [m/s] to 0 where nothing flows; reduces the largest |v|^2."""
+        fields = {"v": v, "fluid": self.fluid}
+        return self.backend.pointwise(stop_solid, fields, (v, None), reduce=(None, "max"))
+
     def find_walls(self, block: Block) -> None:
         """Mark edge and dummies among the particles of a block; a box has none."""
         if self.is_box:
@@ -105,11 +114,14 @@ class ParticleKinds:
     @graph
     def mark_walls(self, block: Block) -> None:
         """Kinds and marks of the particles of a block, by their fluid neighbors."""
+        # nothing is wall to begin with
         backend, count = self.backend, block.count
         marks = (self.kind, self.unknown, self.dummy, self.active)
         for mark in marks:
             backend.fill(mark, 0)
         out, near = tuple(backend.head(m, count) for m in marks), self.edge_distance
+
+        # within the support of fluid: dummy; a spacing from it: edge
         fields = {"fluid": block.gather(self.fluid), "g_ij": block.weights}
         backend.pair_sum(
             fluid_neighbors,

@@ -30,11 +30,11 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.sph.shifting import repulsion_terms, shift
 from lasersph.surface.surface import upward
 
-LARGEST = 0.1
+MAX_SHIFT = 0.1
 """Largest shift over the spacing. Guard: a step shifts by at most 0.04 times 0.06 times 3.75, 0.009
 spacings, times the size of R, to which a neighbor at r spacings adds (2.5 / r)^2: 0.1 is one at
 0.75 spacings with none opposite."""
-CLOSEST = 0.3
+MIN_FACE_DISTANCE = 0.3
 """Least distance from a face over the spacing. Guard: the first row of a lattice is 0.5 spacings
 from a face; closer than 0.3 a particle and its own ghost would be one."""
 
@@ -107,18 +107,7 @@ def allowed_shares(total_0, total_1, total_2, total_3, h):
 
 
 def limited_exchange(
-    h_i,
-    h_j,
-    phase_i,
-    phase_j,
-    dirichlet_j,
-    G_ij,
-    shift_i,
-    shift_j,
-    up_i,
-    up_j,
-    down_i,
-    down_j,
+    h_i, h_j, phase_i, phase_j, dirichlet_j, G_ij, shift_i, shift_j, up_i, up_j, down_i, down_j
 ):
     """Exchange of a pair, by the smaller of the shares that its two particles allow [J/kg]."""
     # the giver's share of losses and the taker's share of gains: the same q for both, heat is kept
@@ -191,7 +180,7 @@ class ParticleShifting:
         """Move the particles by their displacements, with what they carry there."""
         block, jump = flow.block, flow.surface.velocity_jump
         # velocity (74), enthalpy (75), then the positions that both refer to
-        self.adjust_velocity(block, kinds, flow.velocity, jump, flow.correction)
+        self.adjust_velocity(block, kinds, flow.velocity, jump, block.correction)
         h, vapor, m = (particles[name] for name in ("enthalpy", "vapor_fraction", "mass"))
         self.adjust_enthalpy(block, kinds, h, vapor, m)
         self.move(particles["position"], kinds)
@@ -217,7 +206,7 @@ class ParticleShifting:
             rows=kinds.fluid_rows,
             normal=upward(2),
             scale=scale,
-            limit=LARGEST * self.spacing,
+            limit=MAX_SHIFT * self.spacing,
         )
 
     def adjust_velocity(
@@ -275,20 +264,27 @@ class ParticleShifting:
         shares = {"up": self._up, "down": self._down}
         backend.pointwise(shares_of, block.ghosts.sources, (up, down), **shares)
         fields |= {"up": up, "down": down, "m": m}
-        how = {"finish": add_exchange, "reduce": (None, "sum"), "rows": rows}
-        (added,) = backend.pair_sum(limited_exchange, pairs, fields, (h, None), **how)
+        (added,) = backend.pair_sum(
+            limited_exchange,
+            pairs,
+            fields,
+            (h, None),
+            finish=add_exchange,
+            reduce=(None, "sum"),
+            rows=rows,
+        )
         return added
 
     def move(self, position: Array, kinds: ParticleKinds) -> None:
         """Move the particles to their shifted positions, inside the faces."""
-        (x0, x1), (z0, z1) = self.box
+        low, high = zip(*self.box, strict=True)
         fields = {"x": position, "displacement": self.displacement, "fluid": kinds.fluid}
         self.backend.pointwise(
             shifted_position,
             fields,
             position,
-            low=(x0, z0),
-            high=(x1, z1),
+            low=low,
+            high=high,
             width=self.periods,
-            gap=CLOSEST * self.spacing,
+            gap=MIN_FACE_DISTANCE * self.spacing,
         )

@@ -16,7 +16,7 @@ from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.layout_renewal import LayoutRenewal
 
-SAME = 1e-9
+PERIOD_TOLERANCE = 1e-9
 """Difference of two times over the period of a pulse train. Rounding: they are the same."""
 
 
@@ -40,10 +40,13 @@ class Pauses:
 
     def end(self) -> float | None:
         """Start of the next pulse [s], once nothing is molten and no light comes before it."""
+        # number of the pulse that was last, and whether its light is over
         time, period = self.state.time, self.pulse.interval or np.inf
-        number = int(np.floor(time / period + SAME))
+        number = int(np.floor(time / period + PERIOD_TOLERANCE))
         if number + 1 >= self.pulse.count or time - number * period < self.pulse.window[1]:
             return None
+
+        # only once nothing is molten
         fields = {"value": self.body.particles["melt_fraction"]}
         (melt,) = self.body.backend.pointwise(same, fields, (None,), reduce=("max",))
         return None if melt > 0.0 else (number + 1) * period
@@ -55,8 +58,11 @@ class Pauses:
             UnevenRelief: it is too deep to lay particles out below it.
         """
         body, particles, state = self.body, self.body.particles, self.state
+        # heat that is left, and the layout below the relief
         heat = self._sum("mass", "enthalpy")
         self.layout_renewal.lay_out()
+
+        # h of all particles: that heat over their mass, or none of it
         mass = self._sum("mass")
         h = heat / mass if self.heat == "spread" else 0.0
         state.energy["pauses"] += heat - mass * h

@@ -78,7 +78,7 @@ def neighbor_value(g_ij, p_j):
     return g_ij * p_j
 
 
-def rest(total, d, mask, p, b):
+def residual(total, d, mask, p, b):
     """b - A p, and its square."""
     r = b - mask * (d * p - total)
     return r, r * r
@@ -96,7 +96,7 @@ def advance(p, r, s, q, alpha):
     return p + alpha * s, new, new * new, new * new
 
 
-def turn(z, s, beta):
+def new_direction(z, s, beta):
     """New direction z + beta s."""
     return z + beta * s
 
@@ -132,9 +132,15 @@ class PressureEquation:
         self.components = Components(backend, count, support, period)
         self._correction = GridCorrection(backend, count, support, period)
         self._nothing, self._inner = backend.zeros(count), backend.zeros(0)
-        self._d, self._b, self._r, self._z, self._s, self._q = (
-            backend.zeros(count) for _ in range(6)
+        # diagonal and right-hand side, residual r, z = M^-1 r, direction s and A s
+        self._d, self._b = backend.zeros(count), backend.zeros(count)
+        self._r, self._z = backend.zeros(count), backend.zeros(count)
+        self._s, self._q = backend.zeros(count), backend.zeros(count)
+        # pairs, weights and boundary coefficient of the operator, none yet
+        self._neighbors = NeighborList(
+            backend.zeros(count + 1, "offset"), backend.zeros(0, "index")
         )
+        self._weights, self._coefficient = self._inner, self._nothing
 
     def set_operator(
         self,
@@ -181,7 +187,7 @@ class PressureEquation:
         nothing = self._nothing
         given = nothing if value is None else value, nothing if flux is None else flux
         # residual of the first guess, and the norm that the tolerance refers to
-        square, r_r = self.begin(b, pressure, *given)
+        square, r_r = self.find_first_residual(b, pressure, *given)
         scale = square**0.5
         vectors = self._r, self._d, self.components.mask, self._z
         wanted, iterations = (self.tolerance * scale) ** 2, 0.0
@@ -219,7 +225,7 @@ class PressureEquation:
             backend.pair_values(inner, neighbors, fields, self._inner)
 
     @graph
-    def begin(self, b: Array, p: Array, p_b: Array, f: Array) -> None:
+    def find_first_residual(self, b: Array, p: Array, p_b: Array, f: Array) -> None:
         """Residual of the first guess; reduces the squares of the right-hand side and of it."""
         backend, components = self.backend, self.components
         fields = {"p": p, "d": self._d, "mask": components.mask, "g_ij": self._weights}
@@ -232,21 +238,32 @@ class PressureEquation:
         components.remove_means(self._b)
 
         # r = b - A p
-        given, reduce = fields | {"b": self._b}, (None, "sum")
-        how = {"finish": rest, "reduce": reduce}
-        backend.pair_sum(neighbor_value, self._neighbors, given, (self._r, None), **how)
+        backend.pair_sum(
+            neighbor_value,
+            self._neighbors,
+            fields | {"b": self._b},
+            (self._r, None),
+            finish=residual,
+            reduce=(None, "sum"),
+        )
 
     @graph
     def set_direction(self, beta: float) -> None:
         """Direction s = z + beta s, and q = A s; reduces s q."""
         s, q = self._s, self._q
         # s = z + beta s, conjugate to the directions before
-        self.backend.pointwise(turn, {"z": self._z, "s": s}, s, beta=beta)
+        self.backend.pointwise(new_direction, {"z": self._z, "s": s}, s, beta=beta)
         fields = {"p": s, "s": s, "d": self._d, "mask": self.components.mask}
         # q = A s by one sum over the pairs, with s q for the length of the step
         fields["g_ij"] = self._weights
-        how = {"finish": multiply, "reduce": (None, "sum")}
-        self.backend.pair_sum(neighbor_value, self._neighbors, fields, (q, None), **how)
+        self.backend.pair_sum(
+            neighbor_value,
+            self._neighbors,
+            fields,
+            (q, None),
+            finish=multiply,
+            reduce=(None, "sum"),
+        )
 
     @graph
     def approach(self, p: Array, alpha: float) -> None:

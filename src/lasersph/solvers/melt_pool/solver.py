@@ -35,7 +35,7 @@ from lasersph.surface.columns import SurfaceColumns
 from lasersph.surface.surface import SurfaceStep
 
 
-def larger(a, b):
+def either(a, b):
     """1 where one of two marks is 1."""
     return max(a, b)
 
@@ -45,7 +45,7 @@ def lies_at_surface(depth, V, spacing):
     return 1.0 if depth * spacing < min(V, spacing * spacing) else 0.0
 
 
-class SurfaceTrouble(StepFailed):
+class InvalidSurface(StepFailed):
     """A surface that moves cannot be computed any further."""
 
 
@@ -75,16 +75,22 @@ class MeltPool:
         self.position = self.particles["position"]
         self.particles.set("position", heat.body.filling.position[:, :count])
         # what a step moves, and how: x*, kinds, shifts, and pairs that conduct
-        self._advected, self._depth = backend.zeros((2, count)), backend.zeros(count)
+        self._advected, self._depth = backend.zeros(self.position.shape), backend.zeros(count)
         self.kinds = ParticleKinds(self.particles, domain.spacing, is_box=domain.is_box)
         self.shifting = ParticleShifting(
-            backend, count, settings.shifting, domain.spacing, domain.room, domain.periods
+            backend,
+            count,
+            settings.shifting,
+            domain.spacing,
+            domain.bounds,
+            domain.conditions.periods,
         )
         self.pairs = HeatPairs(heat.body)
         # faces book heat at the potential that the implicit step ends with
         scheme = heat.scheme
         potential = scheme.P if domain.is_box and isinstance(scheme, ImplicitStep) else None
-        self.exchange = FaceExchange(backend, count, potential)
+        is_symmetric = domain.surface.pressure_gradient.is_symmetric
+        self.exchange = FaceExchange(backend, count, potential, books_pressing=is_symmetric)
         # between pulses: new lattice, time jump; and the test of a steady flow
         self.layout_renewal = LayoutRenewal(heat.body, domain, self.kinds, self.pairs)
         self.pauses: Pauses | None = None
@@ -99,7 +105,8 @@ class MeltPool:
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
-        self._find_surface()
+        self._numbers: dict[str, float] = {}
+        self.domain.surface.find(self.position)
 
     @property
     def state(self) -> HeatState:
@@ -155,7 +162,7 @@ class MeltPool:
             if not self.kinds.is_box:
                 has_row = backend.head(self.particles["has_moving_pairs"], block.count)
             block.find_pairs(self.position, has_row)
-            self.pairs.renew(block)
+            self.pairs.update(block)
 
     def time_step_limits(self) -> dict[str, float]:
         """Named limits of the next step [s]."""
@@ -186,7 +193,7 @@ class MeltPool:
             NotConverged: not even a 256th of the step succeeds, or the flow has become unstable;
                 the state is as before.
             PoolTooDeep: the melt reaches the graded layers. SupercriticalSurface: the surface is
-                above the critical temperature. SurfaceTrouble: it cannot be computed any further.
+                above the critical temperature. InvalidSurface: it cannot be computed any further.
         """
         # a pause that is left out is a step by itself
         if (start := self._end_of_pause()) is not None:
@@ -197,7 +204,7 @@ class MeltPool:
         # states that no shorter step mends end the run
         self.heat.refuse_supercritical(lambda: self.backend.to_host(self.position))
         if error := self.domain.surface.validity_error():
-            raise SurfaceTrouble(error)
+            raise InvalidSurface(error)
         refuse_unstable(self.flow, self.domain, self.position, self.heat.end_of_pulse)
         # layers worn by evaporation are laid out anew, then the step, halved until it succeeds
         self.layout_renewal.follow_recession()
@@ -212,7 +219,7 @@ class MeltPool:
             self.heat.conduct(step, unclipped_step)
             return
         self._has_moved = True
-        self.flow.stop(self.kinds)  # what has frozen since the last step
+        self.flow.stop_solid(self.kinds)  # what has frozen since the last step
         # x* and the operators there (67)
         self.advect(step)
         # v* (68), p (69) and v^(n+1) (70); faces book the forces that these have used
@@ -242,8 +249,7 @@ class MeltPool:
         ahead = domain.surface.time_rule.share * step
         self.backend.pointwise(advect, fields, self._advected, step=ahead)
         block = domain.block_for(self.position, self.kinds)
-        if block is not flow.current_block:
-            flow.enter(block, domain.periods)
+        flow.set_block(block)
         domain.surface.advance_first_half(self._surface_step(self.position, step))
         domain.surface.find(self._advected)
         block.find_pairs(self._advected, self._rows_to_find(block, self._advected), has_kernel=True)
@@ -251,7 +257,7 @@ class MeltPool:
         flow.update_viscosity(self.particles["temperature"])
         now = self._surface_step(self._advected, step)
         domain.surface.update_stress(now, block, self.kinds.active)
-        flow.correct_kernel(self.kinds.active_rows)
+        block.correct_kernel(self.kinds.active_rows)
 
     def update_positions(self, step: float) -> None:
         """Positions at the end of the step, and the weights of heat there (71)."""
@@ -261,10 +267,10 @@ class MeltPool:
         left = self.domain.surface.advance_second_half(self._surface_step(self.position, step))
         self.state.energy["removed"] += left
         block.move(self.position)
-        self.flow.correct_kernel(self.kinds.fluid_rows)
-        self.pairs.normalize_surface_flux(block)
+        block.correct_kernel(self.kinds.fluid_rows)
+        block.normalize_surface_flux()
         self.exchange.find_walls(block)
-        self.pairs.renew(block)
+        self.pairs.update(block)
 
     def illuminate(self, step: float) -> None:
         """Light and losses of the step on the particles where they are now."""
@@ -274,7 +280,7 @@ class MeltPool:
             return
         if not self.domain.block_layers:  # nothing has moved
             light.reset()
-            exchange.rest()
+            exchange.use_lattice()
             return
         # the uppermost particle of each column meets light and losses
         self.domain.find_depth(self.position, self._depth)
@@ -283,17 +289,16 @@ class MeltPool:
         backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
         surface = self.domain.surface
         columns.find(self.position, backend.rows_where(mark, 1.0), surface.length_ratio())
-        exchange.follow(columns)
+        exchange.use_columns(columns)
         volume = fields["V"] if surface.moves else None
         light.distribute(self.position, self._depth, columns, volume)
 
     def _surface_step(self, position: Array, step: float) -> SurfaceStep:
         """Fields of the particles that the surface reads in a step [s]."""
         names = ("temperature", "volume", "mass", "enthalpy", "evaporated_mass")
-        T, volume, mass, h, evaporated = (self.particles[name] for name in names)
-        time = self.state.time
-        v, flows, interval = self.flow.velocity, self.kinds.fluid, (time, time + step)
-        return SurfaceStep(T, volume, mass, h, evaporated, position, v, flows, interval)
+        fields = [self.particles[name] for name in names]
+        interval = self.state.time, self.state.time + step
+        return SurfaceStep(*fields, position, self.flow.velocity, self.kinds.fluid, interval)
 
     def rearrange(self, step: float) -> None:
         """Displacements that keep the density of particles even (73), and velocity and enthalpy at
@@ -314,7 +319,7 @@ class MeltPool:
         """Whether anything flows."""
         self._find_fluid()
         if self.fluid_count == 0.0:
-            self.flow.rest()
+            self.flow.stop_all()
         return self.fluid_count > 0.0
 
     def _end_of_pause(self) -> float | None:
@@ -327,7 +332,7 @@ class MeltPool:
             return
         block = self.domain.block_for(self.position, self.kinds)
         block.find_pairs(self.position, self._rows_to_find(block, self.position))
-        self.pairs.renew(block)
+        self.pairs.update(block)
         self.kinds.remember()
         self._has_moved = False
 
@@ -337,7 +342,7 @@ class MeltPool:
             return None
         now = block.find_near_fluid(position, self.kinds.fluid)
         fields = {"a": now, "b": block.find_near_fluid(self.position, self.kinds.before)}
-        self.backend.pointwise(larger, fields, now)
+        self.backend.pointwise(either, fields, now)
         return now
 
     def _measure(self) -> None:
@@ -346,18 +351,14 @@ class MeltPool:
         square, largest, energy, distance = self.find_sizes()
         flow.divergence = ((square / max(self.fluid_count, 1.0)) ** 0.5, largest)
         self.spacing_min = distance**0.5
-        self.steadiness.look(self.state.time, flow.largest_speed, energy)
-        self._find_surface()
+        self.steadiness.record(self.state.time, flow.largest_speed, energy)
+        self.domain.surface.find(self.position)
 
     @graph
     def find_sizes(self) -> None:
         """Reduce what `Flow.measure` does, and the square of the smallest distance [m^2]."""
         self.flow.measure(self.kinds)
         self.flow.block.smallest_distance(self.position, self.kinds.fluid_rows)
-
-    def _find_surface(self) -> None:
-        """Which particles lie at the surface where they are now."""
-        self.domain.surface.find(self.position)
 
     def _keep(self) -> None:
         """Remember the state, for a step that fails."""
@@ -386,7 +387,7 @@ class MeltPool:
         self.steadiness.restore(numbers)
         self.exchange.restore(numbers)
         self.domain.surface.restore(numbers)
-        self._find_surface()
+        self.domain.surface.find(self.position)
         self._find_fluid()
 
     def _find_fluid(self) -> None:

@@ -1,16 +1,16 @@
 """When a flow no longer changes.
 
 The kinetic energy is looked at once in every turnover time width / max|v|; where it has stayed
-within the given part of itself over the last `LOOKS` of them, the flow is steady. Single particles
-never rest in a steady flow, and their speeds are noisier than the energy; a single look would take
-the turn of a slow oscillation for the end.
+within the given part of itself over the last `SAMPLES` of them, the flow is steady. Single
+particles never rest in a steady flow, and their speeds are noisier than the energy; a single look
+would take the turn of a slow oscillation for the end.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-LOOKS = 5
+SAMPLES = 5
 """Times that the fastest particle crosses the width between two looks. Accuracy: `solver.steady`
 says by how much the energy may change meanwhile."""
 
@@ -28,17 +28,18 @@ class Steadiness:
     def __init__(self, wanted: float | None, width: float) -> None:
         self.wanted, self.width = wanted, width
         self.time = 0.0
-        self.energies = [0.0] * LOOKS
+        self.energies = [0.0] * SAMPLES
         self.reached = False
 
-    def look(self, time: float, speed: float, energy: float) -> None:
+    def record(self, time: float, speed: float, energy: float) -> None:
         """Take note of the time [s], the largest speed [m/s] and the kinetic energy [J]."""
         if self.wanted is None or (time - self.time) * speed < self.width:
             return
+        # (max E - min E) < wanted mean E over the samples
         self.time, self.energies = time, [*self.energies[1:], energy]
         if self.energies[0] > 0.0:
             width = max(self.energies) - min(self.energies)
-            self.reached = width * LOOKS < self.wanted * sum(self.energies)
+            self.reached = width * SAMPLES < self.wanted * sum(self.energies)
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step."""
@@ -49,4 +50,4 @@ class Steadiness:
     def restore(self, numbers: Mapping[str, float]) -> None:
         """Continue from the numbers of `checkpoint_scalars`."""
         self.time, self.reached = numbers["steady.time"], bool(numbers["steady.reached"])
-        self.energies = [numbers[f"steady.energy_{k}"] for k in range(LOOKS)]
+        self.energies = [numbers[f"steady.energy_{k}"] for k in range(SAMPLES)]

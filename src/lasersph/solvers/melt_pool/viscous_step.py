@@ -17,12 +17,13 @@ from lasersph.compute.vectors import dot
 from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.physics.viscosity import forced, momentum, predict
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.block_terms import weight_of
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 
 TOLERANCE = 1e-8
 """Residual over that of the first guess, in 2-norms. Accuracy: four orders below what the pressure
 is solved to."""
-MOST = 200
+MAX_ITERATIONS = 200
 """Iterations of a step at most. Guard: the step limit keeps the matrix near its diagonal, so that
 few are usual."""
 
@@ -51,11 +52,6 @@ def next_solution(v, r, d, q, V, g_sum, alpha, s):
 def next_direction(z, d, beta):
     """New direction z + beta d."""
     return z + beta * d
-
-
-def weight_of(g_ij):
-    """Weight of a pair, for its sum over the neighbors."""
-    return g_ij
 
 
 class ViscousStep:
@@ -99,20 +95,20 @@ class ViscousStep:
             backend.copy(self._star, v)
             return 0
         s = self.nu * step
-        r_z, r_r = self.begin(block, v, b, extended, rows, s, step)
+        r_z, r_r = self.find_first_residual(block, v, b, extended, rows, s, step)
         steps = (
             partial(self.set_direction, block, rows, s),
             partial(self.approach, v, rows, s),
             None,
         )
         iterations, *_ = backend.iterate(
-            conjugate_gradients, steps, 0.0, r_z, r_r, TOLERANCE**2 * r_r, MOST
+            conjugate_gradients, steps, 0.0, r_z, r_r, TOLERANCE**2 * r_r, MAX_ITERATIONS
         )
         backend.copy(v, self.velocity)
         return int(iterations)
 
     @graph
-    def begin(
+    def find_first_residual(
         self, block: Block, v: Array, b: Array, extended: Array, rows: Rows, s: float, step: float
     ) -> None:
         """Residual of the first guess, and the diagonal; reduces r z and r r."""
@@ -139,8 +135,16 @@ class ViscousStep:
         self.backend.pointwise(next_direction, {"z": z, "d": d}, d, rows=rows, beta=beta)
         block.ghosts.extend_velocity_change(d, self._changes)
         fields = {"g_ij": block.viscous_weights, "V": block.V, "v": self._changes, "d": d}
-        how = {"finish": matrix_product, "reduce": (None, "sum")}
-        self.backend.pair_sum(momentum, block.pairs, fields, (q, None), rows=rows, **how, s=s)
+        self.backend.pair_sum(
+            momentum,
+            block.pairs,
+            fields,
+            (q, None),
+            rows=rows,
+            finish=matrix_product,
+            reduce=(None, "sum"),
+            s=s,
+        )
 
     @graph
     def approach(self, v: Array, rows: Rows, s: float, alpha: float) -> None:

@@ -15,9 +15,11 @@ before. Only below a surface that moves.
 from __future__ import annotations
 
 from lasersph.compute.array_types import Array
-from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import matvec
+from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.liquid import Liquid
+from lasersph.surface.surface import Surface
 
 
 def difference_term(p_i, p_j, G_ij):
@@ -34,41 +36,40 @@ class WallPressure:
     """grad p/rho of the particles near faces, found once a step.
 
     Args:
-        density: [kg/m^3]. viscosity: nu at the liquidus [m^2/s]. relative: (n,) viscosity of the
-            particles over that.
+        particles: with their pressure. relative: (n,) viscosity of the particles over that at the
+            liquidus.
     """
 
-    def __init__(self, backend: Backend, density: float, viscosity: float, relative: Array) -> None:
-        self.backend, self.density, self.viscosity = backend, density, viscosity
-        self._relative, count = relative, relative.shape[0]
-        self._a = backend.zeros((2, count))
+    def __init__(
+        self, particles: Particles, liquid: Liquid, surface: Surface, relative: Array
+    ) -> None:
+        self.backend, self.liquid = particles.backend, liquid
+        self._pressure, self._relative = particles["pressure"], relative
+        self._a = self.backend.zeros(particles["velocity"].shape)
+        # the symmetric gradient is adjoint to a divergence that mirrors the velocity as it is
+        self._acts = not surface.pressure_gradient.is_symmetric
 
-    def find(self, block: Block, pressure: Array, C: Array) -> None:
-        """Take the pressure (n,) [Pa] at the present positions.
-
-        Args:
-            C: (2, 2, count) corrections of the gradient.
-        """
-        p = block.ghosts.extend_pressure(pressure) if block.ghosts.has_still_walls else None
-        if p is None:
+    def find(self, block: Block) -> None:
+        """Find it from the pressure at the present positions."""
+        if not (self._acts and block.ghosts.has_still_walls):
             return
-        fields = {"p": p, "G_ij": block.gradient, "C": C}
+        p = block.ghosts.extend_pressure(self._pressure)
         self.backend.pair_sum(
             difference_term,
             block.pairs,
-            fields,
+            {"p": p, "G_ij": block.gradient, "C": block.correction},
             self._a,
             finish=pressure_acceleration,
             rows=block.ghosts.particles.near,
-            density=self.density,
+            density=self.liquid.density,
         )
 
     def add_to(self, v: Array, block: Block, step: float) -> Array:
-        """Velocities (2, M) with those of ghosts beyond walls as above [m/s].
+        """Velocities (d, M) with those of ghosts beyond walls as above [m/s].
 
         Args:
             step: from v^n to what viscosity sees [s].
         """
-        if block.ghosts.has_still_walls:
-            block.ghosts.add_at_walls(v, self._a, self._relative, step, self.viscosity)
+        if self._acts and block.ghosts.has_still_walls:
+            block.ghosts.add_at_walls(v, self._a, self._relative, step, self.liquid.viscosity)
         return v

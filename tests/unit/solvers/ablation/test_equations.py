@@ -23,7 +23,7 @@ PAIR = {
     "k_i": 5.0, "k_j": 20.0, "f_m_i": 0.0, "f_m_j": 1.0, "x_ij": np.array([0.0, -2.0]),
     "r_ij": 2.0, "dW_ij": -3.0,
 }  # fmt: skip
-SURROUNDINGS = {"T_a": 300.0, "h_c": 2.0, "eps": 0.0}
+SURROUNDINGS = {"surroundings": (300.0, 2.0, 0.0)}
 
 
 def test_pair():

@@ -173,7 +173,7 @@ def test_power_of_a_neumann_face(share):
     out = [solver.backend.zeros(block.count) for _ in range(4)]
     fields = {"g_ij": block.weights} | block.walls.rules
     solver.backend.pair_sum(
-        wall_terms, block.pairs, fields, tuple(out), closest=block.walls.closest
+        wall_terms, block.pairs, fields, tuple(out), min_distance=block.walls.min_distance
     )
     total = solver.backend.to_host(out[3]).sum()
     assert total == pytest.approx(10.0, rel=1e-9 if share == 0.0 else 0.05)

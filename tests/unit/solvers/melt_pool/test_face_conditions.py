@@ -14,7 +14,7 @@ from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 BOX = ((0.0, 1.0), (-1.0, 0.0))
 V = np.array([2.0, 3.0])
 """Velocity of the source in all tests [m/s]."""
-FLAT = SimpleNamespace(normal_velocity=0.0, heat_flux=0.0, ghosts=None, moves=False)
+FLAT = SimpleNamespace(crossing=MIRROR)
 NEAR = {"left": [(1, 0)], "right": [(2, 0)], "bottom": [(0, 1)], "surface": [(0, 2)]}
 """Types of the ghosts of a particle near one face: faces crossed of either axis."""
 
@@ -39,7 +39,7 @@ def rules_at(conditions, chosen):
         ghost_types, sign=ghost_types.sign[:, columns], offset=ghost_types.offset[:, columns],
         crossed=ghost_types.crossed[:, columns],
     )  # fmt: skip
-    return conditions.rules(few, FLAT), few.crossed
+    return conditions.rules(few), few.crossed
 
 
 def velocity_beyond(conditions, ghost_types):
@@ -186,7 +186,7 @@ def rules_in_space(heat, kinds):
     conditions.wall_velocity = lambda face: 5.0 if kinds.get(face) == "moving-wall" else 0.0
     types = ghost_types_of(conditions.ghost_faces(FLAT, has_bottom=True))
     number = {tuple(crossed): k for k, crossed in enumerate(types.crossed.T.tolist())}
-    return conditions.rules(types, FLAT), number
+    return conditions.rules(types), number
 
 
 @pytest.mark.parametrize(

@@ -41,7 +41,7 @@ def test_heat_of_three_particles_by_hand():
         "normal_j": E_X,
         "plane_j": 0.0,
         "x_i": -E_X,
-        "closest": 0.1,
+        "min_distance": 0.1,
     }
     ghosts = [{"g_ij": 0.5, "x_j": 1.0 * E_X}, {"g_ij": 0.25, "x_j": 3.0 * E_X}]
     for kinds, expected in (
@@ -77,7 +77,8 @@ def test_pressure_by_hand():
 
 def exchange_of(solver):
     """An exchange with the faces in which nothing is booked yet."""
-    return FaceExchange(solver.backend, solver.body.count, solver.particles["potential"])
+    potential = solver.particles["potential"]
+    return FaceExchange(solver.backend, solver.body.count, potential, books_pressing=True)
 
 
 def linear(solver, place):
@@ -178,9 +179,11 @@ def test_an_even_pressure_presses_evenly():
     solver = box(flow={})
     block, exchange = block_of(solver), exchange_of(solver)
     p = solver.backend.asarray(np.full(block.ghosts.size, 7.0))
-    C = block.ghosts.extend_tensor(solver.flow.correction)
+    C = block.ghosts.extend_tensor(block.correction)
     for lowest, expected in ((0.0, 14.0), (-7.0, 0.0)):
         exchange.pressing = dict.fromkeys(exchange.pressing, 0.0)
-        solver.flow.pressure_seen = {"p": p, "G_ij": block.gradient, "C": C}, lowest
+        projection = solver.flow.projection
+        projection.gradient_fields = {"p": p, "G_ij": block.gradient, "C": C}
+        projection.lowest = lowest
         exchange.book_pressure(block, solver.flow, 2.0)
         assert list(exchange.pressing.values()) == pytest.approx([expected] * 4, abs=1e-9)

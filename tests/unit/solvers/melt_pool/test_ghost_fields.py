@@ -98,7 +98,7 @@ def test_velocity_at_wall():
     wall = {"along": entries((1, 0)), "normal": entries((0, 1)), "plane": [0.0, -2.0]}
     given = {"m": [0.0, 0.5], "a": entries((6, 7)), "step": 0.5, "nu": 4.0}
     v, x = np.array([1.0, 2.0]), np.array([5.0, -3.0])
-    assert velocity_at_wall(1, 1, v, x, **given, **wall).tolist() == [10.0, 2.0]
+    assert velocity_at_wall(1, 1, x, v, **given, **wall).tolist() == [10.0, 2.0]
 
 
 def slanted(dimension):

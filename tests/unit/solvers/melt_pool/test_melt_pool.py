@@ -23,7 +23,7 @@ from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.solver import lies_at_surface
 from lasersph.solvers.step_control import RETRIES, NotConverged
 from lasersph.surface.flat_surface import ImposedTemperature
-from lasersph.surface.still_surface import settle
+from lasersph.surface.surface import settle
 
 LIFE = 45
 """Steps after which the small pool is solid."""
@@ -190,7 +190,7 @@ def test_pressure_that_is_not_solved(life):
     """A residual far above the tolerance fails the step with a line that tells it."""
     solver = restored(life[5])
     go(solver, 1)
-    solver.flow.equation.max_iterations = 0
+    solver.flow.projection.equation.max_iterations = 0
     with pytest.raises(NotConverged, match=r"residual of .* after 0 iterations"):
         solver.step(1e-11)
 
@@ -239,7 +239,7 @@ def test_acceleration_is_that_of_all_forces(viscosity):
 
     slowed = box(flow=PERIODIC, heat=PERIODIC_HEAT, cells=40, viscosity=viscosity)
     k, (_, z) = 2.0 * np.pi, host_fields(slowed)["position"]
-    slowed.flow.begin(np.stack([0.7 * np.sin(k * z), 0.0 * z]))
+    slowed.flow.set_initial_velocity(np.stack([0.7 * np.sin(k * z), 0.0 * z]))
     slowed.step(1e-5)
     assert slowed.flow.largest_acceleration == pytest.approx(0.01 * k**2 * 0.7, rel=0.01)
     limit = slowed.time_step_limits()["force"]

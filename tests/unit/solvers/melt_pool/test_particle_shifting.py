@@ -5,8 +5,8 @@ import pytest
 from flow_boxes import PERIODIC, PERIODIC_HEAT, block_of, box, jittered, place_of, start_from
 
 from lasersph.solvers.melt_pool.particle_shifting import (
-    CLOSEST,
-    LARGEST,
+    MAX_SHIFT,
+    MIN_FACE_DISTANCE,
     ParticleShifting,
     adjust_velocity,
     allowed_shares,
@@ -154,7 +154,7 @@ def test_positions_settle():
     shift = np.zeros_like(place)
     shift[0] = -0.04
     shift_particles(solver, place, shift)
-    expected = np.maximum(place[0] - 0.04, -0.5 + CLOSEST * 0.1)
+    expected = np.maximum(place[0] - 0.04, -0.5 + MIN_FACE_DISTANCE * 0.1)
     assert place_of(solver)[0] == pytest.approx(expected)
 
 
@@ -218,7 +218,7 @@ def test_largest_shift():
     nothing = solver.backend.zeros(solver.body.count)
     solver.shifting.shift(block, solver.kinds, nothing, 0.5)
     size = np.linalg.norm(solver.backend.to_host(solver.shifting.displacement), axis=0)
-    assert size.max() == pytest.approx(LARGEST * 0.1)
+    assert size.max() == pytest.approx(MAX_SHIFT * 0.1)
 
 
 def test_without_shifting():
@@ -233,7 +233,7 @@ def test_without_shifting():
     block_of(solver, place)
     solver.rearrange(1.0)
     expected = place.copy()
-    expected[1, 3] = -CLOSEST * 0.1
+    expected[1, 3] = -MIN_FACE_DISTANCE * 0.1
     assert place_of(solver) == pytest.approx(
         np.clip(expected, [[-0.47], [-0.97]], [[0.47], [-0.03]])
     )

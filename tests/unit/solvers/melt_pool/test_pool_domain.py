@@ -3,7 +3,7 @@
 import pytest
 from flow_boxes import box, go, pool
 
-from lasersph.solvers.melt_pool.domain import BELOW, ROOM, PoolTooDeep
+from lasersph.solvers.melt_pool.domain import GROWTH, MELT_MARGIN, PoolTooDeep
 
 SPACING = 1.25e-7
 DEEP = ("domain.depth=9um", "particles.fine_depth=8um")
@@ -26,7 +26,7 @@ def test_block_of_a_box():
     block = block_after(solver)
     assert (block.count, block.complete_rows, block.has_bottom) == (100, 100, True)
     assert solver.domain.width == 1.0
-    assert solver.domain.periods == (0.0, 0.0)
+    assert solver.domain.conditions.periods == (0.0, 0.0)
 
 
 def test_block_reaches_below_the_pool():
@@ -34,8 +34,8 @@ def test_block_reaches_below_the_pool():
     solver = molten_to(4.0 * SPACING, *DEEP)
     block = block_after(solver)
     domain = solver.domain
-    needed = 3.5 * SPACING + BELOW * domain.support
-    assert 0.0 <= domain.block_layers - ROOM - needed / SPACING + 1e-9 <= 1.0
+    needed = 3.5 * SPACING + MELT_MARGIN * domain.support
+    assert 0.0 <= domain.block_layers - GROWTH - needed / SPACING + 1e-9 <= 1.0
     assert block.complete_rows == 20 * domain.block_layers < block.count < solver.body.count
     assert not block.has_bottom
 

@@ -150,7 +150,7 @@ def parameters_of(
         viscous_rate=viscous,
         diffusive_rate=diffusive,
         weight_factor=1.0 if settings.weights == "plain" else 1.0 / second_moment(shape, ratio),
-        ambient=case.boundaries.surroundings(material, case.initial_temperature),
+        surroundings=case.boundaries.surroundings(material, case.initial_temperature),
         low=low,
         high=(*high[:-1], max(high[-1], height)),
     )

@@ -31,7 +31,6 @@ from lasersph.surface.height_field import HeightField, cutoff_of
 from lasersph.surface.moving_surface import MovingSurface
 from lasersph.surface.pressure_condition import SurfaceLiquid
 from lasersph.surface.smoothing import End
-from lasersph.surface.still_surface import NoSurface
 from lasersph.surface.surface import Surface
 
 
@@ -98,7 +97,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             given=_given_temperature(case),
         )
     else:
-        surface = NoSurface(backend, count, 0.0)
+        surface = Surface(backend, count, 0.0)
 
     # Volumes belong into checkpoints where particles are laid out anew or lose mass.
     volume = FIELDS["volume"]
@@ -127,7 +126,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     # A box starts with the velocity of its case; a block is laid out below its first surface.
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
-        flow.begin(start)
+        flow.set_initial_velocity(start)
     solver = MeltPool(heat, flow, domain, settings, case.pause)
     if case.flow is None and case.initial_surface is not None:
         solver.layout_renewal.lay_out()

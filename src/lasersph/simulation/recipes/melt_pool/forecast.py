@@ -32,7 +32,7 @@ from lasersph.simulation.recipes.melt_pool.driven_speed import (
     driven_speed,
 )
 from lasersph.simulation.recipes.recipe import FlowForecast
-from lasersph.solvers.melt_pool.layout_renewal import EVEN
+from lasersph.solvers.melt_pool.layout_renewal import HEIGHT_RANGE
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.surface.capillary_waves import surface_limits
 from lasersph.surface.height_field import cutoff_of
@@ -217,7 +217,7 @@ def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
     """Warning where the finest layers are too shallow for what light evaporates; empty elsewhere.
 
     All of their particles become lower where the surface recedes, which the run bears down to
-    `layout_renewal.EVEN[0]` of a spacing.
+    `layout_renewal.HEIGHT_RANGE[0]` of a spacing.
 
     Args:
         evaporated: metal that a pulse is expected to evaporate [m].
@@ -226,7 +226,7 @@ def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
         return ""
     # A layer that loses `gone` must keep the least share of its thickness.
     pulses = case.laser.pulse.count if case.pause != "compute" else 1
-    gone, times = pulses * evaporated, 1.0 / (1.0 - EVEN[0])
+    gone, times = pulses * evaporated, 1.0 / (1.0 - HEIGHT_RANGE[0])
     if times * gone <= layers.fine_depth:
         return ""
     key = "particles.fine_depth" if case.particles.arrangement == "graded" else "domain.depth"

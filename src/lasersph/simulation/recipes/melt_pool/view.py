@@ -36,7 +36,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         temperature = backend.host_view(solver.particles["temperature"])[surface]
         gradient = np.gradient(temperature, position[0, surface])
         # Where the surface is computed, temperature and gradient of the surface itself.
-        if solver.fluid_count > 0.0 and flow.current_block is not None:
+        if solver.fluid_count > 0.0 and flow.has_block:
             of_surface = backend.host_view(free.temperature)[surface]
             known = backend.host_view(solver.kinds.active)[surface] > 0.0
             if free.moves:  # a surface that moves is known where it flows only

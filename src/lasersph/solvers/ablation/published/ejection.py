@@ -60,10 +60,16 @@ class PublishedEjection:
         """
         backend, kind, covered = self.backend, fields["kind"], self._covered
         fields = {**fields, "covered": covered}
+
+        # how far what leaves has been lifted, and which particles it still covers
         backend.pointwise(advance_lift, fields, fields["lift"], rows=rows, step=step)
         leaving = backend.rows_where(kind, LEAVING)
         backend.pair_sum(covers_neighbor, pairs, fields, covered, rows=leaving, **self._layer)
+
+        # above T_v along the normal with the velocity of the vapor; left after the distance
         out = (kind, fields["v"])
         backend.pointwise(published_departure, fields, out, rows=rows, **self._rule)
+
+        # no heat pays for the motion: it is booked as work
         ejecta = self.vapor.account(fields, rows, time)
         return ejecta._replace(work=ejecta.kinetic)

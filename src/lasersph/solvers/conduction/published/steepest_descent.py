@@ -11,8 +11,6 @@ The paper states no stopping rule; here it is the residual of `implicit`.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lasersph.compute.array_types import Constants, Rows
@@ -39,7 +37,7 @@ def curvature(total, z, m, a, s, slope):
     return z * (m * z + s * slope * (total + a * z))
 
 
-def take(h, z, alpha, h_nodes, P_nodes):
+def next_enthalpy(h, z, alpha, h_nodes, P_nodes):
     """New enthalpy with its potential."""
     new = h + alpha * z
     return new, interpolate(new, h_nodes, P_nodes)
@@ -49,6 +47,8 @@ class PublishedStep(ImplicitStep):
     """The implicit step with the published iteration instead of Newton's."""
 
     max_iterations = MAX_ITERATIONS
+    alpha = 0.0
+    """Length of the last step. Derived: there is none yet."""
 
     def assemble(self, step: float) -> None:
         """There is no matrix: A is applied pair by pair, with the steepest dP/dh."""
@@ -59,6 +59,7 @@ class PublishedStep(ImplicitStep):
     def solve(self, step: float, wanted: float) -> None:
         """Direction z and length alpha of one preconditioned step of steepest descent."""
         body, backend = self.body, self.body.backend
+        # z = r / diag, and r z
         fields = {"r": self.r, "z": self.spare, "m": self.mass, "p": self.spare}
         fields |= {
             "S": body.pairs.total,
@@ -67,8 +68,11 @@ class PublishedStep(ImplicitStep):
         }
         out, reduce = (self.spare, None), (None, "sum")
         (rz,) = backend.pointwise(descend, fields, out, reduce=reduce, **self.constants)
-        finish: dict[str, Any] = {"finish": curvature, "reduce": ("sum",), **self.constants}
-        (zAz,) = backend.pair_sum(difference, body.pairs.neighbors, fields, (None,), **finish)
+        # alpha = r z / z A z
+        pairs, constants = body.pairs.neighbors, self.constants
+        (zAz,) = backend.pair_sum(
+            difference, pairs, fields, (None,), finish=curvature, reduce=("sum",), **constants
+        )
         self.alpha = rz / zAz
         self.linear += 1
 
@@ -77,5 +81,5 @@ class PublishedStep(ImplicitStep):
     ) -> tuple[float, dict[str, float]]:
         """Enthalpies h + alpha z, and their residual."""
         fields, out = {"h": self.h, "z": self.spare}, (self.h, self.P)
-        self.body.backend.pointwise(take, fields, out, alpha=self.alpha, **self.curve)
+        self.body.backend.pointwise(next_enthalpy, fields, out, alpha=self.alpha, **self.curve)
         return self.find_residual(step)

@@ -38,7 +38,7 @@ TOLERANCE = 1e-4
 """
 MAX_ITERATIONS = 5000
 """Iterations of a solution at most. Guard: the published matrix takes up to 2241."""
-FAR = 1e30
+NO_NEIGHBOR = 1e30
 """Distance where there is no neighbor [m]. Format: farther than any two particles."""
 
 
@@ -46,19 +46,19 @@ def edge_distance(kind_j, r_ij):
     """Distance of an edge particle."""
     if kind_j == EDGE:
         return r_ij
-    return FAR + 0.0 * r_ij
+    return NO_NEIGHBOR + 0.0 * r_ij
 
 
 def edge_number(kind_j, source_j, r_ij, nearest_i):
     """Number of an edge particle as near as the nearest."""
     if kind_j == EDGE and r_ij <= nearest_i * (1.0 + 1e-6):
         return 1.0 * source_j
-    return FAR + 0.0 * r_ij
+    return NO_NEIGHBOR + 0.0 * r_ij
 
 
 def assigned(total, k):
     """Number found, or the particle's own."""
-    if total < FAR:
+    if total < NO_NEIGHBOR:
         return int(total)
     return k
 
@@ -98,10 +98,10 @@ def right_side(b, V, kind):
 
 def less(p, kind, mean):
     """Value less the mean in rows that count, else 0; and its square."""
-    rest = 0.0 * p
+    deviation = 0.0 * p
     if FLUID <= kind <= EDGE:
-        rest = p - mean
-    return rest, rest * rest
+        deviation = p - mean
+    return deviation, deviation * deviation
 
 
 class PublishedPressure:
