@@ -1,5 +1,7 @@
 """The names that `import lasersph` offers, and what it does not load."""
 
+import inspect
+import re
 import subprocess
 import sys
 
@@ -29,6 +31,15 @@ def test_unknown_name():
     """As of any module."""
     with pytest.raises(AttributeError, match="no attribute 'simulate'"):
         _ = lasersph.simulate
+
+
+@pytest.mark.parametrize("name", sorted(set(lasersph.__all__) - {"__version__", "plots"}))
+def test_examples_are_shown_as_code(name):
+    """In `help` and on the page of the API: a line of code alone below a sentence is no block, as
+    what all lines are indented by is taken away."""
+    text = inspect.getdoc(getattr(lasersph, name)) or ""
+    code = [line for line in text.splitlines() if re.match(r"[\w.= (]*lasersph\.\w+\(", line)]
+    assert all(line.startswith("    ") for line in code), code
 
 
 def test_import_loads_no_library():

@@ -22,7 +22,9 @@ LIBRARY = Path(__file__).parent / "cases"
 def available_cases() -> dict[str, Path]:
     """Files of the shipped cases, by name.
 
-    list(lasersph.available_cases())  # as `lasersph cases`
+        list(lasersph.available_cases())  # as `lasersph cases`
+
+    Each begins with a comment that says what it shows; `load_case` reads one.
     """
     return {path.stem: path for path in sorted(LIBRARY.glob("*.toml"))}
 
