@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.flow_checks import flow_problems
-from lasersph.case.geometry_checks import geometry_problems
 from lasersph.case.light_checks import light_problems, pulse_problems
 from lasersph.case.motion_checks import motion_problems, no_axis
 from lasersph.case.size import (
@@ -46,7 +45,7 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         return found
     return [
         *_material(case),
-        *geometry_problems(case),
+        *_geometry(case),
         *light_problems(case),
         *_unread_keys(case),
         *_idle_keys(case),
@@ -58,6 +57,14 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         *_size(case),
         *_snapshots(case),
     ]
+
+
+def _geometry(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """What a section (r, z) cannot have."""
+    if case.geometry.is_axisymmetric:
+        from lasersph.case.geometry_checks import section_problems  # planar blocks read less
+
+        yield from section_problems(case)
 
 
 def refuse_if_too_large(case: CaseContents, backend: str = "cpu", size: Size | None = None) -> None:

@@ -17,10 +17,8 @@ ROUND = 0.87
 """Smaller over larger width of a beam that counts as round. Source: [ISO11146-1]."""
 
 
-def geometry_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
-    """(key, "what is wrong; what would be right") of a section (r, z); none of a planar block."""
-    if not case.geometry.is_axisymmetric:
-        return
+def section_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """(key, "what is wrong; what would be right") of all that a section (r, z) cannot have."""
     if case.solver.dimensions != 2:
         yield (
             "solver.geometry",

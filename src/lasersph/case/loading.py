@@ -11,7 +11,6 @@ from lasersph.case.case import Case
 from lasersph.case.contents import SCHEMA_VERSION, CaseContents
 from lasersph.case.conversion import convert
 from lasersph.case.overrides import moved_settings, override
-from lasersph.case.quick import quick_settings
 from lasersph.input import CaseError, build, nearest, read_toml
 from lasersph.input.document import with_settings
 
@@ -130,6 +129,8 @@ def load_case(
     file = CaseFile(name_or_path)
     # Coarser values follow from the case with its overrides, which win over them.
     if quick:
+        from lasersph.case.quick import quick_settings
+
         overrides = [*quick_settings(file.case(overrides)), *overrides]
     return file.case(overrides)
 

@@ -37,16 +37,20 @@ from lasersph.input import (
     refusal,
 )
 from lasersph.lasers.absorption import Absorption
-from lasersph.lasers.beam_choice import Beam
-from lasersph.lasers.beams import UniformBeam
+from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
 from lasersph.lasers.interference import InterferenceBeam
 from lasersph.lasers.path import LinearPath, Path, path_quadrature
 from lasersph.lasers.pulses import Pulse
 from lasersph.lasers.reflectivity import Reflectivity, reflectivity_nodes
+from lasersph.lasers.shaped_beams import RingBeam, SuperGaussianBeam
 from lasersph.lasers.spot import Spot, SpotFluence
 from lasersph.materials import Material
 
 Array = NDArray[np.float64]
+Beam = Annotated[
+    UniformBeam | TopHatBeam | GaussianBeam | SuperGaussianBeam | RingBeam | InterferenceBeam,
+    Field(discriminator="kind"),
+]
 AMOUNTS = ("fluence", "intensity", "pulse_energy", "power")
 
 
