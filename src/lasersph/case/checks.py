@@ -60,7 +60,7 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
 
 
 def _geometry(case: CaseContents) -> Iterator[tuple[str, str]]:
-    """What a section (r, z) cannot have."""
+    """Problems of a section (r, z); none of a planar block."""
     if case.geometry.is_axisymmetric:
         from lasersph.case.geometry_checks import section_problems  # planar blocks read less
 
