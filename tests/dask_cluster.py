@@ -27,7 +27,11 @@ class DaskCluster:
         """Start a scheduler; it writes its address into the file."""
         self.file.unlink(missing_ok=True)
         self.scheduler = self._start("scheduler", "--port", "0")
-        wait_until(self.scheduler, self.file.exists)
+        wait_until(self.scheduler, self.has_address)
+
+    def has_address(self) -> bool:
+        """Whether the scheduler has written its file whole: it makes an empty one first."""
+        return self.file.exists() and self.file.read_text().rstrip().endswith("}")
 
     def start_workers(self) -> None:
         """Start as many workers as there should be; those that lost their nanny are gone."""

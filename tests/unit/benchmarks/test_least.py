@@ -12,7 +12,7 @@ from hot_loops.sweeping import least_of_sweep
 from lasersph import compute
 from lasersph.compute.compiled_iteration import run_step
 from lasersph.compute.graph import graph
-from lasersph.compute.sweeps import ordered_pairs
+from lasersph.compute.sweeps import Sweep, ordered_pairs
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
 from lasersph.sph.kernels import kernel
 
@@ -127,7 +127,7 @@ def test_sweep(backend, neighbors):
     weights = np.ones(neighbors.neighbor.shape[0])
     pairs = ordered_pairs(backend, neighbors, weights)
     assert pairs is not None
-    sweep = pairs.prepare(scaled, {"b": np.ones(N)}, [np.zeros(N)], reduces=1, s=2.0)
+    sweep = Sweep(pairs, scaled, {"b": np.ones(N)}, [np.zeros(N)], reduces=1, s=2.0)
     least, tiles = least_of_sweep(sweep), pairs.sides[0]
     stored = tiles.value.size + 6 * (N // 4)
     assert least.traffic == 8.0 * stored + tiles.column.nbytes + tiles.start.nbytes + 24.0 * N

@@ -90,6 +90,9 @@ class LayoutRenewal:
         Raises:
             UnevenRelief: the relief is too deep for these layers.
         """
+        # a plane stays where it is, whatever its particles stand for
+        if not self.domain.surface.moves:
+            return
         if not self.recedes:
             fields: dict[str, Array] = {"value": self._fine_volume}
             (least,) = self.body.backend.pointwise(same, fields, (None,), reduce=("min",))
