@@ -6,7 +6,7 @@ import re
 from html import escape
 from typing import Any
 
-from lasersph.input.key_units import amount_dimension, unit_in
+from lasersph.input.key_units import amount_dimension, is_section, unit_in
 from lasersph.observers.quantity import Quantity
 from lasersph.output import Run
 from lasersph.report.page import paragraph
@@ -71,11 +71,12 @@ def what_was_computed(run: Run) -> str:
     if summary.get("spacing_m"):
         size += f", {quantity(summary['spacing_m'], 'm', 3)} apart at the finest"
     end = quantity(summary["time_s"], "s", 3)
+    space = "a section (r, z)" if is_section(summary) else f"{summary.get('dimensions', '–')}-D"
     # Numbers and their units stay on one line.
     text = (
         f"This run computes the {effects_of(run)} of {metal}"
         f"{light_text(case.get('laser') or {}, summary.get('laser'))} over {end},"
-        f" in {summary.get('dimensions', '–')}-D with {size}."
+        f" in {space} with {size}."
     )
     return UNIT_BEHIND.sub("\u00a0", text)
 
