@@ -16,4 +16,4 @@ def sh(_line: str, cell: str) -> None:
     done.check_returncode()
 
 
-get_ipython().register_magic_function(sh, "cell")
+get_ipython().register_magic_function(sh, "cell")  # pyright: ignore

@@ -257,8 +257,10 @@ class LayeredLight:
         backend.copy(tau, total)
         # running sum in log2(levels) passes, each adding the sum `distance` cells above
         while distance < self._levels:
-            fields, how = {"k": self._numbers, "total": total}, {"levels": self._levels}
-            backend.pointwise(running_sum, fields, other, totals=total, distance=distance, **how)
+            fields = {"k": self._numbers, "total": total}
+            backend.pointwise(
+                running_sum, fields, other, totals=total, distance=distance, levels=self._levels
+            )
             total, other, distance = other, total, 2 * distance
         return total
 

@@ -296,9 +296,10 @@ class MeltPool:
     def _surface_step(self, position: Array, step: float) -> SurfaceStep:
         """Fields of the particles that the surface reads in a step [s]."""
         names = ("temperature", "volume", "mass", "enthalpy", "evaporated_mass")
-        fields = [self.particles[name] for name in names]
+        T, volume, mass, h, evaporated = (self.particles[name] for name in names)
         interval = self.state.time, self.state.time + step
-        return SurfaceStep(*fields, position, self.flow.velocity, self.kinds.fluid, interval)
+        v, flows = self.flow.velocity, self.kinds.fluid
+        return SurfaceStep(T, volume, mass, h, evaporated, position, v, flows, interval)
 
     def rearrange(self, step: float) -> None:
         """Displacements that keep the density of particles even (73), and velocity and enthalpy at
