@@ -83,7 +83,10 @@ def trace_figure(run: RunOrFolder) -> Figure | None:
     # One color a particle in both panels; dashes show those that lie over each other.
     time, label = time_axis(history)
     for k, name in enumerate(names):
-        options = {"color": style.COLORS[k % len(style.COLORS)], "linestyle": style.LINES[k % 4]}
+        options: dict[str, Any] = {
+            "color": style.COLORS[k % len(style.COLORS)],
+            "linestyle": style.LINES[k % 4],
+        }
         above.plot(time, history[f"trace_{name}_temperature_K"], label=name, **options)
         below.plot(time, history[f"trace_{name}_speed_m_s"], label=name, **options)
     draw_corner_temperatures(above, material_of(run))

@@ -156,4 +156,5 @@ class PoolDomain:
                 potential=self.potential,
                 enthalpy=self.enthalpy,
             )
+        assert self._block is not None
         return self._block
