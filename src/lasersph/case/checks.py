@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.flow_checks import flow_problems
 from lasersph.case.light_checks import light_problems, pulse_problems
-from lasersph.case.motion_checks import motion_problems, no_axis
 from lasersph.case.size import (
     LARGEST_PARTICLES,
     LARGEST_STEPS,
@@ -18,7 +17,7 @@ from lasersph.case.size import (
     memories,
     size_of,
 )
-from lasersph.case.solver_choice import SELECTIVE_KEYS, reader_of
+from lasersph.case.solver_choice import SELECTIVE_KEYS, moves_matter, no_axis, reader_of
 from lasersph.case.surface_checks import surface_problems
 from lasersph.input import CaseError, Model, format_quantity
 from lasersph.output.settings import SnapshotSchedule
@@ -53,7 +52,7 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         *flow_problems(case),
         *surface_problems(case),
         *pulse_problems(case),
-        *motion_problems(case),
+        *_motion(case),
         *_size(case),
         *_snapshots(case),
     ]
@@ -65,6 +64,14 @@ def _geometry(case: CaseContents) -> Iterator[tuple[str, str]]:
         from lasersph.case.geometry_checks import section_problems  # planar blocks read less
 
         yield from section_problems(case)
+
+
+def _motion(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Problems of matter that moves; none of a body at rest or a pool."""
+    if moves_matter(case.solver):
+        from lasersph.case.motion_checks import motion_problems  # other solvers read less
+
+        yield from motion_problems(case)
 
 
 def refuse_if_too_large(case: CaseContents, backend: str = "cpu", size: Size | None = None) -> None:

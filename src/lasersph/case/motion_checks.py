@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_motion import Rest, SoundWave, Uniform
 from lasersph.boundaries.settings import DIRICHLET
-from lasersph.case.solver_choice import moves_matter
+from lasersph.case.solver_choice import moves_matter, no_axis
 from lasersph.input import format_quantity
 from lasersph.particles.faces import LATERAL, VERTICAL, faces_of
 
@@ -23,8 +23,7 @@ REFUSED = {
 
 def motion_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that concerns matter that moves."""
-    if not moves_matter(case.solver):
-        return
+    assert moves_matter(case.solver)
     yield from _faces(case)
     yield from _particles(case, case.solver)
     yield from _motion(case, case.solver)
@@ -168,11 +167,3 @@ def _idle_keys(case: CaseContents) -> Iterator[tuple[str, str]]:
         for axis, least in (("x", 2), ("y", 3)):
             if case.solver.dimensions < least and getattr(case.motion, axis) != 0.0:
                 yield f"solver.motion.{axis}", no_axis(axis, least, case.solver.dimensions)
-
-
-def no_axis(axis: str, least: int, dimensions: int) -> str:
-    """Why a key of an axis says nothing in a run of fewer dimensions than the `least`."""
-    return (
-        f"says nothing in {dimensions}-D, which has no {axis}; leave it out or write dimensions = "
-        f"{least} in [solver]"
-    )

@@ -96,3 +96,11 @@ SolverChoice = Annotated[
     Discriminator("kind"),
     BeforeValidator(_with_kind),
 ]
+
+
+def no_axis(axis: str, least: int, dimensions: int) -> str:
+    """Why a key of an axis says nothing in a run of fewer dimensions than the `least`."""
+    return (
+        f"says nothing in {dimensions}-D, which has no {axis}; leave it out or write dimensions = "
+        f"{least} in [solver]"
+    )

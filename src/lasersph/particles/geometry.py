@@ -8,8 +8,7 @@ and sums over them are those of the whole revolution.
     mass         rho V measure
     weight       g_ij (measure_i + measure_j)/2, symmetric: what one ring loses another one gains
 
-No pair reaches across the axis: through r = 0 no heat flows, whatever lies beside it. The ratio of
-the weights' Laplacian of r^2 to the exact one is 1.05, 1.02 and 1.00 in the first columns.
+No pair reaches across the axis: through r = 0 no heat flows, whatever lies beside it.
 """
 
 from __future__ import annotations
@@ -39,11 +38,6 @@ class Geometry:
     def amount_dimension(self) -> int:
         """Dimensions that sums cover: 3 of a whole revolution, else those of the block."""
         return 3 if self.is_axisymmetric else self.dimensions
-
-    @property
-    def axis_names(self) -> str:
-        """Names of the axes, in their order."""
-        return "rz" if self.is_axisymmetric else "xyz" if self.dimensions == 3 else "xz"
 
     @property
     def faces(self) -> tuple[str, ...]:

@@ -79,8 +79,8 @@ def layered_weight(
 def ring_weight(g_ij, measure_i, measure_j):
     """Weight of two rings, g_ij times their mean length [m^(d-1)], symmetric and not negative.
 
-    (1/r) d(r dT/dr)/dr takes 2 pi r to the middle between both particles; that half way in r makes
-    the sum exact for T = r^2 far from the axis, up to the second order of the lattice.
+    2 pi r of the flow (1/r) d(r dT/dr)/dr is that of the middle between both: of second order in
+    the spacing over r, so that the first columns beside the axis are the least exact.
     """
     return 0.5 * (measure_i + measure_j) * g_ij
 

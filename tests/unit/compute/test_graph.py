@@ -286,7 +286,7 @@ def test_until_convergence(backend):
         halving.renew(count)
         runs, total = halving.iterate()
         assert runs == 8.0
-        assert total == pytest.approx(1.5 * count / 256.0, rel=1e-5)
+        assert total == pytest.approx(1.5 * count / 256.0, rel=1e-12)
     halving.renew(10_000)
     halving.rows = backend.asarray([0], "index")
     assert halving.iterate(most=1, own=4.0) == (1.0, 2.0)
