@@ -126,6 +126,16 @@ GALLERY = (
         _plots("flow_map"),
     ),
     _entry(
+        "spot-pool",
+        "A round spot in section",
+        "Temperature, speed and phase of one pulse on steel, from the axis outward and mirrored.",
+        ("lasersph run spot-steel --out runs/spot",),
+        "runs/spot/figures/flow.png",
+        _case("spot-steel"),
+        f"{RECIPES}.melt_pool",
+        _plots("flow_map"),
+    ),
+    _entry(
         "steel-temperature",
         "How hot, and for how long",
         "The surface boils at the maximum of the light and stays solid where it is dark.",

@@ -22,15 +22,20 @@ BAD_GEOMETRY_CASES = {
         "dimensions = 3",
         ':23: solver.geometry: "axisymmetric" is a section (r, z), not 3-D; write dimensions = 2',
     ),
-    "section of a pool": (
-        'kind = "conduction"',
-        'kind = "melt-pool"',
-        ':23: solver.geometry: melt that flows is computed in "planar" blocks so far; leave it out, or write kind = "conduction" for heat and melting alone',
+    "section of a surface that moves": (
+        'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
+        'kind = "melt-pool"\ngeometry = "axisymmetric"\nflow = { surface = "moving" }',
+        ':23: solver.flow.surface: "moving" is computed in "planar" blocks so far; write surface = "flat" in a section (r, z)',
+    ),
+    "section of a box": (
+        'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
+        'kind = "melt-pool"\nphase_change = false\ngeometry = "axisymmetric"\nflow = { bottom = "no-slip" }',
+        ':24: solver.flow: boxes of liquid are "planar" so far; leave [solver.flow] or geometry out',
     ),
     "section of ablation": (
         'kind = "conduction"\ndimensions = 2',
         'kind = "ablation"\nsound_speed = "1 km/s"\ndimensions = 2',
-        ':24: solver.geometry: matter that moves is computed in "planar" blocks so far; leave it out, or write kind = "conduction" for heat and melting alone',
+        ':24: solver.geometry: matter that moves is computed in "planar" blocks; leave it out, or write kind = "melt-pool" or "conduction"',
     ),
     "half a section": (
         WIDTH,

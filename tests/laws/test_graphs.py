@@ -5,6 +5,7 @@ import pytest
 from flow_boxes import LID, box, go, host_fields, pool
 from law_runs import solver_of
 from particle_square import held_front, right_side, system
+from spot_pools import half_ball, spot_pool
 
 from lasersph import compute
 from lasersph.compute.graph import GRAPHS, checked_graphs
@@ -60,6 +61,11 @@ def lit_steel(backend):
     return found_by(solver)
 
 
+def spot_in_section(backend):
+    """A pool in a section (r, z), whose melt passes between particles at rest."""
+    return found_by(spot_pool(half_ball, backend=backend)[1])
+
+
 def stiff_heat(backend):
     """Linear systems that factors and multigrid precondition."""
     operator, _ = system(backend, 24)
@@ -73,7 +79,7 @@ def stiff_heat(backend):
     return found
 
 
-CASES = (heated_box, flat_pool, lit_pool, moving_pool, lit_steel, stiff_heat)
+CASES = (heated_box, flat_pool, lit_pool, moving_pool, lit_steel, spot_in_section, stiff_heat)
 
 
 @pytest.fixture(scope="module")

@@ -29,6 +29,12 @@ def test_that_waits(name):
 """
 
 
+def hear_interrupts():
+    """Let Ctrl-C end a process, also where a shell started these tests in its background, which has
+    all of them ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_nothing_is_left(tmp_path, end):
     """After Ctrl-C, SIGTERM or SIGKILL of tests in two processes, each of which waits for one in a
@@ -38,7 +44,12 @@ def test_nothing_is_left(tmp_path, end):
     del environment[process_watch.MARK]
     command = [sys.executable, "-m", "pytest", "-n", "2", "-p", "conftest", "test_waits.py"]
     tests = subprocess.Popen(
-        command, cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL, start_new_session=True
+        command,
+        cwd=tmp_path,
+        env=environment,
+        stdout=subprocess.DEVNULL,
+        start_new_session=True,
+        preexec_fn=hear_interrupts,
     )
 
     def started():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.case.solver_choice import computes_flow, moves_matter
+from lasersph.case.solver_choice import moves_matter
 from lasersph.input import format_quantity
 from lasersph.lasers import Laser
 from lasersph.lasers.rings import ellipticity, round_light
@@ -25,12 +25,22 @@ def section_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
             f'"axisymmetric" is a section (r, z), not {case.solver.dimensions}-D; write dimensions '
             "= 2",
         )
-    if computes_flow(case.solver) or moves_matter(case.solver):
-        what = "melt that flows" if computes_flow(case.solver) else "matter that moves"
+    if moves_matter(case.solver):
         yield (
             "solver.geometry",
-            f'{what} is computed in "planar" blocks so far; leave it out, or write kind = '
-            '"conduction" for heat and melting alone',
+            'matter that moves is computed in "planar" blocks; leave it out, or write kind = '
+            '"melt-pool" or "conduction"',
+        )
+    if case.surface_moves:
+        yield (
+            "solver.flow.surface",
+            '"moving" is computed in "planar" blocks so far; write surface = "flat" in a section '
+            "(r, z)",
+        )
+    elif case.flow is not None:
+        yield (
+            "solver.flow",
+            'boxes of liquid are "planar" so far; leave [solver.flow] or geometry out',
         )
     yield from _block(case)
     if case.laser is not None:

@@ -47,6 +47,20 @@ def mean_of(k, share, values, order, start):
     return share * total_of(k, values, order, start)
 
 
+def ratio_of(k, share, values, volume, order, start):
+    """Sum of the values of component k's members over that of their volumes, 0 where the share is
+    0."""
+    if share <= 0.0:
+        return 0.0
+    return total_of(k, values, order, start) / total_of(k, volume, order, start)
+
+
+def without_share(p, component, volume, means):
+    """Value less a volume's share of what its component has too much, and its square."""
+    deviation = p - volume * means[component]
+    return deviation, deviation * deviation
+
+
 def without_mean(p, component, means):
     """Value less the mean of its component, and its square."""
     deviation = p - means[component]
@@ -119,6 +133,14 @@ class Components:
         self._sum(mean_of, self._means, share=self._share, values=values)
         out, reduce = (values, None), (None, "sum")
         return self.backend.pointwise(without_mean, fields, out, reduce=reduce, means=self._means)
+
+    def remove_shares(self, values: Array, volume: Array) -> tuple[float, ...]:
+        """Subtract from each floating component's values their sum, by the volumes (n,) of its
+        members; reduces the sum of squares."""
+        fields = {"p": values, "component": self.number, "volume": volume}
+        self._sum(ratio_of, self._means, share=self._share, values=values, volume=volume)
+        out, reduce = (values, None), (None, "sum")
+        return self.backend.pointwise(without_share, fields, out, reduce=reduce, means=self._means)
 
     def _sum(
         self, function: Callable, out: Array, share: Array | None = None, **arrays: Array

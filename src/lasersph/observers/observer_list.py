@@ -156,6 +156,7 @@ def heat_observers(
 def flow_observers(
     dimension: int,
     *,
+    amount_dimension: int | None = None,
     box: bool = False,
     topography: Topography | None = None,
     pulses: Pulses | None = None,
@@ -165,14 +166,21 @@ def flow_observers(
     """Observers of every run with flow: those of heat, and of the flow.
 
     Args:
-        dimension, pulses, probes, iterations: as of `heat_observers`.
+        dimension, amount_dimension, pulses, probes, iterations: as of `heat_observers`.
         box: a closed box that is all liquid has no melt pool, but center lines and heat through
             its walls.
         topography: of a surface that moves; None where it is flat.
     """
-    observed = heat_observers(dimension, pulses=pulses, probes=probes, iterations=iterations)
+    covered = dimension if amount_dimension is None else amount_dimension
+    observed = heat_observers(
+        dimension,
+        amount_dimension=covered,
+        pulses=pulses,
+        probes=probes,
+        iterations=iterations,
+    )
     heat = observed.members
-    flow: tuple[Observer, ...] = (FlowSpeed(dimension), SurfaceSpeed(), SurfacePressure())
+    flow: tuple[Observer, ...] = (FlowSpeed(covered), SurfaceSpeed(), SurfacePressure())
     if topography is not None:
         flow = (*flow, topography)
 

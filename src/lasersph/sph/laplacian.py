@@ -76,15 +76,6 @@ def layered_weight(
     return -2.0 * V_i * V_j * dW_ij / r_ij * factor
 
 
-def ring_weight(g_ij, measure_i, measure_j):
-    """Weight of two rings, g_ij times their mean length [m^(d-1)], symmetric and not negative.
-
-    2 pi r of the flow (1/r) d(r dT/dr)/dr is that of the middle between both: of second order in
-    the spacing over r, so that the first columns beside the axis are the least exact.
-    """
-    return 0.5 * (measure_i + measure_j) * g_ij
-
-
 def flow(g_ij, P_i, P_j):
     """Heat flowing from j into i [W]: g_ij (P_j - P_i)."""
     return g_ij * (P_j - P_i)

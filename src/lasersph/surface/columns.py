@@ -70,6 +70,11 @@ def product(a, b):
     return a * b
 
 
+def lies_at_surface(depth, V, spacing):
+    """1 for a particle of the uppermost row, as high as it is and at most one spacing, else 0."""
+    return 1.0 if depth * spacing < min(V, spacing * spacing) else 0.0
+
+
 class SurfaceColumns:
     """Columns below a surface from `low` on [m], of one width [m].
 

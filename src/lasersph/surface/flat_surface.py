@@ -32,6 +32,7 @@ from lasersph.sph.tangential import (
     tangential_terms,
 )
 from lasersph.surface.columns import product
+from lasersph.surface.pressure_gradient import SymmetricGradient
 from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
 
 LOWEST, HIGHEST = 1.0, 2.0e4
@@ -98,6 +99,7 @@ class FlatSurface(Surface):
         count: particles of the whole body. spacing, support: of the particles at it [m].
         material: gamma(T) or its slope. viscosity: eta at the liquidus [Pa s]. has_stress: whether
             gamma drives the flow. given: the surface's own temperature, where the case gives it.
+            pressure_gradient: below it.
 
     Attributes:
         stress: (n,) tau [Pa].
@@ -115,8 +117,10 @@ class FlatSurface(Surface):
         viscosity: float,
         has_stress: bool,
         given: ImposedTemperature | None,
+        pressure_gradient: SymmetricGradient,
     ) -> None:
         super().__init__(backend, count, plane)
+        self.pressure_gradient = pressure_gradient
         self.viscosity = viscosity
         self.given = given
         self.has_stress = has_stress

@@ -28,7 +28,8 @@ from lasersph.particles.support import arithmetic, graded
 from lasersph.physics.phase_change import state
 from lasersph.solvers.conduction.walls import walls_of
 from lasersph.sph.kernels import Kernel, kernel
-from lasersph.sph.laplacian import layered_weight, ring_weight, weight
+from lasersph.sph.laplacian import layered_weight, weight
+from lasersph.sph.rings import ring_weight
 from lasersph.sph.second_moment import layer_factors
 from lasersph.surface.surface import upward
 

@@ -126,6 +126,11 @@ class Block:
         return self.layers.fields["V"]
 
     @property
+    def ring_fields(self) -> dict[str, Array]:
+        """Fields that the flow of rings reads beside those of a plane section."""
+        return {}
+
+    @property
     def across(self) -> Array:
         """(M,) 1 for ghosts beyond a surface that moves."""
         return self.ghosts.crosses_surface
@@ -182,7 +187,7 @@ class Block:
         if self._folded.shape != neighbor.shape:
             self._folded = backend.zeros(neighbor.shape[0], "index")
         self.find_geometry(has_kernel=has_kernel)
-        self._find_tangents(position)
+        self._adapt_weights(position)
         # viscosity may weigh the pairs anew
         self.viscous_weights = self.weights
 
@@ -201,8 +206,8 @@ class Block:
         fields = {"place": self.pairs.neighbor}
         self.backend.pointwise(element, fields, self._folded, table=self.ghosts.source)
 
-    def _find_tangents(self, position: Array) -> None:
-        """Planes between ghosts and sources stay where they are."""
+    def _adapt_weights(self, position: Array) -> None:
+        """A pair of a plane section weighs what its distance says."""
 
     def inner_weights(self) -> Array:
         """(pairs,) weights of the pressure: ghosts mirror it, so that all pairs count."""
@@ -242,7 +247,7 @@ class Block:
         """The same pairs at other positions."""
         # lists are kept, distances and what follows from them are not
         self.place_pairs(position)
-        self._find_tangents(position)
+        self._adapt_weights(position)
 
     @graph
     def place_pairs(self, position: Array) -> None:

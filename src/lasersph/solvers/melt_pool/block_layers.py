@@ -14,6 +14,7 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.particles.geometry import Geometry
 from lasersph.particles.ghosts import LOWER, UPPER, GhostTypes
 from lasersph.particles.support import common
 from lasersph.solvers.conduction.body import Weighing
@@ -31,10 +32,13 @@ class StaticParticleData:
     """Values of particles that stay the same while they move, host arrays by number.
 
     Attributes:
-        support: (n,) [m]. volume: (n,) [m^2]. layer: (n,). layers: how many there are.
+        geometry: of the block. position: (d, n) on the lattice [m]. support: (n,) [m]. volume: (n,)
+            of the cells [m^2]. layer: (n,). layers: how many there are.
         weighing: how pairs are weighed.
     """
 
+    geometry: Geometry
+    position: np.ndarray
     support: np.ndarray
     volume: np.ndarray
     layer: np.ndarray

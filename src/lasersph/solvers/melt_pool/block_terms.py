@@ -23,6 +23,11 @@ def inner_weight(g_ij, dirichlet_j):
     return g_ij * (1.0 - dirichlet_j)
 
 
+def either(a, b):
+    """1 where one of two marks is 1."""
+    return max(a, b)
+
+
 def weight_of(g_ij):
     """Weight of a pair, for its sum over the neighbors."""
     return g_ij

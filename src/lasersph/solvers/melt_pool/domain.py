@@ -15,6 +15,7 @@ from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_layers import SKIN, StaticParticleData
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
+from lasersph.solvers.melt_pool.ring_block import RingBlock
 from lasersph.solvers.melt_pool.tangent_block import TangentBlock
 from lasersph.solvers.step_control import StepFailed
 from lasersph.surface.surface import Surface
@@ -70,6 +71,9 @@ class PoolDomain:
         self._bottom = np.cumsum(layers.thickness)
         self.fine_depth = layers.fine_depth
         self._starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
+        self._block_type = BLOCKS[surface.crossing]
+        if lattice.geometry.is_axisymmetric:
+            self._block_type = RingBlock
         self.block_layers = 0
         self._block: Block | None = None
 
@@ -141,7 +145,7 @@ class PoolDomain:
             below = self._bottom[self.block_layers - 1] + RESTING_LAYERS * self.spacing
             last = int(np.searchsorted(self._bottom, below * (1.0 + 1e-9))) + 1
             last = min(last, total)
-            self._block = BLOCKS[self.surface.crossing](
+            self._block = self._block_type(
                 self.backend,
                 self.lattice,
                 self.conditions,

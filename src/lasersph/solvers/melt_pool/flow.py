@@ -18,6 +18,7 @@ from lasersph.physics import viscosity
 from lasersph.physics.buoyancy import buoyancy
 from lasersph.solvers.melt_pool import flow_terms as terms
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.flow_terms import FlowTerms
 from lasersph.solvers.melt_pool.liquid import Liquid
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.projection import Projection
@@ -30,6 +31,10 @@ from lasersph.surface.surface import Surface, upward
 
 class Flow:
     """Velocity and pressure of the particles, and the equations that advance them.
+
+    Args:
+        volume: (n,) of the body that the particles stand for [m^2], rings [m^3]. geometry_terms: of
+            a plane or of rings.
 
     Attributes:
         spacing: of the particles that move [m].
@@ -46,10 +51,13 @@ class Flow:
         surface: Surface,
         settings: MeltPoolSettings,
         spacing: float,
+        volume: Array,
+        geometry_terms: FlowTerms,
     ) -> None:
         backend, count = particles.backend, particles.count
         particles.add("velocity", "pressure", "settled_jump")
-        self.spacing, self.particles = spacing, particles
+        self.spacing, self.particles, self.volume = spacing, particles, volume
+        self.geometry_terms = geometry_terms
         self.backend, self.settings = backend, settings
         self.liquid, self.surface = liquid, surface
 
@@ -63,7 +71,7 @@ class Flow:
 
         # viscosity: the equation of (68), and the table of nu(T)/nu_l that its pairs are weighed by
         self.viscous = ViscousStep(
-            backend, particles["volume"], liquid.viscosity, settings.viscosity
+            backend, volume, liquid.viscosity, settings.viscosity, geometry_terms
         )
         T, m = (backend.asarray(values) for values in liquid.relative_viscosity)
         self._viscosity_nodes = {"T_nodes": T, "m_nodes": m}
@@ -85,7 +93,8 @@ class Flow:
         """Work on a block from now on."""
         if not self.has_block or block is not self.block:
             self._projection = Projection(
-                self.particles, self.liquid, self.surface, self.settings, block, self.spacing
+                *(self.particles, self.liquid, self.surface, self.settings, block),
+                *(self.spacing, self.volume, self.geometry_terms),
             )
 
     @property
@@ -206,9 +215,9 @@ class Flow:
 
     def measure(self, kinds: ParticleKinds) -> None:
         """Reduce the sum of squares of the divergence that the projection left and the largest one,
-        then the kinetic energy of all that flows [J per meter], for observers."""
+        then the kinetic energy of all that flows [J per meter, of rings J], for observers."""
         self.projection.sum_divergence(kinds)
-        fields = self.particles.by_symbol("velocity", "volume")
+        fields = {"v": self.velocity, "V": self.volume}
         self.backend.pointwise(
             terms.kinetic_energy, fields, (None,), reduce=("sum",), density=self.liquid.density
         )

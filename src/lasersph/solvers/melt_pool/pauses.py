@@ -6,6 +6,7 @@ laid out anew below the relief, and the next pulse finds the body as the start o
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
@@ -14,7 +15,6 @@ from lasersph.compute.vectors import same
 from lasersph.lasers.pulses import PulseTrain
 from lasersph.solvers.conduction.body import HISTORY, Body
 from lasersph.solvers.conduction.state import HeatState
-from lasersph.solvers.melt_pool.layout_renewal import LayoutRenewal
 
 PERIOD_TOLERANCE = 1e-9
 """Difference of two times over the period of a pulse train. Rounding: they are the same."""
@@ -24,7 +24,8 @@ class Pauses:
     """When a pause is left out, and what becomes of the heat that is left then.
 
     Args:
-        heat: "spread" evenly through the body, or "remove".
+        heat: "spread" evenly through the body, or "remove". lay_out: lays the particles out below
+            the relief.
     """
 
     def __init__(
@@ -33,10 +34,10 @@ class Pauses:
         state: HeatState,
         pulse: PulseTrain,
         heat: Literal["spread", "remove"],
-        layout_renewal: LayoutRenewal,
+        lay_out: Callable[[], None],
     ) -> None:
         self.body, self.state, self.pulse, self.heat = body, state, pulse, heat
-        self.layout_renewal = layout_renewal
+        self.lay_out = lay_out
 
     def end(self) -> float | None:
         """Start of the next pulse [s], once nothing is molten and no light comes before it."""
@@ -60,7 +61,7 @@ class Pauses:
         body, particles, state = self.body, self.body.particles, self.state
         # heat that is left, and the layout below the relief
         heat = self._sum("mass", "enthalpy")
-        self.layout_renewal.lay_out()
+        self.lay_out()
 
         # h of all particles: that heat over their mass, or none of it
         mass = self._sum("mass")

@@ -14,8 +14,9 @@ V_i]. A pair with a particle whose mask is 0 contributes nothing: dp/dn = 0 ther
 
 Pools and remnants that do not touch are components of their own (`linear_solvers.components`);
 pairs between them contribute nothing. Where no boundary gives a component its pressure the operator
-is singular: there the mean of the right-hand side is removed, which makes it solvable, and the
-pressure has mean 0. Other components are left alone. Too few particles for a component have p = 0.
+is singular: there the mean of the right-hand side is removed, which makes it solvable, of rings by
+their volumes, and the pressure has mean 0. Other components are left alone. Too few particles for a
+component have p = 0.
 
 The preconditioner (`linear_solvers.grid_correction`) is made from the present particles in every
 step and has no memory, so that only the pressure itself, the first guess, survives a step. The
@@ -113,6 +114,7 @@ class PressureEquation:
         count: particles of the block, n. support: support radius [m].
         tolerance: residual over right-hand side that ends the iteration (2-norms).
         max_iterations: where it ends anyhow. period: per axis [m], 0.0 where there is none.
+        is_even: whether all particles have one volume.
 
     Attributes:
         components: pools, `components.count` of them, see `linear_solvers.components`.
@@ -127,11 +129,13 @@ class PressureEquation:
         tolerance: float,
         max_iterations: int = MAX_ITERATIONS,
         period: Sequence[float] = (0.0, 0.0),
+        is_even: bool = True,
     ) -> None:
         self.backend, self.tolerance, self.max_iterations = backend, tolerance, max_iterations
         self.components = Components(backend, count, support, period)
         self._correction = GridCorrection(backend, count, support, period)
         self._nothing, self._inner = backend.zeros(count), backend.zeros(0)
+        self._is_even, self._volume = is_even, self._nothing
         # diagonal and right-hand side, residual r, z = M^-1 r, direction s and A s
         self._d, self._b = backend.zeros(count), backend.zeros(count)
         self._r, self._z = backend.zeros(count), backend.zeros(count)
@@ -158,7 +162,7 @@ class PressureEquation:
             coefficient: (n,) a_i >= 0; None for no boundary with a given pressure.
         """
         backend, components = self.backend, self.components
-        self._neighbors, self._weights = neighbors, weights
+        self._neighbors, self._weights, self._volume = neighbors, weights, volume
         self._coefficient = self._nothing if coefficient is None else coefficient
         position = neighbors.position
         assert position is not None
@@ -235,7 +239,10 @@ class PressureEquation:
 
         # a p_b + f - b, without its mean where nothing fixes the pressure
         backend.pointwise(right_side, fields, self._b)
-        components.remove_means(self._b)
+        if self._is_even:
+            components.remove_means(self._b)
+        else:
+            components.remove_shares(self._b, self._volume)
 
         # r = b - A p
         backend.pair_sum(

@@ -18,22 +18,19 @@ from lasersph.compute.graph import graph
 from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool import flow_terms as terms
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.flow_terms import FlowTerms
 from lasersph.solvers.melt_pool.liquid import Liquid
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.pressure_equation import Outcome, PressureEquation
 from lasersph.solvers.melt_pool.published.pressure_equation import PublishedPressure
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.step_control import NotConverged
-from lasersph.sph.correction import corrected_divergence_term
 from lasersph.sph.lattice_sums import kernel_sum
 from lasersph.surface.surface import Surface
 
 ACCEPTED = 10.0
 """Residual of the pressure equation over its tolerance with which a step is still taken. Guard: a
 worse one halves the step; tests that end iterations early see it."""
-DRIFT_RATE = 0.1
-"""Rate at which particles that are too dense part, over the largest speed per spacing. Study:
-[Asai2012] leaves it open; without it the pressure under a pool differs by 0.3 %."""
 
 
 class Projection:
@@ -41,6 +38,8 @@ class Projection:
 
     Args:
         particles: with velocity, pressure and settled jump. spacing: of those that move [m].
+            volume: (n,) of the body that they stand for [m^2], rings [m^3]. terms: of its
+            geometry.
 
     Attributes:
         equation: for the pressure. lowest: pressure above which the gradient counts [Pa].
@@ -55,11 +54,15 @@ class Projection:
         settings: MeltPoolSettings,
         block: Block,
         spacing: float,
+        volume: Array,
+        terms: FlowTerms,
     ) -> None:
         backend, count = particles.backend, block.count
+        self.terms = terms
         self.backend, self.block = backend, block
         self.liquid, self.surface = liquid, surface
         self.spacing, self.tolerance = spacing, settings.pressure_tolerance
+        self.volume = backend.head(volume, count)
         self.velocity, self.pressure = particles["velocity"], particles["pressure"]
         self._settled_jump = particles["settled_jump"]
 
@@ -80,6 +83,7 @@ class Projection:
                 block.layers.moving_support,
                 tolerance=self.tolerance,
                 period=block.conditions.periods,
+                is_even=not block.lattice.geometry.is_axisymmetric,
             )
 
         # what the gradient of the last step has seen
@@ -107,7 +111,7 @@ class Projection:
             relative_viscosity,
             remaining=exp(-step / time),
             fraction=self.liquid.density / step,
-            rate=DRIFT_RATE * speed / self.spacing,
+            rate=self.terms.drift_rate * speed / self.spacing,
         )
 
         # matrix (77) of the present pairs, solved from the last pressure
@@ -140,9 +144,9 @@ class Projection:
         # the jump of ghosts that the divergence sees, then rho / dt V (D - d)
         self.surface.settle(self._settled_jump, relative_viscosity, remaining)
         backend.pair_sum(
-            terms.divergence_terms,
+            self.terms.divergence_terms,
             block.pairs,
-            self._divergence_fields() | {"VW_ij": block.kernel, "V": block.volume},
+            self._divergence_fields() | {"VW_ij": block.kernel, "V": self.volume},
             self._load,
             finish=terms.divergence_load,
             rows=kinds.unknown_rows,
@@ -163,7 +167,7 @@ class Projection:
                 block.ghosts.source,
                 block.weights,
                 head(kinds.kind, block.count),
-                block.volume,
+                self.volume,
             )
             return equation.solve(self._load, self._p)
         # pairs across a surface weigh nothing: its pressure is a boundary of each particle
@@ -172,7 +176,7 @@ class Projection:
             block.without_ghosts(),
             block.inner_weights(),
             head(kinds.unknown, block.count),
-            block.volume,
+            self.volume,
             coefficient,
         )
         return equation.solve(self._load, self._p, value=value)
@@ -245,7 +249,7 @@ class Projection:
         """Reduce the sum of squares of the divergence that is left, and the largest one, by the
         operator of the projection."""
         self.backend.pair_sum(
-            corrected_divergence_term,
+            self.terms.divergence,
             self.block.pairs,
             self._divergence_fields(),
             (None, None),
@@ -260,4 +264,4 @@ class Projection:
         # walls mirror the velocity, so that nothing crosses them; a stressed surface continues it
         jump = self.surface.settled_jump(self._settled_jump)
         v = block.ghosts.mirror_velocity(self.velocity, jump)
-        return {"v": v, "C": block.correction, "G_ij": block.gradient}
+        return {"v": v, "C": block.correction, "G_ij": block.gradient, **block.ring_fields}

@@ -18,6 +18,7 @@ from lasersph.solvers.conduction.implicit import ImplicitStep
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.block import Block
+from lasersph.solvers.melt_pool.block_terms import either
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.face_exchange import FaceExchange
 from lasersph.solvers.melt_pool.flow import Flow
@@ -31,18 +32,8 @@ from lasersph.solvers.melt_pool.pauses import Pauses
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.steadiness import Steadiness
 from lasersph.solvers.step_control import PAUSE, StepFailed, retry_step
-from lasersph.surface.columns import SurfaceColumns
+from lasersph.surface.columns import SurfaceColumns, lies_at_surface
 from lasersph.surface.surface import SurfaceStep
-
-
-def either(a, b):
-    """1 where one of two marks is 1."""
-    return max(a, b)
-
-
-def lies_at_surface(depth, V, spacing):
-    """1 for a particle of the uppermost row, as high as it is and at most one spacing, else 0."""
-    return 1.0 if depth * spacing < min(V, spacing * spacing) else 0.0
 
 
 class InvalidSurface(StepFailed):
@@ -96,7 +87,7 @@ class MeltPool:
         self.pauses: Pauses | None = None
         if pause != "compute" and heat.laser is not None:
             pulse = heat.laser.pulse
-            self.pauses = Pauses(heat.body, heat.state, pulse, pause, self.layout_renewal)
+            self.pauses = Pauses(heat.body, heat.state, pulse, pause, self.lay_out)
         self.steadiness = Steadiness(settings.steady, domain.width)
         columns = heat.body.filling.surface.size
         self.surface_columns = SurfaceColumns(
@@ -315,6 +306,14 @@ class MeltPool:
         # no shift leaves the melt, and T follows the adjusted h
         surface.confine(self.position, kinds.fluid)
         self.body.update_temperature()
+
+    def lay_out(self) -> None:
+        """Lay the particles out evenly below the surface as it is.
+
+        Raises:
+            UnevenRelief: the relief is too deep for the finest layers.
+        """
+        self.layout_renewal.lay_out()
 
     def _melt(self) -> bool:
         """Whether anything flows."""

@@ -40,7 +40,7 @@ class TangentBlock(Block):
 
     reach = 2.0 * SLANTED
 
-    def _find_tangents(self, position: Array) -> None:
+    def _adapt_weights(self, position: Array) -> None:
         """Make the weights toward ghosts across a tangent symmetric, and set the face of heat."""
         backend, ghosts = self.backend, self.ghosts
         ghosts.mark_crossing()

@@ -15,9 +15,9 @@ from lasersph.compute.backend import Backend
 from lasersph.compute.graph import graph
 from lasersph.compute.vectors import dot
 from lasersph.linear_solvers.iteration import conjugate_gradients
-from lasersph.physics.viscosity import forced, momentum, predict
+from lasersph.physics.viscosity import forced, predict
 from lasersph.solvers.melt_pool.block import Block
-from lasersph.solvers.melt_pool.block_terms import weight_of
+from lasersph.solvers.melt_pool.flow_terms import FlowTerms
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 
 TOLERANCE = 1e-8
@@ -58,19 +58,23 @@ class ViscousStep:
     """The prediction of velocities with its work vectors.
 
     Args:
-        volume: (n,) V [m^2]. viscosity: nu at the liquidus [m^2/s]; at other temperatures the
-            weights of the pairs differ. kind: "implicit" or "explicit".
+        volume: (n,) V [m^2], of rings [m^3]. viscosity: nu at the liquidus [m^2/s]; at other
+            temperatures the weights of the pairs differ. kind: "implicit" or "explicit". terms: of
+            the geometry.
 
     Attributes:
         velocity: (2, n) from which the forces of the last step follow [m/s].
     """
 
-    def __init__(self, backend: Backend, volume: Array, viscosity: float, kind: str) -> None:
-        count, self.volume = volume.shape[0], volume
+    def __init__(
+        self, backend: Backend, volume: Array, viscosity: float, kind: str, terms: FlowTerms
+    ) -> None:
+        count, self.volume, self.terms = volume.shape[0], volume, terms
         self.backend, self.nu, self.is_implicit = backend, viscosity, kind == "implicit"
         vectors = 5 if self.is_implicit else 1
         self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
-        self._g_sum, self.velocity = backend.zeros(count), backend.zeros((2, count))
+        self._g_sum = backend.zeros((*terms.diagonal_shape, count))
+        self.velocity = backend.zeros((2, count))
         self._changes = backend.zeros((2, 0))
 
     def advance(
@@ -85,12 +89,12 @@ class ViscousStep:
         rows = kinds.fluid_rows
         if rows.shape[0] == 0:
             return 0
-        fields = {"v": extended, "g_ij": block.viscous_weights, "V": block.V, "b": b}
+        terms, fields = self.terms, self._fields(block) | {"v": extended, "b": b}
         if not self.is_implicit:
             pairs, star, nu = block.pairs, self._star, self.nu
             backend.copy(v, self.velocity)
             backend.pair_sum(
-                momentum, pairs, fields, star, rows=rows, finish=predict, nu=nu, step=step
+                terms.momentum, pairs, fields, star, rows=rows, finish=predict, nu=nu, step=step
             )
             backend.copy(self._star, v)
             return 0
@@ -107,25 +111,30 @@ class ViscousStep:
         backend.copy(v, self.velocity)
         return int(iterations)
 
+    def _fields(self, block: Block) -> dict[str, Array]:
+        """Weights and volumes that every sum reads."""
+        return {"g_ij": block.viscous_weights, "V": self.volume, **block.ring_fields}
+
     @graph
     def find_first_residual(
         self, block: Block, v: Array, b: Array, extended: Array, rows: Rows, s: float, step: float
     ) -> None:
         """Residual of the first guess, and the diagonal; reduces r z and r r."""
-        backend, fields = self.backend, {"g_ij": block.viscous_weights, "V": block.V}
+        backend, terms, fields = self.backend, self.terms, self._fields(block)
         r, z, d, _ = self._work
         backend.fill(d, 0.0)  # which ghosts read beyond the rows
         self._changes = backend.zeros((2, block.ghosts.size))
 
         # sum_j g_ij and v* = v + dt b
-        backend.pair_sum(weight_of, block.pairs, fields, self._g_sum, rows=rows)
+        backend.pair_sum(terms.diagonal, block.pairs, fields, self._g_sum, rows=rows)
         backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
 
         # r = V v* - A v, z = r / diagonal
         given = fields | {"v": extended, "b": b, "v_star": self._star, "g_sum": self._g_sum}
         out, reduce = (r, z, None, None), (None, None, "sum", "sum")
+        pairs, finish = block.pairs, first_residual
         backend.pair_sum(
-            momentum, block.pairs, given, out, rows=rows, finish=first_residual, reduce=reduce, s=s
+            terms.momentum, pairs, given, out, rows=rows, finish=finish, reduce=reduce, s=s
         )
 
     @graph
@@ -134,9 +143,9 @@ class ViscousStep:
         _, z, d, q = self._work
         self.backend.pointwise(next_direction, {"z": z, "d": d}, d, rows=rows, beta=beta)
         block.ghosts.extend_velocity_change(d, self._changes)
-        fields = {"g_ij": block.viscous_weights, "V": block.V, "v": self._changes, "d": d}
+        fields = self._fields(block) | {"v": self._changes, "d": d}
         self.backend.pair_sum(
-            momentum,
+            self.terms.momentum,
             block.pairs,
             fields,
             (q, None),

@@ -20,8 +20,8 @@ from lasersph import compute
 from lasersph.case import load_case
 from lasersph.compute.search import EscapedParticle
 from lasersph.simulation.recipes import recipe_of
-from lasersph.solvers.melt_pool.solver import lies_at_surface
 from lasersph.solvers.step_control import RETRIES, NotConverged
+from lasersph.surface.columns import lies_at_surface
 from lasersph.surface.flat_surface import ImposedTemperature
 from lasersph.surface.surface import settle
 

@@ -6,13 +6,14 @@ from flow_boxes import PERIODIC, PERIODIC_HEAT, block_of, box, jittered, matrix_
 
 from lasersph.physics.viscosity import momentum
 from lasersph.solvers.melt_pool import block as block_module
+from lasersph.solvers.melt_pool.block_terms import weight_of
+from lasersph.solvers.melt_pool.flow_terms import PLANE
 from lasersph.solvers.melt_pool.viscous_step import (
     ViscousStep,
     first_residual,
     matrix_product,
     next_direction,
     next_solution,
-    weight_of,
 )
 
 NU = 0.01
@@ -27,7 +28,7 @@ SIDES = {"sides": "periodic"}
 def advanced(solver, block, v, step, kind, steps=1):
     """Velocities after viscous steps, and the iterations of the last."""
     backend, count = solver.backend, solver.body.count
-    viscous = ViscousStep(backend, solver.flow.viscous.volume, NU, kind)
+    viscous = ViscousStep(backend, solver.flow.viscous.volume, NU, kind, PLANE)
     velocity = backend.asarray(v)
     nothing, force = backend.zeros(count), backend.zeros((2, count))
     for _ in range(steps):
@@ -165,7 +166,7 @@ def test_solid_drags():
     backend, count = solver.backend, solver.body.count
     v = np.zeros((2, count))
     v[0] = backend.to_host(solver.kinds.fluid)
-    viscous = ViscousStep(backend, solver.flow.viscous.volume, 1e-6, "implicit")
+    viscous = ViscousStep(backend, solver.flow.viscous.volume, 1e-6, "implicit", PLANE)
     velocity, force = backend.asarray(v), backend.zeros((2, count))
     block = solver.flow.block
     extended = block.ghosts.extend_velocity(velocity, backend.zeros(count))

@@ -20,8 +20,10 @@ from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.walls import wall_enthalpy, wall_potential
 from lasersph.solvers.melt_pool.block_layers import StaticParticleData
 from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.eulerian_pool import EulerianPool
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.flow import Flow
+from lasersph.solvers.melt_pool.flow_terms import PLANE, RINGS
 from lasersph.solvers.melt_pool.liquid import Liquid
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
@@ -30,6 +32,7 @@ from lasersph.surface.forcing import SurfaceForcing
 from lasersph.surface.height_field import HeightField, cutoff_of
 from lasersph.surface.moving_surface import MovingSurface
 from lasersph.surface.pressure_condition import SurfaceLiquid
+from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGradient
 from lasersph.surface.smoothing import End
 from lasersph.surface.surface import Surface
 
@@ -39,12 +42,15 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     body = heat.body
     backend, count = body.backend, body.count
     filling, curve = body.filling, body.curve
+    is_section = case.geometry.is_axisymmetric
 
     # What flow needs of each particle and does not change: support, volume, layer, weights.
     weighing = weighing_of(
         case.particles, layers, use_second_moment=settings.weights == "second-moment"
     )
     static = StaticParticleData(
+        geometry=case.geometry,
+        position=filling.position[:, :count],
         support=weighing.ratio * filling.width[-1, :count],
         volume=filling.volume[:count].copy(),
         layer=filling.layer[:count],
@@ -95,6 +101,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             viscosity=liquid.viscosity * liquid.density,
             has_stress=settings.marangoni,
             given=_given_temperature(case),
+            pressure_gradient=DifferenceGradient() if is_section else SymmetricGradient(),
         )
     else:
         surface = Surface(backend, count, 0.0)
@@ -121,15 +128,18 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         lambda T: wall_enthalpy(curve, T),
         body.particles["volume"],
     )
-    flow = Flow(body.particles, liquid, surface, settings, layers.spacing)
+    bodies = backend.asarray(filling.body_volume) if is_section else body.particles["volume"]
+    terms = RINGS if is_section else PLANE
+    flow = Flow(body.particles, liquid, surface, settings, layers.spacing, bodies, terms)
 
     # A box starts with the velocity of its case; a block is laid out below its first surface.
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.set_initial_velocity(start)
-    solver = MeltPool(heat, flow, domain, settings, case.pause)
+    pool = EulerianPool if is_section else MeltPool
+    solver = pool(heat, flow, domain, settings, case.pause)
     if case.flow is None and case.initial_surface is not None:
-        solver.layout_renewal.lay_out()
+        solver.lay_out()
     return solver
 
 

@@ -76,6 +76,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         """Observers of a flow; a box has no pool, but center lines and heat through its walls."""
         return flow_observers(
             self.settings.dimensions,
+            amount_dimension=self.case.geometry.amount_dimension,
             box=self.case.flow is not None,
             topography=self._topography(),
             pulses=self.pulse_observer(),

@@ -1,0 +1,186 @@
+"""`Transport`: melt that passes between particles at rest, and what it takes along.
+
+    F_ij = 2 pi r_ij A_i (v_i + v_j) . G_ij - g_ij (phi_j - phi_i),    sum_j F_ij = 0
+    V_i da_i/dt = - sum_j F_ij a_ij                                for a = h and v
+
+F_ij is the volume that flows from i to j in a second [m^3/s], between melt and melt alone. phi
+makes it free of divergence to the rounding of its solution, so that what is the same everywhere
+stays the same; what one particle gives its neighbor gets. a_ij is the value of the particle from
+which the melt comes, carried on by its gradient to the middle of the pair and of the step, within
+the range of both: of second order where a is smooth, and no new extreme [vanLeer1979]. Particles at
+rest that melt passes through are those of [Lind2016], without its kernels of fourth order.
+"""
+
+from __future__ import annotations
+
+from lasersph.compute.array_types import Array
+from lasersph.compute.graph import graph
+from lasersph.compute.vectors import dot, matmul, matvec, outer, transpose, vector
+from lasersph.particles.particles import Particles
+from lasersph.solvers.melt_pool.block_terms import weight_of
+from lasersph.solvers.melt_pool.flow import Flow
+from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
+from lasersph.solvers.melt_pool.particle_shifting import clip_to_range
+from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
+from lasersph.solvers.melt_pool.ring_block import RingBlock
+
+TOLERANCE = 1e-8
+"""Residual of the equation of phi over its right-hand side. Accuracy: what a uniform field changes
+by in a step is that share of the divergence that the projection has left."""
+
+
+def pair_flux(v_i, v_j, pool_i, pool_j, V_i, measure_i, measure_j, G_ij, x_j):
+    """Volume that flows from i to j [m^3/s] within a pool, 0 across the axis."""
+    if pool_i == 0 or pool_i != pool_j or x_j[0] <= 0.0:
+        return 0.0 * V_i
+    return 0.5 * (measure_i + measure_j) * V_i * dot(v_i + v_j, G_ij)
+
+
+def closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j):
+    """The flux without what would gather in a particle [m^3/s]."""
+    if pool_i == 0 or pool_i != pool_j:
+        return 1.0 * flux_ij
+    return flux_ij - g_ij * (phi_j - phi_i)
+
+
+def slope_terms(h_i, h_j, v_i, v_j, pool_i, pool_j, G_ij):
+    """Terms of grad h among what flows, and of grad v, uncorrected."""
+    change = h_j - h_i if pool_i == pool_j else 0.0 * h_i
+    return change * G_ij, outer(v_j - v_i, G_ij)
+
+
+def corrected_slopes(total_0, total_1, C):
+    """grad h [J/(kg m)] and (grad v)_ab = d v_a/d x_b [1/s], exact on linear fields."""
+    return matvec(C, total_0), matmul(total_1, transpose(C))
+
+
+def exchanged_values(
+    flux_ij, h_i, h_j, v_i, v_j, grad_h_i, grad_h_j, grad_v_i, grad_v_j, x_ij, half_step
+):
+    """h and v that a pair exchanges, times its flux."""
+    # from where the melt comes to the middle of the pair, half a step before
+    if flux_ij > 0.0:
+        displacement = -0.5 * x_ij - half_step * v_i
+        h, v = h_i + dot(grad_h_i, displacement), v_i + matvec(grad_v_i, displacement)
+    else:
+        displacement = 0.5 * x_ij - half_step * v_j
+        h, v = h_j + dot(grad_h_j, displacement), v_j + matvec(grad_v_j, displacement)
+    # within the range of both
+    kept = vector(*(flux_ij * clip_to_range(v[k], v_i[k], v_j[k], v_j[k]) for k in range(len(v))))
+    return flux_ij * clip_to_range(h, h_i, h_j, h_j), kept
+
+
+def after_transport(total_0, total_1, h, v, volume, step):
+    """h [J/kg] and v [m/s] after a step."""
+    share = step / volume
+    return h - share * total_0, v - share * total_1
+
+
+class Transport:
+    """Fluxes of the melt between particles at rest, and the step that follows from them.
+
+    Args:
+        volume: (n,) of the rings [m^3].
+
+    Attributes:
+        flux: (pairs,) F_ij of the last step [m^3/s].
+    """
+
+    def __init__(self, particles: Particles, volume: Array) -> None:
+        self.backend, self.volume = particles.backend, volume
+        self.h, self.v = particles["enthalpy"], particles["velocity"]
+        self.flux = self.backend.zeros(0)
+        self._block: RingBlock | None = None
+
+    def carry(self, flow: Flow, kinds: ParticleKinds, step: float) -> None:
+        """Enthalpy and velocity after the melt has flowed for a step [s]."""
+        block = flow.block
+        assert isinstance(block, RingBlock)
+        self._work_on(block)
+        # pools: melt that nothing separates
+        flows = self.backend.head(kinds.fluid, block.count)
+        self._equation.set_operator(block.without_ghosts(), block.weights, flows, block.body_volume)
+        # F*, phi that closes its balance, F
+        self.find_flux(block)
+        self._equation.solve(self._gathered, self._phi)
+        self.close_flux(block)
+        # slopes of h and v, then what pairs exchange
+        self.find_slopes(block, kinds)
+        self.exchange(block, kinds, step, 0.5 * step)
+
+    def _work_on(self, block: RingBlock) -> None:
+        """Work vectors for a block and its pairs."""
+        backend, count = self.backend, block.count
+        if block is not self._block:
+            self._block = block
+            self._equation = PressureEquation(
+                backend,
+                count,
+                block.layers.moving_support,
+                tolerance=TOLERANCE,
+                period=block.conditions.periods,
+                is_even=False,
+            )
+            self._gathered, self._phi = backend.zeros(count), backend.zeros(count)
+            self._grad_h, self._grad_v = backend.zeros((2, count)), backend.zeros((2, 2, count))
+        if self.flux.shape != block.weights.shape:
+            self.flux = backend.zeros(block.weights.shape[0])
+
+    def _pair_fields(self, block: RingBlock) -> dict[str, Array]:
+        """Values of particles and their images that a flux follows from."""
+        nothing = self.backend.zeros(self.v.shape[1])
+        return {
+            "v": block.ghosts.mirror_velocity(self.v, nothing),
+            "pool": block.gather(self._equation.components.number),
+            "G_ij": block.gradient,
+        }
+
+    @graph
+    def find_flux(self, block: RingBlock) -> None:
+        """F* of the pairs, and what would gather in each particle."""
+        backend, rows = self.backend, block.rows
+        fields = self._pair_fields(block) | {"V": block.V, "measure": block.measure}
+        backend.pair_values(pair_flux, block.pairs, fields, self.flux, rows=rows)
+        fields = {"g_ij": self.flux}
+        backend.fill(self._phi, 0.0)
+        backend.pair_sum(weight_of, block.pairs, fields, self._gathered, rows=rows)
+
+    @graph
+    def close_flux(self, block: RingBlock) -> None:
+        """F from F* and phi."""
+        fields = {"flux_ij": self.flux, "g_ij": block.weights, "phi": block.gather(self._phi)}
+        fields["pool"] = block.gather(self._equation.components.number)
+        self.backend.pair_values(closed_flux, block.pairs, fields, self.flux, rows=block.rows)
+
+    @graph
+    def find_slopes(self, block: RingBlock, kinds: ParticleKinds) -> None:
+        """Gradients of enthalpy and velocity of what flows."""
+        fields = self._pair_fields(block) | {"h": block.gather(self.h), "C": block.correction}
+        self.backend.pair_sum(
+            slope_terms,
+            block.pairs,
+            fields,
+            (self._grad_h, self._grad_v),
+            finish=corrected_slopes,
+            rows=kinds.fluid_rows,
+        )
+
+    @graph
+    def exchange(
+        self, block: RingBlock, kinds: ParticleKinds, step: float, half_step: float
+    ) -> None:
+        """h and v after the exchange of the pairs."""
+        ghosts = block.ghosts
+        fields = self._pair_fields(block) | {"flux_ij": self.flux, "h": block.gather(self.h)}
+        fields |= {"grad_h": ghosts.mirror(self._grad_h)}
+        fields |= {"grad_v": ghosts.extend_tensor(self._grad_v), "volume": self.volume}
+        self.backend.pair_sum(
+            exchanged_values,
+            block.pairs,
+            fields,
+            (self.h, self.v),
+            finish=after_transport,
+            rows=kinds.fluid_rows,
+            step=step,
+            half_step=half_step,
+        )

@@ -1,0 +1,121 @@
+"""Transport between particles at rest: pairs by hand, and what a pool keeps."""
+
+import numpy as np
+import pytest
+from flow_boxes import place_of
+from law_runs import host, start_from
+from spot_pools import half_ball, spot_pool
+
+from lasersph.solvers.melt_pool.transport import (
+    TOLERANCE,
+    after_transport,
+    closed_flux,
+    exchanged_values,
+    pair_flux,
+)
+
+G = np.array([0.0, -2.0])  # from i upward to j: kernels fall with distance
+STILL, UP = np.zeros(2), np.array([0.0, 1.0])
+
+
+def flux(pools, x_j=1.0):
+    """Of a pair at r = 1 m: rings of 2 and 4 m, 3 m^2, both moving up with 1 m/s."""
+    return pair_flux(UP, UP, *pools, 3.0, 2.0, 4.0, G, np.array([x_j, 0.0]))
+
+
+def test_flux_of_a_pair():
+    """Mean ring of 3 m times 3 m^2 times (v_i + v_j) . G; within a pool, on this side of the
+    axis."""
+    assert flux((1, 1)) == 3.0 * 3.0 * -4.0
+    assert flux((1, 2)) == flux((0, 0)) == flux((1, 0)) == flux((1, 1), -1.0) == 0.0
+
+
+def test_potential_closes_a_flux():
+    """2 m^3/s less a weight of three times a rise of one half."""
+    assert closed_flux(2.0, 3.0, 1, 1, 1.0, 1.5) == 0.5
+    assert closed_flux(0.0, 3.0, 1, 2, 1.0, 1.5) == 0.0
+
+
+def exchanged(flow, slope=0.0):
+    """What a pair one apart along z exchanges: h = 1 and 2, v = 0; i below j, upstream by sign."""
+    tensor = np.zeros((2, 2))
+    rise = np.array([0.0, slope])
+    way = np.array([0.0, -1.0])
+    return exchanged_values(flow, 1.0, 2.0, STILL, STILL, rise, rise, tensor, tensor, way, 0.1)
+
+
+def test_melt_takes_along_what_it_comes_from():
+    """Without slopes h of the giver; with the slope of both the middle; no more than either."""
+    assert exchanged(3.0)[0] == 3.0
+    assert exchanged(-3.0)[0] == -6.0
+    assert exchanged(3.0, slope=1.0)[0] == pytest.approx(3.0 * 1.5)
+    assert exchanged(-3.0, slope=1.0)[0] == pytest.approx(-3.0 * 1.5)
+    assert exchanged(3.0, slope=9.0)[0] == 6.0
+
+
+def test_both_sides_of_a_pair_exchange_the_same():
+    """Seen from j the flux has the other sign, and the values are those of i."""
+    tensor = np.array([[0.5, 0.1], [0.2, -0.5]])
+    one, other = (1.0, np.array([1.0, 0.5]), np.array([0.3, 0.7])), (2.0, UP, np.array([0.1, 0.9]))
+    way = np.array([0.4, -1.0])
+    (h_i, v_i, g_i), (h_j, v_j, g_j) = one, other
+    there = exchanged_values(2.0, h_i, h_j, v_i, v_j, g_i, g_j, tensor, 2 * tensor, way, 0.1)
+    back = exchanged_values(-2.0, h_j, h_i, v_j, v_i, g_j, g_i, 2 * tensor, tensor, -way, 0.1)
+    assert there[0] == -back[0]
+    assert np.array_equal(there[1], -back[1])
+
+
+def test_step_of_a_ring():
+    """What has left, times the step over the volume."""
+    h, v = after_transport(6.0, np.array([2.0, -4.0]), 10.0, UP, 2.0, 0.5)
+    assert h == 10.0 - 1.5
+    assert v == pytest.approx([-0.5, 2.0])
+
+
+@pytest.fixture
+def pool():
+    """Half a ball of melt in (r, z), hot in its middle, and where its particles are."""
+    _, solver = spot_pool(half_ball)
+    return solver, place_of(solver)
+
+
+def turn(solver, places):
+    """Give the melt a velocity without divergence: out at the top, in below; advect nothing."""
+    r, z = places
+    v = np.array([r * (z + 4e-7), -(z * z + 8e-7 * z)]) * 1e13
+    solver.time_step_limits()
+    solver.flow.velocity[:] = solver.backend.asarray(v)
+    solver.flow.stop_solid(solver.kinds)
+
+
+def test_fluxes_close(pool):
+    """What flows into a particle leaves it, and what one gives the other gets."""
+    solver, places = pool
+    turn(solver, places)
+    solver.advect(1e-12)
+    transport, block = solver.transport, solver.flow.block
+    start, F = np.asarray(block.pairs.row_start).astype(int), np.asarray(transport.flux)
+    row = np.repeat(np.arange(block.count), np.diff(start))
+    total = np.bincount(row, F[: start[-1]], minlength=block.count)
+    assert np.abs(F[: start[-1]]).max() > 0.0
+    assert np.abs(total).max() < 1e-7 * np.bincount(row, np.abs(F[: start[-1]])).max()
+
+
+def test_transport_keeps_heat_and_uniform_values(pool):
+    """Heat of the whole revolution to rounding, no new extreme, and h that is the same stays so."""
+    solver, places = pool
+    turn(solver, places)
+    h, m = host(solver, "enthalpy").copy(), host(solver, "mass")
+    fluid = np.asarray(solver.kinds.fluid) > 0.0
+    solver.advect(1e-8)
+    after = host(solver, "enthalpy")
+    assert np.abs(after - h).max() > 1e-3 * h.max()
+    assert np.sum(m * after) == pytest.approx(np.sum(m * h), rel=1e-14)
+    assert h[fluid].min() * (1 - 1e-9) <= after[fluid].min()
+    assert after[fluid].max() <= h[fluid].max() * (1 + 1e-9)
+    # the same everywhere
+    start_from(solver, solver.body.curve.enthalpy_at(np.where(fluid, 2500.0, 1500.0)))
+    turn(solver, places)
+    before = host(solver, "enthalpy").copy()
+    solver.advect(1e-8)
+    assert host(solver, "enthalpy") == pytest.approx(before, rel=TOLERANCE)
