@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
-from lasersph.boundaries.initial_flow import read_rows
-from lasersph.input import Length, Model, refusal
+from lasersph.input import Length, Model, read_rows, refusal
 
 Array = NDArray[np.float64]
 COLUMNS = ("x_m", "height_m")

@@ -11,16 +11,28 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import Annotated, Literal
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
-from lasersph.input import Count, Frequency, Model, Time, format_quantity
+from lasersph.input import (
+    CaseError,
+    Count,
+    Frequency,
+    Model,
+    Time,
+    format_quantity,
+    read_rows,
+    refusal,
+)
 
 Array = NDArray[np.float64]
 PositiveTime = Annotated[Time, Field(gt=0)]
+COLUMNS = ("t", "power")
+"""Columns of a file of powers."""
 FWHM_PER_SIGMA = float(2.0 * np.sqrt(2.0 * np.log(2.0)))
 
 
@@ -241,16 +253,37 @@ class TabulatedPulse(PulseTrain):
     """Power given by rows of time and relative power, linear between them, zero outside.
 
     Two rows at the same time make a jump. With `power` or `intensity` of the laser given, the
-    relative power 1 stands for that value; with an energy the scale does not matter.
+    relative power 1 stands for that value, so that `power = "1 W"` makes it watts; with an energy
+    the scale does not matter.
     """
 
     kind: Literal["tabulated"] = "tabulated"
-    table: tuple[tuple[Time, Annotated[float, Field(ge=0)]], ...] = Field(
-        min_length=2, description="rows of time and relative power"
+    path: str = Field(
+        default="",
+        description="CSV file with columns t [s] and power and a headline, instead of a table",
     )
+    table: tuple[tuple[Time, Annotated[float, Field(ge=0)]], ...] = Field(
+        default=(), description="rows of time and relative power; those of the file are kept here"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill(cls, data: Any, info: ValidationInfo) -> Any:
+        """Rows from the file, which counts from the folder of the case file."""
+        if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("table"):
+            folder = (info.context or {}).get("folder") or Path()
+            file = Path(folder) / Path(data["path"]).expanduser()
+            rows = read_rows(file, COLUMNS)
+            _refuse_rows(rows, file)
+            return data | {"table": [(f"{t!r} s", power) for t, power in rows]}
+        return data
 
     @model_validator(mode="after")
     def _check_table(self) -> TabulatedPulse:
+        if len(self.table) < 2:
+            raise refusal(
+                ("table", "missing; give two rows of time and power or more, or path of a CSV file")
+            )
         times = np.array([row[0] for row in self.table])
         if times[0] < 0.0:
             raise ValueError(
@@ -307,6 +340,28 @@ class TabulatedPulse(PulseTrain):
         part = np.clip(time - nodes[k], 0.0, width)
         slope = np.divide(power[k + 1] - power[k], width, out=np.zeros_like(width), where=width > 0)
         return (area[k] + part * (power[k] + 0.5 * slope * part)) / area[-1]
+
+
+def _refuse_rows(rows: list[tuple[float, ...]], file: Path) -> None:
+    """Refuse the first row of a file whose power is negative or whose time goes back.
+
+    Raises:
+        CaseError: with the line.
+    """
+    before = 0.0
+    for line, (time, power) in enumerate(rows, start=2):
+        if power < 0.0:
+            raise CaseError(
+                f"power {power:g} is negative", "give 0 or more", file=str(file), line=line
+            )
+        if time < before:
+            raise CaseError(
+                f"time {time:g} s lies before {before:g} s of the row above",
+                "times rise from row to row",
+                file=str(file),
+                line=line,
+            )
+        before = time
 
 
 Pulse = Annotated[SquarePulse | GaussianPulse | TabulatedPulse, Field(discriminator="kind")]

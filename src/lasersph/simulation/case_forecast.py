@@ -102,10 +102,14 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
     if expected.flow is not None:
         rows.append(("viscosity of the melt", viscosity_text(case.material)))
         rows.append(("expected speed", f"up to about {expected.flow.speed:.2g} m/s"))
+        if numbers := expected.flow.numbers:
+            text = ", ".join(f"{name} {value:.2g}" for name, value in numbers.items())
+            rows.append(("numbers of the pool", text))
 
     # Lengths that the particles must resolve.
     for name, length in (
         ("moving layer", expected.flow.layer if expected.flow else None),
+        *(expected.flow.layers.items() if expected.flow else ()),
         ("absorption length", expected.absorption_length),
         ("thermal penetration", expected.penetration),
     ):

@@ -229,7 +229,8 @@ def test_new_case_is_the_commented_text(name, tmp_path):
     assert "#" in text
     assert load_case(file).hash() == load_case(name).hash()
     if load_case(name).laser is not None:
-        assert 'fluence = "' in text.partition("[laser]")[2].partition("\n[")[0]
+        light = text.partition("[laser]")[2].partition("\n[")[0]
+        assert 'fluence = "' in light or 'power = "' in light
     with pytest.raises(CaseError, match="exists already"):
         write_new_case(name, file)
 

@@ -1,10 +1,14 @@
 """Pulses: exact shares, trains, breakpoints, refusals."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.special import erf
 
+from lasersph.case import load_case
+from lasersph.input import CaseError
 from lasersph.lasers import GaussianPulse, SquarePulse, TabulatedPulse
 
 GAUSSIAN = GaussianPulse(fwhm=10e-9, center=50e-9)
@@ -101,3 +105,54 @@ def test_impossible_pulses_are_refused(build, message):
     """What is wrong and what would be right."""
     with pytest.raises(ValueError, match=message):
         build()
+
+
+POWERS = """
+material = "steel-304-demuth"
+[laser]
+power = "1 W"
+beam = { kind = "gaussian", radius_1e2 = "20 um" }
+absorption = { kind = "beer-lambert" }
+pulse = { kind = "tabulated", path = "powers.csv" }
+[domain]
+depth = "10 um"
+width = "60 um"
+[particles]
+spacing = "1 um"
+[solver]
+geometry = "axisymmetric"
+[time]
+end = "4 us"
+"""
+
+
+def case_with(folder, rows):
+    """Case whose pulse is a file of powers."""
+    (folder / "powers.csv").write_text("t,power\n" + rows)
+    file = folder / "case.toml"
+    file.write_text(POWERS)
+    return load_case(file)
+
+
+def test_powers_of_a_file(tmp_path):
+    """Watts over seconds, 0 to 10 W in 1 us and 1 us more: 15 uJ; the rows are kept in the case."""
+    case = case_with(tmp_path, "0,0\n1e-6,10\n2e-6,10\n")
+    assert case.laser.power * case.laser.pulse.on_time == pytest.approx(15e-6)
+    assert case.laser.pulse.table == ((0.0, 0.0), (1e-6, 10.0), (2e-6, 10.0))
+    (tmp_path / "powers.csv").unlink()
+    assert type(case).model_validate(case.resolved()).hash() == case.hash()
+
+
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        ("0,1\n2e-6,1\n1e-6,1\n", "powers.csv:4: time 1e-06 s lies before 2e-06 s of the row"),
+        ("0,1\n1e-6,-1\n", "powers.csv:3: power -1 is negative; give 0 or more"),
+        ("0,1\n1e-6,x\n", "powers.csv:3: needs 2 finite numbers"),
+        ("0,1\n", "laser.pulse.table: missing; give two rows of time and power or more"),
+    ],
+)
+def test_bad_files_of_powers(tmp_path, rows, message):
+    """File, line, what is wrong."""
+    with pytest.raises(CaseError, match=re.escape(message)):
+        case_with(tmp_path, rows)

@@ -28,6 +28,7 @@ LAYERS = {
     "pulsed-heating": (800, 800, 800),
     "sound-wave": (100, 100, 100),
     "spot-steel": (39, 23, 13225),
+    "spot-weld": (55, 36, 7605),
     "stefan": (200, 200, 200),
     "taylor-green": (50, 50, 2500),
     "texture-aluminium": (73, 31, 2799),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import ceil
 from typing import Any, ClassVar, Generic, TypeVar, cast
@@ -63,13 +63,16 @@ class StepForecast:
 @dataclass(frozen=True)
 class FlowForecast:
     """Expected speed [m/s], thickness of the layer that moves [m] (None in boxes without one), time
-    over which something flows [s], limits [s] and warnings."""
+    over which something flows [s], limits [s] and warnings; numbers and boundary layers [m] of a
+    pool, by name."""
 
     speed: float
     layer: float | None
     duration: float
     limits: dict[str, float]
     warnings: tuple[str, ...]
+    numbers: dict[str, float] = field(default_factory=dict)
+    layers: dict[str, float] = field(default_factory=dict)
 
 
 class Recipe(ABC, Generic[SettingsT, SolverT]):

@@ -15,6 +15,7 @@ from dataclasses import replace
 from math import pi, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lasersph.analytic.melt_depth import MeltEstimate, SurfaceHistory
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
@@ -24,6 +25,7 @@ from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
+from lasersph.physics.dimensionless import marangoni_number, reynolds_number
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.simulation.recipes.melt_pool.build import recoil_of
 from lasersph.simulation.recipes.melt_pool.driven_speed import (
@@ -37,6 +39,7 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.surface.capillary_waves import surface_limits
 from lasersph.surface.height_field import cutoff_of
 
+Array = NDArray[np.float64]
 BUOYANT_SHARE = 0.2
 """Share of the speed of free fall that buoyant flow has. Forecast: a guess, on which only the
 expected time depends."""
@@ -45,6 +48,8 @@ MOLTEN_PULSES = 8.0
 to 5."""
 MIN_LAYERS = 8
 """Rows of melt below which there is hardly a flow. Forecast: `lasersph check` says so."""
+FEWEST_ROWS = 2
+"""Rows of a boundary layer below which it is not resolved. Forecast: `lasersph check` says so."""
 SPEED_NODES = 65
 """Nodes of the means of viscosity and surface tension. Forecast: over the melt's temperatures."""
 DEPTH_MARGIN = 1.2
@@ -97,7 +102,45 @@ def flow_forecast(
     if case.surface_moves and has_gamma:
         gamma = float(material.surface_tension_at(T))
         limits |= surface_limits(gamma, density, nu, cutoff_of(spacing))
-    return FlowForecast(speed, layer, duration, limits, tuple(_warnings(layer, spacing)))
+    numbers = pool_numbers(case, heating, speed) if case.flow is None else {}
+    layers = {} if not numbers else boundary_layers(numbers, heating)
+    warnings = (*_warnings(layer, spacing), *_thin_layers(layers, spacing))
+    return FlowForecast(speed, layer, duration, limits, warnings, numbers, layers)
+
+
+def pool_numbers(case: Case, heating: MeltEstimate | None, speed: float) -> dict[str, float]:
+    """Re, Ma and Ca of the pool that light is expected to melt; empty where nothing melts.
+
+        Re = u d/nu,    Ma = |dgamma/dT| (T_max - T_l) d/(eta a),    Ca = eta u/gamma
+
+    with its depth d and the properties of the liquidus; Ca only of a metal with a gamma.
+    """
+    surface = None if heating is None else heating.surface
+    if surface is None or not surface.depth.any():
+        return {}
+    # depth and range of temperatures of the estimate
+    material, depth = case.material, float(surface.depth.max())
+    T = material.flow_temperature
+    hot = max(float(surface.temperature.max()) - T, 0.0)
+    eta, a = float(material.viscosity_at(T)), material.diffusivity_reference
+    numbers = {
+        "Re": reynolds_number(speed, depth, float(material.kinematic_viscosity_at(T))),
+        "Ma": abs(marangoni_number(_slope(case, T), hot, depth, eta, a)),
+    }
+    if material.surface_tension is not None:
+        numbers["Ca"] = eta * speed / float(material.surface_tension_at(T))
+    return numbers
+
+
+def boundary_layers(numbers: dict[str, float], heating: MeltEstimate | None) -> dict[str, float]:
+    """Thickness of the layers [m] in which velocity and temperature change, d/sqrt(Re) and
+    d/sqrt(Ma), at most the depth d itself."""
+    assert heating is not None and heating.surface is not None
+    depth = float(heating.surface.depth.max())
+    return {
+        "viscous layer": depth / sqrt(max(numbers["Re"], 1.0)),
+        "thermal layer": depth / sqrt(max(numbers["Ma"], 1.0)),
+    }
 
 
 def _pool_speed(case: Case, solver: MeltPoolSettings, surface: SurfaceHistory) -> float:
@@ -111,7 +154,7 @@ def _pool_speed(case: Case, solver: MeltPoolSettings, surface: SurfaceHistory) -
     T = np.linspace(cold, max(cold + 1.0, float(surface.temperature.max())), SPEED_NODES)
     nu = np.array([float(material.kinematic_viscosity_at(t)) for t in T])
     slope = np.array([_slope(case, t) if solver.marangoni else 0.0 for t in T])
-    return driven_speed(
+    drawn = driven_speed(
         surface,
         length=0.25 * _pattern_length(case),
         cold=cold,
@@ -121,6 +164,19 @@ def _pool_speed(case: Case, solver: MeltPoolSettings, surface: SurfaceHistory) -
         pressure=recoil if recoil is not None and case.surface_moves else np.zeros_like,
         confinement=BELOW_MOVING_SURFACE if case.surface_moves else BELOW_LID,
     )
+    stress = float(np.abs(slope).max()) * (T[-1] - cold) / (0.25 * _pattern_length(case))
+    crossing = crossing_speed(stress, 0.25 * _pattern_length(case), material.density_liquid, nu)
+    return min(drawn, crossing) if drawn > 0.0 else drawn
+
+
+def crossing_speed(stress: float, length: float, density: float, viscosity: Array) -> float:
+    """Speed that liquid has which a stress [Pa] draws over a length [m], on its way alone [m/s].
+
+    u = (2 tau/rho) sqrt(t/(pi nu)) with t = length/u, [(2 tau/rho)^2 length/(pi nu)]^(1/3): pools
+    of welds, which are much larger than the layer that viscosity reaches in that time.
+    """
+    nu = float(np.mean(viscosity))
+    return ((2.0 * stress / density) ** 2 * length / (pi * nu)) ** (1.0 / 3.0)
 
 
 def _pattern_length(case: Case) -> float:
@@ -235,6 +291,21 @@ def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
         f"{times:.2g} times as deep, and reach {format_quantity(layers.fine_depth, 'm', 3)}: the "
         f'run would stop; write {key} = "{format_quantity(DEPTH_MARGIN * times * gone, "m", 2)}"'
     )
+
+
+def _thin_layers(layers: dict[str, float], spacing: float) -> list[str]:
+    """Warnings of boundary layers that the spacing does not resolve, and what they spoil."""
+    spoiled = {
+        "viscous layer": "the speed of the surface",
+        "thermal layer": "the heat that the flow carries, and so depth and width",
+    }
+    return [
+        f"the {name} of the pool is about {format_quantity(thickness, 'm', 3)} thick, less than "
+        f"{FEWEST_ROWS} spacings of {format_quantity(spacing, 'm', 3)}: {spoiled[name]} will be "
+        "off; take a finer one"
+        for name, thickness in layers.items()
+        if thickness < FEWEST_ROWS * spacing
+    ]
 
 
 def _warnings(layer: float | None, spacing: float) -> list[str]:
