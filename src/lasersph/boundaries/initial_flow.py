@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
 from lasersph.analytic.taylor_green import TaylorGreen
-from lasersph.input import Length, Model, Velocity, read_rows, refusal
+from lasersph.input import Length, Model, Velocity, refusal
 
 Array = NDArray[np.float64]
 Box = tuple[tuple[float, float], tuple[float, float]]
@@ -58,6 +58,8 @@ class TabulatedFlow(Model):
     def _fill(cls, data: Any, info: ValidationInfo) -> Any:
         """Rows from the file, which counts from the folder of the case file."""
         if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("rows"):
+            from lasersph.input.csv_rows import read_rows  # few cases name a file
+
             folder = (info.context or {}).get("folder") or Path()
             return data | {
                 "rows": read_rows(Path(folder) / Path(data["path"]).expanduser(), COLUMNS)

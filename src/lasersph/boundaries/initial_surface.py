@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
-from lasersph.input import Length, Model, read_rows, refusal
+from lasersph.input import Length, Model, refusal
 
 Array = NDArray[np.float64]
 COLUMNS = ("x_m", "height_m")
@@ -45,6 +45,8 @@ class InitialSurface(Model):
     def _fill(cls, data: Any, info: ValidationInfo) -> Any:
         """Rows from the file, which counts from the folder of the case file."""
         if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("rows"):
+            from lasersph.input.csv_rows import read_rows  # few cases name a file
+
             folder = (info.context or {}).get("folder") or Path()
             file = Path(folder) / Path(data["path"]).expanduser()
             return data | {"rows": read_rows(file, COLUMNS)}

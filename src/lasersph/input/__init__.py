@@ -4,7 +4,6 @@ The only room that names pint.
 """
 
 from lasersph.input.build import build
-from lasersph.input.csv_rows import read_rows
 from lasersph.input.document import Document, parse_toml, read_toml
 from lasersph.input.errors import CaseError, Problem
 from lasersph.input.findings import dotted
@@ -107,7 +106,6 @@ __all__ = [
     "parse_quantity",
     "parse_toml",
     "quantity_kind",
-    "read_rows",
     "read_toml",
     "refusal",
 ]

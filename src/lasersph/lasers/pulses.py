@@ -25,7 +25,6 @@ from lasersph.input import (
     Model,
     Time,
     format_quantity,
-    read_rows,
     refusal,
 )
 
@@ -271,6 +270,8 @@ class TabulatedPulse(PulseTrain):
     def _fill(cls, data: Any, info: ValidationInfo) -> Any:
         """Rows from the file, which counts from the folder of the case file."""
         if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("table"):
+            from lasersph.input.csv_rows import read_rows  # few cases name a file
+
             folder = (info.context or {}).get("folder") or Path()
             file = Path(folder) / Path(data["path"]).expanduser()
             rows = read_rows(file, COLUMNS)

@@ -12,6 +12,7 @@ from lasersph.simulation.recipes.melt_pool.driven_speed import (
     BELOW_MOVING_SURFACE,
     driven_speed,
 )
+from lasersph.simulation.recipes.melt_pool.forecast import crossing_speed
 
 COMPUTED = {
     ("dlip-steel", ""): 6.006,  # docs/validation/dlip-steel.json, as the next four
@@ -84,3 +85,8 @@ def test_a_layer_under_a_steady_pressure():
     """4 d^2/(pi^2 nu) times the acceleration of a gradient of 1e9 Pa/m over 1000 kg/m^3."""
     pushed = steady(2e-7, pressure=lambda T: 10.0 * T)
     assert pushed == pytest.approx(1e6 * 4.0 * 1e-14 / (np.pi**2 * 1e-6), rel=1e-2)
+
+
+def test_speed_on_the_way_across():
+    """2 tau/rho = 2 m^2/s^2, 2 m, pi nu = 1 m^2/s: the cube root of 8."""
+    assert crossing_speed(1.0, 2.0, 1.0, np.full(3, 1.0 / np.pi)) == pytest.approx(2.0)

@@ -28,7 +28,7 @@ LAYERS = {
     "pulsed-heating": (800, 800, 800),
     "sound-wave": (100, 100, 100),
     "spot-steel": (39, 23, 13225),
-    "spot-weld": (55, 36, 7605),
+    "spot-weld": (50, 34, 4857),
     "stefan": (200, 200, 200),
     "taylor-green": (50, 50, 2500),
     "texture-aluminium": (73, 31, 2799),
@@ -183,3 +183,21 @@ def test_layers_too_shallow_for_what_evaporates():
     assert (gone[1] - gone[0]) / (2.5 * exact.time) == pytest.approx(0.989 * exact.speed, rel=0.01)
     assert 'the run would stop; write domain.depth = "656 nm"' in said[1]
     assert "evaporate" not in said[2]
+
+
+def test_numbers_and_layers_of_a_pool() -> None:
+    """Steel in a spot: layers d/sqrt(Re) and d/sqrt(Ma) of its depth, no thicker than that."""
+    found = forecast(load_case("spot-weld"))
+    flow = found.flow
+    assert flow is not None
+    assert set(flow.numbers) == {"Re", "Ma", "Ca"}
+    depth = flow.layers["viscous layer"] * flow.numbers["Re"] ** 0.5
+    assert flow.layers["thermal layer"] == pytest.approx(depth / flow.numbers["Ma"] ** 0.5)
+    assert "numbers of the pool    Re" in str(found)
+    assert any("the speed of the surface will be off" in text for text in found.warnings)
+    # slow flow has no boundary layer, and metal that does not melt no pool
+    slow = forecast(load_case("spot-steel")).flow
+    cold = forecast(load_case("spot-steel", ["laser.fluence=0.1 J/cm^2"])).flow
+    assert slow is not None and slow.numbers["Re"] < 1.0
+    assert not any("viscous layer" in text for text in slow.warnings)
+    assert cold is not None and cold.numbers == {} and cold.layers == {}
