@@ -20,6 +20,7 @@ MELT = (
     "liquid = { value = '30 W/(m K)' } }"
 )
 VARIANTS = {
+    "same": ("the same inputs", ()),
     "heat": ("heat alone, no flow", ("solver.kind=conduction",)),
     "iron": ("slope of pure iron, -0.43 mN/(m K)", (f"material.surface_tension={IRON} }}",)),
     "sulfur": (
@@ -41,20 +42,27 @@ VARIANTS = {
 def compare(study: Study) -> None:
     """Judge width, depth and begin of melting; show what other inputs change."""
     table, runs = study.table(), {}
-    spacing = f"particles.spacing={study.plan.spacing_um} um"
+    spacing = study.plan.spacing_um
     # absorbed power: the absorbed energy over the time of the pulse
     for k, energy in enumerate(table["energy_J"]):
         if energy not in study.plan.energies_J:
             continue
         power = 1e3 * table["absorbed_J"][k] / DURATION
-        runs[energy] = one = study.run(f"{energy}J", spacing, f"laser.power={power:.6g} W")
+        runs[energy] = one = study.run(
+            f"{energy}J-{spacing}um",
+            f"particles.spacing={spacing} um",
+            f"laser.power={power:.6g} W",
+        )
         melt = one.summary["melt"]
         study.add("width", 1e6 * melt["width_max_m"], table["width_um"][k], energy=energy)
         study.add("depth", 1e6 * melt["depth_max_m"], table["depth_um"][k], energy=energy)
         study.add("onset", 1e3 * melt["start_any_s"], table["onset_ms"][k], energy=energy)
+    # other inputs, beside the same ones at their spacing
+    spacing = study.plan.variant_spacing_um
     for name in study.plan.variants:
         title, settings = VARIANTS[name]
-        one = study.run(name, spacing, *settings)
+        title = f"{spacing} um, {title}"
+        one = study.run(name, f"particles.spacing={spacing} um", *settings)
         melt = one.summary["melt"]
         study.add("variant_width", 1e6 * melt["width_max_m"], judge=False, variant=title)
         study.add("variant_depth", 1e6 * melt["depth_max_m"], judge=False, variant=title)
