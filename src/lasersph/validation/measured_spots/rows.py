@@ -10,11 +10,8 @@ from lasersph.validation.study import Study
 
 DURATION = 10.0
 """Of the pulses [ms]."""
-IRON = "{ polynomial = [2.72087, -4.3e-4], scale = '1 N/m'"
-SULFUR = (
-    ", adsorption = { saturation = '1.3e-5 mol/m^2', segregation = 3.18e-3, "
-    "enthalpy = '-166 kJ/mol', source = '[Sahoo1988]' }"
-)
+IRON = "material.surface_tension_slope="
+"""Leaves the slope to the metal, pure iron with the sulfur that is given."""
 MELT = (
     "{ solid = { polynomial = [9.248, 0.01571], scale = '1 W/(m K)' }, "
     "liquid = { value = '30 W/(m K)' } }"
@@ -22,11 +19,8 @@ MELT = (
 VARIANTS = {
     "same": ("the same inputs", ()),
     "heat": ("heat alone, no flow", ("solver.kind=conduction",)),
-    "iron": ("slope of pure iron, -0.43 mN/(m K)", (f"material.surface_tension={IRON} }}",)),
-    "sulfur": (
-        "iron with 20 ppm of sulfur",
-        (f"material.surface_tension={IRON}{SULFUR} }}", "material.sulfur=0.002 %"),
-    ),
+    "iron": ("slope of pure iron, -0.43 mN/(m K)", (IRON,)),
+    "sulfur": ("iron with 20 ppm of sulfur", (IRON, "material.sulfur=0.002 %")),
     "conductivity": (
         "melt that conducts 30 W/(m K) instead of 18 to 20",
         (f"material.conductivity={MELT}",),

@@ -134,13 +134,11 @@ def pool_numbers(case: Case, heating: MeltEstimate | None, speed: float) -> dict
 
 def boundary_layers(numbers: dict[str, float], heating: MeltEstimate | None) -> dict[str, float]:
     """Thickness of the layers [m] in which velocity and temperature change, d/sqrt(Re) and
-    d/sqrt(Ma), at most the depth d itself."""
+    d/sqrt(Ma), where they are thinner than the pool, whose depth is d."""
     assert heating is not None and heating.surface is not None
     depth = float(heating.surface.depth.max())
-    return {
-        "viscous layer": depth / sqrt(max(numbers["Re"], 1.0)),
-        "thermal layer": depth / sqrt(max(numbers["Ma"], 1.0)),
-    }
+    found = {"viscous layer": numbers["Re"], "thermal layer": numbers["Ma"]}
+    return {name: depth / sqrt(number) for name, number in found.items() if number > 1.0}
 
 
 def _pool_speed(case: Case, solver: MeltPoolSettings, surface: SurfaceHistory) -> float:
