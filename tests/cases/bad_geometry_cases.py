@@ -27,6 +27,11 @@ BAD_GEOMETRY_CASES = {
         'kind = "melt-pool"\ngeometry = "axisymmetric"\nflow = { surface = "moving" }',
         ':23: solver.flow.surface: "moving" is computed in "planar" blocks so far; write surface = "flat" in a section (r, z)',
     ),
+    "published pressure of a section": (
+        'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
+        'kind = "melt-pool"\ngeometry = "axisymmetric"\npressure = "published"',
+        ':23: solver.pressure: "published" is the matrix of a plane; leave it out in a section (r, z)',
+    ),
     "section of a box": (
         'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
         'kind = "melt-pool"\nphase_change = false\ngeometry = "axisymmetric"\nflow = { bottom = "no-slip" }',

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lasersph.case.solver_choice import moves_matter
+from lasersph.case.solver_choice import computes_flow, moves_matter
 from lasersph.input import format_quantity
 from lasersph.lasers import Laser
 from lasersph.lasers.rings import ellipticity, round_light
@@ -41,6 +41,11 @@ def section_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
         yield (
             "solver.flow",
             'boxes of liquid are "planar" so far; leave [solver.flow] or geometry out',
+        )
+    if computes_flow(case.solver) and case.solver.pressure == "published":
+        yield (
+            "solver.pressure",
+            '"published" is the matrix of a plane; leave it out in a section (r, z)',
         )
     yield from _block(case)
     if case.laser is not None:
