@@ -31,17 +31,6 @@ def section_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
             'matter that moves is computed in "planar" blocks; leave it out, or write kind = '
             '"melt-pool" or "conduction"',
         )
-    if case.surface_moves:
-        yield (
-            "solver.flow.surface",
-            '"moving" is computed in "planar" blocks so far; write surface = "flat" in a section '
-            "(r, z)",
-        )
-    elif case.flow is not None:
-        yield (
-            "solver.flow",
-            'boxes of liquid are "planar" so far; leave [solver.flow] or geometry out',
-        )
     if computes_flow(case.solver) and case.solver.pressure == "published":
         yield (
             "solver.pressure",

@@ -13,6 +13,7 @@ from math import floor
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
@@ -73,6 +74,42 @@ def product(a, b):
 def lies_at_surface(depth, V, spacing):
     """1 for a particle of the uppermost row, as high as it is and at most one spacing, else 0."""
     return 1.0 if depth * spacing < min(V, spacing * spacing) else 0.0
+
+
+class OwnColumns:
+    """Columns whose particles keep to them, and of which one particle each lies at the surface.
+
+    Args:
+        rows: numbers of the particles at the surface, by column. area: (n,) of their columns seen
+            from above [m^(d-1)], 0 of all others.
+
+    Attributes:
+        area: (n,) true one of the surface [m^(d-1)].
+    """
+
+    def __init__(self, backend: Backend, rows: NDArray[np.int64], area: Array) -> None:
+        self.backend, self.count = backend, rows.size
+        self.rows: Rows = backend.asarray(rows, "index")
+        self._from_above, self.area = area, backend.zeros(area.shape[0])
+        self._length_ratio = backend.asarray(np.ones(rows.size))
+        self._mean = backend.zeros(rows.size)
+        self.incline(self._length_ratio)
+
+    def incline(self, length_ratio: Array) -> None:
+        """Take the true length of the surface over that seen from above, (columns,)."""
+        self._length_ratio = length_ratio
+        fields = {"a": self.backend.head(self._from_above, self.count), "b": length_ratio}
+        self.backend.pointwise(product, fields, self.backend.head(self.area, self.count))
+
+    def mean(self, values: Array) -> Array:
+        """(columns,) of a field (n,) at the surface."""
+        return self.backend.head(values, self.count)
+
+    def mean_from_above(self, flux: Array) -> Array:
+        """(columns,) flux (n,) through the surface, per area that is seen from above."""
+        fields = {"a": self.mean(flux), "b": self._length_ratio}
+        self.backend.pointwise(product, fields, self._mean)
+        return self._mean
 
 
 class SurfaceColumns:

@@ -14,7 +14,7 @@ from lasersph.physics.knudsen_layer import outflow_tables
 from lasersph.physics.losses import evaporation_loss, surface_loss
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.step_control import StepFailed
-from lasersph.surface.columns import SurfaceColumns
+from lasersph.surface.columns import OwnColumns, SurfaceColumns
 
 
 def surface_power(T, area, surroundings):
@@ -59,7 +59,7 @@ class SurfaceExchange:
         self.power, self.slope, self.mass_flux = (backend.zeros(count) for _ in range(3))
         self._lattice = backend.asarray(body.filling.surface, "index"), body.area
         self.rows, self.area = self._lattice
-        self._columns: SurfaceColumns | None = None
+        self._columns: SurfaceColumns | OwnColumns | None = None
 
         # what losses depend on: surroundings, and the vapor's curves where it evaporates
         self._tables = {"surroundings": backend.asarray(body.surroundings.table)}
@@ -77,7 +77,7 @@ class SurfaceExchange:
         self._set_surface(*self._lattice)
         self._columns = None
 
-    def use_columns(self, columns: SurfaceColumns) -> None:
+    def use_columns(self, columns: SurfaceColumns | OwnColumns) -> None:
         """Let the surface be that of the particles that lie at it now (2-D)."""
         self._set_surface(columns.rows, columns.area)
         self._columns = columns

@@ -69,7 +69,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         if isinstance(surface := solver.domain.surface, MovingSurface):
             line = surface.line
             fields["relief"] = Relief(line.centers(), line.height.copy(), line.ends[0][0])
-            fields["volume"] = fetch(solver.particles["volume"])
+            fields["volume"] = fetch(solver.flow.volume)
         return View(**fields, evaporated=self.evaporated(solver))
 
     def observers(self, iterations: Sequence[str]) -> Observers:
