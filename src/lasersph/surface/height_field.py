@@ -73,7 +73,7 @@ class HeightField:
     Args:
         start: lower end of each axis [m]. widths: of a column [m]. ends: how the field goes on at
             both ends of each axis. cutoff: lambda_c, the length of waves half of whose height
-            counts for slope and curvature [m]. is_axisymmetric: whether columns are rings, and places
+            counts for slope and curvature [m]. is_axisymmetric: whether columns are rings, at
             distances from their axis.
 
     Attributes:

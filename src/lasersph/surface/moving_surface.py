@@ -298,7 +298,7 @@ class MovingSurface(Surface):
             return 0.0
         density, spacing = self.liquid.particle_density, self.spacing
         lost, gone = self.loss.lost, self.loss.followed / density
-        return take_mass(self.backend, now, self.depth, line, lost, gone, spacing, density)
+        return take_mass(self.backend, now, self.depth, self.line, lost, gone, spacing, density)
 
     def _go_halfway(self, now: SurfaceStep, loss_share: float) -> None:
         """Move the line by what flows in half of a step, and by a share of what leaves in it."""
