@@ -16,6 +16,13 @@ if TYPE_CHECKING:
 ROUND = 0.87
 """Smaller over larger width of a beam that counts as round. Source: [ISO11146-1]."""
 
+WAVES = {
+    "temperature": "write surface_temperature_bump instead",
+    "pressure": "write surface_pressure_bump instead",
+    "mass_flux": "leave it out",
+}
+"""Drives along x, and what to write instead of them along r."""
+
 
 def section_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that a section (r, z) cannot have."""
@@ -55,10 +62,18 @@ def _block(case: CaseContents) -> Iterator[tuple[str, str]]:
     for key in ("right", "sides"):
         if getattr(boundaries, key) == "periodic":
             yield f"boundaries.{key}", f'nothing repeats along r; write {key} = "adiabatic"'
-    if boundaries.surface_temperature_wave is not None:
+    # Waves along x; what is imposed on a section is a bump, and so is what it starts from.
+    for what, right in WAVES.items():
+        key = f"surface_{what}_wave"
+        if getattr(boundaries, key) is not None:
+            yield (
+                f"boundaries.{key}",
+                f"has a period along x, and nothing repeats along r; {right}",
+            )
+    if case.initial_surface is not None and case.initial_surface.period is not None:
         yield (
-            "boundaries.surface_temperature_wave",
-            "has a period along x, and nothing repeats along r; leave it out",
+            "solver.flow.initial_surface.period",
+            "is along x, and nothing repeats along r; write the radius of a bump instead",
         )
 
 

@@ -104,7 +104,7 @@ class SurfaceStress:
         T = line.smooth(T)
         if (given := forcing.temperature) is not None:
             T = np.full(x.size, given.mean)
-            T = T if given.wave is None else T + given.wave.mean_over(x, *interval)
+            T = T if given.drive is None else T + given.drive.mean_over(x, *interval)
 
         # tau = d gamma/ds
         tau: HostArray | float = 0.0
@@ -115,8 +115,8 @@ class SurfaceStress:
         tension = liquid.material.surface_tension_at(T)
         viscosity = liquid.viscosity * liquid.relative_viscosity_at(T)
         pressure = tension * line.curvature + normal_stress(viscosity, along)
-        if (wave := forcing.pressure) is not None:
-            pressure = pressure + wave.mean_over(x, *interval)
+        if (drive := forcing.pressure) is not None:
+            pressure = pressure + drive.mean_over(x, *interval)
         if forcing.recoil is not None:
             pressure = pressure + forcing.recoil(T)
         found = StressAlong(

@@ -201,8 +201,8 @@ class FaceConditions:
             rules.wall_temperature[mine] = self.boundaries.temperature_of(
                 face, self.initial_temperature
             )
-            wave = self.boundaries.surface_temperature_wave
-            rules.varies[mine] = face == SURFACE and wave is not None
+            drive = self.boundaries.temperature_drive
+            rules.varies[mine] = face == SURFACE and drive is not None
         elif kind == NEUMANN:
             mine = types & (rules.heat_face == 0.0)
             rules.flux[mine] = self.boundaries.flux_of(face)

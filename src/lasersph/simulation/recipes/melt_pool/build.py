@@ -89,7 +89,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             has_stress=settings.marangoni,
             forcing=SurfaceForcing(
                 _given_temperature(case),
-                case.boundaries.surface_pressure_wave,
+                case.boundaries.pressure_drive,
                 case.boundaries.surface_mass_flux_wave,
                 recoil_of(case),
             ),
@@ -164,7 +164,8 @@ def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> Heigh
     start = case.initial_surface
     # Heights at the start; at walls the ends of the line stay where they are.
     if start is not None:
-        line.height = start.at(line.centers(), width)
+        is_ring = case.geometry.is_axisymmetric
+        line.height = start.at(line.centers(), width, is_ring=is_ring)
         low, high = (float(start.at(np.array(end))) for end in x)
         line.pins = ((low, high),)
     return line
@@ -178,7 +179,8 @@ def _raise_particles(case: Case, body: Body, static: StaticParticleData, line: H
     count, depth = body.count, case.domain.depth
     # Columns become longer in proportion, so that volume and mass do with them.
     x, z = body.filling.position[:, :count]
-    length_ratio = 1.0 + start.at(x, line.widths[0]) / depth
+    is_ring = case.geometry.is_axisymmetric
+    length_ratio = 1.0 + start.at(x, line.widths[0], is_ring=is_ring) / depth
     z[:] = length_ratio * (z + depth) - depth
     static.volume[:] *= length_ratio
     body.particles.set("mass", body.backend.to_host(body.particles["mass"]) * length_ratio)
@@ -216,4 +218,4 @@ def _given_temperature(case: Case) -> ImposedTemperature | None:
     if case.boundaries.kind_of("surface") not in DIRICHLET:
         return None
     mean = case.boundaries.temperature_of("surface", case.initial_temperature)
-    return ImposedTemperature(mean, case.boundaries.surface_temperature_wave)
+    return ImposedTemperature(mean, case.boundaries.temperature_drive)
