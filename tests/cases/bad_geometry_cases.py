@@ -23,20 +23,20 @@ BAD_GEOMETRY_CASES = {
         "dimensions = 3",
         ':23: solver.geometry: "axisymmetric" is a section (r, z), not 3-D; write dimensions = 2',
     ),
-    "section of a surface that moves": (
-        'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
-        'kind = "melt-pool"\ngeometry = "axisymmetric"\nflow = { surface = "moving" }',
-        ':23: solver.flow.surface: "moving" is computed in "planar" blocks so far; write surface = "flat" in a section (r, z)',
-    ),
     "published pressure of a section": (
         'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
         'kind = "melt-pool"\ngeometry = "axisymmetric"\npressure = "published"',
         ':23: solver.pressure: "published" is the matrix of a plane; leave it out in a section (r, z)',
     ),
-    "section of a box": (
+    "wall on the axis of a box": (
         'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
-        'kind = "melt-pool"\nphase_change = false\ngeometry = "axisymmetric"\nflow = { bottom = "no-slip" }',
-        ':24: solver.flow: boxes of liquid are "planar" so far; leave [solver.flow] or geometry out',
+        'kind = "melt-pool"\nphase_change = false\ngeometry = "axisymmetric"\nflow = { left = "free-slip" }',
+        ":24: solver.flow.left: the left side of a section (r, z) is its axis; leave it out",
+    ),
+    "flow of a plane around an axis": (
+        'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
+        'kind = "melt-pool"\nphase_change = false\ngeometry = "axisymmetric"\nflow = { initial = { kind = "taylor-green", speed = "1 m/s" } }',
+        ":24: solver.flow.initial: is the flow of a plane; leave it out in a section (r, z), which starts at rest",
     ),
     "section of ablation": (
         'kind = "conduction"\ndimensions = 2',

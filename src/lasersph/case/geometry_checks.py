@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from lasersph.boundaries.flow_conditions import AT_REST, FlowConditions, RestingFlow
 from lasersph.case.solver_choice import computes_flow, moves_matter
 from lasersph.input import format_quantity
 from lasersph.lasers import Laser
@@ -44,6 +45,8 @@ def section_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
             '"published" is the matrix of a plane; leave it out in a section (r, z)',
         )
     yield from _block(case)
+    if case.flow is not None:
+        yield from _box(case.flow)
     if case.laser is not None:
         yield from _light(case, case.laser)
 
@@ -74,6 +77,17 @@ def _block(case: CaseContents) -> Iterator[tuple[str, str]]:
         yield (
             "solver.flow.initial_surface.period",
             "is along x, and nothing repeats along r; write the radius of a bump instead",
+        )
+
+
+def _box(flow: FlowConditions) -> Iterator[tuple[str, str]]:
+    """What holds in a box that is all fluid, but not around an axis."""
+    if flow.left != AT_REST:
+        yield "solver.flow.left", "the left side of a section (r, z) is its axis; leave it out"
+    if flow.initial != RestingFlow():
+        yield (
+            "solver.flow.initial",
+            "is the flow of a plane; leave it out in a section (r, z), which starts at rest",
         )
 
 

@@ -27,6 +27,7 @@ LAYERS = {
     "natural-convection": (40, 40, 1600),
     "pulsed-heating": (800, 800, 800),
     "sound-wave": (100, 100, 100),
+    "spot-film": (14, 14, 4200),
     "spot-steel": (39, 23, 13225),
     "spot-weld": (50, 34, 4857),
     "stefan": (200, 200, 200),
