@@ -78,7 +78,7 @@ def cap(study: Study) -> None:
     study.add("pressure", pressure, wanted, **place)
     speed = float(np.max(np.linalg.norm(last["velocity"], axis=0)))
     study.add("spurious", film.viscosity * speed / film.surface_tension, **place)
-    r, found = heights(one, np.array([last.time]))
+    r, found = heights(one, np.array([1e-9 * plan["end"]]))
     volume = 2.0 * np.pi * float(np.sum(r * found[0])) * (r[1] - r[0])
     exact_volume = np.pi * h / 6.0 * (3.0 * R_0**2 + h**2)
     study.add("volume", abs(volume / exact_volume - 1.0), **place)
@@ -118,9 +118,7 @@ def heights(one: Run, times: Array) -> tuple[Array, Array]:
     return lines[0][0], np.array([line[1] for line in lines])
 
 
-def panel(
-    title: str, r: Array, times: Array, found: Array, wanted: Array, reach: float
-) -> Panel:
+def panel(title: str, r: Array, times: Array, found: Array, wanted: Array, reach: float) -> Panel:
     """Profiles over r out to `reach` [m]."""
     near, curves = r < reach, []
     for k, time in enumerate(times):

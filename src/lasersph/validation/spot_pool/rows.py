@@ -28,7 +28,9 @@ def compare(study: Study) -> None:
     runs = {}
     for spacing in study.plan.spacings_nm:
         label = f"{spacing}nm"
-        runs[spacing] = one = study.run(label, *study.plan.settings, f"particles.spacing={spacing} nm")
+        runs[spacing] = one = study.run(
+            label, *study.plan.settings, f"particles.spacing={spacing} nm"
+        )
         add_rows(study, spacing, one, judge=spacing == study.plan.judged_nm)
     # the error of the step, of the judged run
     spacing = study.plan.judged_nm
