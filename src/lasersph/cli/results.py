@@ -66,6 +66,7 @@ def info(folder: RunFolder) -> None:
         rows = summary_rows(found.summary, found.uncertainty)
         _print_tables([rows[0], *light, *rows[1:]], _curves(found))
         _print_warnings(warning_texts(found.summary, found.events))
+        _print_note_on_older(found)
         print(f"{folder}: complete")
         return
     # One that is not has come to some time of its end.
@@ -75,6 +76,7 @@ def info(folder: RunFolder) -> None:
     known = [("case", found.case["title"]), *light, ("history", f"up to {now} of {end}")]
     _print_tables(known, _curves(found))
     _print_warnings(warning_texts(None, found.events))
+    _print_note_on_older(found)
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
 
 
@@ -88,6 +90,11 @@ def _print_tables(numbers: list[tuple[str, str]], curves: list[tuple[str, str]])
 def _print_warnings(texts: Sequence[str]) -> None:
     for text in texts:
         print(f"warning: {text}")
+
+
+def _print_note_on_older(run: Run) -> None:
+    if run.note_on_older is not None:
+        print(f"note: {run.note_on_older}")
 
 
 def _curves(run: Run) -> list[tuple[str, str]]:

@@ -102,8 +102,8 @@ class MeltPool(Observer):
     note = (
         "Depth: below the original surface, interpolated between cells. Width: full width of one"
         " pool at the surface, in whole cells, at f_m = 0.5 interpolated between them. Area: of the"
-        " surface, both halves where one is computed. Volume: of all cells, each with its melt"
-        " fraction."
+        " surface. Volume: of all cells, each with its melt fraction. Of half a period, half or a"
+        " quarter of a spot all of them are those of the whole."
     )
     columns = (*DEPTHS, *WIDTHS, *AREAS, VOLUME)
     results = (
@@ -273,14 +273,14 @@ def pool_width(view: View, least: float) -> float:
 
 
 def pool_area(view: View, fraction: np.ndarray, least: float) -> float:
-    """Area of the surface cells that are fluid [m^2], twice that of half a period.
+    """Area of the surface cells that are fluid [m^2], of the whole where a part is computed.
 
     Args:
         view: the state in 3-D. fraction: (n,) melt fractions. least: as of `pool_width`.
     """
     cells = view.surface[is_fluid(fraction[view.surface], least)]
     area = view.width[0, cells] * view.width[1, cells]
-    return view.symmetry_factor * float(np.sum(area))
+    return view.mirror_images * float(np.sum(area))
 
 
 def cell_edges(view: View, row: np.ndarray) -> np.ndarray:

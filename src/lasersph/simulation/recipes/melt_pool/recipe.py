@@ -49,7 +49,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         heat = self.build_heat(backend, settings)
         return with_flow(self.case, self.settings, self.layers, heat)
 
-    def view(self, solver: MeltPool, step: int, limit: str) -> View:
+    def computed_view(self, solver: MeltPool, step: int, limit: str) -> View:
         """The state for observers: arrays where they lie, those of a closed box as copies, whose
         observer looks at some states later than the step after which it is shown them."""
         backend = solver.backend
@@ -70,7 +70,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             line = surface.line
             fields["relief"] = Relief(line.centers(), line.height.copy(), line.ends[0][0])
             fields["volume"] = fetch(solver.particles["volume"])
-        return View(**fields, evaporated=self.evaporated(solver))
+        return View(**fields, **self.evaporated(solver))
 
     def observers(self, iterations: Sequence[str]) -> Observers:
         """Observers of a flow; a box has no pool, but center lines and heat through its walls."""
