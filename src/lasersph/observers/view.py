@@ -122,6 +122,7 @@ def of_whole(view: View, images: int) -> View:
         energy={name: images * value for name, value in view.energy.items()},
         ablation=ablation,
         flow=flow,
+        relief=None if view.relief is None else replace(view.relief, mirror_images=images),
     )
 
 

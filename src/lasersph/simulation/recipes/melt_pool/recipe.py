@@ -68,7 +68,12 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             fields["melt_fraction"] = np.ones(solver.particle_count)
         if isinstance(surface := solver.domain.surface, MovingSurface):
             line = surface.line
-            fields["relief"] = Relief(line.centers(), line.height.copy(), line.ends[0][0])
+            fields["relief"] = Relief(
+                line.centers(),
+                line.height.copy(),
+                line.ends[0][0],
+                is_section=self.case.geometry.is_axisymmetric,
+            )
             fields["volume"] = fetch(solver.particles["volume"])
         return View(**fields, **self.evaporated(solver))
 
@@ -100,7 +105,8 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         (x,) = self.case.domain.lateral(self.case.geometry)
         halves = 0.0 if period is None else 2.0 * (x[1] - x[0]) / period
         is_whole = halves > 0.5 and abs(halves - round(halves)) <= WHOLE * halves
-        return Topography(period if is_whole else None)
+        is_section = self.case.geometry.is_axisymmetric
+        return Topography(period if is_whole else None, is_section=is_section)
 
     def products_of(self, stage: str) -> float:
         """Cost of a step, see `RunStage`."""
