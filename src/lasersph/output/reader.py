@@ -86,6 +86,11 @@ class Run:
         half; else 1."""
         return 2 if is_mirrored(self.case) else 1
 
+    @property
+    def across(self) -> str:
+        """Letter of the first axis for labels: r in a section (r, z), else x."""
+        return "r" if is_axisymmetric(self.case) else "x"
+
     @cached_property
     def case_text(self) -> str:
         """The case file as given."""

@@ -109,7 +109,8 @@ def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -
     # A key of a time, or the letter of an axis before _m.
     if key.endswith("_s"):
         return moment(summary, value, typographic=typographic)
-    return f"{key[-3]} = {format_quantity(value, 'm', typographic=typographic)}"
+    letter = "r" if is_section(summary) and key[-3] == "x" else key[-3]
+    return f"{letter} = {format_quantity(value, 'm', typographic=typographic)}"
 
 
 def main_results(summary: dict[str, Any]) -> list[tuple[Quantity, Any]]:
