@@ -358,16 +358,19 @@ def test_notes(folder):
     notes = note_texts(summary)
     assert any("8 nm was rounded to 8.0128 nm" in text for text in notes)
     assert any("still fluid" in text for text in warning_texts(summary, []))
-    assert any("energies are those of this half" in text for text in notes)
-    whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
-    assert not any("of the half" in text for text in note_texts(whole))
+    assert any("Only half of what is symmetric was computed" in text for text in notes)
+    quarter = note_texts(summary | {"mirror_images": 4})
+    assert any("Only a quarter of what is symmetric was computed" in text for text in quarter)
+    assert not any("was computed" in text for text in note_texts(summary | {"mirror_images": 1}))
 
 
-def test_terminal_says_of_what_half_its_energies_are(folder):
+def test_terminal_says_that_particles_are_of_a_part(folder):
     """Beside the number of particles; a whole domain says nothing."""
     summary = open_run(folder).summary
-    assert "as are volumes and energies" in dict(summary_rows(summary))["particles"]
-    whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
+    assert dict(summary_rows(summary))["particles"].endswith(" in one half")
+    quarter = summary | {"mirror_images": 4}
+    assert dict(summary_rows(quarter))["particles"].endswith(" in one quarter")
+    whole = summary | {"mirror_images": 1}
     assert dict(summary_rows(whole))["particles"] == str(summary["particles"])
 
 

@@ -34,8 +34,8 @@ def compare(study: Study) -> None:
         add_rows(study, spacing, one, judge=spacing == study.plan.judged_nm)
     # the error of the step, of the judged run
     spacing = study.plan.judged_nm
-    settings = (*study.plan.settings, f"particles.spacing={spacing} nm", "time.step=25 ps")
-    half = study.run(f"{spacing}nm-half", *settings)
+    settings = (*study.plan.settings, f"particles.spacing={spacing} nm")
+    half = study.run(f"{spacing}nm-half", *settings, "time.step=25 ps")
     change = speed_of(half) / speed_of(runs[spacing]) - 1.0
     study.add("half_step", abs(change), spacing=spacing)
     draw(study, runs)

@@ -94,7 +94,7 @@ def test_step_of_a_ring():
 
 
 def test_step_of_a_ring_that_grows():
-    """From 1 to 2 m^3, by what flows in: with the same h and v nothing changes but what they fill."""
+    """From 1 to 2 m^3, by what flows in: the same h and v fill more."""
     share = after_transport(-20.0, -2.0 * UP, 10.0, UP, 2.0, 0.5, 4.0, 0.5)
     assert share[0] == 10.0
     assert share[1] == pytest.approx(UP)
