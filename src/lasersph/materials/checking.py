@@ -212,7 +212,7 @@ def _phase_change(material: Material) -> list[Finding]:
     if vapor is not None and vapor.critical_temperature is not None:
         ratio = vapor.critical_temperature / vapor.temperature
         level = "ok" if 1.8 <= ratio <= 4.0 else "warning"
-        text = f"{ratio:.2f} times the boiling temperature (metals: 2 to 3.5)"
+        text = f"{ratio:.2f} times the boiling temperature (metals: 1.8 to 4)"
         found.append(Finding(level, "critical_temperature", text))
     return found
 

@@ -229,7 +229,7 @@ def test_end_of_the_run_is_no_end_of_the_melt(folder):
         ("Inconel 718, temperature-dependent", "Inconel 718"),
         ("AISI 304 stainless steel", "AISI 304 stainless steel"),
         ("Pure copper, temperature-dependent", "pure copper"),
-        ("High-purity aluminium (Demuth & Lasagni 2020, Table 3)", "high-purity aluminium"),
+        ("High-purity aluminum (Demuth & Lasagni 2020, Table 3)", "high-purity aluminum"),
     ],
 )
 def test_names_of_metals_inside_a_sentence(folder, title, name):
