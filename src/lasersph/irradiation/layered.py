@@ -124,6 +124,9 @@ class LayeredLight:
         self._entering: dict[str, Any] = {"R_T": R_T, "R_R": R_R, "beyond": beyond}
         self._area = backend.asarray(self.surface_area)
         self.fluence, self.columns = backend.zeros(surface.size), backend.zeros(surface.size)
+        # temperatures of the surface are those of the first particles but for coarse columns
+        self._over = backend.asarray(surface, "index") if filling.beside is not None else None
+        self._T_s = backend.zeros(surface.size)
         self._surface: SurfaceColumns | None = None
         self._moving: dict[str, Array] = {}
         # particles move in 2-D, and only light that goes deep needs cells
@@ -271,6 +274,9 @@ class LayeredLight:
             self.backend.fill(self.deposit, 0.0)
             return 0.0
         T_s, shares = temperature, self._lattice
+        if self._over is not None:
+            T_s = self._T_s
+            self.backend.gather(temperature, self._over, T_s)
         # R depends on T: the mean of the particles at the surface now
         if self._varies and self._surface is not None:
             T_s = self._surface.mean(temperature)

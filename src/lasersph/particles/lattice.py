@@ -36,12 +36,18 @@ class Lattice(Model):
         description="depth of the layers of finest spacing (graded); default: the larger of the "
         "expected melt depth plus two support radii and the laser's absorption zone",
     )
+    fine_width: Size | None = Field(
+        default=None,
+        description="from the middle or the axis outward of the columns of finest spacing (graded "
+        "conduction in 2-D and 3-D); columns beside them grow like layers; default: all columns",
+    )
     coarsest: Size = Field(
-        default=1e-6, description="thickness at which layers stop growing (graded)"
+        default=1e-6, description="thickness at which layers and columns stop growing (graded)"
     )
     ratio: Annotated[float, Field(gt=0.5, lt=1.0)] = Field(
         default=7.0 / 9.0,
-        description="of the thickness of a layer to that of the one below (graded)",
+        description="of the thickness of a layer to that of the one below, and of the width of a "
+        "column to that of the next one outward (graded)",
     )
     kernel: KernelName = Field(
         default="quintic-spline", description="by which neighbors are weighted"

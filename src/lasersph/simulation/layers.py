@@ -38,7 +38,8 @@ def lay_out(case: Case, melt: Callable[[], MeltEstimate | None] | None = None) -
     fine = case.particles.fine_depth or 0.0
     if case.particles.arrangement == "graded" and not fine:
         fine = fine_depth(case, melt() if melt is not None else expected_melt(case))
-    return stack(case.domain, case.particles, case.geometry, fine)
+    width = case.particles.fine_width or np.inf
+    return stack(case.domain, case.particles, case.geometry, fine, width)
 
 
 def fine_depth(case: Case, melt: MeltEstimate | None) -> float:
