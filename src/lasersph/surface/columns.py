@@ -96,6 +96,17 @@ class SurfaceColumns:
         self._ends: list[tuple[Array, Array, NeighborList]] = []
         self._values = backend.zeros(0)
 
+    def keep(self, numbers: np.ndarray, area: Array) -> None:
+        """Let particles at the surface beside the columns, which rest, stand for their areas.
+
+        Args:
+            numbers: (k,) of them. area: (n,) of all on the lattice [m].
+        """
+        backend, rows = self.backend, self.backend.asarray(numbers, "index")
+        found = backend.zeros(numbers.size)
+        backend.gather(area, rows, found)
+        backend.scatter(found, rows, self.area)
+
     def find(self, position: Array, rows: Rows, length_ratio: Array | None = None) -> None:
         """Let the particles `rows` at their positions (2, n) [m] share the surface.
 

@@ -52,7 +52,8 @@ class Body:
             (n,) sums over the pairs with Dirichlet faces of weight times P_w and times T_w.
             wall_power: (n,) power of prescribed fluxes [W per (3 - d) lengths].
         area: (n,) exposed cross-section of surface particles [m^(d-1)], 0 for all others.
-        tables: nodes of the caloric curve as tables of the backend.
+        tables: nodes of the caloric curve as tables of the backend. free: (n,) 1 for particles
+            whose pairs may be found anew, 0 for coarse columns and what they touch; None for all.
     """
 
     backend: Backend
@@ -68,6 +69,7 @@ class Body:
     area: Array
     tables: dict[str, Array]
     surroundings: Surroundings
+    free: Array | None = None
 
     @property
     def count(self) -> int:
@@ -106,7 +108,11 @@ def assemble(
     row, neighbor, weights = pairs
     walls = walls_of(boundaries, curve, layers, filling, weights, row, neighbor)
     count = filling.count
+    free = None
     if crossing is not None:
+        is_free = np.arange(count) < filling.fine_count
+        is_free[crossing.row] = False
+        free = backend.asarray(is_free.astype(float))
         pairs = without_joined(filling, pairs, crossing)
         row, weights = pairs.row, pairs.weight
         neighbors = _listed(backend, weighing, filling, pairs)
@@ -143,6 +149,7 @@ def assemble(
         area=backend.asarray(area),
         tables={name: backend.asarray(nodes) for name, nodes in curve.tables.items()},
         surroundings=boundaries.surroundings(material, curve.initial_temperature),
+        free=free,
     )
     body.update_temperature()
     return body

@@ -57,7 +57,8 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         layers=layers.thickness.size,
         weighing=weighing,
     )
-    (x,) = case.domain.lateral(case.geometry)
+    # What flows stays among the fine columns.
+    (x,) = layers.fine_bounds
     box = (x, (-float(layers.thickness.sum()), 0.0))
     conditions = FaceConditions(box, case.boundaries, case.flow, case.initial_temperature)
 
@@ -66,7 +67,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     surface: Surface
     support = float(static.support.min())
     if case.surface_moves:
-        line = _surface_line(case, conditions, filling.surface.size)
+        line = _surface_line(case, conditions, filling.fine_surface)
         _raise_particles(case, body, static, line)
         surface = MovingSurface(
             backend,
@@ -127,6 +128,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         lambda T: wall_potential(curve, T),
         lambda T: wall_enthalpy(curve, T),
         body.particles["volume"],
+        body.free,
     )
     bodies = backend.asarray(filling.body_volume) if is_section else body.particles["volume"]
     terms = RINGS if is_section else PLANE
