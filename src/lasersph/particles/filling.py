@@ -237,16 +237,11 @@ def _coarse_dummies(
             continue
         # the array of cells has the layer first, the surface its upper end
         along = columns.array_axis(axis, dimension)
-        near = -end if axis < dimension - 1 else end - 1
-        cells = columns.number.take(near, axis=along)
-        source = columns.number.take(-1 - near, axis=along) if kinds[face] == PERIODIC else cells
-        cells, source = (
-            one[cells != NONE] - columns.first for one in (cells, source)
-        )
-        # as far beyond the face as the middle of its source is from its own
+        cells = columns.number.take(-end if axis < dimension - 1 else end - 1, axis=along)
+        cells = cells[cells != NONE] - columns.first
+        # mirrored
         place = position[:, cells].copy()
-        outward = 1.0 if end else -1.0
-        place[axis] += outward * 0.5 * (width[axis, cells] + width[axis, source])
+        place[axis] += (1.0 if end else -1.0) * width[axis, cells]
         number = layer[cells] if axis < dimension - 1 else np.full(cells.size, -1)
         if axis == dimension - 1 and not end:
             number = np.full(cells.size, total)
@@ -254,9 +249,9 @@ def _coarse_dummies(
         blocks.append(
             _block(
                 place,
-                width[:, source],
+                width[:, cells],
                 number,
-                columns.first + source,
+                columns.first + cells,
                 FACES.index(face) if is_given else 0,
             )
         )

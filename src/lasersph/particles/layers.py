@@ -97,6 +97,23 @@ class Layers:
         """z of the middle of each layer [m], below zero."""
         return 0.5 * self.thickness - np.cumsum(self.thickness)
 
+    def solid_margin(self, support_ratio: float) -> float:
+        """Width of solid beside what flows from which no pair reaches both it and a particle with
+        pairs that reach coarse columns [m].
+
+        Pairs between layers reach as far as the mean of both supports; what flows is in the finest
+        layers.
+
+        Args:
+            support_ratio: support radius over the thickness of a layer.
+        """
+        support = support_ratio * self.thickness
+        mean = 0.5 * (support + support[self.thickness.argmin()])
+        # layers that the lowest of the finest ones sees
+        lowest = self.center()[self.thickness <= self.spacing * (1.0 + 1e-9)][-1]
+        is_seen = np.abs(self.center() - lowest) < mean
+        return float((mean + support)[is_seen].max())
+
     def column_width(self) -> Array:
         """(dim - 1, layers) width of the cells [m]."""
         bounds = self.fine_bounds

@@ -168,9 +168,7 @@ def _taken(filling: Filling, columns: CoarseColumns, crossing: PairRows, axis: i
     first, last = np.searchsorted(edges, x, side="right"), np.searchsorted(edges, x, side="left")
     is_up = columns.centers[axis][c] > x
     low, high = np.where(is_up, first, c + 1), np.where(is_up, c, last - 1)
-    distance = np.abs(columns.centers[axis][c] - x)
-    # a pair across the faces of a period crosses none between
-    flux = 0.5 * crossing.weight * np.where(2.0 * distance < np.ptp(edges), distance, 0.0)
+    flux = 0.5 * crossing.weight * np.abs(columns.centers[axis][c] - x)
 
     # half of it on the line of the cell, and the rest where its faces lie beyond the fine columns
     shape = [size.size for size in columns.sizes]

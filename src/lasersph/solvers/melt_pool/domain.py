@@ -79,7 +79,7 @@ class PoolDomain:
         free: Array | None = None,
     ) -> None:
         self.backend, self.lattice, self._free = backend, lattice, free
-        self.layers, self._ends = layers.fine_only, fluid_ends(layers, lattice)
+        self.layers, self._ends = layers.fine_only, self._fluid_ends(layers)
         self.conditions, self.surface = conditions, surface
         self.potential, self.enthalpy = potential, enthalpy
         self.volume = volume
@@ -191,6 +191,20 @@ class PoolDomain:
         fields = {"mark": has_row, "free": self.backend.head(self._free, has_row.shape[0])}
         self.backend.pointwise(resting, fields, has_row)
 
+    def _fluid_ends(self, layers: Layers) -> tuple[float, float]:
+        """Ends along x within which what flows must stay [m], infinite where no columns are coarse.
+
+        A row whose pairs reach coarse columns stays as it is, so that it must not see what moves.
+        """
+        if not layers.beside:
+            return -np.inf, np.inf
+        (low, high), (below, above) = layers.fine_bounds[0], layers.beside[0]
+        margin = SKIN * layers.solid_margin(self.lattice.weighing.ratio)
+        return (
+            low + margin if below.size else -np.inf,
+            high - margin if above.size else np.inf,
+        )
+
     def _refuse_wide(self, position: Array, kinds: ParticleKinds) -> None:
         """Raise PoolTooWide where what flows comes close to coarse columns."""
         if self._free is None:
@@ -212,24 +226,3 @@ class PoolDomain:
             f'give particles.fine_width = "{1e9 * needed:.0f} nm" or more'
         )
 
-
-def fluid_ends(layers: Layers, lattice: StaticParticleData) -> tuple[float, float]:
-    """Ends along x within which what flows must stay [m], infinite where no columns are coarse.
-
-    A row whose pairs reach coarse columns stays as it is, so that it must not see what moves: the
-    melt keeps away from these columns by the support of its pairs with such a row, and by that of
-    the row's pairs with them.
-    """
-    if not layers.beside:
-        return -np.inf, np.inf
-    (low, high), (below, above) = layers.fine_bounds[0], layers.beside[0]
-    support = lattice.support[np.cumsum(np.prod(layers.columns, axis=0)) - 1]
-    # layers that the lowest of the finest ones sees, half the sum of both supports away
-    seen = layers.center() + layers.fine_depth - 0.5 * layers.spacing
-    is_seen = -seen < 0.5 * SKIN * (support + support[0])
-    farthest = SKIN * float(support[is_seen].max())
-    margin = 0.5 * (SKIN * float(support[0]) + farthest) + farthest
-    return (
-        low + margin if below.size else -np.inf,
-        high - margin if above.size else np.inf,
-    )
