@@ -108,9 +108,9 @@ class Layers:
             support_ratio: support radius over the thickness of a layer.
         """
         support = support_ratio * self.thickness
-        mean = 0.5 * (support + support[self.thickness.argmin()])
+        mean = 0.5 * (support + support[0])
         # layers that the lowest of the finest ones sees
-        lowest = self.center()[self.thickness <= self.spacing * (1.0 + 1e-9)][-1]
+        lowest = self.center()[self.thickness <= self.thickness[0] * (1.0 + 1e-9)][-1]
         is_seen = np.abs(self.center() - lowest) < mean
         return float((mean + support)[is_seen].max())
 
